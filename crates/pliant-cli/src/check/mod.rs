@@ -1,0 +1,121 @@
+//! `pliant check`: somebody's meshes, frame by frame.
+
+mod output;
+mod sequence;
+
+use crate::Outcome;
+use clap::{Args, ValueEnum};
+use output::{Frame, Output};
+use pliant::{Scalar, World};
+use pliant_io::{OpenOptions, Precision};
+use sequence::Sequence;
+
+#[derive(Args, Debug)]
+pub(crate) struct Arguments {
+    /// One body each: a mesh (.obj, .ply), a sequence (.npz), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj')
+    #[arg(value_name = "BODY", required = true)]
+    bodies: Vec<String>,
+    /// Check each body against itself too; one body alone always is
+    #[arg(long = "self")]
+    itself: bool,
+    /// Only how many pairs, not which
+    #[arg(long)]
+    count: bool,
+    /// Stop at the first pair of each frame
+    #[arg(long)]
+    first: bool,
+    /// Keep vertices apart where boundary edges coincide; seams are then intersections
+    #[arg(long)]
+    no_weld: bool,
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Table,
+    Json,
+}
+
+/// Checks all frames and prints what intersects.
+pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    if let Some(pattern) = pliant_io::looks_like_a_series(&arguments.bodies) {
+        eprintln!(
+            "pliant: note: {} arguments are {0} bodies; if they are frames of one body, quote the pattern: '{pattern}'",
+            arguments.bodies.len()
+        );
+    }
+    let sequence = Sequence::open(
+        &arguments.bodies,
+        &OpenOptions {
+            weld: !arguments.no_weld,
+            ..OpenOptions::default()
+        },
+    )?;
+    match sequence.precision() {
+        Precision::F32 => check_frames::<f32>(arguments, sequence),
+        Precision::F64 => check_frames::<f64>(arguments, sequence),
+    }
+}
+
+fn check_frames<S: Scalar + sequence::FromFile>(
+    arguments: &Arguments,
+    mut sequence: Sequence,
+) -> anyhow::Result<Outcome> {
+    let mut output = Output::begin(
+        arguments.format,
+        arguments.count,
+        arguments.first,
+        &sequence,
+    )?;
+    let mut world = World::<S>::new();
+    let checked = (|| {
+        for frame in 0..sequence.frame_count() {
+            sequence.load_frame(frame, &mut world)?;
+            let pairs = pairs_of_frame(arguments, &mut world)?;
+            output.frame(&Frame { frame, pairs })?;
+        }
+        Ok(())
+    })();
+    output.end(checked)
+}
+
+/// (body, triangle, body, triangle), sorted; at most one of them if only the first is asked for.
+fn pairs_of_frame<S: Scalar>(
+    arguments: &Arguments,
+    world: &mut World<S>,
+) -> anyhow::Result<Vec<[u32; 4]>> {
+    let bodies: Vec<_> = world.bodies().collect();
+    let itself = arguments.itself || bodies.len() == 1;
+    let mut pairs = Vec::new();
+    if arguments.first {
+        pairs.extend(world.first_intersection().map(row));
+    } else {
+        pairs.extend(world.intersection_pairs().iter().copied().map(row));
+    }
+    for body in bodies.into_iter().filter(|_| itself) {
+        let of_body = |[a, b]: [u32; 2]| [body.0, a, body.0, b];
+        if !arguments.first {
+            pairs.extend(
+                world
+                    .self_intersection_pairs(body)?
+                    .iter()
+                    .copied()
+                    .map(of_body),
+            );
+        } else if pairs.is_empty() {
+            pairs.extend(world.first_self_intersection(body)?.map(of_body));
+        }
+    }
+    pairs.sort_unstable();
+    Ok(pairs)
+}
+
+fn row(pair: pliant::Pair) -> [u32; 4] {
+    [
+        pair.body_a.0,
+        pair.triangle_a,
+        pair.body_b.0,
+        pair.triangle_b,
+    ]
+}

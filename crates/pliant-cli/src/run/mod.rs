@@ -1,0 +1,191 @@
+//! `pliant run`: play a scene, time every step, report.
+
+mod record;
+
+use crate::Outcome;
+use crate::tree_options::{TreeOptions, value_name};
+use anyhow::{Context, bail};
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use pliant::{Scalar, World};
+use pliant_scenes::{Asks, Scene};
+use record::{Record, StepRecord};
+use std::time::Instant;
+
+#[derive(Args, Debug)]
+pub(crate) struct Arguments {
+    /// spheres, crowd, arms, gather or cloth
+    #[arg(default_value = "spheres")]
+    scene: String,
+    /// Triangles of a body [default: the scene's]
+    #[arg(long, value_name = "N")]
+    triangles: Option<usize>,
+    /// Play the first K steps [default: all]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
+    steps: Option<u32>,
+    /// Play every S-th step: S, 2 S, ...
+    #[arg(long, value_name = "S", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    stride: u32,
+    /// All pairs between bodies, the first pair between bodies, or all pairs of each body with itself [default: all; self for cloth]
+    #[arg(long, value_enum)]
+    query: Option<Query>,
+    /// Coordinates; f64 are the same values widened
+    #[arg(long, value_enum, default_value_t = Precision::F32)]
+    precision: Precision,
+    /// A scene of the same kind with other bumps
+    #[arg(long, value_name = "SEED", default_value_t = Scene::DEFAULT_SEED)]
+    seed: u64,
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+    #[command(flatten)]
+    trees: TreeOptions,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Query {
+    All,
+    First,
+    #[value(name = "self")]
+    Itself,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Precision {
+    F32,
+    F64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Table,
+    Json,
+}
+
+/// Plays the scene and prints what happened.
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let scene = Scene::new(&arguments.scene, arguments.triangles, arguments.seed)?;
+    let last = arguments.steps.unwrap_or(scene.steps());
+    if last > scene.steps() {
+        bail!(
+            "scene {} has {} steps; --steps {last} is too many",
+            scene.name(),
+            scene.steps()
+        );
+    }
+    let steps: Vec<u32> = (arguments.stride..=last)
+        .step_by(arguments.stride as usize)
+        .collect();
+    if steps.is_empty() {
+        bail!(
+            "--stride {} is longer than the {last} steps to play",
+            arguments.stride
+        );
+    }
+    let query = arguments.query.unwrap_or(match scene.asks() {
+        Asks::BetweenBodies => Query::All,
+        Asks::Itself => Query::Itself,
+    });
+
+    let played = match arguments.precision {
+        Precision::F32 => play::<f32>(arguments, &scene, query, &steps, |x| x)?,
+        Precision::F64 => play::<f64>(arguments, &scene, query, &steps, f64::from)?,
+    };
+    let record = Record {
+        scene: scene.name(),
+        bodies: scene.body_count(),
+        triangles: scene.triangles(0).len(),
+        steps: last,
+        stride: arguments.stride,
+        seed: arguments.seed,
+        query: value_name(query),
+        precision: value_name(arguments.precision),
+        trees: &arguments.trees,
+        played,
+    };
+    match arguments.format {
+        Format::Table => print!("{}", record.table()),
+        Format::Json => println!("{}", record.json()),
+    }
+    Ok(Outcome::Clear)
+}
+
+/// One world, step by step. Positions are computed before the clock starts, so vertices are in cache where they fit.
+fn play<S: Scalar>(
+    arguments: &Arguments,
+    scene: &Scene,
+    query: Query,
+    steps: &[u32],
+    convert: impl Fn(f32) -> S,
+) -> anyhow::Result<Vec<StepRecord>> {
+    let mut world = World::<S>::with_options(arguments.trees.to_options()?);
+    let mut single = Vec::new();
+    let mut shape = |body: usize, step: u32, out: &mut Vec<[S; 3]>| {
+        scene.positions(body, step, &mut single);
+        out.clear();
+        out.extend(single.iter().map(|position| position.map(&convert)));
+    };
+
+    let mut shapes = vec![Vec::new(); scene.body_count()];
+    let mut bodies = Vec::new();
+    for (body, positions) in shapes.iter_mut().enumerate() {
+        // Trees are built on the shape of the first step, whatever steps are played.
+        shape(body, 1, positions);
+        bodies.push(
+            world
+                .add(scene.triangles(body), positions)
+                .context("the scene is not as it should be")?,
+        );
+    }
+
+    let bar = ProgressBar::new(steps.len() as u64)
+        .with_style(ProgressStyle::with_template(
+            "{msg} {wide_bar} {pos}/{len} steps, {eta} to go",
+        )?)
+        .with_message(scene.name());
+    let mut played = Vec::with_capacity(steps.len());
+    for &step in steps {
+        for (body, positions) in shapes.iter_mut().enumerate() {
+            shape(body, step, positions);
+        }
+        let start = Instant::now();
+        for (&body, positions) in bodies.iter().zip(&shapes) {
+            world.set_positions(body, positions)?;
+        }
+        if query == Query::Itself {
+            bodies
+                .iter()
+                .try_for_each(|&body| world.update_body(body))?;
+        } else {
+            world.update();
+        }
+        let updated = Instant::now();
+        let mut statistics = pliant::Statistics::default();
+        let pairs = match query {
+            Query::All => world.intersection_pairs().len(),
+            Query::First => usize::from(world.first_intersection().is_some()),
+            Query::Itself => {
+                let mut pairs = 0;
+                for &body in &bodies {
+                    pairs += world.self_intersection_pairs(body)?.len();
+                    statistics += *world.statistics();
+                }
+                pairs
+            }
+        };
+        let end = Instant::now();
+        if query != Query::Itself {
+            statistics = *world.statistics();
+        }
+        let milliseconds = |from: Instant, to: Instant| (to - from).as_secs_f64() * 1e3;
+        played.push(StepRecord {
+            step,
+            pairs,
+            update_ms: milliseconds(start, updated),
+            query_ms: milliseconds(updated, end),
+            statistics,
+        });
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(played)
+}

@@ -1,0 +1,236 @@
+//! What was played, for people and for programs.
+
+use crate::tree_options::TreeOptions;
+use comfy_table::presets::NOTHING;
+use comfy_table::{CellAlignment, Table};
+use pliant::Statistics;
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// One step.
+pub(super) struct StepRecord {
+    pub(super) step: u32,
+    pub(super) pairs: usize,
+    /// Taking over the positions of all bodies, and `update`.
+    pub(super) update_ms: f64,
+    /// The rest: the query, boxes made on the way included.
+    pub(super) query_ms: f64,
+    pub(super) statistics: Statistics,
+}
+
+/// A whole run.
+pub(super) struct Record<'a> {
+    pub(super) scene: &'a str,
+    pub(super) bodies: usize,
+    pub(super) triangles: usize,
+    pub(super) steps: u32,
+    pub(super) stride: u32,
+    pub(super) seed: u64,
+    pub(super) query: String,
+    pub(super) precision: String,
+    pub(super) trees: &'a TreeOptions,
+    /// At least one step.
+    pub(super) played: Vec<StepRecord>,
+}
+
+/// The counters by name, in the order of the phases.
+fn named(statistics: &Statistics) -> [(&'static str, &'static str, u64); 8] {
+    [
+        ("body_pairs", "pairs of bodies", statistics.body_pairs),
+        (
+            "boxes_bottom_up",
+            "boxes made bottom-up",
+            statistics.boxes_bottom_up,
+        ),
+        (
+            "boxes_top_down",
+            "boxes made top-down",
+            statistics.boxes_top_down,
+        ),
+        (
+            "triangle_boxes",
+            "triangle boxes in leaves",
+            statistics.triangle_boxes,
+        ),
+        ("node_pairs", "node pairs", statistics.node_pairs),
+        (
+            "candidate_pairs",
+            "candidate pairs",
+            statistics.candidate_pairs,
+        ),
+        (
+            "exact_decisions",
+            "decided by exact arithmetic",
+            statistics.exact_decisions,
+        ),
+        ("pairs", "intersecting pairs", statistics.pairs),
+    ]
+}
+
+impl Record<'_> {
+    fn first_contact(&self) -> Option<u32> {
+        self.played
+            .iter()
+            .find(|step| step.pairs > 0)
+            .map(|step| step.step)
+    }
+
+    fn total(&self) -> Statistics {
+        let mut total = Statistics::default();
+        self.played.iter().for_each(|step| total += step.statistics);
+        total
+    }
+
+    /// One object: scene, options, and a list a figure, with one entry a step played.
+    pub(super) fn json(&self) -> Value {
+        let list =
+            |figure: fn(&StepRecord) -> Value| self.played.iter().map(figure).collect::<Value>();
+        let mut object = json!({
+            "scene": self.scene,
+            "bodies": self.bodies,
+            "triangles": self.triangles,
+            "steps": self.steps,
+            "stride": self.stride,
+            "seed": self.seed,
+            "query": self.query,
+            "precision": self.precision,
+            "first_contact": self.first_contact(),
+            "step": list(|step| step.step.into()),
+            "pairs": list(|step| step.pairs.into()),
+            "update_ms": list(|step| step.update_ms.into()),
+            "query_ms": list(|step| step.query_ms.into()),
+            "statistics": named(&self.total()).into_iter().map(|(name, _, count)| (name.to_owned(), count.into()))
+                .collect::<serde_json::Map<_, _>>(),
+        });
+        if let Value::Object(members) = &mut object {
+            members.extend(self.trees.named());
+        }
+        object
+    }
+
+    /// For a terminal.
+    pub(super) fn table(&self) -> String {
+        let mut text = String::new();
+        let asked = match self.query.as_str() {
+            "first" => "first pair between bodies",
+            "self" => "all pairs of each body with itself",
+            _ => "all pairs between bodies",
+        };
+        let bodies = if self.bodies == 1 {
+            "1 body".to_owned()
+        } else {
+            format!("{} bodies", self.bodies)
+        };
+        let _ = writeln!(
+            text,
+            "{}: {bodies} of {} triangles, {} steps, {asked}, {}",
+            self.scene,
+            grouped(self.triangles as u64),
+            self.played.len(),
+            self.precision
+        );
+        let _ = writeln!(text, "trees: {}\n", self.trees.describe());
+
+        let Some(last) = self.played.last() else {
+            return text;
+        };
+        let time = |step: &StepRecord| step.update_ms + step.query_ms;
+        let worst = self
+            .played
+            .iter()
+            .max_by(|a, b| time(a).total_cmp(&time(b)))
+            .unwrap_or(last);
+        let contact = self
+            .first_contact()
+            .map_or("none".to_owned(), |step| format!("step {step}"));
+        let mut found = table(&["found", ""]);
+        found.add_row(["first contact".to_owned(), contact]);
+        found.add_row([
+            format!("pairs at step {}", last.step),
+            grouped(last.pairs as u64),
+        ]);
+        found.add_row([
+            "worst step".to_owned(),
+            format!(
+                "step {}, {} pairs, {}",
+                worst.step,
+                grouped(worst.pairs as u64),
+                milliseconds(time(worst))
+            ),
+        ]);
+        let _ = writeln!(text, "{found}\n");
+
+        let mut times = table(&["time a step", "median", "worst"]);
+        let figures: [(&str, fn(&StepRecord) -> f64); 3] = [
+            ("update", |step| step.update_ms),
+            ("query", |step| step.query_ms),
+            ("both", |step| step.update_ms + step.query_ms),
+        ];
+        for (name, figure) in figures {
+            let mut sorted: Vec<f64> = self.played.iter().map(figure).collect();
+            sorted.sort_by(f64::total_cmp);
+            let worst = sorted.last().copied().unwrap_or_default();
+            times.add_row([
+                name.to_owned(),
+                milliseconds(sorted[sorted.len() / 2]),
+                milliseconds(worst),
+            ]);
+        }
+        let _ = writeln!(text, "{times}\n");
+
+        let mut work = table(&["work", "all steps", &format!("step {}", last.step)]);
+        for ((_, what, total), (_, _, at_last)) in named(&self.total())
+            .into_iter()
+            .zip(named(&last.statistics))
+        {
+            work.add_row([what.to_owned(), grouped(total), grouped(at_last)]);
+        }
+        let _ = writeln!(text, "{work}");
+        text
+    }
+}
+
+/// Words on the left, figures on the right, no lines.
+fn table(header: &[&str]) -> Table {
+    let mut table = Table::new();
+    table.load_style(NOTHING).set_header(header);
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+fn milliseconds(value: f64) -> String {
+    format!("{value:.3} ms")
+}
+
+/// 20480 as 20,480.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut grouped = String::new();
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::grouped;
+
+    #[test]
+    fn groups_of_three() {
+        for (number, text) in [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1,000"),
+            (20480, "20,480"),
+            (1_310_720, "1,310,720"),
+        ] {
+            assert_eq!(grouped(number), text);
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! The library's options as flags.
+
+use clap::{Args, ValueEnum};
+use pliant::Options;
+use std::num::NonZeroU32;
+
+/// How trees are built and updated, and bodies that may meet are found.
+#[derive(Args, Clone, Debug)]
+#[command(next_help_heading = "Trees (no choice changes an answer)")]
+pub(crate) struct TreeOptions {
+    /// The most children of a node
+    #[arg(long, value_name = "N", default_value = "8", value_parser = ["2", "4", "8"])]
+    degree: String,
+    /// How triangles are divided into a tree: at the centre of a node's box, at the mean of the triangles' midpoints (both in the paper), or into equal parts
+    #[arg(long, value_enum, default_value_t = Partition::Balanced)]
+    partition: Partition,
+    /// The most triangles in a leaf; 1 in the paper
+    #[arg(long, value_name = "K", default_value = "8")]
+    leaf_size: NonZeroU32,
+    /// Which boxes are made when
+    #[arg(long, value_enum, default_value_t = Update::Hybrid)]
+    update: Update,
+    /// The level down to which the hybrid makes boxes bottom-up; the root is 0 [default: n/2, where n is the level of the deepest leaf]
+    #[arg(long, value_name = "L")]
+    level: Option<u32>,
+    /// How bodies that may meet are found: every pair of boxes, sweep and prune, or by the number of bodies
+    #[arg(long, value_enum, default_value_t = Broad::Auto)]
+    broad: Broad,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Partition {
+    Centre,
+    Mean,
+    Balanced,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Update {
+    BottomUp,
+    TopDown,
+    Hybrid,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Broad {
+    Brute,
+    Sweep,
+    Auto,
+}
+
+impl TreeOptions {
+    /// The library's options.
+    pub(crate) fn to_options(&self) -> anyhow::Result<Options> {
+        if self.level.is_some() && self.update != Update::Hybrid {
+            anyhow::bail!("--level is the hybrid update's; it goes with --update hybrid");
+        }
+        let mut options = Options::default();
+        options.degree = match self.degree.as_str() {
+            "2" => pliant::Degree::Two,
+            "4" => pliant::Degree::Four,
+            _ => pliant::Degree::Eight,
+        };
+        options.partition = match self.partition {
+            Partition::Centre => pliant::Partition::Centre,
+            Partition::Mean => pliant::Partition::Mean,
+            Partition::Balanced => pliant::Partition::Balanced,
+        };
+        options.leaf_size = self.leaf_size;
+        options.update = match self.update {
+            Update::BottomUp => pliant::Update::BottomUp,
+            Update::TopDown => pliant::Update::TopDown,
+            Update::Hybrid => pliant::Update::Hybrid {
+                level: self.level,
+                levels_at_once: NonZeroU32::MIN,
+            },
+        };
+        options.broad_phase = match self.broad {
+            Broad::Brute => pliant::BroadPhase::BruteForce,
+            Broad::Sweep => pliant::BroadPhase::SweepAndPrune,
+            Broad::Auto => pliant::BroadPhase::Auto,
+        };
+        Ok(options)
+    }
+
+    /// The flags and their values, by name.
+    pub(crate) fn named(&self) -> serde_json::Map<String, serde_json::Value> {
+        let serde_json::Value::Object(named) = serde_json::json!({
+            "degree": self.degree.parse::<u32>().unwrap_or_default(),
+            "partition": value_name(self.partition),
+            "leaf_size": self.leaf_size,
+            "update": value_name(self.update),
+            "level": self.level,
+            "broad": value_name(self.broad),
+        }) else {
+            unreachable!("an object was written");
+        };
+        named
+    }
+
+    /// One line for people.
+    pub(crate) fn describe(&self) -> String {
+        let update = match (self.update, self.level) {
+            (Update::Hybrid, Some(level)) => format!("hybrid at level {level}"),
+            (Update::Hybrid, None) => "hybrid at level n/2".to_owned(),
+            (other, _) => value_name(other),
+        };
+        let (partition, leaf) = (value_name(self.partition), self.leaf_size);
+        format!(
+            "degree {}, partition {partition}, up to {leaf} triangles a leaf, update {update}",
+            self.degree
+        )
+    }
+}
+
+/// A value as it is written on the command line.
+pub(crate) fn value_name(value: impl ValueEnum) -> String {
+    value
+        .to_possible_value()
+        .map_or_else(String::new, |value| value.get_name().to_owned())
+}

@@ -1,0 +1,76 @@
+//! What can be wrong with a scene that was asked for.
+
+use std::fmt;
+
+use crate::Scene;
+
+/// Why a scene could not be made.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// No scene has this name.
+    UnknownName {
+        /// The name that was asked for.
+        asked: String,
+    },
+    /// The surface of this scene cannot have this number of triangles.
+    ImpossibleSize {
+        /// The scene.
+        scene: &'static str,
+        /// The number of triangles that was asked for.
+        asked: usize,
+        /// The nearest possible number below, if there is one.
+        below: Option<usize>,
+        /// The nearest possible number above, if there is one.
+        above: Option<usize>,
+    },
+    /// [`Scene::gather`] was asked for no body, or for more than [`Scene::MAX_BODIES`].
+    ImpossibleBodyCount {
+        /// The number of bodies that was asked for.
+        asked: usize,
+    },
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownName { asked } => {
+                write!(
+                    f,
+                    "there is no scene `{asked}`; there are {}",
+                    Scene::NAMES.join(", ")
+                )
+            }
+            Self::ImpossibleSize {
+                scene,
+                asked,
+                below,
+                above,
+            } => {
+                write!(
+                    f,
+                    "a body of scene `{scene}` cannot have {asked} triangles; "
+                )?;
+                match (below, above) {
+                    (Some(below), Some(above)) => {
+                        write!(f, "the nearest possible numbers are {below} and {above}")
+                    }
+                    (Some(largest), None) => write!(f, "the largest possible number is {largest}"),
+                    (None, Some(smallest)) => {
+                        write!(f, "the smallest possible number is {smallest}")
+                    }
+                    (None, None) => write!(f, "no number is possible"),
+                }
+            }
+            Self::ImpossibleBodyCount { asked } => {
+                write!(
+                    f,
+                    "{asked} bodies cannot gather; 1 to {} can",
+                    Scene::MAX_BODIES
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for SceneError {}

@@ -1,0 +1,230 @@
+//! [`Scene`]: what every scene has in common.
+//!
+//! A scene is one surface, shared by all its bodies, and for each body the rule that deforms and
+//! moves it. The rules are drawn from the seed when the scene is made; after that nothing changes,
+//! so positions can be asked for in any order and from any number of threads.
+
+use std::fmt;
+
+use crate::error::SceneError;
+use crate::motion::Moment;
+use crate::scenes;
+use crate::surface::{MAX_TRIANGLES, Nearest, Surface};
+use crate::vector::Vec3;
+
+/// A rule that deforms and moves one body.
+pub(crate) trait Body: Send + Sync {
+    /// The vertices of the surface `rest` as they are `now`; both slices have the same length.
+    fn place(&self, now: Moment, rest: &[Vec3], out: &mut [[f32; 3]]);
+}
+
+/// What does not depend on size and seed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct About {
+    pub(crate) name: &'static str,
+    pub(crate) asks: Asks,
+    pub(crate) steps: u32,
+}
+
+/// What a scene is about: the intersections that make it interesting.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Asks {
+    /// Which triangles of different bodies intersect.
+    BetweenBodies,
+    /// Which triangles of one body intersect each other.
+    Itself,
+}
+
+/// A deforming scene: the same positions for the same name, size, seed and step, on every machine.
+///
+/// ```
+/// use pliant_scenes::Scene;
+///
+/// let scene = Scene::new("spheres", Some(1280), Scene::DEFAULT_SEED)?;
+/// let mut positions = Vec::new();
+/// for step in 1..=scene.steps() {
+///     for body in 0..scene.body_count() {
+///         scene.positions(body, step, &mut positions);
+///         assert_eq!(positions.len(), scene.vertex_count(body));
+///     }
+/// }
+/// # Ok::<(), pliant_scenes::SceneError>(())
+/// ```
+pub struct Scene {
+    about: About,
+    surface: Surface,
+    bodies: Vec<Box<dyn Body>>,
+}
+
+impl Scene {
+    /// The names that [`new`](Self::new) knows.
+    pub const NAMES: [&'static str; 5] = ["spheres", "crowd", "arms", "gather", "cloth"];
+
+    /// The seed that the scenes are calibrated for: the figures in their descriptions hold for it.
+    /// With most others `spheres` first touches at steps 53 to 73.
+    pub const DEFAULT_SEED: u64 = 751;
+
+    /// No body has more triangles: an icosahedron divided ten times.
+    pub const MAX_TRIANGLES: usize = MAX_TRIANGLES;
+
+    /// No scene has more bodies.
+    pub const MAX_BODIES: usize = scenes::gather::MAX_BODIES;
+
+    /// The scene called `name`, with `triangles` triangles a body or the scene's own number.
+    ///
+    /// Bodies made of spheres can have 4, 8 or 20 times any power of four, the cloth twice any
+    /// square, up to [`MAX_TRIANGLES`](Self::MAX_TRIANGLES).
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::UnknownName`], and [`SceneError::ImpossibleSize`] with the nearest possible
+    /// sizes.
+    ///
+    /// ```
+    /// use pliant_scenes::Scene;
+    ///
+    /// let error = Scene::new("spheres", Some(20_000), 0).unwrap_err();
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "a body of scene `spheres` cannot have 20000 triangles; \
+    ///      the nearest possible numbers are 16384 and 20480",
+    /// );
+    /// ```
+    pub fn new(name: &str, triangles: Option<usize>, seed: u64) -> Result<Self, SceneError> {
+        match name {
+            "spheres" => scenes::spheres::scene(triangles, seed),
+            "crowd" => scenes::crowd::scene(triangles, seed),
+            "arms" => scenes::arms::scene(triangles, seed),
+            "gather" => scenes::gather::scene(None, triangles, seed),
+            "cloth" => scenes::cloth::scene(triangles, seed),
+            _ => Err(SceneError::UnknownName {
+                asked: name.to_owned(),
+            }),
+        }
+    }
+
+    /// The scene `gather` with any number of bodies, of `triangles` triangles each.
+    ///
+    /// They gather as densely for any number: a body meets its neighbours, not all the others.
+    /// Shape and motion of a body do not depend on the number of bodies.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::ImpossibleBodyCount`] for none or more than [`MAX_BODIES`](Self::MAX_BODIES),
+    /// and [`SceneError::ImpossibleSize`].
+    pub fn gather(bodies: usize, triangles: usize, seed: u64) -> Result<Self, SceneError> {
+        scenes::gather::scene(Some(bodies), Some(triangles), seed)
+    }
+
+    /// The scene's name, one of [`NAMES`](Self::NAMES).
+    pub fn name(&self) -> &'static str {
+        self.about.name
+    }
+
+    /// The number of steps: the motion runs from step 1 to this one, both included.
+    pub fn steps(&self) -> u32 {
+        self.about.steps
+    }
+
+    /// What the scene is about.
+    pub fn asks(&self) -> Asks {
+        self.about.asks
+    }
+
+    /// The number of bodies, numbered from 0.
+    pub fn body_count(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// The triangles of a body, as indices of its vertices; they never change.
+    ///
+    /// Spheres and their kin are closed and turn counter-clockwise seen from outside.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body.
+    pub fn triangles(&self, body: usize) -> &[[u32; 3]] {
+        self.assert_body(body);
+        &self.surface.triangles
+    }
+
+    /// The number of vertices of a body.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body.
+    pub fn vertex_count(&self, body: usize) -> usize {
+        self.assert_body(body);
+        self.surface.rest.len()
+    }
+
+    /// The positions of a body's vertices at a step; `out` then holds these and nothing else.
+    ///
+    /// Nothing is allocated if `out` has room for them. Before step 1 a body is as at step 1,
+    /// after the last step as at the last.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body.
+    pub fn positions(&self, body: usize, step: u32, out: &mut Vec<[f32; 3]>) {
+        out.resize(self.vertex_count(body), [0.0; 3]);
+        self.write_positions(body, step, out);
+    }
+
+    /// [`positions`](Self::positions) into a buffer that is there already.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body, or if `out` is not exactly as long as the body has vertices.
+    pub fn write_positions(&self, body: usize, step: u32, out: &mut [[f32; 3]]) {
+        let vertices = self.vertex_count(body);
+        assert_eq!(out.len(), vertices, "body {body} has {vertices} vertices");
+        self.bodies[body].place(self.moment(step), &self.surface.rest, out);
+    }
+
+    /// A scene of its parts: the surface of `triangles` triangles, if there is one, and the bodies.
+    pub(crate) fn assemble<B: Body + 'static>(
+        about: About,
+        triangles: usize,
+        surface: fn(usize) -> Result<Surface, Nearest>,
+        bodies: impl Iterator<Item = B>,
+    ) -> Result<Self, SceneError> {
+        let surface = surface(triangles).map_err(|nearest| SceneError::ImpossibleSize {
+            scene: about.name,
+            asked: triangles,
+            below: nearest.below,
+            above: nearest.above,
+        })?;
+        let bodies = bodies.map(|body| Box::new(body) as Box<dyn Body>).collect();
+        Ok(Self {
+            about,
+            surface,
+            bodies,
+        })
+    }
+
+    fn moment(&self, step: u32) -> Moment {
+        let steps = self.about.steps;
+        let step = f64::from(step.clamp(1, steps));
+        Moment {
+            step,
+            progress: (step - 1.0) / f64::from(steps - 1),
+        }
+    }
+
+    fn assert_body(&self, body: usize) {
+        let bodies = self.bodies.len();
+        assert!(body < bodies, "there is no body {body} among {bodies}");
+    }
+}
+
+impl fmt::Debug for Scene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Scene")
+            .field("about", &self.about)
+            .field("bodies", &self.bodies.len())
+            .field("triangles", &self.surface.triangles.len())
+            .field("vertices", &self.surface.rest.len())
+            .finish_non_exhaustive()
+    }
+}

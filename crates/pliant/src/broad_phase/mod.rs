@@ -1,0 +1,56 @@
+//! From the boxes of all bodies to the pairs that overlap (paper, 3.4).
+//!
+//! Bodies are numbered by their place in the world; pairs come sorted, the smaller place first. A body's box is its exact one,
+//! or a loose one that holds for every pose and stands still.
+
+mod brute_force;
+mod sweep_and_prune;
+
+use crate::geometry::Aabb;
+use crate::pairs::BodyPair;
+use sweep_and_prune::SweepAndPrune;
+
+/// Up to so many bodies, comparing all pairs is as good as anything; "approximately 100" (paper, 3.4).
+const MOST_FOR_BRUTE_FORCE: usize = 100;
+
+/// The broad phase of a world, with what it keeps between queries.
+#[derive(Debug)]
+pub(crate) struct BroadPhase {
+    rule: crate::BroadPhase,
+    /// None as long as brute force does.
+    sweep: Option<SweepAndPrune>,
+    pairs: Vec<BodyPair>,
+}
+
+impl BroadPhase {
+    pub(crate) fn new(rule: crate::BroadPhase) -> Self {
+        Self {
+            rule,
+            sweep: None,
+            pairs: Vec::new(),
+        }
+    }
+
+    /// The pairs of overlapping boxes, sorted. Bodies are those of the last call, but for removals told by
+    /// [`BroadPhase::remove`], then added ones at the end.
+    pub(crate) fn overlapping(&mut self, boxes: &[Aabb]) -> &[BodyPair] {
+        let sweep = match self.rule {
+            crate::BroadPhase::Auto => boxes.len() > MOST_FOR_BRUTE_FORCE,
+            crate::BroadPhase::BruteForce => false,
+            crate::BroadPhase::SweepAndPrune => true,
+        };
+        if sweep {
+            return self.sweep.get_or_insert_default().overlapping(boxes);
+        }
+        self.sweep = None;
+        brute_force::overlapping(boxes, &mut self.pairs);
+        &self.pairs
+    }
+
+    /// A body is gone; those after it move up one place.
+    pub(crate) fn remove(&mut self, place: u32) {
+        if let Some(sweep) = &mut self.sweep {
+            sweep.remove(place);
+        }
+    }
+}

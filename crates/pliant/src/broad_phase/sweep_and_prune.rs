@@ -1,0 +1,349 @@
+//! Incremental sweep and prune (Cohen, Lin, Manocha, Ponamgi 1995; paper, 3.4).
+//!
+//! The ends of all boxes are kept in three lists, one an axis, each sorted from query to query by insertion: bodies that move
+//! a little exchange few neighbours. An exchange says what begins or ends:
+//!
+//! ```text
+//! a lower end moves below an upper end:  the intervals begin to overlap; if the boxes do, note the pair as new
+//! an upper end moves below a lower end:  the intervals cease to overlap; note the pair as gone
+//! ```
+//!
+//! Two ends are exchanged at most once in a sort, and only towards their final order, so a pair noted as gone is truly apart
+//! and a pair noted as new truly overlaps, whatever the order of the axes. Of equal values the lower end comes first: touching
+//! is overlapping.
+//!
+//! Differs from the original: instead of three bits for every pair of bodies, only the overlapping pairs are kept, as a
+//! sorted list; memory is O(n + pairs). And when a sort exchanges more than a budget (bodies jumped), the lists are sorted
+//! from scratch and swept once along the axis with the fewest overlaps.
+
+use crate::geometry::Aabb;
+use crate::pairs::BodyPair;
+use std::cmp::Ordering;
+
+/// Exchanges per end before sorting from scratch is cheaper. An exchange is a few nanoseconds, a place in a full sort about
+/// log2(n) comparisons.
+const EXCHANGES_PER_END: usize = 16;
+
+/// One end of one interval.
+#[derive(Clone, Copy, Debug)]
+struct End {
+    value: f32,
+    /// The body's place, doubled; plus one for the upper end.
+    body_and_side: u32,
+}
+
+impl End {
+    fn body(self) -> u32 {
+        self.body_and_side >> 1
+    }
+
+    fn is_upper(self) -> bool {
+        self.body_and_side & 1 == 1
+    }
+
+    /// By value; of equal values lower ends first. Values are never NaN.
+    #[inline]
+    fn belongs_before(self, other: Self) -> bool {
+        self.value < other.value
+            || (self.value == other.value && !self.is_upper() && other.is_upper())
+    }
+
+    fn order(&self, other: &Self) -> Ordering {
+        match (self.belongs_before(*other), other.belongs_before(*self)) {
+            (true, _) => Ordering::Less,
+            (_, true) => Ordering::Greater,
+            _ => Ordering::Equal,
+        }
+    }
+}
+
+/// The lists and the pairs, as the last query left them.
+#[derive(Debug, Default)]
+pub(super) struct SweepAndPrune {
+    axes: [Vec<End>; 3],
+    /// Sorted, without duplicates.
+    pairs: Vec<BodyPair>,
+    // Scratch: pairs that began and ceased to overlap, the next list of pairs, and intervals open in a sweep.
+    new: Vec<BodyPair>,
+    gone: Vec<BodyPair>,
+    next: Vec<BodyPair>,
+    open: Vec<u32>,
+}
+
+impl SweepAndPrune {
+    /// See [`super::BroadPhase::overlapping`].
+    pub(super) fn overlapping(&mut self, boxes: &[Aabb]) -> &[BodyPair] {
+        let known = self.axes[0].len() / 2;
+        for (axis, ends) in self.axes.iter_mut().enumerate() {
+            for end in &mut *ends {
+                let value = &boxes[end.body() as usize];
+                end.value = if end.is_upper() {
+                    value.hi[axis]
+                } else {
+                    value.lo[axis]
+                };
+            }
+            // New bodies stand behind all others, overlapping nothing, and are sorted in like any that moved.
+            for (body, value) in boxes.iter().enumerate().skip(known) {
+                let body_and_side = 2 * body as u32;
+                ends.push(End {
+                    value: value.lo[axis],
+                    body_and_side,
+                });
+                ends.push(End {
+                    value: value.hi[axis],
+                    body_and_side: body_and_side + 1,
+                });
+            }
+        }
+        let mut budget = self.axes[0].len() * EXCHANGES_PER_END;
+        let many_are_new = known < boxes.len() / 2;
+        if many_are_new || !self.sort_by_exchanges(boxes, &mut budget) {
+            self.sort_from_scratch(boxes);
+        }
+        self.reserve(boxes.len());
+        &self.pairs
+    }
+
+    /// See [`super::BroadPhase::remove`].
+    pub(super) fn remove(&mut self, place: u32) {
+        if place as usize >= self.axes[0].len() / 2 {
+            return; // Added since the last query: not in the lists yet.
+        }
+        let moved = |body: u32| if body > place { body - 1 } else { body };
+        for ends in &mut self.axes {
+            ends.retain(|end| end.body() != place);
+            for end in ends {
+                end.body_and_side = 2 * moved(end.body()) + (end.body_and_side & 1);
+            }
+        }
+        self.pairs.retain(|pair| !pair.contains(&place));
+        for pair in &mut self.pairs {
+            *pair = pair.map(moved);
+        }
+    }
+
+    /// Returns false if the budget did not suffice; pairs and order are then to be made anew.
+    fn sort_by_exchanges(&mut self, boxes: &[Aabb], budget: &mut usize) -> bool {
+        self.new.clear();
+        self.gone.clear();
+        for ends in &mut self.axes {
+            for sorted in 1..ends.len() {
+                let moving = ends[sorted];
+                let mut place = sorted;
+                while place > 0 && moving.belongs_before(ends[place - 1]) {
+                    let passed = ends[place - 1];
+                    ends[place] = passed;
+                    place -= 1;
+                    if moving.is_upper() == passed.is_upper() {
+                        continue;
+                    }
+                    let (a, b) = (
+                        moving.body().min(passed.body()),
+                        moving.body().max(passed.body()),
+                    );
+                    if moving.is_upper() {
+                        if self.pairs.binary_search(&[a, b]).is_ok() {
+                            self.gone.push([a, b]);
+                        }
+                    } else if boxes[a as usize].overlaps(&boxes[b as usize]) {
+                        self.new.push([a, b]);
+                    }
+                }
+                ends[place] = moving;
+                let Some(rest) = budget.checked_sub(sorted - place) else {
+                    return false;
+                };
+                *budget = rest;
+            }
+        }
+        self.merge();
+        true
+    }
+
+    /// pairs = (pairs without the gone) with the new.
+    fn merge(&mut self) {
+        let Self {
+            pairs,
+            new,
+            gone,
+            next,
+            ..
+        } = self;
+        if new.is_empty() && gone.is_empty() {
+            return;
+        }
+        for list in [&mut *new, &mut *gone] {
+            list.sort_unstable();
+            list.dedup();
+        }
+        next.clear();
+        let mut new = new.iter().copied().peekable();
+        let mut gone = gone.iter().copied().peekable();
+        for &pair in &*pairs {
+            while let Some(new) = new.next_if(|&new| new < pair) {
+                next.push(new);
+            }
+            // A pair that is known may begin to overlap again on one axis; it is one pair.
+            new.next_if_eq(&pair);
+            if gone.next_if_eq(&pair).is_none() {
+                next.push(pair);
+            }
+        }
+        next.extend(new);
+        pairs.clone_from(next);
+    }
+
+    /// Room for all that a later query can note if it finds as many pairs as this one, so that repeated motion allocates
+    /// nothing: a pair begins and ceases to overlap at most once on each axis.
+    fn reserve(&mut self, bodies: usize) {
+        for list in [&mut self.new, &mut self.gone, &mut self.next] {
+            list.clear();
+            list.reserve(3 * self.pairs.len());
+        }
+        self.open.clear();
+        self.open.reserve(bodies);
+    }
+
+    /// Sorts all three lists and finds the pairs along the axis on which the fewest intervals overlap.
+    fn sort_from_scratch(&mut self, boxes: &[Aabb]) {
+        for ends in &mut self.axes {
+            ends.sort_unstable_by(End::order);
+        }
+        let sparsest = self
+            .axes
+            .iter()
+            .min_by_key(|ends| interval_overlaps(ends))
+            .expect("three axes");
+        self.pairs.clear();
+        self.open.clear();
+        for end in sparsest {
+            let body = end.body();
+            if end.is_upper() {
+                let place = self.open.iter().position(|&open| open == body);
+                self.open
+                    .swap_remove(place.expect("an interval begins before it ends"));
+                continue;
+            }
+            for &open in &self.open {
+                if boxes[body as usize].overlaps(&boxes[open as usize]) {
+                    self.pairs.push([body.min(open), body.max(open)]);
+                }
+            }
+            self.open.push(body);
+        }
+        self.pairs.sort_unstable();
+    }
+}
+
+/// How many pairs of intervals overlap in a sorted list of ends.
+fn interval_overlaps(ends: &[End]) -> usize {
+    let (mut open, mut overlaps) = (0, 0);
+    for end in ends {
+        if end.is_upper() {
+            open -= 1;
+        } else {
+            overlaps += open;
+            open += 1;
+        }
+    }
+    overlaps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::brute_force;
+    use super::*;
+
+    struct Lcg(u64);
+
+    impl Lcg {
+        fn below(&mut self, range: u32) -> u32 {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 33) as u32 % range
+        }
+
+        /// On a lattice, so that many ends are equal.
+        fn cube(&mut self, range: u32) -> Aabb {
+            let lo = [(); 3].map(|()| self.below(range) as f32);
+            let hi = lo.map(|x| x + self.below(3) as f32);
+            Aabb { lo, hi }
+        }
+    }
+
+    fn check(sweep: &mut SweepAndPrune, boxes: &[Aabb]) {
+        let mut expected = Vec::new();
+        brute_force::overlapping(boxes, &mut expected);
+        assert_eq!(sweep.overlapping(boxes), expected);
+    }
+
+    #[test]
+    fn equals_brute_force_under_moves_jumps_additions_and_removals() {
+        for seed in 0..40 {
+            let mut random = Lcg(seed);
+            let range = 4 + random.below(30);
+            let mut sweep = SweepAndPrune::default();
+            let mut boxes: Vec<Aabb> = (0..random.below(60)).map(|_| random.cube(range)).collect();
+            for _ in 0..60 {
+                check(&mut sweep, &boxes);
+                match random.below(6) {
+                    // All move a little, or not at all.
+                    0..=2 => {
+                        for value in &mut boxes {
+                            let step = [(); 3].map(|()| random.below(3) as f32 - 1.0);
+                            for axis in 0..3 {
+                                value.lo[axis] += step[axis];
+                                value.hi[axis] += step[axis];
+                            }
+                        }
+                    }
+                    // All jump.
+                    3 => boxes
+                        .iter_mut()
+                        .for_each(|value| *value = random.cube(range)),
+                    4 => boxes.extend(
+                        (0..random.below(8))
+                            .map(|_| random.cube(range))
+                            .collect::<Vec<_>>(),
+                    ),
+                    // Several go between two queries, one just added perhaps among them.
+                    _ => {
+                        boxes.push(random.cube(range));
+                        for _ in 0..random.below(4) {
+                            if !boxes.is_empty() {
+                                let place = random.below(boxes.len() as u32);
+                                boxes.remove(place as usize);
+                                sweep.remove(place);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn holds_overlapping_pairs_only() {
+        // A row of 2,000 boxes, each touching the next: 2 million pairs, 1,999 of them overlapping.
+        let row: Vec<Aabb> = (0..2000)
+            .map(|i| Aabb {
+                lo: [i as f32, 0.0, 0.0],
+                hi: [i as f32 + 1.0, 1.0, 1.0],
+            })
+            .collect();
+        let mut sweep = SweepAndPrune::default();
+        check(&mut sweep, &row);
+        assert_eq!(sweep.pairs.len(), 1999);
+        let shifted: Vec<Aabb> = row
+            .iter()
+            .map(|b| Aabb {
+                lo: b.lo.map(|x| x + 0.25),
+                hi: b.hi.map(|x| x + 0.25),
+            })
+            .collect();
+        check(&mut sweep, &shifted);
+    }
+}

@@ -1,0 +1,136 @@
+//! What was refused: which body, which triangle, which vertex, and why.
+
+use crate::BodyId;
+use std::fmt;
+
+/// A call that was refused. The world is as it was before the call.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Error {
+    /// The body the call was about; `None` for a body that was to be added.
+    pub body: Option<BodyId>,
+    /// What was wrong.
+    pub kind: ErrorKind,
+}
+
+/// What was wrong with a call. Triangles and vertices are numbered as the caller numbers them.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// A body needs at least one triangle.
+    NoTriangles,
+    /// A body has more triangles, or more vertices, than 32-bit numbers can keep apart.
+    TooLarge {
+        /// `"triangles"` or `"vertices"`.
+        what: &'static str,
+        /// How many were given.
+        count: usize,
+        /// How many there may be.
+        limit: usize,
+    },
+    /// All 2^32 ids of this world were given away.
+    TooManyBodies,
+    /// A triangle names a vertex that the body does not have.
+    VertexOutOfRange {
+        /// The triangle.
+        triangle: usize,
+        /// The vertex it names.
+        vertex: u32,
+        /// The vertices the body has.
+        vertices: usize,
+    },
+    /// The number of positions is not the number of vertices of the body.
+    WrongLength {
+        /// Vertices of the body.
+        expected: usize,
+        /// Positions given.
+        found: usize,
+    },
+    /// A coordinate is NaN, infinite, or larger than `f32::MAX` in magnitude.
+    BadPosition {
+        /// The vertex.
+        vertex: usize,
+        /// Its position.
+        position: [f64; 3],
+    },
+    /// [`write_positions`](crate::World::write_positions) left a vertex unwritten (or wrote a NaN).
+    NotWritten {
+        /// The first such vertex.
+        vertex: usize,
+    },
+    /// A vertex is outside the loose box that was promised to hold every pose.
+    OutsideLooseBox {
+        /// The vertex.
+        vertex: usize,
+        /// Its position.
+        position: [f64; 3],
+    },
+    /// A loose box has a corner that is not in range, or a lower corner above its upper one.
+    BadLooseBox,
+    /// No body of this world has this id: it was removed, or it belongs to another world.
+    NoSuchBody,
+    /// A query between two bodies was given one body twice; ask for its self-intersections instead.
+    SameBody,
+}
+
+impl std::error::Error for Error {}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.body {
+            Some(body) => write!(f, "{body}: {}", self.kind),
+            None => write!(f, "new body: {}", self.kind),
+        }
+    }
+}
+
+impl fmt::Display for ErrorKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoTriangles => write!(f, "no triangles; a body needs at least one"),
+            Self::TooLarge { what, count, limit } => {
+                write!(f, "{count} {what}; a body may have {limit}")
+            }
+            Self::TooManyBodies => write!(f, "this world has given away all its 2^32 body ids"),
+            Self::VertexOutOfRange {
+                triangle,
+                vertex,
+                vertices,
+            } => {
+                write!(
+                    f,
+                    "triangle {triangle} names vertex {vertex}, but there are {vertices} vertices (counted from 0)"
+                )
+            }
+            Self::WrongLength { expected, found } => {
+                write!(f, "{found} positions for {expected} vertices")
+            }
+            Self::BadPosition { vertex, position } => write!(
+                f,
+                "vertex {vertex} is at {position:?}; coordinates must be finite and at most {:e} in magnitude",
+                f32::MAX
+            ),
+            Self::NotWritten { vertex } => {
+                write!(f, "vertex {vertex} was not written, or written as NaN")
+            }
+            Self::OutsideLooseBox { vertex, position } => {
+                write!(
+                    f,
+                    "vertex {vertex} is at {position:?}, outside the body's loose box; enlarge or remove the box"
+                )
+            }
+            Self::BadLooseBox => write!(
+                f,
+                "a loose box needs finite corners of at most {:e} in magnitude, the lower one below the upper one",
+                f32::MAX
+            ),
+            Self::NoSuchBody => write!(
+                f,
+                "not in this world; it was removed, or belongs to another world"
+            ),
+            Self::SameBody => write!(
+                f,
+                "asked against itself; ask for its self-intersections instead"
+            ),
+        }
+    }
+}

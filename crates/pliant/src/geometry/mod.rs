@@ -1,0 +1,9 @@
+//! Coordinates, boxes, and how the first become the second.
+
+mod aabb;
+mod scalar;
+mod shape;
+
+pub(crate) use aabb::Aabb;
+pub use scalar::Scalar;
+pub(crate) use shape::{Bounds, Shape};

@@ -1,0 +1,182 @@
+//! The two coordinate types, `f32` and `f64`, and the only places where they differ.
+//!
+//! Precision lives at the edges. Positions are kept in the caller's type and decisions are exact on them; in between everything is done on boxes, which are
+//! `f32` whatever the coordinates are. A box only ever *skips* work, so it must hold its triangles; how tightly is a matter of speed. For `f32` it is exact. For
+//! `f64` it is relative to one origin of the world (far from zero an `f32` has no digits left for the shape) and rounded outward.
+
+/// A coordinate: `f32` or `f64`. Sealed, because the proofs behind the decisions are for these two.
+pub trait Scalar:
+    sealed::Sealed + Copy + PartialOrd + std::fmt::Debug + Default + Send + Sync + 'static
+{
+    /// The value that no position may have; a buffer is filled with it before the caller writes.
+    #[doc(hidden)]
+    const NAN: Self;
+    #[doc(hidden)]
+    const INFINITY: Self;
+    #[doc(hidden)]
+    const NEG_INFINITY: Self;
+    /// What the product of three coordinate differences can lose to underflow, in units of the filter's bound: see `narrow_phase`.
+    #[doc(hidden)]
+    const UNDERFLOW: f64;
+    /// Whether boxes are exact, so that an origin has no use.
+    #[doc(hidden)]
+    const BOXES_ARE_EXACT: bool;
+
+    /// The same value; exact.
+    fn to_f64(self) -> f64;
+    /// Finite and at most `f32::MAX` in magnitude.
+    fn is_in_range(self) -> bool;
+    /// The smaller of two; the other one if one is NaN.
+    #[doc(hidden)]
+    fn smaller(self, other: Self) -> Self;
+    /// The larger of two; the other one if one is NaN.
+    #[doc(hidden)]
+    fn larger(self, other: Self) -> Self;
+    /// The largest `f32` that is not above `self - origin`.
+    #[doc(hidden)]
+    fn round_down(self, origin: f64) -> f32;
+    /// The smallest `f32` that is not below `self - origin`.
+    #[doc(hidden)]
+    fn round_up(self, origin: f64) -> f32;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
+
+impl Scalar for f32 {
+    const NAN: Self = f32::NAN;
+    const INFINITY: Self = f32::INFINITY;
+    const NEG_INFINITY: Self = f32::NEG_INFINITY;
+    // The smallest difference of two f32 is 2^-149; the product of three of them is far inside f64.
+    const UNDERFLOW: f64 = 0.0;
+    const BOXES_ARE_EXACT: bool = true;
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self.into()
+    }
+    #[inline]
+    fn is_in_range(self) -> bool {
+        self.abs() <= f32::MAX
+    }
+    #[inline]
+    fn smaller(self, other: Self) -> Self {
+        self.min(other)
+    }
+    #[inline]
+    fn larger(self, other: Self) -> Self {
+        self.max(other)
+    }
+    #[inline]
+    fn round_down(self, _origin: f64) -> f32 {
+        self
+    }
+    #[inline]
+    fn round_up(self, _origin: f64) -> f32 {
+        self
+    }
+}
+
+impl Scalar for f64 {
+    const NAN: Self = f64::NAN;
+    const INFINITY: Self = f64::INFINITY;
+    const NEG_INFINITY: Self = f64::NEG_INFINITY;
+    // 2^-1071 = 8 x the smallest subnormal.
+    const UNDERFLOW: f64 = f64::from_bits(8);
+    const BOXES_ARE_EXACT: bool = false;
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn is_in_range(self) -> bool {
+        self.abs() <= f32::MAX.into()
+    }
+    #[inline]
+    fn smaller(self, other: Self) -> Self {
+        self.min(other)
+    }
+    #[inline]
+    fn larger(self, other: Self) -> Self {
+        self.max(other)
+    }
+    #[inline]
+    fn round_down(self, origin: f64) -> f32 {
+        let (difference, error) = difference(self, origin);
+        let rounded = difference as f32;
+        let above = rounded as f64 - difference;
+        // The true value is difference + error. An f32 that equals the rounded difference lies above it when the error is negative.
+        if above > 0.0 || (above == 0.0 && error < 0.0) {
+            rounded.next_down()
+        } else {
+            rounded
+        }
+    }
+    #[inline]
+    fn round_up(self, origin: f64) -> f32 {
+        -(-self).round_down(-origin)
+    }
+}
+
+/// `a - b` rounded to nearest, and what the rounding left out (Knuth's two-sum: the pair is exact).
+#[inline]
+fn difference(a: f64, b: f64) -> (f64, f64) {
+    let difference = a - b;
+    let b_part = a - difference;
+    let a_part = difference + b_part;
+    (difference, (a - a_part) + (b_part - b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Compares `bound` with the exact `x - origin`, in integers: all values are multiples of 2^-40 below 2^60.
+    fn exact(x: f64) -> i128 {
+        (x * 2f64.powi(40)) as i128
+    }
+
+    #[test]
+    fn outward_rounding_holds_the_exact_difference_and_is_tight() {
+        let values = [
+            0.0,
+            1.0,
+            -1.0,
+            0.1f32 as f64,
+            1e7 + 2f64.powi(-20),
+            -1e7 - 2f64.powi(-21),
+            2f64.powi(50) + 1.0,
+            3.0 + 2f64.powi(-40),
+            16_777_217.0,
+        ];
+        for x in values {
+            for origin in values {
+                let true_value = exact(x) - exact(origin);
+                let (below, above) = (x.round_down(origin), x.round_up(origin));
+                assert!(exact(below as f64) <= true_value, "{x} - {origin}");
+                assert!(exact(above as f64) >= true_value, "{x} - {origin}");
+                let gap = f64::from(above) - f64::from(below);
+                assert!(
+                    below == above || below.next_up() == above,
+                    "{x} - {origin}: {gap}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn rounding_survives_the_ends_of_the_range() {
+        let max = f64::from(f32::MAX);
+        assert_eq!(max.round_up(-max), f32::INFINITY);
+        assert_eq!(max.round_down(-max), f32::MAX);
+        assert_eq!((-max).round_down(max), f32::NEG_INFINITY);
+        assert_eq!((-max).round_up(max), -f32::MAX);
+        assert_eq!(1e-300.round_down(0.0), 0.0);
+        assert!(1e-300.round_up(0.0) > 0.0);
+        assert!((-1e-300).round_down(0.0) < 0.0);
+    }
+}

@@ -1,0 +1,67 @@
+//! The shape a body has now, and the boxes of its parts.
+
+use super::{Aabb, Scalar};
+
+/// The current shape of a body, as everything that makes boxes sees it.
+#[derive(Clone, Copy)]
+pub(crate) struct Shape<'a, S> {
+    /// Positions in tree order.
+    pub(crate) positions: &'a [[S; 3]],
+    /// Boxes are relative to this point (zero for `f32`).
+    pub(crate) origin: [f64; 3],
+    /// Counts the changes of shape; a box made in another epoch is not true.
+    pub(crate) epoch: u64,
+}
+
+/// The exact extent of some points, in the caller's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Bounds<S> {
+    pub(crate) lo: [S; 3],
+    pub(crate) hi: [S; 3],
+}
+
+impl<S: Scalar> Bounds<S> {
+    pub(crate) const EMPTY: Self = Self {
+        lo: [S::INFINITY; 3],
+        hi: [S::NEG_INFINITY; 3],
+    };
+
+    #[inline]
+    pub(crate) fn include(&mut self, point: [S; 3]) {
+        for axis in 0..3 {
+            self.lo[axis] = self.lo[axis].smaller(point[axis]);
+            self.hi[axis] = self.hi[axis].larger(point[axis]);
+        }
+    }
+
+    /// The box that holds these bounds: exact for `f32`, rounded outward for `f64`.
+    #[inline]
+    pub(crate) fn to_box(self, origin: [f64; 3]) -> Aabb {
+        Aabb {
+            lo: std::array::from_fn(|axis| self.lo[axis].round_down(origin[axis])),
+            hi: std::array::from_fn(|axis| self.hi[axis].round_up(origin[axis])),
+        }
+    }
+
+    pub(crate) fn holds(&self, point: [S; 3]) -> bool {
+        (0..3).all(|axis| self.lo[axis] <= point[axis] && point[axis] <= self.hi[axis])
+    }
+}
+
+impl<S: Scalar> Shape<'_, S> {
+    /// The box of one triangle, given by its corners.
+    #[inline]
+    pub(crate) fn box_of(&self, corners: [u32; 3]) -> Aabb {
+        let mut bounds = Bounds::EMPTY;
+        for corner in corners {
+            bounds.include(self.positions[corner as usize]);
+        }
+        bounds.to_box(self.origin)
+    }
+
+    /// Three corners of a triangle as the decision wants them; exact.
+    #[inline]
+    pub(crate) fn corners(&self, corners: [u32; 3]) -> [[f64; 3]; 3] {
+        corners.map(|corner| self.positions[corner as usize].map(S::to_f64))
+    }
+}

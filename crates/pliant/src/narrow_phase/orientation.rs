@@ -1,0 +1,179 @@
+//! On which side of a plane a point lies: the sign of a 3 x 3 determinant, exactly.
+//!
+//! For points a, b, c, d let n = (b - a) x (c - a) and t = d - a; the orientation is the sign of n . t. In floating point, with
+//! u = 2^-53, each difference carries one rounding, each component of n two differences, a product and a subtraction, and
+//! n . t another difference, a product and two sums: eight roundings on every path. With N_i = |e1_j e2_k| + |e1_k e2_j| the
+//! computed value is off by at most 8 u (N . |t|), to first order, and a ninth u covers the rest and the rounding of the bound
+//! itself. So the sign is certain if
+//!
+//! ```text
+//! |n . t| > 9 u (N . |t|) + underflow (|t_x| + |t_y| + |t_z| + 1)
+//! ```
+//!
+//! where the last term is for products that lose digits below the normal range: zero for f32 input, whose products of three
+//! differences stay far inside f64; 2^-1071 for f64 input (a product that underflows is off by at most 2^-1075; four of them
+//! are multiplied by each |t_i|, three more are added). The strict comparison leaves NaN uncertain.
+//! n . (d - a) is used, never n . d - n . a, whose error grows with the distance from the origin.
+//!
+//! Where the filter is not certain, `robust::orient3d` (Shewchuk's adaptive expansions) has the last word. With input up to
+//! `f32::MAX` it cannot overflow. **Its limit is underflow**: f64 coordinates must be zero or at least 2^-305 in magnitude for
+//! the sign to be exact; f32 coordinates always are.
+
+/// A point as every decision sees it; the conversion from f32 or f64 is exact.
+pub(crate) type Point = [f64; 3];
+
+/// Which side: -1, 0 or 1. Only products and comparisons of signs are ever used, so which side is which does not matter, as
+/// long as it is the same everywhere.
+pub(crate) type Sign = i8;
+
+/// A source of orientation signs.
+pub(crate) trait Orientation {
+    /// The side of the plane through a, b, c on which d lies.
+    fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign;
+}
+
+/// Exact arithmetic at once: slow, and the reference.
+pub(crate) struct Exact;
+
+impl Orientation for Exact {
+    fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+        let coord = |&[x, y, z]: &Point| robust::Coord3D { x, y, z };
+        // robust's determinant is that of (a - d, b - d, c - d), which is minus n . t.
+        sign_of(-robust::orient3d(coord(a), coord(b), coord(c), coord(d)))
+    }
+}
+
+/// The filter, and exact arithmetic where it is not certain.
+pub(crate) struct Filtered {
+    underflow: f64,
+    uncertain: bool,
+}
+
+impl Filtered {
+    /// `underflow` as [`Scalar::UNDERFLOW`](crate::Scalar::UNDERFLOW) gives it for the type of the input.
+    pub(crate) fn new(underflow: f64) -> Self {
+        Self {
+            underflow,
+            uncertain: false,
+        }
+    }
+
+    /// Whether any sign needed exact arithmetic.
+    pub(crate) fn was_uncertain(&self) -> bool {
+        self.uncertain
+    }
+}
+
+/// 9 u.
+const RELATIVE_ERROR: f64 = 9.0 * (f64::EPSILON / 2.0);
+
+impl Orientation for Filtered {
+    #[inline]
+    fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+        let difference = |p: &Point| -> Point { std::array::from_fn(|axis| p[axis] - a[axis]) };
+        let (e1, e2, t) = (difference(b), difference(c), difference(d));
+        let (mut determinant, mut magnitude) = (0.0, 0.0);
+        for i in 0..3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let (left, right) = (e1[j] * e2[k], e1[k] * e2[j]);
+            determinant += (left - right) * t[i];
+            magnitude += (left.abs() + right.abs()) * t[i].abs();
+        }
+        let reach = t[0].abs() + t[1].abs() + t[2].abs() + 1.0;
+        if determinant.abs() > RELATIVE_ERROR * magnitude + self.underflow * reach {
+            return sign_of(determinant);
+        }
+        self.uncertain = true;
+        Exact.sign(a, b, c, d)
+    }
+}
+
+/// The side of the line through a, b on which c lies, in the plane of the first two coordinates given; exact.
+pub(super) fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+    let coord = |[x, y]: [f64; 2]| robust::Coord { x, y };
+    sign_of(robust::orient2d(coord(a), coord(b), coord(c)))
+}
+
+fn sign_of(value: f64) -> Sign {
+    debug_assert!(
+        !value.is_nan(),
+        "an exact determinant of points in range is a number"
+    );
+    i8::from(value > 0.0) - i8::from(value < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The determinant of lattice points in integers.
+    fn integer(points: [[i64; 3]; 4]) -> Sign {
+        let [a, b, c, d] = points.map(|point| point.map(i128::from));
+        let difference =
+            |p: [i128; 3]| -> [i128; 3] { std::array::from_fn(|axis| p[axis] - a[axis]) };
+        let (e1, e2, t) = (difference(b), difference(c), difference(d));
+        let normal =
+            |i: usize| e1[(i + 1) % 3] * e2[(i + 2) % 3] - e1[(i + 2) % 3] * e2[(i + 1) % 3];
+        (normal(0) * t[0] + normal(1) * t[1] + normal(2) * t[2]).signum() as Sign
+    }
+
+    #[test]
+    fn signs_are_those_of_integers() {
+        let mut state = 1_u64;
+        let mut next = |range: i64| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) as i64).rem_euclid(2 * range + 1) - range
+        };
+        let (mut zeros, mut uncertain) = (0, 0);
+        for round in 0..200_000 {
+            // Small lattices are full of zeros; on large ones rounding begins to matter.
+            let range = [1, 2, 5, 1 << 20, 1 << 26][round % 5];
+            let mut points: [[i64; 3]; 4] =
+                std::array::from_fn(|_| std::array::from_fn(|_| next(range)));
+            if round % 3 == 0 {
+                // d on the plane or one step beside it: a + (b - a) + (c - a), nudged.
+                points[3] =
+                    std::array::from_fn(|axis| points[1][axis] + points[2][axis] - points[0][axis]);
+                points[3][0] += next(1);
+            }
+            let [a, b, c, d] = points.map(|point| point.map(|x| x as f64));
+            let expected = integer(points);
+            let mut filtered = Filtered::new(0.0);
+            assert_eq!(filtered.sign(&a, &b, &c, &d), expected, "{points:?}");
+            assert_eq!(Exact.sign(&a, &b, &c, &d), expected, "{points:?}");
+            zeros += u32::from(expected == 0);
+            uncertain += u32::from(filtered.was_uncertain());
+        }
+        // The test is about hard cases, and the filter is for the easy ones.
+        assert!(
+            zeros > 20_000 && uncertain < 150_000,
+            "{zeros} zeros, {uncertain} uncertain"
+        );
+    }
+
+    #[test]
+    fn tiny_differences_are_not_lost() {
+        // Products of three such differences are below the smallest f64.
+        for scale in [-60, -149, -300] {
+            let s = 2f64.powi(scale);
+            let (a, b, c, d) = ([0.0; 3], [s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]);
+            let underflow = if scale == -300 {
+                f64::from_bits(8)
+            } else {
+                0.0
+            };
+            assert_eq!(
+                Filtered::new(underflow).sign(&a, &b, &c, &d),
+                1,
+                "2^{scale}"
+            );
+            assert_eq!(
+                Filtered::new(underflow).sign(&a, &c, &b, &d),
+                -1,
+                "2^{scale}"
+            );
+        }
+    }
+}

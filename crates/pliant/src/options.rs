@@ -1,0 +1,134 @@
+//! Every choice a world offers, every default with its reason.
+
+use std::num::NonZeroU32;
+
+/// How a [`World`](crate::World) builds and updates its trees and finds bodies that may meet. No choice changes an answer.
+///
+/// ```
+/// use pliant::{Degree, Options, World};
+///
+/// let mut options = Options::paper();
+/// options.degree = Degree::Four;
+/// let world = World::<f32>::with_options(options);
+/// # assert_eq!(world.options().degree, Degree::Four);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Options {
+    /// The most children of a node. Default: eight, as in the paper ("a slightly better choice").
+    pub degree: Degree,
+    /// How triangles are divided into a tree. Default: balanced, whose lanes are full.
+    pub partition: Partition,
+    /// The most triangles in a leaf. Default: 8, which are tested side by side; the paper has one.
+    pub leaf_size: NonZeroU32,
+    /// Which boxes are made when. Default: the paper's hybrid.
+    pub update: Update,
+    /// How pairs of bodies that may meet are found. Default: by the number of bodies.
+    pub broad_phase: BroadPhase,
+}
+
+/// The most children a node has (paper, 3.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Degree {
+    /// Binary trees.
+    Two,
+    /// 4-ary trees.
+    Four,
+    /// 8-ary trees.
+    Eight,
+}
+
+impl Degree {
+    /// 2, 4 or 8.
+    pub fn get(self) -> usize {
+        match self {
+            Self::Two => 2,
+            Self::Four => 4,
+            Self::Eight => 8,
+        }
+    }
+}
+
+/// How the triangles of a body are divided into a tree, on the shape it has when the tree is built (paper, 3.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Partition {
+    /// The paper's preferred rule: a node's box is cut at its centre, along as many of its longest sides as the degree needs;
+    /// a triangle goes where its midpoint lies.
+    Centre,
+    /// The same, cut at the mean of the midpoints.
+    Mean,
+    /// Every node is cut into parts of equal size, such that leaves and lanes are full. Not in the paper.
+    Balanced,
+}
+
+/// Which boxes are made when (paper, 3.3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Update {
+    /// All boxes of a body that may meet another, from the leaves up.
+    BottomUp,
+    /// A box when it is reached, from the vertices below it.
+    TopDown,
+    /// The upper levels bottom-up, those below when they are reached.
+    Hybrid {
+        /// The level down to which boxes are made bottom-up, the root being level 0; levels that a tree does not have are
+        /// its last. `None`: floor(n / 2), where n is the level of the deepest leaf; the paper found it "an efficient choice".
+        level: Option<u32>,
+        /// How many levels are made at once, bottom-up, where a box that is not true is reached. The paper found one level,
+        /// which is top-down, the fastest.
+        levels_at_once: NonZeroU32,
+    },
+}
+
+impl Update {
+    /// The paper's hybrid: down to level n / 2 bottom-up, then a level at a time.
+    pub const HYBRID: Self = Self::Hybrid {
+        level: None,
+        levels_at_once: NonZeroU32::MIN,
+    };
+
+    /// How many levels are made where a box that is not true is reached.
+    pub(crate) fn levels_at_once(self) -> u32 {
+        match self {
+            Self::Hybrid { levels_at_once, .. } => levels_at_once.get(),
+            Self::BottomUp | Self::TopDown => 1,
+        }
+    }
+}
+
+/// How pairs of bodies whose boxes overlap are found (paper, 3.4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum BroadPhase {
+    /// Brute force up to 100 bodies, sweep and prune above: the paper's rule.
+    Auto,
+    /// Every pair of boxes.
+    BruteForce,
+    /// Three sorted lists of box ends, kept from query to query.
+    SweepAndPrune,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            degree: Degree::Eight,
+            partition: Partition::Balanced,
+            leaf_size: NonZeroU32::new(8).expect("8 is not 0"),
+            update: Update::HYBRID,
+            broad_phase: BroadPhase::Auto,
+        }
+    }
+}
+
+impl Options {
+    /// The configuration of the paper's experiments: 8-ary initial shape trees cut at the box centre, one triangle a leaf,
+    /// hybrid update at level n / 2.
+    pub fn paper() -> Self {
+        Self {
+            partition: Partition::Centre,
+            leaf_size: NonZeroU32::MIN,
+            ..Self::default()
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Counters: what a query did. They explain its cost on any machine; time is never read inside the library.
+
+/// The work of one query, together with that of calls of [`update`](crate::World::update) and
+/// [`update_body`](crate::World::update_body) since the query before it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Statistics {
+    /// Pairs of bodies whose trees were traversed; 1 for a query of two bodies or of one with itself.
+    pub body_pairs: u64,
+    /// Boxes made ahead of a traversal, level by level from below.
+    pub boxes_bottom_up: u64,
+    /// Boxes made when a traversal reached them.
+    pub boxes_top_down: u64,
+    /// Boxes of single triangles in leaves of several, made when a leaf met another.
+    pub triangle_boxes: u64,
+    /// Pairs of nodes with overlapping boxes.
+    pub node_pairs: u64,
+    /// Pairs of triangles with overlapping boxes, which were therefore decided. Within a body, without those that share a
+    /// vertex.
+    pub candidate_pairs: u64,
+    /// Candidates whose floating-point filter left a sign open, so that exact arithmetic was needed.
+    pub exact_decisions: u64,
+    /// Pairs found.
+    pub pairs: u64,
+}
+
+impl std::ops::AddAssign for Statistics {
+    fn add_assign(&mut self, other: Self) {
+        let Self {
+            body_pairs,
+            boxes_bottom_up,
+            boxes_top_down,
+            triangle_boxes,
+            node_pairs,
+            candidate_pairs,
+            exact_decisions,
+            pairs,
+        } = other;
+        self.body_pairs += body_pairs;
+        self.boxes_bottom_up += boxes_bottom_up;
+        self.boxes_top_down += boxes_top_down;
+        self.triangle_boxes += triangle_boxes;
+        self.node_pairs += node_pairs;
+        self.candidate_pairs += candidate_pairs;
+        self.exact_decisions += exact_decisions;
+        self.pairs += pairs;
+    }
+}

@@ -1,0 +1,79 @@
+//! A tree whose lanes are full: every part is cut so that all subtrees but those of the last child hold as many triangles as
+//! fit below them (leaf size x degree^height), so that what is missing to a full tree is missing near the root.
+//!
+//! A part of n triangles whose children can hold c each gets ceil(n / c) children. They are found by halving: at each
+//! halving the midpoints are divided along the longest side of their box, at the multiple of c nearest the middle. Not in
+//! the paper, whose trees are cut at points of space; on surfaces those leave about half of eight lanes empty.
+
+use super::Split;
+use super::initial_shape::midpoint;
+use crate::geometry::Scalar;
+
+pub(crate) struct Balanced {
+    midpoints: Vec<[f64; 3]>,
+    degree: usize,
+    leaf_size: usize,
+}
+
+impl Balanced {
+    /// Triangles and positions in the caller's order.
+    pub(crate) fn new<S: Scalar>(
+        triangles: &[[u32; 3]],
+        positions: &[[S; 3]],
+        degree: usize,
+        leaf_size: u32,
+    ) -> Self {
+        let midpoints = triangles
+            .iter()
+            .map(|corners| midpoint(corners.map(|vertex| positions[vertex as usize])));
+        Self {
+            midpoints: midpoints.collect(),
+            degree,
+            leaf_size: leaf_size as usize,
+        }
+    }
+
+    /// How many triangles a child of a part of `count` triangles can hold: the smallest full tree that suffices.
+    fn capacity(&self, count: usize) -> usize {
+        let mut capacity = self.leaf_size;
+        while capacity * self.degree < count {
+            capacity *= self.degree;
+        }
+        capacity
+    }
+
+    /// Orders the triangles so that the first `left` have the smaller midpoints along the longest side.
+    fn divide(&self, triangles: &mut [u32], left: usize) {
+        let mut lo = [f64::INFINITY; 3];
+        let mut hi = [f64::NEG_INFINITY; 3];
+        for &triangle in &*triangles {
+            let midpoint = self.midpoints[triangle as usize];
+            lo = std::array::from_fn(|axis| lo[axis].min(midpoint[axis]));
+            hi = std::array::from_fn(|axis| hi[axis].max(midpoint[axis]));
+        }
+        let axis = super::axes_by_length(lo, hi)[0];
+        // Equal midpoints by number: the tree must not depend on how a selection algorithm treats ties.
+        let key = |triangle: u32| self.midpoints[triangle as usize][axis];
+        triangles.select_nth_unstable_by(left, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
+    }
+}
+
+impl Split for Balanced {
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
+        let capacity = self.capacity(triangles.len());
+        let children = triangles.len().div_ceil(capacity);
+        // Halves still to be divided, the first on top: at most log2(degree) + 1 of them.
+        let mut halves = vec![(0, triangles.len(), children)];
+        while let Some((start, length, children)) = halves.pop() {
+            if children == 1 {
+                pieces.push(length);
+                continue;
+            }
+            let left_children = children / 2;
+            let left = left_children * capacity;
+            self.divide(&mut triangles[start..start + length], left);
+            halves.push((start + left, length - left, children - left_children));
+            halves.push((start, left, left_children));
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! How a body's triangles are divided into a tree: plain data, without boxes and without the degree as a type.
+//!
+//! ```text
+//! parts = [all triangles]
+//! for each part, first to last:                       breadth first, so no stack, however deep the tree
+//!     at most `leaf_size` triangles:  it is a leaf
+//!     else split it into 2 to `degree` parts and append them
+//! ```
+//!
+//! One loop, one hook: a [`Split`] reorders the triangles of a part and says where to cut. If it cannot tell the triangles
+//! apart (all midpoints in one place), the loop cuts the order it finds into equal pieces, so every build ends.
+
+mod balanced;
+mod initial_shape;
+
+pub(crate) use balanced::Balanced;
+pub(crate) use initial_shape::{Cut, InitialShape};
+use std::ops::Range;
+
+/// A division of triangles.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    /// Caller's numbers of the triangles, so that every part is a run.
+    pub(crate) order: Vec<u32>,
+    /// Level by level; the first is the root. Children of one part are neighbours, in the order of their triangles.
+    pub(crate) parts: Vec<Part>,
+    /// The most triangles in a leaf.
+    pub(crate) leaf_size: u32,
+}
+
+/// A node of a tree to be.
+#[derive(Clone, Debug)]
+pub(crate) struct Part {
+    /// Its run in the order.
+    pub(crate) triangles: Range<u32>,
+    /// Its children among the parts; none for a leaf.
+    pub(crate) children: Range<u32>,
+    pub(crate) level: u32,
+}
+
+/// A rule for dividing triangles.
+pub(crate) trait Split {
+    /// Reorders `triangles` (caller's numbers, more than `leaf_size` of them) and appends the lengths of the pieces they fall
+    /// into: at most the degree, none empty, in order. One piece means that the rule cannot tell the triangles apart.
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>);
+}
+
+/// Divides `count` triangles until at most `leaf_size` are left in each part.
+pub(crate) fn plan(count: usize, degree: usize, leaf_size: u32, rule: &mut impl Split) -> Plan {
+    let mut order: Vec<u32> = (0..count as u32).collect();
+    let mut parts = vec![Part {
+        triangles: 0..count as u32,
+        children: 0..0,
+        level: 0,
+    }];
+    let mut pieces = Vec::with_capacity(degree);
+    let mut next = 0;
+    while next < parts.len() {
+        let Part {
+            triangles, level, ..
+        } = parts[next].clone();
+        if triangles.len() > leaf_size as usize {
+            let run = &mut order[triangles.start as usize..triangles.end as usize];
+            pieces.clear();
+            rule.split(run, &mut pieces);
+            if pieces.len() == 1 {
+                cut_the_order(run.len(), degree, &mut pieces);
+            }
+            let first = parts.len() as u32;
+            parts[next].children = first..first + pieces.len() as u32;
+            let mut start = triangles.start;
+            for &length in &pieces {
+                let end = start + length as u32;
+                parts.push(Part {
+                    triangles: start..end,
+                    children: 0..0,
+                    level: level + 1,
+                });
+                start = end;
+            }
+        }
+        next += 1;
+    }
+    parts.shrink_to_fit();
+    Plan {
+        order,
+        parts,
+        leaf_size,
+    }
+}
+
+/// Equal pieces of an order nobody can improve.
+fn cut_the_order(count: usize, degree: usize, pieces: &mut Vec<usize>) {
+    pieces.clear();
+    let most = degree.min(count);
+    pieces.extend((0..most).map(|piece| (piece + 1) * count / most - piece * count / most));
+}
+
+/// The axes of a box, the longest side first; of equal sides the lower axis first.
+fn axes_by_length(lo: [f64; 3], hi: [f64; 3]) -> [usize; 3] {
+    let mut axes = [0, 1, 2];
+    axes.sort_by(|&a, &b| (hi[b] - lo[b]).total_cmp(&(hi[a] - lo[a])));
+    axes
+}

@@ -1,0 +1,109 @@
+//! The bounding volume tree of one body: axis-aligned boxes, up to N children a node.
+//!
+//! A *node* is a box over a run of triangles. Nodes that are children of one node lie side by side in the lanes of one
+//! [`Siblings`] group, because they are made and tested together. A [`NodeId`] is a lane: group x N + lane. Group 0 holds the
+//! root alone, in its lane 0. Groups are stored level by level from the root down, so that the groups of the upper levels are
+//! a prefix of the array, and a pass from its end to its beginning meets children before their parents.
+//!
+//! The structure never changes between builds; boxes do. A group (and the triangle boxes of a leaf) carries the *epoch* of
+//! the body at which its boxes were made, and is **true** only if that is the body's epoch now. Two rules hold at all times:
+//! nothing reads a box that is not true, and the group above a true group is true. `update` makes groups true, `traversal`
+//! asks for it, `validate` checks it.
+//!
+//! Paper, 3.2. What differs: several triangles may share a leaf (whose triangles' boxes are then kept, eight side by side);
+//! vertex lists of inner nodes are mostly runs of numbers, which takes away most of the memory that 3.3 regrets.
+
+pub(crate) mod build;
+mod leaves;
+mod siblings;
+mod validate;
+mod vertex_sets;
+
+use crate::geometry::Aabb;
+use crate::mesh::Mesh;
+use build::Plan;
+pub(crate) use leaves::{LEAF_LANES, Leaves};
+pub(crate) use siblings::{Below, Child, Siblings};
+pub(crate) use vertex_sets::VertexSets;
+
+/// A node: one lane of one group of siblings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct NodeId(u32);
+
+impl NodeId {
+    pub(crate) const ROOT: Self = Self(0);
+
+    #[inline]
+    pub(crate) fn new<const N: usize>(group: u32, lane: usize) -> Self {
+        Self(group * N as u32 + lane as u32)
+    }
+
+    #[inline]
+    pub(crate) fn group_and_lane<const N: usize>(self) -> (usize, usize) {
+        (self.0 as usize / N, self.0 as usize % N)
+    }
+}
+
+/// The tree of one body, of degree `N`.
+#[derive(Debug)]
+pub(crate) struct Tree<const N: usize> {
+    pub(crate) groups: Vec<Siblings<N>>,
+    /// The vertices below every node.
+    pub(crate) vertices: VertexSets,
+    /// The triangles in every leaf.
+    pub(crate) leaves: Leaves,
+    /// The level of the deepest leaf, where the root's is 0: the n of the paper's n / 2.
+    pub(crate) depth: u32,
+}
+
+impl<const N: usize> Tree<N> {
+    /// The tree of a plan over a mesh that is in the plan's order. No box is true yet.
+    pub(crate) fn new(plan: &Plan, mesh: &Mesh) -> Self {
+        let mut groups = vec![Siblings::<N>::new(0)];
+        let mut leaves = Leaves::new(plan.leaf_size);
+        // Parts come level by level, so the part at hand is always in the first group that still lacks a child.
+        let (mut group, mut lane, mut lanes) = (0, 0, 1);
+        let mut lanes_of_groups = std::collections::VecDeque::new();
+        for part in &plan.parts {
+            if lane == lanes {
+                (group, lane) = (group + 1, 0);
+                lanes = lanes_of_groups
+                    .pop_front()
+                    .expect("a part below the root has a parent before it");
+            }
+            groups[group].children[lane] = if part.children.is_empty() {
+                Child::leaf(leaves.push(part.triangles.clone()))
+            } else {
+                lanes_of_groups.push_back(part.children.len());
+                groups.push(Siblings::new(part.children.start));
+                Child::group(groups.len() as u32 - 1)
+            };
+            lane += 1;
+        }
+        let depth = plan.parts.last().map_or(0, |deepest| deepest.level);
+        Self {
+            groups,
+            vertices: VertexSets::new(plan, mesh),
+            leaves,
+            depth,
+        }
+    }
+
+    /// How many nodes there are, leaves included: the boxes of a complete update.
+    pub(crate) fn node_count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    #[inline]
+    pub(crate) fn child(&self, node: NodeId) -> Child {
+        let (group, lane) = node.group_and_lane::<N>();
+        self.groups[group].children[lane]
+    }
+
+    /// The box of a node whose group is true.
+    #[inline]
+    pub(crate) fn box_of(&self, node: NodeId) -> Aabb {
+        let (group, lane) = node.group_and_lane::<N>();
+        self.groups[group].boxes.get(lane)
+    }
+}

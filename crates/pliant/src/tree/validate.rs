@@ -1,0 +1,142 @@
+//! What is always true of a tree.
+
+use super::{Below, NodeId, Tree};
+use crate::geometry::{Aabb, Scalar, Shape};
+use crate::mesh::Mesh;
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+impl<const N: usize> Tree<N> {
+    /// Checks structure and boxes; `Err` says what is wrong. Allocates and takes its time.
+    pub(crate) fn validate<S: Scalar>(&self, mesh: &Mesh, shape: &Shape<S>) -> Result<(), String> {
+        let count = mesh.corners().len() as u32;
+        let mut visited = 0;
+        let mut deepest = 0;
+        // Node, its level, the triangles that must be below it (None for the root: all), and its parent's box if that is true.
+        let mut open: Vec<(NodeId, u32, Option<Aabb>)> = vec![(NodeId::ROOT, 0, None)];
+        if self.triangles_below(NodeId::ROOT)? != (0..count) {
+            return Err("the root does not hold all triangles".into());
+        }
+        while let Some((node, level, parent)) = open.pop() {
+            visited += 1;
+            deepest = deepest.max(level);
+            let (group, lane) = node.group_and_lane::<N>();
+            let siblings = &self.groups[group];
+            let triangles = self.triangles_below(node)?;
+
+            let below: BTreeSet<u32> = mesh.corners()
+                [triangles.start as usize..triangles.end as usize]
+                .as_flattened()
+                .iter()
+                .copied()
+                .collect();
+            let listed: Vec<u32> = self
+                .vertices
+                .vertices(siblings.first_node as usize + lane)
+                .collect();
+            if listed.len() != below.len() || !listed.iter().all(|vertex| below.contains(vertex)) {
+                return Err(format!(
+                    "node {group}/{lane}: its vertex list is not the set of vertices below it"
+                ));
+            }
+
+            let is_true = siblings.epoch == shape.epoch;
+            let own_box = is_true.then(|| siblings.boxes.get(lane));
+            if let Some(own_box) = own_box {
+                let exact = listed.iter().fold(Aabb::EMPTY, |union, &vertex| {
+                    union.merge(&shape.box_of([vertex; 3]))
+                });
+                if own_box != exact {
+                    return Err(format!(
+                        "node {group}/{lane}: claims to be true and is {own_box:?}, not {exact:?}"
+                    ));
+                }
+                if group != 0 && !parent.is_some_and(|parent| parent.holds(&own_box)) {
+                    return Err(format!(
+                        "node {group}/{lane}: is true and not inside a true parent"
+                    ));
+                }
+            }
+
+            match siblings.children[lane].below() {
+                Below::Leaf(leaf) => self.validate_leaf(leaf, mesh, shape)?,
+                Below::Group(below) => {
+                    let mut next = triangles.start;
+                    let lanes = self.groups[below as usize].len();
+                    if lanes < 2 {
+                        return Err(format!("group {below}: {lanes} children"));
+                    }
+                    for lane in 0..lanes {
+                        let child = NodeId::new::<N>(below, lane);
+                        let run = self.triangles_below(child)?;
+                        if run.start != next || run.is_empty() {
+                            return Err(format!(
+                                "group {below}: children do not divide their parent's triangles"
+                            ));
+                        }
+                        next = run.end;
+                        open.push((child, level + 1, own_box));
+                    }
+                    if next != triangles.end {
+                        return Err(format!(
+                            "group {below}: children do not hold all of their parent's triangles"
+                        ));
+                    }
+                }
+            }
+        }
+        if visited != self.node_count() || deepest != self.depth {
+            return Err(format!(
+                "{visited} nodes down to level {deepest}; {} and {} said",
+                self.node_count(),
+                self.depth
+            ));
+        }
+        Ok(())
+    }
+
+    fn validate_leaf<S: Scalar>(
+        &self,
+        leaf: u32,
+        mesh: &Mesh,
+        shape: &Shape<S>,
+    ) -> Result<(), String> {
+        if !self.leaves.have_boxes() || self.leaves.epoch(leaf) != shape.epoch {
+            return Ok(());
+        }
+        let triangles = self.leaves.triangles(leaf);
+        for (index, triangle) in triangles.enumerate() {
+            let (block, lane) = (index / super::LEAF_LANES, index % super::LEAF_LANES);
+            let found = self.leaves.boxes(leaf)[block].get(lane);
+            let exact = shape.box_of(mesh.corners()[triangle as usize]);
+            if found != exact {
+                return Err(format!(
+                    "leaf {leaf}: triangle {triangle} has box {found:?}, not {exact:?}"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// The run of triangles below a node, from its first leaf to its last.
+    fn triangles_below(&self, node: NodeId) -> Result<Range<u32>, String> {
+        let end_of = |last: bool| {
+            let mut node = node;
+            for _ in 0..=self.depth {
+                match self.child(node).below() {
+                    Below::Leaf(leaf) => return Ok(self.leaves.triangles(leaf)),
+                    Below::Group(below) => {
+                        let lane = if last {
+                            self.groups[below as usize].len() - 1
+                        } else {
+                            0
+                        };
+                        node = NodeId::new::<N>(below, lane);
+                    }
+                }
+            }
+            Err(format!("a path of more than {} levels", self.depth))
+        };
+        Ok(end_of(false)?.start..end_of(true)?.end)
+    }
+}

@@ -1,0 +1,93 @@
+//! The distinct vertices below every node: what makes a box straight from the shape, without looking at children.
+//!
+//! Because vertices are numbered as the triangles in tree order first use them, those that a run of triangles uses first are
+//! a run of numbers. What is left is the *border*: vertices that an earlier triangle used first. On a surface the border of
+//! k triangles is about the square root of k, so all levels together cost little more than the lowest.
+//!
+//! Paper, 3.3: "we update the node's AABB by traversing the shared vertices of the faces in the node".
+
+use super::build::Plan;
+use crate::geometry::{Aabb, Bounds, Scalar, Shape};
+use crate::mesh::Mesh;
+
+/// Indexed by node, counted level by level.
+#[derive(Debug)]
+pub(crate) struct VertexSets {
+    /// First and end of the run of vertices that the node's triangles use first.
+    runs: Vec<[u32; 2]>,
+    /// The first border vertex of each node, and the end.
+    border_starts: Vec<u32>,
+    border: Vec<u32>,
+}
+
+impl VertexSets {
+    pub(crate) fn new(plan: &Plan, mesh: &Mesh) -> Self {
+        // How many vertices the triangles before each triangle use.
+        let mut used_before = Vec::with_capacity(mesh.corners().len() + 1);
+        let mut used = 0;
+        used_before.push(0);
+        for corners in mesh.corners() {
+            used = corners
+                .iter()
+                .fold(used, |used, &vertex| used.max(vertex + 1));
+            used_before.push(used);
+        }
+
+        let mut runs = Vec::with_capacity(plan.parts.len());
+        let mut border_starts = Vec::with_capacity(plan.parts.len() + 1);
+        let mut border = Vec::new();
+        border_starts.push(0);
+        let mut seen_by = vec![u32::MAX; mesh.used_vertices()];
+        for (node, part) in plan.parts.iter().enumerate() {
+            let triangles = part.triangles.start as usize..part.triangles.end as usize;
+            let run = [used_before[triangles.start], used_before[triangles.end]];
+            for &vertex in mesh.corners()[triangles].as_flattened() {
+                let seen_by = &mut seen_by[vertex as usize];
+                if vertex < run[0] && *seen_by != node as u32 {
+                    *seen_by = node as u32;
+                    border.push(vertex);
+                }
+            }
+            runs.push(run);
+            border_starts.push(border.len() as u32);
+        }
+        border.shrink_to_fit();
+        Self {
+            runs,
+            border_starts,
+            border,
+        }
+    }
+
+    /// The number of nodes.
+    pub(crate) fn len(&self) -> usize {
+        self.runs.len()
+    }
+
+    fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[u32]) {
+        let [start, end] = self.runs[node];
+        let border = self.border_starts[node] as usize..self.border_starts[node + 1] as usize;
+        (start as usize..end as usize, &self.border[border])
+    }
+
+    /// The box of a node from the vertices below it, each read once.
+    #[inline]
+    pub(crate) fn box_of<S: Scalar>(&self, node: usize, shape: &Shape<S>) -> Aabb {
+        let (run, border) = self.run_and_border(node);
+        let mut bounds = Bounds::EMPTY;
+        for &position in &shape.positions[run] {
+            bounds.include(position);
+        }
+        for &vertex in border {
+            bounds.include(shape.positions[vertex as usize]);
+        }
+        bounds.to_box(shape.origin)
+    }
+
+    /// The vertices below a node, run first.
+    pub(crate) fn vertices(&self, node: usize) -> impl Iterator<Item = u32> {
+        let (run, border) = self.run_and_border(node);
+        run.map(|vertex| vertex as u32)
+            .chain(border.iter().copied())
+    }
+}

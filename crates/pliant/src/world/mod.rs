@@ -1,0 +1,361 @@
+//! The world: bodies, their shapes, and the one place where the phases meet.
+//!
+//! `body` takes shapes over, `step` runs the phases for one query, `queries` are what users ask, `forest` is where the degree
+//! of the trees turns from a value into a type.
+
+mod body;
+mod forest;
+mod queries;
+mod step;
+mod validate;
+
+use crate::broad_phase::BroadPhase;
+use crate::error::{Error, ErrorKind};
+use crate::geometry::{Aabb, Bounds, Scalar};
+use crate::options::Options;
+use crate::pairs::Pair;
+use crate::statistics::Statistics;
+use crate::traversal::Scratch;
+use body::Body;
+pub(crate) use body::validate as validate_body;
+use forest::{Forest, with_trees};
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// A body of a world: a number in order of adding, never used again in that world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct BodyId(pub u32);
+
+impl fmt::Display for BodyId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "body {}", self.0)
+    }
+}
+
+/// The tree of a body in numbers; the structure only, which no movement changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TreeShape {
+    /// The level of the deepest leaf, where the root is level 0: the n of the paper's n / 2.
+    pub depth: u32,
+    /// All nodes, leaves and root included: the boxes of a complete update.
+    pub nodes: usize,
+    /// Nodes that hold triangles.
+    pub leaves: usize,
+}
+
+/// Bodies that change their shape, and the questions which of their triangles intersect.
+///
+/// `S` is the type of the coordinates, `f32` or `f64`. Moving a body is [`set_positions`](Self::set_positions); there is
+/// nothing else to call: every query brings up to date what it touches, and none can answer for old positions.
+///
+/// A call that is refused returns an [`Error`] and leaves the world as it was.
+pub struct World<S> {
+    options: Options,
+    /// Sorted by id, so that a body's place in the list is its place in every result.
+    bodies: Vec<Body<S>>,
+    /// The trees of the bodies, in the same places.
+    forest: Forest,
+    next_id: Option<u32>,
+    /// Pairs of ids, the smaller first, that do not meet in queries of the whole world.
+    ignored: BTreeSet<(BodyId, BodyId)>,
+    broad_phase: BroadPhase,
+    /// Boxes are relative to this point; zero for `f32`.
+    origin: [f64; 3],
+    /// Shapes taken over since the origin was last looked at.
+    moves: usize,
+    /// What `write_positions` lends.
+    lent: Vec<[S; 3]>,
+    scratch: Scratch,
+    boxes: Vec<Aabb>,
+    body_pairs: Vec<[usize; 2]>,
+    pairs: Vec<Pair>,
+    pairs_of_bodies: Vec<[u32; 2]>,
+    statistics: Statistics,
+    /// Work done by `update` since the last query.
+    done_early: Statistics,
+}
+
+impl<S: Scalar> World<S> {
+    /// An empty world with the options that measured best.
+    pub fn new() -> Self {
+        Self::with_options(Options::default())
+    }
+
+    /// An empty world.
+    pub fn with_options(options: Options) -> Self {
+        Self {
+            options,
+            bodies: Vec::new(),
+            forest: Forest::new(options.degree),
+            next_id: Some(0),
+            ignored: BTreeSet::new(),
+            broad_phase: BroadPhase::new(options.broad_phase),
+            origin: [0.0; 3],
+            moves: 0,
+            lent: Vec::new(),
+            scratch: Scratch::default(),
+            boxes: Vec::new(),
+            body_pairs: Vec::new(),
+            pairs: Vec::new(),
+            pairs_of_bodies: Vec::new(),
+            statistics: Statistics::default(),
+            done_early: Statistics::default(),
+        }
+    }
+
+    /// The options of this world.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Adds a body: triangles as corner indices into positions, shape (m, 3) and (n, 3).
+    ///
+    /// Builds its tree on these positions, which need not be special; a rest pose is best. Corners may repeat: a degenerate
+    /// triangle is the segment or point that it is. Vertices that no triangle uses are allowed, and checked like the others.
+    ///
+    /// Cost: O(m log m) for the balanced partition; for the others O(m) a level of the tree.
+    ///
+    /// # Errors
+    ///
+    /// [`NoTriangles`](ErrorKind::NoTriangles), [`VertexOutOfRange`](ErrorKind::VertexOutOfRange),
+    /// [`BadPosition`](ErrorKind::BadPosition), and [`TooLarge`](ErrorKind::TooLarge) above 2^28 triangles or 2^32 - 1
+    /// vertices.
+    #[doc(alias = "insert")]
+    pub fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error> {
+        let refused = |kind| Error { body: None, kind };
+        let id = BodyId(
+            self.next_id
+                .ok_or_else(|| refused(ErrorKind::TooManyBodies))?,
+        );
+        body::validate(triangles, positions).map_err(refused)?;
+        let mesh = self
+            .forest
+            .plant(self.bodies.len(), triangles, positions, &self.options);
+        self.bodies.push(Body::new(id, mesh, positions));
+        self.next_id = id.0.checked_add(1);
+        self.moves += 1;
+        Ok(id)
+    }
+
+    /// Removes a body. Its id will not be used again.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    pub fn remove(&mut self, body: BodyId) -> Result<(), Error> {
+        let place = self.place(body)?;
+        self.bodies.remove(place);
+        self.forest.remove(place);
+        self.broad_phase.remove(place as u32);
+        self.ignored.retain(|&(a, b)| a != body && b != body);
+        Ok(())
+    }
+
+    /// The bodies of this world, in the order in which they were added.
+    pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyId> {
+        self.bodies.iter().map(Body::id)
+    }
+
+    /// Gives a body a new shape: one position for each of its vertices, shape (n, 3), in the order in which it was added.
+    ///
+    /// One pass over the positions: checked, copied, and taken over only if all are good. The body keeps its old shape if not.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`WrongLength`](ErrorKind::WrongLength),
+    /// [`BadPosition`](ErrorKind::BadPosition) for the first coordinate that is NaN, infinite or above `f32::MAX` in
+    /// magnitude, [`OutsideLooseBox`](ErrorKind::OutsideLooseBox).
+    #[doc(alias = "update_vertices")]
+    #[doc(alias = "refit")]
+    pub fn set_positions(&mut self, body: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
+        let place = self.place(body)?;
+        self.bodies[place]
+            .take_over(positions)
+            .map_err(|kind| Error {
+                body: Some(body),
+                kind,
+            })?;
+        self.moves += 1;
+        Ok(())
+    }
+
+    /// Like [`set_positions`](Self::set_positions), but `write` fills a buffer of the world's, shape (n, 3), so that the
+    /// caller needs none. The buffer comes filled with NaN: every vertex must be written.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`set_positions`](Self::set_positions), and [`NotWritten`](ErrorKind::NotWritten).
+    pub fn write_positions(
+        &mut self,
+        body: BodyId,
+        write: impl FnOnce(&mut [[S; 3]]),
+    ) -> Result<(), Error> {
+        let place = self.place(body)?;
+        let body_there = &mut self.bodies[place];
+        self.lent.clear();
+        self.lent.resize(body_there.vertex_count(), [S::NAN; 3]);
+        write(&mut self.lent);
+        body_there.take_over(&self.lent).map_err(|kind| {
+            let kind = match kind {
+                ErrorKind::BadPosition { vertex, position }
+                    if position.iter().any(|x| x.is_nan()) =>
+                {
+                    ErrorKind::NotWritten { vertex }
+                }
+                other => other,
+            };
+            Error {
+                body: Some(body),
+                kind,
+            }
+        })?;
+        self.moves += 1;
+        Ok(())
+    }
+
+    /// Builds the tree of a body anew, on the shape it has now. Id, filters and loose box stay. Worth it when a shape has
+    /// become very different from the one it was built on; never needed for right answers.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    pub fn rebuild(&mut self, body: BodyId) -> Result<(), Error> {
+        let place = self.place(body)?;
+        let (triangles, positions) = self.bodies[place].in_callers_order();
+        let mesh = self
+            .forest
+            .plant(place, &triangles, &positions, &self.options);
+        self.bodies[place].reorder(mesh, &positions);
+        Ok(())
+    }
+
+    /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
+    /// common with the mask of the other. At first both are all ones. A query that names its bodies does not look at them.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    #[doc(alias = "collision_groups")]
+    pub fn set_filter(&mut self, body: BodyId, membership: u32, mask: u32) -> Result<(), Error> {
+        let place = self.place(body)?;
+        self.bodies[place].set_filter(membership, mask);
+        Ok(())
+    }
+
+    /// From now on two bodies do not meet in queries of the whole world. A query that names them does not look at this.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`SameBody`](ErrorKind::SameBody).
+    pub fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
+        let pair = self.two_bodies(a, b)?;
+        self.ignored.insert(pair);
+        Ok(())
+    }
+
+    /// Takes [`ignore`](Self::ignore) back.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`SameBody`](ErrorKind::SameBody).
+    pub fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
+        let pair = self.two_bodies(a, b)?;
+        self.ignored.remove(&pair);
+        Ok(())
+    }
+
+    /// Gives a body a box, lower and upper corner, that holds it in every pose to come; `None` takes it away.
+    ///
+    /// The broad phase then works with this box, which stands still, and looks at the exact box only where loose boxes
+    /// overlap. Until it is taken away, a position outside it is refused. Worth it for many bodies that move on their spot.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`BadLooseBox`](ErrorKind::BadLooseBox), and
+    /// [`OutsideLooseBox`](ErrorKind::OutsideLooseBox) if the body is not inside now.
+    pub fn set_loose_box(
+        &mut self,
+        body: BodyId,
+        corners: Option<([S; 3], [S; 3])>,
+    ) -> Result<(), Error> {
+        let place = self.place(body)?;
+        let loose = corners.map(|(lo, hi)| Bounds { lo, hi });
+        self.bodies[place]
+            .set_loose_box(loose)
+            .map_err(|kind| Error {
+                body: Some(body),
+                kind,
+            })?;
+        self.moves += 1;
+        Ok(())
+    }
+
+    /// How many triangles a body has.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    pub fn triangle_count(&self, body: BodyId) -> Result<usize, Error> {
+        Ok(self.bodies[self.place(body)?].triangle_count())
+    }
+
+    /// How many vertices a body has: the length that its positions must have.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    pub fn vertex_count(&self, body: BodyId) -> Result<usize, Error> {
+        Ok(self.bodies[self.place(body)?].vertex_count())
+    }
+
+    /// The tree of a body in numbers.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    pub fn tree_shape(&self, body: BodyId) -> Result<TreeShape, Error> {
+        let place = self.place(body)?;
+        with_trees!(&self.forest, trees => {
+            let tree = &trees[place];
+            Ok(TreeShape { depth: tree.depth, nodes: tree.node_count(), leaves: tree.leaves.len() })
+        })
+    }
+
+    /// Where a body stands in the lists.
+    fn place(&self, body: BodyId) -> Result<usize, Error> {
+        self.bodies
+            .binary_search_by_key(&body, Body::id)
+            .map_err(|_| Error {
+                body: Some(body),
+                kind: ErrorKind::NoSuchBody,
+            })
+    }
+
+    /// Two different bodies of this world, the smaller id first.
+    fn two_bodies(&self, a: BodyId, b: BodyId) -> Result<(BodyId, BodyId), Error> {
+        self.place(a)?;
+        self.place(b)?;
+        if a == b {
+            return Err(Error {
+                body: Some(a),
+                kind: ErrorKind::SameBody,
+            });
+        }
+        Ok((a.min(b), a.max(b)))
+    }
+}
+
+impl<S: Scalar> Default for World<S> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<S> fmt::Debug for World<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("World")
+            .field("options", &self.options)
+            .field("bodies", &self.bodies.len())
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,366 @@
+//! What users ask: the whole world, two bodies, a body with itself; all pairs, the first, or a visitor.
+//!
+//! There is one query of each kind, the visitor. *All* collects and sorts what it is shown, *first* stops at once.
+
+use super::body::Body;
+use super::forest::{Forest, with_trees};
+use super::step::Step;
+use super::{BodyId, World};
+use crate::error::Error;
+use crate::geometry::{Bounds, Scalar};
+use crate::pairs::Pair;
+use crate::statistics::Statistics;
+use std::ops::ControlFlow;
+
+/// The whole world: every two bodies that filters let meet, not a body with itself.
+impl<S: Scalar> World<S> {
+    /// All intersecting pairs of triangles of different bodies, sorted. Triangles intersect as closed sets: touching counts.
+    ///
+    /// The slice is valid until the next call. Bodies meet as [`set_filter`](Self::set_filter) and
+    /// [`ignore`](Self::ignore) say. Surfaces only: a body wholly inside another meets none of its triangles.
+    ///
+    /// Cost: the pass over all moved vertices is done already; what comes is the broad phase, O(n + overlaps) for bodies
+    /// that move a little, and for bodies whose boxes overlap, what grows with the region where they are close.
+    #[doc(alias = "rtcCollide")]
+    #[doc(alias = "bvhcast")]
+    #[doc(alias = "findCollidingTriangles")]
+    pub fn intersection_pairs(&mut self) -> &[Pair] {
+        let mut pairs = std::mem::take(&mut self.pairs);
+        pairs.clear();
+        let _: ControlFlow<()> = self.visit_intersections(|pair| {
+            pairs.push(pair);
+            ControlFlow::Continue(())
+        });
+        pairs.sort_unstable();
+        self.pairs = pairs;
+        &self.pairs
+    }
+
+    /// Some intersecting pair of triangles of different bodies, if there is one. Much cheaper than all where there are many.
+    ///
+    /// Whether there is one never depends on options or history; which one may.
+    pub fn first_intersection(&mut self) -> Option<Pair> {
+        self.visit_intersections(ControlFlow::Break).break_value()
+    }
+
+    /// Shows `visit` every intersecting pair of triangles of different bodies once, until it breaks; returns what it broke
+    /// with. The order is deterministic, not sorted.
+    ///
+    /// ```
+    /// # use pliant::World;
+    /// use std::ops::ControlFlow;
+    ///
+    /// # let mut world = World::<f32>::new();
+    /// # for z in [0.0, 0.5] {
+    /// #     world.add(&[[0, 1, 2], [0, 1, 3]], &[[0.0, 0.0, z], [4.0, 0.0, z], [0.0, 4.0, z], [0.0, 0.0, z + 1.0]])?;
+    /// # }
+    /// let mut budget = 2;
+    /// let exhausted = world.visit_intersections(|pair| {
+    ///     println!("{} of {} and {} of {}", pair.triangle_a, pair.body_a, pair.triangle_b, pair.body_b);
+    ///     budget -= 1;
+    ///     if budget == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    /// });
+    /// # assert!(exhausted.is_break());
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn visit_intersections<B>(
+        &mut self,
+        mut visit: impl FnMut(Pair) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        self.begin();
+        self.find_body_pairs();
+        let mut answer = ControlFlow::Continue(());
+        let body_pairs = std::mem::take(&mut self.body_pairs);
+        let (mut step, forest) = self.step();
+        with_trees!(forest, trees => {
+            for &places in &body_pairs {
+                let [body_a, body_b] = places.map(|place| step.bodies[place].id());
+                let flow = step.meet(trees, places, &mut |[triangle_a, triangle_b]| {
+                    keep_break(visit(Pair { body_a, triangle_a, body_b, triangle_b }), &mut answer)
+                });
+                if flow.is_break() {
+                    break;
+                }
+            }
+        });
+        self.body_pairs = body_pairs;
+        answer
+    }
+}
+
+/// Two bodies by name, whatever filters say.
+impl<S: Scalar> World<S> {
+    /// All intersecting pairs (triangle of `a`, triangle of `b`), sorted. See
+    /// [`intersection_pairs`](Self::intersection_pairs).
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`SameBody`](crate::ErrorKind::SameBody) if `a` is `b`.
+    pub fn intersection_pairs_between(
+        &mut self,
+        a: BodyId,
+        b: BodyId,
+    ) -> Result<&[[u32; 2]], Error> {
+        self.collect_pairs(|world, visit| world.visit_intersections_between(a, b, visit))
+    }
+
+    /// Some intersecting pair (triangle of `a`, triangle of `b`), if there is one.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`SameBody`](crate::ErrorKind::SameBody) if `a` is `b`.
+    pub fn first_intersection_between(
+        &mut self,
+        a: BodyId,
+        b: BodyId,
+    ) -> Result<Option<[u32; 2]>, Error> {
+        Ok(self
+            .visit_intersections_between(a, b, ControlFlow::Break)?
+            .break_value())
+    }
+
+    /// Shows `visit` every intersecting pair (triangle of `a`, triangle of `b`) once, until it breaks.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`SameBody`](crate::ErrorKind::SameBody) if `a` is `b`.
+    pub fn visit_intersections_between<B>(
+        &mut self,
+        a: BodyId,
+        b: BodyId,
+        mut visit: impl FnMut([u32; 2]) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, Error> {
+        self.two_bodies(a, b)?;
+        let places = [self.place(a)?, self.place(b)?];
+        self.begin();
+        let mut answer = ControlFlow::Continue(());
+        let (mut step, forest) = self.step();
+        with_trees!(forest, trees => {
+            let _ = step.meet(trees, places, &mut |pair| keep_break(visit(pair), &mut answer));
+        });
+        Ok(answer)
+    }
+}
+
+/// A body with itself: pairs of its triangles that intersect and have no vertex in common.
+impl<S: Scalar> World<S> {
+    /// All intersecting pairs (smaller triangle, larger triangle) of a body with itself, sorted. Triangles that share a vertex
+    /// are left out: they always touch.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(alias = "findSelfCollidingTriangles")]
+    #[doc(alias = "self_intersections")]
+    pub fn self_intersection_pairs(&mut self, body: BodyId) -> Result<&[[u32; 2]], Error> {
+        self.collect_pairs(|world, visit| world.visit_self_intersections(body, visit))
+    }
+
+    /// Some intersecting pair of a body with itself, if there is one.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(alias = "does_self_intersect")]
+    pub fn first_self_intersection(&mut self, body: BodyId) -> Result<Option<[u32; 2]>, Error> {
+        Ok(self
+            .visit_self_intersections(body, ControlFlow::Break)?
+            .break_value())
+    }
+
+    /// Shows `visit` every intersecting pair of a body with itself once, until it breaks.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn visit_self_intersections<B>(
+        &mut self,
+        body: BodyId,
+        mut visit: impl FnMut([u32; 2]) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let place = self.place(body)?;
+        self.begin();
+        let mut answer = ControlFlow::Continue(());
+        let (mut step, forest) = self.step();
+        with_trees!(forest, trees => {
+            let _ = step.meet_itself(&mut trees[place], place, &mut |pair| keep_break(visit(pair), &mut answer));
+        });
+        Ok(answer)
+    }
+}
+
+/// Timing control, and what a query cost.
+impl<S: Scalar> World<S> {
+    /// Does early what a query of the whole world would do first: finds the bodies that may meet and makes the upper levels
+    /// of their trees true. Never needed for right answers.
+    pub fn update(&mut self) {
+        self.settle_origin();
+        self.find_body_pairs();
+        let body_pairs = std::mem::take(&mut self.body_pairs);
+        self.early(|step, forest| {
+            with_trees!(forest, trees => {
+                for &place in body_pairs.as_flattened() {
+                    step.refresh_ahead(&mut trees[place], place);
+                }
+            });
+        });
+        self.body_pairs = body_pairs;
+    }
+
+    /// Does early what a query that names `body` would do first: makes the upper levels of its tree true. Never needed for
+    /// right answers.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn update_body(&mut self, body: BodyId) -> Result<(), Error> {
+        let place = self.place(body)?;
+        self.settle_origin();
+        self.early(|step, forest| with_trees!(forest, trees => step.refresh_ahead(&mut trees[place], place)));
+        Ok(())
+    }
+
+    /// What the last query did, and the calls of [`update`](Self::update) and [`update_body`](Self::update_body) before it.
+    pub fn statistics(&self) -> &Statistics {
+        &self.statistics
+    }
+}
+
+/// What the queries have in common.
+impl<S: Scalar> World<S> {
+    /// At the beginning of every query.
+    fn begin(&mut self) {
+        self.settle_origin();
+        self.statistics = std::mem::take(&mut self.done_early);
+    }
+
+    /// A query of bodies named by their places, and the trees it works on.
+    fn step(&mut self) -> (Step<'_, S>, &mut Forest) {
+        let Self {
+            options,
+            bodies,
+            forest,
+            origin,
+            scratch,
+            statistics,
+            ..
+        } = self;
+        (
+            Step {
+                options,
+                bodies,
+                origin: *origin,
+                scratch,
+                statistics,
+            },
+            forest,
+        )
+    }
+
+    /// Does work before a query, and keeps account of it for that query.
+    fn early(&mut self, work: impl FnOnce(&mut Step<'_, S>, &mut Forest)) {
+        let Self {
+            options,
+            bodies,
+            forest,
+            origin,
+            scratch,
+            done_early,
+            ..
+        } = self;
+        work(
+            &mut Step {
+                options,
+                bodies,
+                origin: *origin,
+                scratch,
+                statistics: done_early,
+            },
+            forest,
+        );
+    }
+
+    /// The broad phase: bodies whose boxes overlap and that filters let meet, into `body_pairs`.
+    fn find_body_pairs(&mut self) {
+        let Self {
+            bodies,
+            ignored,
+            broad_phase,
+            origin,
+            boxes,
+            body_pairs,
+            ..
+        } = self;
+        boxes.clear();
+        boxes.extend(bodies.iter().map(|body| body.broad_box(*origin)));
+        let overlapping = broad_phase
+            .overlapping(boxes)
+            .iter()
+            .map(|pair| pair.map(|place| place as usize));
+        body_pairs.clear();
+        body_pairs.extend(overlapping.filter(|places| {
+            let [a, b] = places.map(|place| &bodies[place]);
+            a.may_meet(b)
+                && a.exact_box(*origin).overlaps(&b.exact_box(*origin))
+                && !ignored.contains(&(a.id(), b.id()))
+        }));
+    }
+
+    /// For `f64`: moves the point that boxes are relative to when the bodies have moved away from it, because the digits of an
+    /// `f32` are best spent on the shape. All boxes are then to be made anew.
+    ///
+    /// Looking at all bodies costs O(n), so it is done only when as many shapes were taken over as there are bodies.
+    fn settle_origin(&mut self) {
+        if S::BOXES_ARE_EXACT || self.moves < self.bodies.len() {
+            return;
+        }
+        self.moves = 0;
+        let mut extent = Bounds::EMPTY;
+        for bounds in self.bodies.iter().map(Body::bounds) {
+            extent.include(bounds.lo);
+            extent.include(bounds.hi);
+        }
+        let (lo, hi) = (extent.lo.map(S::to_f64), extent.hi.map(S::to_f64));
+        let centre: [f64; 3] = std::array::from_fn(|axis| f64::midpoint(lo[axis], hi[axis]));
+        let largest = |values: [f64; 3]| values.into_iter().fold(0.0, f64::max);
+        let radius = largest(std::array::from_fn(|axis| (hi[axis] - lo[axis]) / 2.0));
+        let away = largest(std::array::from_fn(|axis| {
+            (centre[axis] - self.origin[axis]).abs()
+        }));
+        // Within two radii a box loses two of its 24 bits at most; the slack keeps a moving world from settling every step.
+        if away > 2.0 * radius {
+            self.origin = centre;
+            self.bodies.iter_mut().for_each(Body::forget_boxes);
+        }
+    }
+
+    /// All pairs of a visitor's, sorted.
+    fn collect_pairs(
+        &mut self,
+        visit: impl FnOnce(
+            &mut Self,
+            &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
+        ) -> Result<ControlFlow<()>, Error>,
+    ) -> Result<&[[u32; 2]], Error> {
+        let mut pairs = std::mem::take(&mut self.pairs_of_bodies);
+        pairs.clear();
+        let visited = visit(self, &mut |pair| {
+            pairs.push(pair);
+            ControlFlow::Continue(())
+        });
+        pairs.sort_unstable();
+        self.pairs_of_bodies = pairs;
+        visited.map(|_: ControlFlow<()>| &*self.pairs_of_bodies)
+    }
+}
+
+/// Keeps what a visitor broke with, and passes on that it did.
+fn keep_break<B>(flow: ControlFlow<B>, answer: &mut ControlFlow<B>) -> ControlFlow<()> {
+    match flow {
+        ControlFlow::Continue(()) => ControlFlow::Continue(()),
+        ControlFlow::Break(value) => {
+            *answer = ControlFlow::Break(value);
+            ControlFlow::Break(())
+        }
+    }
+}

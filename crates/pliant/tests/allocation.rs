@@ -1,0 +1,81 @@
+//! Replaying the same steps a second time on one thread allocates nothing in the library.
+
+use pliant::{BroadPhase, Degree, Options, Partition, World};
+use pliant_scenes::Scene;
+
+fn replay(scene: &Scene, options: Options, steps: &[u32]) {
+    // All shapes in advance: what is counted is the library's.
+    let shapes: Vec<Vec<Vec<[f32; 3]>>> = steps
+        .iter()
+        .map(|&step| {
+            let shape = |body| {
+                let mut positions = Vec::new();
+                scene.positions(body, step, &mut positions);
+                positions
+            };
+            (0..scene.body_count()).map(shape).collect()
+        })
+        .collect();
+    let mut world = World::<f32>::with_options(options);
+    let ids: Vec<_> = (0..scene.body_count())
+        .map(|body| world.add(scene.triangles(body), &shapes[0][body]).unwrap())
+        .collect();
+    let mut pairs = 0;
+    let mut play = || {
+        for shapes in &shapes {
+            for (&id, positions) in ids.iter().zip(shapes) {
+                world.set_positions(id, positions).unwrap();
+            }
+            world
+                .write_positions(ids[0], |buffer| buffer.copy_from_slice(&shapes[0]))
+                .unwrap();
+            world.update();
+            pairs += world.intersection_pairs().len();
+            pairs += usize::from(world.first_intersection().is_some());
+            pairs += world.self_intersection_pairs(ids[0]).unwrap().len();
+            if let [a, b, ..] = ids[..] {
+                pairs += world.intersection_pairs_between(a, b).unwrap().len();
+            }
+        }
+    };
+    let first = allocation_counter::measure(&mut play);
+    let second = allocation_counter::measure(&mut play);
+    assert!(first.count_total > 0, "the counter counts");
+    assert_eq!(second.count_total, 0, "{} with {options:?}", scene.name());
+    assert!(pairs > 0, "the steps are not idle");
+}
+
+#[test]
+fn a_second_time_allocates_nothing() {
+    let seed = Scene::DEFAULT_SEED;
+    for degree in [Degree::Two, Degree::Eight] {
+        for (partition, broad_phase) in [
+            (Partition::Balanced, BroadPhase::Auto),
+            (Partition::Centre, BroadPhase::SweepAndPrune),
+        ] {
+            let mut options = Options::default();
+            (options.degree, options.partition, options.broad_phase) =
+                (degree, partition, broad_phase);
+            replay(
+                &Scene::new("spheres", Some(1280), seed).unwrap(),
+                options,
+                &[20, 80, 140, 200],
+            );
+            replay(
+                &Scene::new("crowd", Some(320), seed).unwrap(),
+                options,
+                &[1, 2, 3, 4, 5, 100],
+            );
+            replay(
+                &Scene::new("cloth", Some(2888), seed).unwrap(),
+                options,
+                &[10, 40, 50],
+            );
+        }
+    }
+    replay(
+        &Scene::gather(150, 80, seed).unwrap(),
+        Options::default(),
+        &[1, 50, 100, 150, 200],
+    );
+}

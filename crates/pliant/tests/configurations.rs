@@ -1,0 +1,206 @@
+//! The heart of the suite: every configuration gives the pairs of the plain reference, on every query, at every step.
+
+mod common;
+
+use common::{Motion, every_configuration, widened, world_of};
+use pliant::{Options, Pair, Scalar, World, reference};
+use proptest::prelude::*;
+use std::ops::ControlFlow;
+
+/// What the reference says of one frame.
+struct Truth {
+    between: Vec<Vec<[u32; 2]>>,
+    itself: Vec<Vec<[u32; 2]>>,
+}
+
+fn pairs_of_bodies(count: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)))
+}
+
+fn truth(bodies: &[Motion], frame: usize) -> Truth {
+    let between = pairs_of_bodies(bodies.len())
+        .map(|(a, b)| {
+            let (a, b) = (&bodies[a], &bodies[b]);
+            reference::intersection_pairs(
+                &a.triangles,
+                &a.frames[frame],
+                &b.triangles,
+                &b.frames[frame],
+            )
+            .unwrap()
+        })
+        .collect();
+    let itself = bodies
+        .iter()
+        .map(|body| {
+            reference::self_intersection_pairs(&body.triangles, &body.frames[frame]).unwrap()
+        })
+        .collect();
+    Truth { between, itself }
+}
+
+/// Plays all frames in one world and compares every query.
+fn check<S: Scalar>(
+    options: Options,
+    bodies: &[Motion],
+    truths: &[Truth],
+    convert: impl Fn(&[[f32; 3]]) -> Vec<[S; 3]>,
+) {
+    let start: Vec<_> = bodies
+        .iter()
+        .map(|body| (&body.triangles[..], convert(&body.frames[0])))
+        .collect();
+    let (mut world, ids) = world_of(options, &start);
+    for (frame, truth) in truths.iter().enumerate() {
+        for (body, &id) in bodies.iter().zip(&ids) {
+            world
+                .set_positions(id, &convert(&body.frames[frame]))
+                .unwrap();
+        }
+        if frame % 2 == 1 {
+            world.update();
+        }
+
+        let mut expected = Vec::new();
+        for ((a, b), pairs) in pairs_of_bodies(ids.len()).zip(&truth.between) {
+            let pair = |&[triangle_a, triangle_b]: &[u32; 2]| Pair {
+                body_a: ids[a],
+                triangle_a,
+                body_b: ids[b],
+                triangle_b,
+            };
+            expected.extend(pairs.iter().map(pair));
+        }
+        expected.sort();
+        check_world(&mut world, &expected);
+
+        for ((a, b), pairs) in pairs_of_bodies(ids.len()).zip(&truth.between) {
+            assert_eq!(
+                world.intersection_pairs_between(ids[a], ids[b]).unwrap(),
+                pairs,
+                "{options:?}"
+            );
+            let first = world.first_intersection_between(ids[b], ids[a]).unwrap();
+            assert_eq!(first.is_some(), !pairs.is_empty());
+            assert!(first.is_none_or(|[of_b, of_a]| pairs.contains(&[of_a, of_b])));
+        }
+        for (pairs, &id) in truth.itself.iter().zip(&ids) {
+            assert_eq!(
+                world.self_intersection_pairs(id).unwrap(),
+                pairs,
+                "{options:?}"
+            );
+            assert_eq!(world.statistics().pairs, pairs.len() as u64);
+            let first = world.first_self_intersection(id).unwrap();
+            assert_eq!(first.is_some(), !pairs.is_empty());
+            assert!(first.is_none_or(|pair| pairs.contains(&pair)));
+        }
+        world.validate().unwrap();
+    }
+}
+
+fn check_world<S: Scalar>(world: &mut World<S>, expected: &[Pair]) {
+    assert_eq!(world.intersection_pairs(), expected);
+    assert_eq!(world.statistics().pairs, expected.len() as u64);
+    assert!(world.statistics().candidate_pairs >= expected.len() as u64);
+    let first = world.first_intersection();
+    assert_eq!(first.is_some(), !expected.is_empty());
+    assert!(first.is_none_or(|pair| expected.contains(&pair)));
+    // A visitor sees each pair once, and stops when it says so.
+    let mut seen = Vec::new();
+    let flow = world.visit_intersections(|pair| {
+        seen.push(pair);
+        if seen.len() == 3 {
+            ControlFlow::Break(pair)
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    assert_eq!(seen.len(), expected.len().min(3));
+    assert_eq!(flow.break_value(), seen.get(2).copied());
+    assert!(seen.iter().all(|pair| expected.contains(pair)));
+}
+
+fn check_everything(bodies: &[Motion]) {
+    let frames = bodies[0].frames.len();
+    let truths: Vec<_> = (0..frames).map(|frame| truth(bodies, frame)).collect();
+    for options in every_configuration() {
+        check::<f32>(options, bodies, &truths, <[_]>::to_vec);
+        check::<f64>(options, bodies, &truths, widened);
+    }
+}
+
+/// Triangle soup over few places: shared, touching, coplanar, repeated and degenerate triangles in plenty.
+fn soup(frames: usize) -> impl Strategy<Value = Motion> {
+    (3_u32..20, 1_usize..40, 1_i16..9).prop_flat_map(move |(vertices, triangles, range)| {
+        let place = prop::array::uniform3((-range..=range).prop_map(f32::from));
+        let frame = prop::collection::vec(place, vertices as usize);
+        let triangle = prop::array::uniform3(0..vertices);
+        (
+            prop::collection::vec(triangle, triangles),
+            prop::collection::vec(frame, frames),
+        )
+            .prop_map(|(triangles, frames)| Motion { triangles, frames })
+    })
+}
+
+/// A sheet in general position, crumpled anew in every frame.
+fn crumpled(frames: usize) -> impl Strategy<Value = Motion> {
+    (2_u32..7).prop_flat_map(move |side| {
+        let (triangles, flat) = common::sheet(side);
+        let place = prop::array::uniform3(-0.4_f32..0.4);
+        let frame = prop::collection::vec(place, flat.len()).prop_map(move |moves| {
+            let moved = moves
+                .iter()
+                .zip(&flat)
+                .map(|(by, place)| std::array::from_fn(|axis| place[axis] + by[axis]));
+            moved.collect::<Vec<[f32; 3]>>()
+        });
+        prop::collection::vec(frame, frames).prop_map(move |frames| Motion {
+            triangles: triangles.clone(),
+            frames,
+        })
+    })
+}
+
+proptest! {
+    // Each case is some hundred worlds.
+    #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
+
+    #[test]
+    fn soups(bodies in prop::collection::vec(soup(3), 1..4)) {
+        check_everything(&bodies);
+    }
+
+    #[test]
+    fn crumpled_sheets(bodies in prop::collection::vec(crumpled(3), 1..4)) {
+        check_everything(&bodies);
+    }
+}
+
+#[test]
+fn deforming_scenes() {
+    // Bodies large enough for several levels at every degree, from far apart to deep within each other.
+    for (name, triangles, steps) in [
+        ("spheres", 320, [40, 90, 200]),
+        ("cloth", 648, [10, 35, 50]),
+    ] {
+        let scene =
+            pliant_scenes::Scene::new(name, Some(triangles), pliant_scenes::Scene::DEFAULT_SEED)
+                .unwrap();
+        let mut positions = Vec::new();
+        let bodies: Vec<Motion> = (0..scene.body_count())
+            .map(|body| {
+                let mut frame = |step| {
+                    scene.positions(body, step, &mut positions);
+                    positions.clone()
+                };
+                Motion {
+                    triangles: scene.triangles(body).to_vec(),
+                    frames: steps.iter().map(|&step| frame(step)).collect(),
+                }
+            })
+            .collect();
+        check_everything(&bodies);
+    }
+}

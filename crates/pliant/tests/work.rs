@@ -1,0 +1,187 @@
+//! The paper's point, in counted work rather than time: how many boxes each update makes.
+
+use pliant::{Options, Partition, Scalar, Statistics, Update, World};
+use pliant_scenes::Scene;
+use std::num::NonZeroU32;
+
+/// The first 50 steps of the two spheres, both bodies updated in every step as the paper's implementation does it, whether
+/// their boxes overlap or not. Returns the work of all steps and the boxes of one complete update.
+fn first_50_steps(options: Options) -> (Statistics, u64) {
+    let scene = Scene::new("spheres", None, Scene::DEFAULT_SEED).unwrap();
+    let mut positions = Vec::new();
+    let mut world = World::<f32>::with_options(options);
+    let bodies = [0, 1].map(|body| {
+        scene.positions(body, 1, &mut positions);
+        world.add(scene.triangles(body), &positions).unwrap()
+    });
+    let mut work = Statistics::default();
+    for step in 1..=50 {
+        for (body, &id) in bodies.iter().enumerate() {
+            scene.positions(body, step, &mut positions);
+            world.set_positions(id, &positions).unwrap();
+            world.update_body(id).unwrap();
+        }
+        assert!(
+            world
+                .intersection_pairs_between(bodies[0], bodies[1])
+                .unwrap()
+                .is_empty()
+        );
+        work += *world.statistics();
+    }
+    (
+        work,
+        bodies
+            .iter()
+            .map(|&body| world.tree_shape(body).unwrap().nodes as u64)
+            .sum(),
+    )
+}
+
+#[test]
+fn in_easy_steps_the_hybrid_makes_a_small_part_of_the_boxes() {
+    for mut options in [Options::paper(), Options::default()] {
+        let mut boxes = |update| {
+            options.update = update;
+            let (work, complete) = first_50_steps(options);
+            (
+                work.boxes_bottom_up + work.boxes_top_down + work.triangle_boxes,
+                complete,
+            )
+        };
+        let (bottom_up, complete) = boxes(Update::BottomUp);
+        let (hybrid, _) = boxes(Update::HYBRID);
+        let (top_down, _) = boxes(Update::TopDown);
+        eprintln!(
+            "{:?}: of {complete} boxes, 50 steps: bottom-up {bottom_up}, hybrid {hybrid}, top-down {top_down}",
+            options.partition
+        );
+        assert_eq!(
+            bottom_up,
+            50 * complete,
+            "bottom-up makes every box in every step, and none twice"
+        );
+        assert!(hybrid * 10 < bottom_up, "{hybrid} of {bottom_up}");
+        assert!(top_down < hybrid);
+    }
+}
+
+#[test]
+fn levels_at_once_make_the_same_pairs_with_other_boxes() {
+    let mut options = Options::paper();
+    let (one, _) = first_50_steps(options);
+    options.update = Update::Hybrid {
+        level: None,
+        levels_at_once: NonZeroU32::new(2).unwrap(),
+    };
+    let (two, _) = first_50_steps(options);
+    assert_eq!(one.node_pairs, two.node_pairs);
+    assert_eq!(one.boxes_bottom_up, two.boxes_bottom_up);
+    assert!(two.boxes_top_down >= one.boxes_top_down);
+}
+
+/// A folding sheet far from the origin, where an f32 has no digits left for its shape.
+#[test]
+fn f64_boxes_are_as_tight_far_from_the_origin() {
+    let scene = Scene::new("cloth", Some(19_602), Scene::DEFAULT_SEED).unwrap();
+    let candidates_at = |shift: f64| {
+        let mut single = Vec::new();
+        let mut shape = |step| {
+            scene.positions(0, step, &mut single);
+            single
+                .iter()
+                .map(|position| position.map(|x| f64::from(x) + shift))
+                .collect::<Vec<[f64; 3]>>()
+        };
+        let mut world = World::new();
+        let body = world.add(scene.triangles(0), &shape(1)).unwrap();
+        let mut candidates = 0;
+        for step in [10, 30, 50] {
+            world.set_positions(body, &shape(step)).unwrap();
+            world.self_intersection_pairs(body).unwrap();
+            candidates += world.statistics().candidate_pairs;
+        }
+        world.validate().unwrap();
+        candidates
+    };
+    let (near, far) = (candidates_at(0.0), candidates_at(1e7));
+    eprintln!("candidates: {near} at the origin, {far} at 10^7");
+    assert!(far as f64 <= 1.1 * near as f64, "{far} against {near}");
+    assert!(near > 10_000);
+}
+
+/// Deep trees are built, updated and traversed without recursion: on a stack that any recursion by level would leave.
+#[test]
+fn a_deep_tree_needs_no_stack() {
+    // Triangles at 2^0, 2^-1, 2^-2, ...: the box centre parts one from the rest each time.
+    let scale = |i: i32| 2f64.powi(-i) as f32;
+    let positions: Vec<[f32; 3]> = (0..140)
+        .flat_map(|i| {
+            [
+                [scale(i), 0.0, 0.0],
+                [scale(i), scale(i), 0.0],
+                [scale(i), 0.0, scale(i)],
+            ]
+        })
+        .collect();
+    let triangles: Vec<[u32; 3]> = (0..140).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let deep = move || {
+        let mut options = Options::paper();
+        options.degree = pliant::Degree::Two;
+        for (partition, depth) in [(Partition::Centre, 100), (Partition::Mean, 20)] {
+            options.partition = partition;
+            let mut world = World::<f32>::with_options(options);
+            let ids = [(); 2].map(|()| world.add(&triangles, &positions).unwrap());
+            assert!(world.tree_shape(ids[0]).unwrap().depth > depth);
+            assert_eq!(
+                world
+                    .intersection_pairs_between(ids[0], ids[1])
+                    .unwrap()
+                    .len(),
+                140
+            );
+            world.validate().unwrap();
+        }
+    };
+    std::thread::Builder::new()
+        .stack_size(64 << 10)
+        .spawn(deep)
+        .unwrap()
+        .join()
+        .unwrap();
+}
+
+/// `cargo test --release -p pliant --test work -- --ignored --nocapture`: some seconds and about two gigabytes.
+#[test]
+#[ignore = "large"]
+fn ten_million_triangles() {
+    fn build<S: Scalar>(options: Options, convert: impl Fn([f32; 3]) -> [S; 3]) {
+        let side = 2237;
+        let positions: Vec<[S; 3]> = (0..side * side)
+            .map(|i| (i % side, i / side))
+            .map(|(x, y)| convert([x as f32, y as f32, ((x * 31 + y * 17) % 97) as f32 / 97.0]))
+            .collect();
+        let corners = (0..(side - 1) * (side - 1)).map(|i| i / (side - 1) * side + i % (side - 1));
+        let triangles: Vec<[u32; 3]> = corners
+            .flat_map(|i| [[i, i + 1, i + side], [i + 1, i + side + 1, i + side]])
+            .collect();
+        assert!(triangles.len() >= 9_999_000);
+        let start = std::time::Instant::now();
+        let mut world = World::with_options(options);
+        let body = world.add(&triangles, &positions).unwrap();
+        let built = start.elapsed();
+        assert!(world.self_intersection_pairs(body).unwrap().is_empty());
+        eprintln!(
+            "{:?}: built in {built:.1?}, asked in {:.1?}",
+            options.partition,
+            start.elapsed() - built
+        );
+    }
+    let stack = std::thread::Builder::new().stack_size(64 << 10);
+    let all = || {
+        build::<f32>(Options::paper(), |position| position);
+        build::<f32>(Options::default(), |position| position);
+        build::<f64>(Options::default(), |position| position.map(f64::from));
+    };
+    stack.spawn(all).unwrap().join().unwrap();
+}

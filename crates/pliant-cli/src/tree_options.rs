@@ -114,7 +114,7 @@ impl TreeOptions {
 }
 
 /// A value as it is written on the command line.
-pub(crate) fn value_name(value: impl ValueEnum) -> String {
+pub(crate) fn value_name(value: impl ValueEnum + Copy) -> String {
     value
         .to_possible_value()
         .map_or_else(String::new, |value| value.get_name().to_owned())

@@ -1,4 +1,67 @@
-//! pliant finds the collisions of triangle meshes that change their shape every time step.
+//! pliant finds the collisions of triangle meshes that change their shape every time step: cloth, flesh, characters, soft
+//! robots. The application moves the vertices; pliant answers, exactly and without ever being stale, which triangles
+//! intersect, between bodies and within one.
+//!
+//! ```
+//! use pliant::World;
+//!
+//! let triangles = [[0, 1, 2], [0, 2, 3]];
+//! let sheet = |z: f32| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, -z], [0.0, 1.0, -z]];
+//!
+//! let mut world = World::new();
+//! let ground = world.add(&triangles, &sheet(0.0))?;
+//! let cloth = world.add(&triangles, &sheet(2.0).map(|[x, y, z]| [x, y, z + 3.0]))?;
+//! for step in 0..4 {
+//!     let height = 3.0 - step as f32;
+//!     world.set_positions(cloth, &sheet(2.0).map(|[x, y, z]| [x, y, z + height]))?;
+//!     for pair in world.intersection_pairs() {
+//!         println!("step {step}: triangle {} of {} meets {} of {}", pair.triangle_a, pair.body_a, pair.triangle_b, pair.body_b);
+//!     }
+//! }
+//! assert!(world.self_intersection_pairs(cloth)?.is_empty());
+//! # assert!(!world.intersection_pairs_between(ground, cloth)?.is_empty());
+//! # Ok::<(), pliant::Error>(())
+//! ```
+//!
+//! # What an answer means
+//!
+//! - **Two triangles intersect** as closed sets: touching in one point counts, coplanar overlap counts, a degenerate triangle is
+//!   the segment or point that it is. The decision is that of exact arithmetic on the coordinates given, whatever the scale,
+//!   the order, the tree, the update or the processor.
+//! - **Within a body**, pairs that share a vertex of the mesh are left out. The library welds nothing: vertices with different
+//!   numbers are different, wherever they are.
+//! - **Surfaces only**: a body wholly inside another meets no triangle of it.
+//! - **All pairs** are one set, sorted. **The first pair** is some member of it: whether there is one never depends on options
+//!   or history, which one it is may.
+//! - **Range**: coordinates are finite and at most `f32::MAX` in magnitude, or they are refused. `f32` coordinates are decided
+//!   exactly down to the smallest subnormal; `f64` coordinates are, if they are zero or at least 2^-305 in magnitude.
+//! - **Floating-point environment**: exactness rests on IEEE 754 rounding to nearest with subnormals. A thread in which
+//!   flush-to-zero or denormals-are-zero was switched on breaks it, as it breaks Rust's own arithmetic.
+//!
+//! # Never stale
+//!
+//! [`World::set_positions`] takes a shape over in one checked pass, or refuses it, naming body and vertex, and keeps the last
+//! good one. Every query then makes true just the boxes that it reads: there is no refit to call and none to forget.
+//! Replaying the same motion on one thread allocates nothing.
+//!
+//! # Map
+//!
+//! The modules are the algorithm, in the order in which data flows; `ARCHITECTURE.md` in the repository says where each section of
+//! the paper is (Larsson and Akenine-Möller, *Collision Detection for Continuously Deforming Bodies*, 2001).
+//!
+//! ```text
+//! world         bodies and their shapes; the one place where the phases meet
+//! mesh          connectivity, in tree order; never moves
+//! geometry      f32 or f64 coordinates, boxes in f32, rounded outward
+//! tree          boxes of degree 2, 4, 8; build: initial shape (centre, mean), balanced
+//! update        bottom-up, top-down, hybrid
+//! broad_phase   brute force; sweep and prune
+//! traversal     tree against tree, tree against itself
+//! narrow_phase  triangle against triangle, exact
+//! kernels       the inner loops, over boxes side by side
+//! reference     slow and obviously right
+//! ```
+
 mod broad_phase;
 mod error;
 mod geometry;
@@ -20,3 +83,8 @@ pub use options::{BroadPhase, Degree, Options, Partition, Update};
 pub use pairs::Pair;
 pub use statistics::Statistics;
 pub use world::{BodyId, TreeShape, World};
+
+/// The example in the README is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+struct Readme;

@@ -119,8 +119,8 @@ fn a_deep_tree_needs_no_stack() {
         .flat_map(|i| {
             [
                 [scale(i), 0.0, 0.0],
-                [scale(i), scale(i), 0.0],
-                [scale(i), 0.0, scale(i)],
+                [scale(i), scale(i + 3), 0.0],
+                [scale(i), 0.0, scale(i + 3)],
             ]
         })
         .collect();
@@ -128,11 +128,12 @@ fn a_deep_tree_needs_no_stack() {
     let deep = move || {
         let mut options = Options::paper();
         options.degree = pliant::Degree::Two;
-        for (partition, depth) in [(Partition::Centre, 100), (Partition::Mean, 20)] {
+        for (partition, depth) in [(Partition::Centre, 90), (Partition::Mean, 25)] {
             options.partition = partition;
             let mut world = World::<f32>::with_options(options);
             let ids = [(); 2].map(|()| world.add(&triangles, &positions).unwrap());
-            assert!(world.tree_shape(ids[0]).unwrap().depth > depth);
+            let found = world.tree_shape(ids[0]).unwrap().depth;
+            assert!(found > depth, "{partition:?}: {found}");
             assert_eq!(
                 world
                     .intersection_pairs_between(ids[0], ids[1])
@@ -169,12 +170,13 @@ fn ten_million_triangles() {
         let start = std::time::Instant::now();
         let mut world = World::with_options(options);
         let body = world.add(&triangles, &positions).unwrap();
-        let built = start.elapsed();
+        let built = std::time::Instant::now();
         assert!(world.self_intersection_pairs(body).unwrap().is_empty());
         eprintln!(
-            "{:?}: built in {built:.1?}, asked in {:.1?}",
+            "{:?}: built in {:.1?}, asked in {:.1?}",
             options.partition,
-            start.elapsed() - built
+            built - start,
+            built.elapsed()
         );
     }
     let stack = std::thread::Builder::new().stack_size(64 << 10);

@@ -11,6 +11,11 @@ use pliant_io::{OpenOptions, Precision};
 use sequence::Sequence;
 
 #[derive(Args, Debug)]
+#[command(after_help = EXIT_CODES)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a flag of the program"
+)]
 pub(crate) struct Arguments {
     /// One body each: a mesh (.obj, .ply), a sequence (.npz), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj')
     #[arg(value_name = "BODY", required = true)]
@@ -27,9 +32,13 @@ pub(crate) struct Arguments {
     /// Keep vertices apart where boundary edges coincide; seams are then intersections
     #[arg(long)]
     no_weld: bool,
+    /// A table by frame, or one JSON object
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
+
+const EXIT_CODES: &str = "\
+Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {

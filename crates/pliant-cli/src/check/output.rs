@@ -29,7 +29,6 @@ pub(super) struct Output {
     format: Format,
     count_only: bool,
     first_only: bool,
-    names: Vec<String>,
     frames: usize,
     intersecting: usize,
     /// The frame with the most pairs, and their number.
@@ -101,16 +100,15 @@ impl Output {
                     }
                     writeln!(out)?;
                 }
-                writeln!(out, "\n{:>8}{:>10}  first pair", "frame", "pairs")?;
+                let first_pair = if count_only { "" } else { "  first pair" };
+                writeln!(out, "\n{:>8}{:>10}{first_pair}", "frame", "pairs")?;
             }
         }
-        let names = bodies.iter().map(|body| body.name().to_owned()).collect();
         Ok(Self {
             out,
             format,
             count_only,
             first_only,
-            names,
             frames: 0,
             intersecting: 0,
             worst: None,
@@ -165,14 +163,15 @@ impl Output {
                 )?;
             }
             (Format::Table, Ok(())) => {
-                let of = if self.first_only { "" } else { " most pairs:" };
                 write!(
                     self.out,
                     "\n{} of {} frames intersect",
                     self.intersecting, self.frames
                 )?;
                 match self.worst.filter(|_| !self.first_only) {
-                    Some((frame, count)) => writeln!(self.out, ";{of} {count} in frame {frame}")?,
+                    Some((frame, count)) => {
+                        writeln!(self.out, "; most pairs: {count} in frame {frame}")?;
+                    }
                     None => writeln!(self.out)?,
                 }
             }

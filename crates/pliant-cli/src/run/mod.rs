@@ -35,6 +35,7 @@ pub(crate) struct Arguments {
     /// A scene of the same kind with other bumps
     #[arg(long, value_name = "SEED", default_value_t = Scene::DEFAULT_SEED)]
     seed: u64,
+    /// A table, or one JSON object with a figure for every step
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
     #[command(flatten)]

@@ -48,8 +48,8 @@ impl End {
             || (self.value == other.value && !self.is_upper() && other.is_upper())
     }
 
-    fn order(&self, other: &Self) -> Ordering {
-        match (self.belongs_before(*other), other.belongs_before(*self)) {
+    fn order(self, other: Self) -> Ordering {
+        match (self.belongs_before(other), other.belongs_before(self)) {
             (true, _) => Ordering::Less,
             (_, true) => Ordering::Greater,
             _ => Ordering::Equal,
@@ -208,7 +208,7 @@ impl SweepAndPrune {
     /// Sorts all three lists and finds the pairs along the axis on which the fewest intervals overlap.
     fn sort_from_scratch(&mut self, boxes: &[Aabb]) {
         for ends in &mut self.axes {
-            ends.sort_unstable_by(End::order);
+            ends.sort_unstable_by(|a, b| a.order(*b));
         }
         let sparsest = self
             .axes

@@ -28,9 +28,11 @@ pub trait Scalar:
     fn is_in_range(self) -> bool;
     /// The smaller of two; the other one if one is NaN.
     #[doc(hidden)]
+    #[must_use]
     fn smaller(self, other: Self) -> Self;
     /// The larger of two; the other one if one is NaN.
     #[doc(hidden)]
+    #[must_use]
     fn larger(self, other: Self) -> Self;
     /// The largest `f32` that is not above `self - origin`.
     #[doc(hidden)]

@@ -1,0 +1,232 @@
+//! One error type whose message is one line: which file, where in it, what is wrong, what to do.
+//!
+//! A reader knows *where* and *why* but not the name of its file; it returns a `Fault`, and the
+//! body, which opened the file, makes an [`Error`] of it. Vertices, faces and frames are numbered
+//! from zero, as in pliant's results; an index quoted from a file is quoted as the file writes it.
+
+use std::fmt::{self, Write as _};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a body could not be read. Its message is one line, whatever the file or its name holds.
+#[derive(Debug)]
+pub struct Error {
+    file: PathBuf,
+    place: Place,
+    reason: Reason,
+}
+
+/// Where in the file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Place {
+    /// The file as a whole.
+    File,
+    /// A line of a text file, or of a text header, counted from 1.
+    Line(u64),
+    /// An element of a binary PLY file (`vertex`, `face`, ...), counted from 0.
+    Element(String, u64),
+    /// An array of an NPZ file.
+    Array(&'static str),
+    /// A frame of a file that holds many, counted from 0 within the file.
+    Frame(u64),
+}
+
+/// What is wrong there.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+#[allow(missing_docs)] // the messages say it, and nothing is gained by saying it twice
+pub enum Reason {
+    #[error("no such file")]
+    NotFound,
+    #[error("no file matches this pattern")]
+    NoMatch,
+    #[error("not a valid pattern ({0}), and no file has this name")]
+    Pattern(&'static str),
+    #[error("is a directory; name a file, or a pattern such as 'frame_*.obj'")]
+    Directory,
+    #[error("is not a regular file; copy it to one, for it may be read more than once")]
+    NotAFile,
+    #[error("this kind of file cannot be read; what can: {readable}")]
+    UnknownFormat { readable: &'static str },
+    #[error("cannot be read: {0}")]
+    Io(#[from] io::Error),
+    #[error("{0}")]
+    Malformed(String),
+    #[error("ends too early: {0}")]
+    Truncated(String),
+    #[error("{0}")]
+    Unsupported(String),
+    #[error("the data of `{array}` does not match its checksum; the file is damaged")]
+    Checksum { array: &'static str },
+    #[error("face {face} has {corners} corners; a face needs at least 3")]
+    FewCorners { face: u64, corners: usize },
+    #[error(
+        "face {face} uses vertex {index}, but the vertices are numbered {first} to {last} here"
+    )]
+    VertexIndex {
+        face: u64,
+        index: i64,
+        first: i64,
+        last: i64,
+    },
+    #[error(
+        "{axis} of vertex {vertex} is {value}; coordinates must be finite and at most 3.4028235e38 in magnitude"
+    )]
+    Coordinate { vertex: u64, axis: char, value: f64 },
+    #[error("holds no vertices")]
+    NoVertices,
+    #[error("holds no faces, so there is no surface to check")]
+    NoFaces,
+    #[error("holds no frames")]
+    NoFrames,
+    #[error("holds more than 4294967295 {what}, more than can be numbered")]
+    TooMany { what: &'static str },
+    #[error(
+        "{what} need more than the {limit} bytes allowed; allow more memory, or split the mesh"
+    )]
+    TooLarge { what: &'static str, limit: u64 },
+    #[error("{what} do not fit in memory")]
+    OutOfMemory { what: &'static str },
+    #[error("face {face} is not that of {}; the frames of a body need the same faces", than.display())]
+    FacesDiffer { face: u64, than: PathBuf },
+    #[error("has {faces} faces, {} has {expected}; the frames of a body need the same faces", than.display())]
+    FaceCount {
+        faces: u64,
+        expected: u64,
+        than: PathBuf,
+    },
+    #[error("has {vertices} vertices, {} has {expected}; the frames of a body need the same number", than.display())]
+    VertexCount {
+        vertices: u64,
+        expected: u64,
+        than: PathBuf,
+    },
+    #[error("holds 64-bit coordinates, but the body began with 32-bit ones in {}; convert the frames to one type", than.display())]
+    Precision { than: PathBuf },
+    #[error(
+        "vertices {a} and {b} were welded, since edges of theirs coincide in the first frame, but are apart here; use `--no-weld`"
+    )]
+    SeamOpened { a: u32, b: u32 },
+    #[error("changed while it was being read")]
+    Changed,
+    #[error("an earlier frame could not be read, so the frames after it are not handed out")]
+    AfterError,
+}
+
+impl Error {
+    pub(crate) fn new(file: impl Into<PathBuf>, fault: impl Into<Fault>) -> Self {
+        let Fault { place, reason } = fault.into();
+        Self {
+            file: file.into(),
+            place,
+            reason,
+        }
+    }
+
+    /// The file, or the argument where no file was found for it.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// Where in the file.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// What is wrong there.
+    pub fn reason(&self) -> &Reason {
+        &self.reason
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let line = format!("{}{}: {}", self.file.display(), self.place, self.reason);
+        // Names of files, and words quoted from them, may hold line breaks or terminal controls.
+        for c in line.chars() {
+            if c.is_control() {
+                write!(f, "{}", c.escape_default())?;
+            } else {
+                f.write_char(c)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::File => Ok(()),
+            Place::Line(number) => write!(f, ", line {number}"),
+            Place::Element(name, number) => write!(f, ", {name} {number}"),
+            Place::Array(name) => write!(f, ", array `{name}`"),
+            Place::Frame(number) => write!(f, ", frame {number}"),
+        }
+    }
+}
+
+/// An error without the name of the file: what a reader returns.
+#[derive(Debug)]
+pub(crate) struct Fault {
+    pub(crate) place: Place,
+    pub(crate) reason: Reason,
+}
+
+impl Fault {
+    /// Names the place, where none is named yet.
+    pub(crate) fn or_at(mut self, place: Place) -> Self {
+        if self.place == Place::File {
+            self.place = place;
+        }
+        self
+    }
+}
+
+impl Reason {
+    pub(crate) fn at(self, place: Place) -> Fault {
+        Fault {
+            place,
+            reason: self,
+        }
+    }
+}
+
+impl<R: Into<Reason>> From<R> for Fault {
+    fn from(reason: R) -> Self {
+        reason.into().at(Place::File)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_message_is_one_line_whatever_the_names_hold() {
+        let than = PathBuf::from("first\nframe.ply");
+        let error = Error::new(
+            "bad\r\nname.ply",
+            Reason::FacesDiffer { face: 3, than }.at(Place::Line(7)),
+        );
+        let message = error.to_string();
+        assert_eq!(message.lines().count(), 1);
+        assert_eq!(
+            message,
+            r"bad\r\nname.ply, line 7: face 3 is not that of first\nframe.ply; the frames of a body need the same faces"
+        );
+    }
+
+    #[test]
+    fn a_place_once_named_stays() {
+        let fault = Reason::NoFaces.at(Place::Line(2)).or_at(Place::Frame(1));
+        assert_eq!(fault.place, Place::Line(2));
+        assert_eq!(
+            Fault::from(Reason::NoFaces).or_at(Place::Frame(1)).place,
+            Place::Frame(1)
+        );
+    }
+}

@@ -1,0 +1,93 @@
+//! Sequences of deforming meshes, read from files one frame at a time.
+//!
+//! Every *argument* names one **body**: a file, or a pattern such as `cloth_*.obj` whose files, in
+//! natural order (`frame2` before `frame10`), are its frames. [`open`] reads what holds for the
+//! whole body (triangles, faces, how many frames there are) and the first frame;
+//! [`Body::next_frame`] then hands out one frame after another. Only the frame handed out is in
+//! memory: a sequence larger than memory is read with the memory of one frame.
+//!
+//! ```
+//! # let folder = format!("pliant-io-front-page-{}", std::process::id());
+//! # let folder = std::env::temp_dir().join(folder);
+//! # std::fs::create_dir_all(&folder)?;
+//! # let faces = "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 4 3 2 1\n";
+//! # for (name, top) in [("tent_9.obj", 1), ("tent_10.obj", 2)] {
+//! #     let corners = format!("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.5 {top}\n");
+//! #     std::fs::write(folder.join(name), corners + faces)?;
+//! # }
+//! # let argument = folder.join("tent_*.obj").display().to_string();
+//! use pliant_io::{OpenOptions, Positions};
+//!
+//! // "tent_*.obj": first tent_9.obj, then tent_10.obj.
+//! let mut tent = pliant_io::open(&argument, &OpenOptions::default())?;
+//! assert_eq!((tent.frame_count(), tent.vertex_count()), (2, 5));
+//!
+//! // Four sides, and the square below as a fan of two.
+//! assert_eq!(tent.triangles().len(), 6);
+//! assert_eq!(tent.faces(), Some(&[0, 1, 2, 3, 4, 4][..]));
+//!
+//! let mut top = Vec::new();
+//! while let Some(positions) = tent.next_frame()? {
+//!     if let Positions::F64(positions) = positions {
+//!         top.push(positions[4][2]);
+//!     }
+//! }
+//! assert_eq!(top, [1.0, 2.0]);
+//! # std::fs::remove_dir_all(&folder)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # What is read
+//!
+//! | ending | one file is | precision |
+//! |---|---|---|
+//! | `.obj` | one frame: `v`, and the `v` indices of `f` | f64, the nearest to what is written |
+//! | `.ply` | one frame: ASCII, binary of either byte order | as declared: `float` f32, `double` f64 |
+//! | `.npz` | all frames: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3) | as the array: float32, float64 |
+//!
+//! - **Polygons become fans** around their first corner, triangles numbered in file order;
+//!   [`Body::faces`] then says which polygon each triangle is of.
+//! - **Seams are welded**: files split a vertex where texture coordinates or normals differ.
+//!   Vertices at the two ends of boundary edges that coincide bit for bit in the first frame become
+//!   one; [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off.
+//! - **The frames of a body agree**: same faces, same number of vertices, no later frame of a
+//!   higher precision than the first.
+//! - **Files are not trusted.** Every coordinate is finite and at most `f32::MAX` in magnitude,
+//!   every index in range, or there is an [`Error`]: one line that says which file, where in it,
+//!   what is wrong and what to do. No count in a header reserves memory; memory grows with the data
+//!   that arrives, up to [`OpenOptions::max_memory`].
+//!
+//! # Map
+//!
+//! | file | idea |
+//! |---|---|
+//! | `arguments.rs`, `natural.rs` | an argument is a file or a pattern; the order of its files |
+//! | `series.rs` | a pattern that the shell expanded |
+//! | `body.rs` | files in a row are one body: the streaming loop |
+//! | `format.rs` | which ending is which reader: the one place to add a format |
+//! | `frame.rs`, `positions.rs`, `polygons.rs` | what readers fill, checked: recorded once, then compared |
+//! | `obj.rs`, `ply/`, `npz/` | one format each |
+//! | `weld.rs` | boundary edges that coincide |
+//! | `memory.rs`, `text.rs` | nothing is allocated on a claim; lines and numbers of text formats |
+//! | `error.rs` | one type, one line |
+
+mod arguments;
+mod body;
+mod error;
+mod format;
+mod frame;
+mod memory;
+mod natural;
+mod npz;
+mod obj;
+mod ply;
+mod polygons;
+mod positions;
+mod series;
+mod text;
+mod weld;
+
+pub use body::{Body, OpenOptions, open};
+pub use error::{Error, Place, Reason};
+pub use positions::{Positions, Precision};
+pub use series::looks_like_a_series;

@@ -1,0 +1,264 @@
+//! NPZ: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3): a whole sequence in one file, or, by
+//! pattern, several files whose frames follow one another.
+//!
+//! Frame by frame from the compressed stream; never more than one frame unpacked. Little and big
+//! endian alike. The end of the data and its checksum are verified before the last frame is handed
+//! out: whoever stops earlier has read unverified data.
+
+mod entry;
+mod header;
+
+use std::path::{Path, PathBuf};
+
+use crate::error::{Fault, Place, Reason};
+use crate::format::FrameSource;
+use crate::frame::{Complete, Frame};
+use crate::positions::Precision;
+use entry::Entry;
+use header::{Dtype, Header};
+
+/// A reader of one NPZ file.
+pub(crate) struct Npz {
+    path: PathBuf,
+    vertices: Entry,
+    dtype: Dtype,
+    frames: u64,
+    /// Vertices of a frame.
+    count: u64,
+    next: u64,
+    /// Reused: some rows of an array, as they are in the file.
+    chunk: Vec<u8>,
+}
+
+/// Rows read at a time.
+const ROWS: u64 = 4096;
+
+impl Npz {
+    pub(crate) fn open(path: &Path) -> Result<Self, Fault> {
+        let in_array = |reason: Reason| reason.at(Place::Array("vertices"));
+        let mut vertices = Entry::open(path, "vertices")?;
+        let header = Header::read(&mut vertices).map_err(in_array)?;
+        let (frames, count) = match header.shape[..] {
+            [frames, count, 3] => (frames, count),
+            [count, 3] => (1, count),
+            _ => {
+                return Err(in_array(wrong_shape(
+                    &header.shape,
+                    "(frames, vertices, 3) or (vertices, 3)",
+                )));
+            }
+        };
+        if !matches!((header.dtype.kind, header.dtype.size), ('f', 4 | 8)) {
+            let written = &header.dtype.written;
+            let advice = format!(
+                "type {written} cannot be read; save vertices.astype(np.float32), or float64"
+            );
+            return Err(in_array(Reason::Unsupported(advice)));
+        }
+        if header.fortran_order {
+            return Err(in_array(column_by_column("vertices")));
+        }
+        if frames == 0 {
+            return Err(in_array(Reason::NoFrames));
+        }
+        if count == 0 {
+            return Err(in_array(Reason::NoVertices));
+        }
+        check_size(frames, count, header.dtype.size as u64, vertices.left())?;
+        Ok(Self {
+            path: path.to_owned(),
+            vertices,
+            dtype: header.dtype,
+            frames,
+            count,
+            next: 0,
+            chunk: Vec::new(),
+        })
+    }
+
+    fn read_vertices(&mut self, frame: &mut Frame) -> Result<(), Fault> {
+        let (big_endian, size) = (self.dtype.big_endian, self.dtype.size);
+        let number = move |bytes: &[u8]| real(bytes, big_endian);
+        let place = Place::Frame(self.next);
+        rows(
+            &mut self.vertices,
+            &mut self.chunk,
+            self.count,
+            size,
+            |_, row| {
+                let [x, y, z] = [0, 1, 2].map(|axis| number(&row[axis * size..][..size]));
+                frame.vertex([x, y, z])
+            },
+        )
+        .map_err(|reason| reason.at(place))
+    }
+
+    fn read_faces(&mut self, frame: &mut Frame) -> Result<(), Reason> {
+        let mut faces = Entry::open(&self.path, "faces")?;
+        let Header {
+            dtype,
+            fortran_order,
+            shape,
+            ..
+        } = Header::read(&mut faces)?;
+        let &[count, 3] = &shape[..] else {
+            return Err(wrong_shape(&shape, "(triangles, 3)"));
+        };
+        if !matches!((dtype.kind, dtype.size), ('i' | 'u', 1 | 2 | 4 | 8)) {
+            let written = &dtype.written;
+            return Err(Reason::Unsupported(format!(
+                "type {written} cannot be read; save faces.astype(np.uint32)"
+            )));
+        }
+        if fortran_order {
+            return Err(column_by_column("faces"));
+        }
+        rows(
+            &mut faces,
+            &mut self.chunk,
+            count,
+            dtype.size,
+            |face, row| {
+                let mut corners = [0; 3];
+                for (corner, bytes) in corners.iter_mut().zip(row.chunks_exact(dtype.size)) {
+                    let index = integer(bytes, &dtype);
+                    let (first, last) = (0, i64::from(u32::MAX) - 1);
+                    let in_range = u32::try_from(index).ok().filter(|&index| index < u32::MAX);
+                    *corner = in_range.ok_or(Reason::VertexIndex {
+                        face,
+                        index,
+                        first,
+                        last,
+                    })?;
+                }
+                frame.face(&corners, || Place::Array("faces"))
+            },
+        )?;
+        faces.finish()
+    }
+}
+
+impl FrameSource for Npz {
+    fn frame_count(&self) -> usize {
+        usize::try_from(self.frames).unwrap_or(usize::MAX)
+    }
+
+    fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
+        let place = Place::Frame(self.next);
+        let precision = if self.dtype.size == 4 {
+            Precision::F32
+        } else {
+            Precision::F64
+        };
+        frame
+            .begin(precision, self.count)
+            .map_err(|reason| reason.at(place.clone()))?;
+        if self.next == 0 {
+            self.read_faces(frame)
+                .map_err(|reason| reason.at(Place::Array("faces")))?;
+        } else {
+            frame.same_faces();
+        }
+        self.read_vertices(frame)?;
+        self.next += 1;
+        if self.next == self.frames {
+            self.vertices.finish()?;
+        }
+        frame.complete(0).map_err(|fault| fault.or_at(place))
+    }
+}
+
+/// Holds the shape against the size in the directory, so that a file cut short is refused before
+/// its first frame, not after its last.
+fn check_size(frames: u64, count: u64, size: u64, announced: u64) -> Result<(), Fault> {
+    let frame = count.checked_mul(3 * size);
+    let all = frame.and_then(|frame| frame.checked_mul(frames));
+    let needed = all.map_or("more than 2^64".into(), |all| all.to_string());
+    let message = format!("the shape needs {needed} bytes, the file announces {announced}");
+    if all.is_none_or(|all| all > announced) {
+        let whole = frame.map_or(0, |frame| announced / frame);
+        return Err(Reason::Truncated(message).at(Place::Frame(whole)));
+    }
+    if all.is_some_and(|all| all < announced) {
+        return Err(Reason::Malformed(message).at(Place::Array("vertices")));
+    }
+    Ok(())
+}
+
+/// Reads `count` rows of three numbers of `size` bytes and hands them out one by one.
+fn rows(
+    entry: &mut Entry,
+    chunk: &mut Vec<u8>,
+    count: u64,
+    size: usize,
+    mut each: impl FnMut(u64, &[u8]) -> Result<(), Reason>,
+) -> Result<(), Reason> {
+    let row = 3 * size;
+    let mut done = 0;
+    while done < count {
+        let now = ROWS.min(count - done);
+        chunk.resize(now as usize * row, 0);
+        let read = entry.fill(chunk)?;
+        for bytes in chunk[..read].chunks_exact(row) {
+            each(done, bytes)?;
+            done += 1;
+        }
+        if read < chunk.len() {
+            return Err(Reason::Truncated(format!(
+                "the data ends in row {done} of {count}"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The float that 4 or 8 bytes write.
+fn real(bytes: &[u8], big_endian: bool) -> f64 {
+    match (bytes, big_endian) {
+        (&[a, b, c, d], false) => f32::from_le_bytes([a, b, c, d]).into(),
+        (&[a, b, c, d], true) => f32::from_be_bytes([a, b, c, d]).into(),
+        (&[a, b, c, d, e, f, g, h], false) => f64::from_le_bytes([a, b, c, d, e, f, g, h]),
+        (&[a, b, c, d, e, f, g, h], true) => f64::from_be_bytes([a, b, c, d, e, f, g, h]),
+        _ => f64::NAN, // no float has another size; refused like any other number that is none
+    }
+}
+
+/// The whole number that up to 8 bytes write; unsigned ones beyond `i64::MAX` become `i64::MAX`,
+/// out of range all the same.
+fn integer(bytes: &[u8], dtype: &Dtype) -> i64 {
+    let negative = |most_significant: u8| dtype.kind == 'i' && most_significant >= 0x80;
+    let most_significant = if dtype.big_endian {
+        bytes.first()
+    } else {
+        bytes.last()
+    };
+    let filler = if most_significant.is_some_and(|&byte| negative(byte)) {
+        0xff
+    } else {
+        0
+    };
+    let mut wide = [filler; 8];
+    for (to, from) in wide.iter_mut().zip(0..bytes.len()) {
+        *to = if dtype.big_endian {
+            bytes[bytes.len() - 1 - from]
+        } else {
+            bytes[from]
+        };
+    }
+    match dtype.kind {
+        'i' => i64::from_le_bytes(wide),
+        _ => i64::try_from(u64::from_le_bytes(wide)).unwrap_or(i64::MAX),
+    }
+}
+
+fn wrong_shape(shape: &[u64], wanted: &str) -> Reason {
+    let mut written = format!("{shape:?}");
+    written.truncate(60);
+    Reason::Unsupported(format!("has shape {written}; it must be {wanted}"))
+}
+
+fn column_by_column(array: &str) -> Reason {
+    Reason::Unsupported(format!(
+        "is in Fortran order; save np.ascontiguousarray({array})"
+    ))
+}

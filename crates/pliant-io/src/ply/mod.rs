@@ -1,0 +1,210 @@
+//! PLY: a header that declares elements and their properties, then their values: ASCII, binary
+//! little or big endian.
+//!
+//! Own reader (`header.rs`, `values.rs`). The library at hand, ply-rs-bw 4.0.1, was read and could
+//! not be used: it loops as often as the header claims even where an element has no properties and
+//! so no data; it reads a header line of any length; its ASCII grammar refuses `1.` and `.5`; it
+//! returns rows as maps of names.
+//!
+//! Positions are `x`, `y`, `z` of `vertex`, f32 where all three are exact in f32 (`float` and small
+//! integers), otherwise f64. Polygons are the list `vertex_indices`, or `vertex_index`, of `face`.
+//! All other elements and properties are passed over; what follows the later of the two is not
+//! read.
+
+mod header;
+mod values;
+
+use std::io::BufRead;
+
+use crate::error::{Fault, Reason};
+use crate::frame::{Complete, Frame};
+use crate::memory::Allowance;
+use crate::positions::Precision;
+use crate::text::Lines;
+use header::{Element, Encoding, Header, Kind, Scalar};
+use values::{Ascii, BigEndian, Binary, LittleEndian, Values};
+
+/// The most corners of a polygon, in bytes of their indices: as many as an ASCII line of the
+/// greatest length could hold, and more.
+const CORNERS: Allowance = Allowance {
+    what: "the corners of a polygon",
+    limit: 64 << 20,
+};
+
+/// Reads one file, one frame.
+pub(crate) fn read(mut input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> {
+    let mut lines = Lines::new(&mut input);
+    let header = Header::read(&mut lines)?;
+    match header.encoding {
+        Encoding::Ascii => read_elements(&header, Ascii::new(lines), frame),
+        Encoding::LittleEndian => {
+            read_elements(&header, Binary::<_, LittleEndian>::new(input), frame)
+        }
+        Encoding::BigEndian => read_elements(&header, Binary::<_, BigEndian>::new(input), frame),
+    }
+}
+
+fn read_elements(
+    header: &Header,
+    mut values: impl Values,
+    frame: &mut Frame,
+) -> Result<Complete, Fault> {
+    let vertex = header.element("vertex").ok_or(Reason::NoVertices)?;
+    let face = header.element("face").ok_or(Reason::NoFaces)?;
+    let axes = axes(vertex)?;
+    let corners = corners_of(face)?;
+    frame.begin(precision(vertex, axes), vertex.count)?;
+
+    let mut polygon = Vec::new();
+    let (mut vertices_read, mut faces_read) = (false, false);
+    for element in &header.elements {
+        // Without properties an element has no data, whatever count it claims.
+        let rows = if element.properties.is_empty() {
+            0
+        } else {
+            element.count
+        };
+        for row in 0..rows {
+            values.begin_row(element, row)?;
+            if std::ptr::eq(element, vertex) {
+                let position = read_vertex(element, axes, &mut values)?;
+                frame
+                    .vertex(position)
+                    .map_err(|reason| reason.at(values.place()))?;
+            } else if std::ptr::eq(element, face) {
+                polygon.clear();
+                read_face(element, corners, row, &mut polygon, &mut values)?;
+                frame
+                    .face(&polygon, || values.place())
+                    .map_err(|reason| reason.at(values.place()))?;
+            } else {
+                for property in &element.properties {
+                    skip(property.kind, &mut values)?;
+                }
+            }
+            values.end_row()?;
+        }
+        vertices_read |= std::ptr::eq(element, vertex);
+        faces_read |= std::ptr::eq(element, face);
+        if vertices_read && faces_read {
+            break;
+        }
+    }
+    frame.complete(0)
+}
+
+/// The properties that are x, y and z.
+fn axes(vertex: &Element) -> Result<[usize; 3], Reason> {
+    let mut axes = [0; 3];
+    for (axis, name) in axes.iter_mut().zip(["x", "y", "z"]) {
+        let property = vertex
+            .properties
+            .iter()
+            .position(|property| property.name == name.as_bytes());
+        *axis = property
+            .ok_or_else(|| Reason::Malformed(format!("element vertex has no property {name}")))?;
+        if let Kind::List { .. } = vertex.properties[*axis].kind {
+            return Err(Reason::Malformed(format!(
+                "property {name} of element vertex is a list, not a number"
+            )));
+        }
+    }
+    Ok(axes)
+}
+
+fn precision(vertex: &Element, axes: [usize; 3]) -> Precision {
+    let exact_in_f32 = axes.iter().all(|&axis| match vertex.properties[axis].kind {
+        Kind::One(scalar) => !matches!(scalar, Scalar::F64 | Scalar::I32 | Scalar::U32),
+        Kind::List { .. } => false,
+    });
+    if exact_in_f32 {
+        Precision::F32
+    } else {
+        Precision::F64
+    }
+}
+
+/// The property that lists the corners.
+fn corners_of(face: &Element) -> Result<usize, Reason> {
+    let listed = |name: &[u8]| {
+        face.properties
+            .iter()
+            .position(|property| property.name == name)
+    };
+    let property = listed(b"vertex_indices").or_else(|| listed(b"vertex_index"));
+    let property = property
+        .ok_or_else(|| Reason::Malformed("element face has no property vertex_indices".into()))?;
+    match face.properties[property].kind {
+        Kind::List { item, .. } if item.is_integer() => Ok(property),
+        _ => Err(Reason::Malformed(
+            "property vertex_indices of element face is not a list of whole numbers".into(),
+        )),
+    }
+}
+
+fn read_vertex(
+    vertex: &Element,
+    axes: [usize; 3],
+    values: &mut impl Values,
+) -> Result<[f64; 3], Fault> {
+    let mut position = [0.0; 3];
+    for (at, property) in vertex.properties.iter().enumerate() {
+        match (axes.iter().position(|&axis| axis == at), property.kind) {
+            (Some(axis), Kind::One(scalar)) => position[axis] = values.real(scalar)?,
+            (_, kind) => skip(kind, values)?,
+        }
+    }
+    Ok(position)
+}
+
+fn read_face(
+    face: &Element,
+    corners: usize,
+    row: u64,
+    polygon: &mut Vec<u32>,
+    values: &mut impl Values,
+) -> Result<(), Fault> {
+    for (at, property) in face.properties.iter().enumerate() {
+        match property.kind {
+            Kind::List { count, item } if at == corners => {
+                for _ in 0..list_length(count, values)? {
+                    let index = values.integer(item)?;
+                    let (face, first, last) = (row, 0, i64::from(u32::MAX) - 1);
+                    let corner = u32::try_from(index)
+                        .ok()
+                        .filter(|&corner| corner < u32::MAX);
+                    corner
+                        .ok_or(Reason::VertexIndex {
+                            face,
+                            index,
+                            first,
+                            last,
+                        })
+                        .and_then(|corner| CORNERS.push(polygon, corner, 0))
+                        .map_err(|reason| reason.at(values.place()))?;
+                }
+            }
+            kind => skip(kind, values)?,
+        }
+    }
+    Ok(())
+}
+
+fn skip(kind: Kind, values: &mut impl Values) -> Result<(), Fault> {
+    match kind {
+        Kind::One(scalar) => values.skip(scalar, 1),
+        Kind::List { count, item } => {
+            let length = list_length(count, values)?;
+            values.skip(item, length)
+        }
+    }
+}
+
+fn list_length(count: Scalar, values: &mut impl Values) -> Result<u64, Fault> {
+    let length = values.integer(count)?;
+    u64::try_from(length)
+        .map_err(|_| Reason::Malformed(format!("a list of {length} values")).at(values.place()))
+}
+
+#[cfg(test)]
+mod tests;

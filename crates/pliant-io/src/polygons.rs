@@ -1,0 +1,285 @@
+//! Polygons become fans of triangles: recorded in the first frame, compared in every later one.
+//!
+//! A fan goes round the polygon's first corner: a b c d e gives (a b c) (a c d) (a d e). The
+//! triangles of a polygon lie side by side and tell it completely, so comparing later frames needs
+//! no other copy of the connectivity.
+
+use crate::error::{Fault, Place, Reason};
+use crate::memory::Allowance;
+
+/// The connectivity of a body as its files have it, before welding.
+#[derive(Debug)]
+pub(crate) struct Polygons {
+    triangles: Vec<[u32; 3]>,
+    /// Triangle to polygon; filled from the first polygon on that has more than three corners.
+    faces: Option<Vec<u32>>,
+    count: u64,
+    comparing: bool,
+    /// Polygons and triangles met in this frame.
+    met: u64,
+    met_triangles: usize,
+    largest: Option<Largest>,
+    allowance: Allowance,
+}
+
+/// The largest index used in this frame, with a face that uses it: faces may come before vertices,
+/// so the range is known only at the end.
+#[derive(Debug)]
+struct Largest {
+    index: u32,
+    face: u64,
+    place: Place,
+}
+
+impl Polygons {
+    pub(crate) fn new(limit: u64) -> Self {
+        let what = "the faces of a body";
+        Self {
+            triangles: Vec::new(),
+            faces: None,
+            count: 0,
+            comparing: false,
+            met: 0,
+            met_triangles: 0,
+            largest: None,
+            allowance: Allowance { what, limit },
+        }
+    }
+
+    /// From now on polygons are compared with those recorded.
+    pub(crate) fn compare_from_now_on(&mut self) {
+        self.comparing = true;
+        self.triangles.shrink_to_fit();
+    }
+
+    /// Begins a frame.
+    pub(crate) fn rewind(&mut self) {
+        self.met = 0;
+        self.met_triangles = 0;
+        self.largest = None;
+    }
+
+    /// Takes the polygons recorded for those of this frame, as in files that hold one list of faces
+    /// for many frames.
+    pub(crate) fn repeat(&mut self) {
+        self.met = self.count;
+    }
+
+    /// Takes the next polygon. `place` is where it is written.
+    ///
+    /// Returns false where it differs from the one recorded.
+    pub(crate) fn push(
+        &mut self,
+        corners: &[u32],
+        place: impl FnOnce() -> Place,
+    ) -> Result<bool, Reason> {
+        let &[apex, ref rim @ ..] = corners else {
+            return Err(self.too_few(0));
+        };
+        if rim.len() < 2 {
+            return Err(self.too_few(corners.len()));
+        }
+        let index = rim
+            .iter()
+            .fold(apex, |largest, &corner| largest.max(corner));
+        if self
+            .largest
+            .as_ref()
+            .is_none_or(|largest| index > largest.index)
+        {
+            let (face, place) = (self.met, place());
+            self.largest = Some(Largest { index, face, place });
+        }
+        let fan = rim.windows(2).map(|edge| [apex, edge[0], edge[1]]);
+        let equal = if self.comparing {
+            self.compare(fan)
+        } else {
+            self.record(fan).map(|()| true)?
+        };
+        self.met += 1;
+        Ok(equal)
+    }
+
+    fn too_few(&self, corners: usize) -> Reason {
+        Reason::FewCorners {
+            face: self.met,
+            corners,
+        }
+    }
+
+    fn record(&mut self, fan: impl ExactSizeIterator<Item = [u32; 3]>) -> Result<(), Reason> {
+        let polygon = u32::try_from(self.count).map_err(|_| Reason::TooMany { what: "faces" })?;
+        let size = fan.len();
+        if self.triangles.len() + size > u32::MAX as usize {
+            return Err(Reason::TooMany { what: "triangles" });
+        }
+        if size > 1 && self.faces.is_none() {
+            let mut faces = Vec::new();
+            for triangle in 0..polygon {
+                // Until here every polygon was one triangle.
+                self.allowance.push(&mut faces, triangle, 0)?;
+            }
+            self.faces = Some(faces);
+        }
+        for triangle in fan {
+            self.allowance.push(&mut self.triangles, triangle, 0)?;
+        }
+        if let Some(faces) = &mut self.faces {
+            for _ in 0..size {
+                self.allowance.push(faces, polygon, 0)?;
+            }
+        }
+        self.count += 1;
+        Ok(())
+    }
+
+    fn compare(&mut self, fan: impl ExactSizeIterator<Item = [u32; 3]>) -> bool {
+        if self.met >= self.count {
+            return true; // one too many: counted, and reported with both counts at the end
+        }
+        let begin = self.met_triangles;
+        let size = match &self.faces {
+            None => 1,
+            Some(faces) => faces[begin..]
+                .iter()
+                .take_while(|&&polygon| u64::from(polygon) == self.met)
+                .count(),
+        };
+        self.met_triangles += size;
+        self.triangles[begin..self.met_triangles]
+            .iter()
+            .copied()
+            .eq(fan)
+    }
+
+    /// Ends a frame of `vertices` vertices: every index must be below. Messages count vertices from
+    /// `first`, as the file does.
+    pub(crate) fn check_range(&self, vertices: usize, first: i64) -> Result<(), Fault> {
+        match &self.largest {
+            Some(largest) if largest.index as usize >= vertices => {
+                let reason = Reason::VertexIndex {
+                    face: largest.face,
+                    index: i64::from(largest.index) + first,
+                    first,
+                    last: i64::try_from(vertices).unwrap_or(i64::MAX) + first - 1,
+                };
+                Err(reason.at(largest.place.clone()))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// How many polygons this frame had, and how many the body has.
+    pub(crate) fn counts(&self) -> (u64, u64) {
+        (self.met, self.count)
+    }
+
+    /// The number of the next polygon of this frame.
+    pub(crate) fn next_face(&self) -> u64 {
+        self.met
+    }
+
+    pub(crate) fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    pub(crate) fn faces(&self) -> Option<&[u32]> {
+        self.faces.as_deref()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn recorded(polygons: &[&[u32]]) -> Polygons {
+        let mut recorded = Polygons::new(1 << 20);
+        for corners in polygons {
+            assert!(recorded.push(corners, || Place::File).unwrap());
+        }
+        recorded
+    }
+
+    fn compared(first: &[&[u32]], second: &[&[u32]]) -> Vec<bool> {
+        let mut polygons = recorded(first);
+        polygons.compare_from_now_on();
+        polygons.rewind();
+        second
+            .iter()
+            .map(|corners| polygons.push(corners, || Place::File).unwrap())
+            .collect()
+    }
+
+    #[test]
+    fn triangles_alone_need_no_faces() {
+        let polygons = recorded(&[&[0, 1, 2], &[2, 1, 3]]);
+        assert_eq!(polygons.triangles(), [[0, 1, 2], [2, 1, 3]]);
+        assert_eq!(polygons.faces(), None);
+    }
+
+    #[test]
+    fn fans_go_round_the_first_corner() {
+        let polygons = recorded(&[&[0, 1, 2], &[5, 6, 7, 8, 9], &[3, 4, 5], &[1, 2, 3, 4]]);
+        let triangles = [
+            [0, 1, 2],
+            [5, 6, 7],
+            [5, 7, 8],
+            [5, 8, 9],
+            [3, 4, 5],
+            [1, 2, 3],
+            [1, 3, 4],
+        ];
+        assert_eq!(polygons.triangles(), triangles);
+        assert_eq!(polygons.faces(), Some(&[0, 1, 1, 1, 2, 3, 3][..]));
+    }
+
+    #[test]
+    fn fewer_than_three_corners_are_refused() {
+        let mut polygons = recorded(&[&[0, 1, 2]]);
+        for corners in [&[][..], &[1], &[1, 2]] {
+            let refused = polygons.push(corners, || Place::File);
+            assert!(
+                matches!(refused, Err(Reason::FewCorners { face: 1, corners: n }) if n == corners.len())
+            );
+        }
+    }
+
+    #[test]
+    fn later_frames_are_compared_polygon_by_polygon() {
+        let quads: &[&[u32]] = &[&[0, 1, 2], &[0, 1, 2, 3], &[0, 1, 2]];
+        assert_eq!(compared(quads, quads), [true, true, true]);
+        assert_eq!(
+            compared(quads, &[&[0, 1, 2], &[0, 1, 3, 2], &[0, 1, 2]]),
+            [true, false, true]
+        );
+        // The same triangles, cut into polygons in another way.
+        assert_eq!(
+            compared(quads, &[&[0, 1, 2], &[0, 1, 2], &[0, 2, 3]]),
+            [true, false, false]
+        );
+        assert_eq!(
+            compared(&[&[0, 1, 2], &[0, 2, 3]], &[&[0, 1, 2, 3]]),
+            [false]
+        );
+    }
+
+    #[test]
+    fn the_largest_index_decides_the_range() {
+        let mut polygons = Polygons::new(1 << 20);
+        polygons.push(&[0, 1, 2], || Place::Line(1)).unwrap();
+        polygons.push(&[0, 9, 2], || Place::Line(2)).unwrap();
+        polygons.push(&[0, 9, 8], || Place::Line(3)).unwrap();
+        assert!(polygons.check_range(10, 1).is_ok());
+        let fault = polygons.check_range(9, 1).unwrap_err();
+        assert_eq!(fault.place, Place::Line(2));
+        assert!(matches!(
+            fault.reason,
+            Reason::VertexIndex {
+                face: 1,
+                index: 10,
+                first: 1,
+                last: 9
+            }
+        ));
+    }
+}

@@ -1,0 +1,114 @@
+//! A pattern that the shell expanded: `check cloth_*.obj` without quotes arrives as many arguments,
+//! each then a body of its own.
+
+use glob::Pattern;
+
+/// The pattern to quote, where `arguments` look like one numbered series: at least two, all
+/// different, equal but for one run of digits.
+///
+/// Digits and not-digits of the rest are taken literally (characters with a meaning in patterns are
+/// escaped). The files are not looked at.
+///
+/// ```
+/// let arguments = ["cloth_9.obj", "cloth_10.obj"].map(String::from);
+/// assert_eq!(pliant_io::looks_like_a_series(&arguments).as_deref(), Some("cloth_*.obj"));
+/// let arguments = ["arm.obj", "leg.obj"].map(String::from);
+/// assert_eq!(pliant_io::looks_like_a_series(&arguments), None);
+/// ```
+pub fn looks_like_a_series(arguments: &[String]) -> Option<String> {
+    let (first, others) = arguments.split_first()?;
+    let first = runs(first);
+    let mut varying = None;
+    let mut numbers = vec![];
+    for other in others {
+        let other = runs(other);
+        if other.len() != first.len() {
+            return None;
+        }
+        for (at, (a, b)) in first.iter().zip(&other).enumerate() {
+            if a == b {
+                continue;
+            }
+            if !(is_number(a) && is_number(b)) || varying.is_some_and(|known| known != at) {
+                return None;
+            }
+            varying = Some(at);
+        }
+        numbers.push(other);
+    }
+    let varying = varying?;
+    let mut numbers: Vec<&str> = numbers.iter().map(|other| other[varying]).collect();
+    numbers.push(first[varying]);
+    let count = numbers.len();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let escape = |runs: &[&str]| Pattern::escape(&runs.concat());
+    (numbers.len() == count).then(|| {
+        format!(
+            "{}*{}",
+            escape(&first[..varying]),
+            escape(&first[varying + 1..])
+        )
+    })
+}
+
+/// Cuts `text` where digits begin or end.
+fn runs(text: &str) -> Vec<&str> {
+    text.as_bytes()
+        .chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit())
+        .scan(0, |start, run| {
+            let begin = *start;
+            *start += run.len();
+            Some(&text[begin..*start])
+        })
+        .collect()
+}
+
+fn is_number(run: &str) -> bool {
+    run.starts_with(|c: char| c.is_ascii_digit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hint(arguments: &[&str]) -> Option<String> {
+        looks_like_a_series(
+            &arguments
+                .iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>(),
+        )
+    }
+
+    #[test]
+    fn one_varying_number_is_a_series() {
+        assert_eq!(hint(&["326.ply", "327.ply"]).as_deref(), Some("*.ply"));
+        assert_eq!(
+            hint(&["c/f0001.obj", "c/f0002.obj", "c/f0003.obj"]).as_deref(),
+            Some("c/f*.obj")
+        );
+        assert_eq!(
+            hint(&["é1.obj", "é10.obj", "é2.obj"]).as_deref(),
+            Some("é*.obj")
+        );
+        assert_eq!(
+            hint(&["run1/v2.ply", "run2/v2.ply"]).as_deref(),
+            Some("run*/v2.ply")
+        );
+        assert_eq!(hint(&["[a]1", "[a]2"]).as_deref(), Some("[[]a[]]*"));
+    }
+
+    #[test]
+    fn anything_else_is_not() {
+        assert_eq!(hint(&[]), None);
+        assert_eq!(hint(&["f1.obj"]), None);
+        assert_eq!(hint(&["f1.obj", "f1.obj"]), None);
+        assert_eq!(hint(&["f1.obj", "f2.obj", "f1.obj"]), None);
+        assert_eq!(hint(&["f1.obj", "f2.ply"]), None);
+        assert_eq!(hint(&["f1.obj", "g1.obj"]), None);
+        assert_eq!(hint(&["f1_1.obj", "f2_2.obj"]), None);
+        assert_eq!(hint(&["f1_1.obj", "f1_2.obj", "f2_1.obj"]), None);
+        assert_eq!(hint(&["", ""]), None);
+    }
+}

@@ -1,0 +1,126 @@
+//! Lines, words and numbers of text formats.
+
+use std::io::{BufRead, Read as _};
+use std::str::FromStr;
+
+use crate::error::{Fault, Place, Reason};
+
+/// The longest line, in bytes: a polygon of a million corners fits, a file without line breaks is
+/// not swallowed whole.
+pub(crate) const LONGEST_LINE: u64 = 16 << 20;
+
+/// The lines of a text, without their ends (`\n` or `\r\n`), counted from 1.
+#[derive(Debug)]
+pub(crate) struct Lines<R> {
+    input: R,
+    line: Vec<u8>,
+    number: u64,
+}
+
+impl<R: BufRead> Lines<R> {
+    pub(crate) fn new(input: R) -> Self {
+        Self {
+            input,
+            line: Vec::new(),
+            number: 0,
+        }
+    }
+
+    /// Moves to the next line; false at the end of the text.
+    pub(crate) fn advance(&mut self) -> Result<bool, Fault> {
+        self.line.clear();
+        let read = self
+            .input
+            .by_ref()
+            .take(LONGEST_LINE + 1)
+            .read_until(b'\n', &mut self.line);
+        self.number += 1;
+        if read.map_err(|error| Reason::Io(error).at(self.place()))? == 0 {
+            return Ok(false);
+        }
+        if self.line.len() as u64 > LONGEST_LINE {
+            let reason = "a line of more than 16 MiB; is this a binary file?";
+            return Err(Reason::Malformed(reason.into()).at(self.place()));
+        }
+        if self.line.last() == Some(&b'\n') {
+            self.line.pop();
+        }
+        if self.line.last() == Some(&b'\r') {
+            self.line.pop();
+        }
+        Ok(true)
+    }
+
+    /// The line moved to; empty at the end of the text.
+    pub(crate) fn line(&self) -> &[u8] {
+        &self.line
+    }
+
+    pub(crate) fn place(&self) -> Place {
+        Place::Line(self.number)
+    }
+}
+
+/// The words of a line, cut at white space.
+pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(u8::is_ascii_whitespace)
+        .filter(|word| !word.is_empty())
+}
+
+/// The number a word writes; for floats the nearest one.
+pub(crate) fn number<T: FromStr>(word: &[u8]) -> Option<T> {
+    std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+/// "expected a number, found "abc"": `wanted` is the number, `found` the word in its place, if
+/// there is one.
+pub(crate) fn expected(wanted: &str, found: Option<&[u8]>) -> Reason {
+    Reason::Malformed(match found {
+        Some(word) => format!("expected {wanted}, found {}", quoted(word)),
+        None => format!("expected {wanted}, found the end of the line"),
+    })
+}
+
+/// A word of a file in quotes, shortened where it is long.
+pub(crate) fn quoted(word: &[u8]) -> String {
+    const LONGEST: usize = 40;
+    let text = String::from_utf8_lossy(&word[..word.len().min(4 * LONGEST)]);
+    let mut short: String = text.chars().take(LONGEST).collect();
+    if short.len() < word.len() {
+        short.push('…');
+    }
+    format!("{short:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_lose_their_ends_and_keep_their_numbers() {
+        let mut lines = Lines::new(&b"one\r\n\n three \nlast"[..]);
+        let mut seen = Vec::new();
+        while lines.advance().unwrap() {
+            seen.push((lines.place(), lines.line().to_vec()));
+        }
+        let expected = [(1, &b"one"[..]), (2, b""), (3, b" three "), (4, b"last")];
+        assert_eq!(
+            seen,
+            expected.map(|(number, text)| (Place::Line(number), text.to_vec()))
+        );
+    }
+
+    #[test]
+    fn endless_lines_end() {
+        let mut lines = Lines::new(std::io::BufReader::new(std::io::repeat(b'x')));
+        assert!(lines.advance().is_err());
+    }
+
+    #[test]
+    fn long_words_are_quoted_in_part() {
+        assert_eq!(quoted(b"a\"b\n"), r#""a\"b\n""#);
+        assert_eq!(quoted(&[b'7'; 99]).chars().count(), 43);
+        assert_eq!(quoted("é".repeat(40).as_bytes()).chars().count(), 42);
+        assert!(quoted(&[0xff; 1000]).chars().count() <= 43);
+    }
+}

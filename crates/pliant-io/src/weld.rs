@@ -1,0 +1,336 @@
+//! Welding: vertices that a file split along a seam become one again.
+//!
+//! Files hold a vertex once for every texture coordinate or normal it has, so a closed surface
+//! arrives cut open along its seams, and every seam would be a hit: its two sides touch. What tells
+//! a seam from a contact is that whole *boundary edges* (edges of exactly one triangle) coincide:
+//!
+//! ```text
+//! edges of exactly one triangle, as pairs of places   a place: the vertices at one position
+//! for each run of edges between the same two places:
+//!     join their ends, place by place             union-find, the smallest vertex leads
+//! rewrite the triangles to the leading vertices       positions stay, each side keeps its own
+//! ```
+//!
+//! Coincidence of single points never welds: two bodies that touch in a point are two bodies. An
+//! edge whose two ends are at one place is a point in this sense. In later frames the two sides
+//! must stay together, or the mesh welded is not the mesh that moves: [`Welding::check`].
+
+use crate::error::Reason;
+use crate::positions::Positions;
+
+/// The triangles after welding, and what was welded.
+#[derive(Debug)]
+pub(crate) struct Welding {
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Each vertex welded away, with the smaller vertex that takes its place; ascending.
+    pub(crate) welded: Vec<(u32, u32)>,
+}
+
+/// An edge: its end points, the smaller first.
+type Edge = [u32; 2];
+
+/// Welds `triangles`; None where nothing is to be welded. `same(v)` is what must be equal for `v`
+/// to be welded to another vertex: its position, and whatever else moves it in a format that moves
+/// vertices by rule. Every index must be below `vertices`.
+pub(crate) fn weld<K: Ord>(
+    triangles: &[[u32; 3]],
+    vertices: usize,
+    same: impl Fn(u32) -> K,
+) -> Option<Welding> {
+    let boundary = boundary_edges(triangles);
+    let place = places(&boundary, vertices, same);
+    let mut edges: Vec<(Edge, Edge)> = boundary
+        .into_iter()
+        .map(|[a, b]| ([a, b], [place[a as usize], place[b as usize]]))
+        .filter(|(_, [from, to])| from != to)
+        .map(|([a, b], [from, to])| {
+            if from < to {
+                ([from, to], [a, b])
+            } else {
+                ([to, from], [b, a])
+            }
+        })
+        .collect();
+    edges.sort_unstable();
+
+    let mut classes = Classes::new(vertices);
+    for coinciding in edges.chunk_by(|(here, _), (there, _)| here == there) {
+        let (_, first) = coinciding[0];
+        for (_, other) in &coinciding[1..] {
+            classes.join(first[0], other[0]);
+            classes.join(first[1], other[1]);
+        }
+    }
+    let welded: Vec<(u32, u32)> = (0..vertices as u32)
+        .map(|vertex| (vertex, classes.leader(vertex)))
+        .filter(|(vertex, leader)| vertex != leader)
+        .collect();
+    if welded.is_empty() {
+        return None;
+    }
+    let triangles = triangles
+        .iter()
+        .map(|corners| corners.map(|corner| classes.leader(corner)))
+        .collect();
+    Some(Welding { triangles, welded })
+}
+
+/// The edges used by exactly one triangle. A degenerate triangle uses an edge once, however often
+/// it runs along it.
+fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
+    let mut edges = Vec::with_capacity(3 * triangles.len());
+    for &[a, b, c] in triangles {
+        let mut three = [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]);
+        three.sort_unstable();
+        let own = three.iter().enumerate();
+        edges.extend(
+            own.filter(|&(i, edge)| edge[0] != edge[1] && (i == 0 || three[i - 1] != *edge))
+                .map(|(_, edge)| *edge),
+        );
+    }
+    edges.sort_unstable();
+    edges
+        .chunk_by(PartialEq::eq)
+        .filter(|uses| uses.len() == 1)
+        .map(|uses| uses[0])
+        .collect()
+}
+
+/// For each end of an edge the first vertex at its place; vertices that no edge has keep their own
+/// number.
+fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> Vec<u32> {
+    let mut ends: Vec<u32> = edges.as_flattened().to_vec();
+    ends.sort_unstable();
+    ends.dedup();
+    ends.sort_by_cached_key(|&vertex| same(vertex)); // stable: the first of a place is its smallest
+    let mut place: Vec<u32> = (0..vertices as u32).collect();
+    for together in ends.chunk_by(|&a, &b| same(a) == same(b)) {
+        for &vertex in together {
+            place[vertex as usize] = together[0];
+        }
+    }
+    place
+}
+
+/// Union-find; the smallest vertex of a class leads it.
+struct Classes(Vec<u32>);
+
+impl Classes {
+    fn new(vertices: usize) -> Self {
+        Self((0..vertices as u32).collect())
+    }
+
+    fn leader(&mut self, mut vertex: u32) -> u32 {
+        let Self(parent) = self;
+        while parent[vertex as usize] != vertex {
+            let above = parent[parent[vertex as usize] as usize];
+            parent[vertex as usize] = above;
+            vertex = above;
+        }
+        vertex
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.leader(a), self.leader(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
+
+/// The position of `vertex` as bits that are equal where the numbers are: -0 counts as 0.
+pub(crate) fn position_bits(positions: Positions<'_>, vertex: u32) -> [u64; 3] {
+    positions.get(vertex).map(|value| (value + 0.0).to_bits())
+}
+
+impl Welding {
+    /// Refuses a later frame in which vertices that were welded are apart.
+    pub(crate) fn check(&self, positions: Positions<'_>) -> Result<(), Reason> {
+        for &(vertex, leader) in &self.welded {
+            if position_bits(positions, vertex) != position_bits(positions, leader) {
+                return Err(Reason::SeamOpened {
+                    a: leader,
+                    b: vertex,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn welded(triangles: &[[u32; 3]], positions: &[[f64; 3]]) -> Option<Welding> {
+        weld(triangles, positions.len(), |vertex| {
+            position_bits(Positions::F64(positions), vertex)
+        })
+    }
+
+    /// The six sides of a cube, each with four vertices of its own.
+    fn split_cube() -> (Vec<[u32; 3]>, Vec<[f64; 3]>) {
+        let (mut triangles, mut positions) = (vec![], vec![]);
+        for axis in 0..3 {
+            for side in [0.0, 1.0] {
+                let first = positions.len() as u32;
+                for (u, v) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
+                    let mut position = [u; 3];
+                    position[axis] = side;
+                    position[(axis + 1) % 3] = v;
+                    positions.push(position);
+                }
+                triangles.extend(
+                    [[0, 1, 2], [0, 2, 3]]
+                        .map(|corners: [u32; 3]| corners.map(|corner| corner + first)),
+                );
+            }
+        }
+        (triangles, positions)
+    }
+
+    #[test]
+    fn a_cube_of_six_sides_has_eight_places() {
+        let (triangles, positions) = split_cube();
+        let welding = welded(&triangles, &positions).unwrap();
+        assert_eq!(welding.welded.len(), 24 - 8);
+        let mut used = welding.triangles.concat();
+        used.sort_unstable();
+        used.dedup();
+        assert_eq!(used.len(), 8);
+        assert_eq!(boundary_edges(&welding.triangles), Vec::<Edge>::new());
+        for (welded, original) in welding.triangles.iter().zip(&triangles) {
+            for (&corner, &before) in welded.iter().zip(original) {
+                let bits = |vertex| position_bits(Positions::F64(&positions), vertex);
+                assert_eq!(bits(corner), bits(before));
+                assert!(corner <= before);
+            }
+        }
+        assert!(
+            welded(&welding.triangles, &positions).is_none(),
+            "a welded mesh welds no further"
+        );
+    }
+
+    #[test]
+    fn minus_zero_is_zero() {
+        let (triangles, mut positions) = split_cube();
+        for position in &mut positions[..4] {
+            *position = position.map(|value| if value == 0.0 { -0.0 } else { value });
+        }
+        assert_eq!(welded(&triangles, &positions).unwrap().welded.len(), 16);
+    }
+
+    const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+    #[test]
+    fn solids_that_touch_stay_apart() {
+        let corners = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+        ];
+        let mut triangles = TETRAHEDRON.to_vec();
+        triangles.extend(TETRAHEDRON.map(|t| t.map(|corner| corner + 4)));
+        // In a point, and then, closed as they are, along an edge.
+        for mirrored in [[true, true, true], [true, true, false]] {
+            let mut positions = corners.to_vec();
+            positions.extend(corners.map(|p: [f64; 3]| {
+                let mut p = p;
+                for axis in 0..3 {
+                    p[axis] = if mirrored[axis] { -p[axis] } else { p[axis] };
+                }
+                p
+            }));
+            assert!(welded(&triangles, &positions).is_none());
+        }
+    }
+
+    #[test]
+    fn open_triangles_that_touch_in_a_point_stay_apart() {
+        let positions = [
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0; 3],
+            [-1.0, 0.0, 0.0],
+            [0.0, -1.0, 0.0],
+        ];
+        assert!(welded(&[[0, 1, 2], [3, 4, 5]], &positions).is_none());
+    }
+
+    #[test]
+    fn an_edge_without_length_is_a_point() {
+        // Both triangles are needles whose short side lies at the origin.
+        let positions = [
+            [0.0; 3],
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.0; 3],
+            [0.0; 3],
+            [0.0, 1.0, 0.0],
+        ];
+        let welding = welded(&[[0, 1, 2], [3, 4, 5]], &positions);
+        // The two long sides of each needle coincide, which closes it; but the needles stay apart.
+        assert_eq!(welding.unwrap().welded, [(1, 0), (4, 3)]);
+    }
+
+    #[test]
+    fn ends_are_matched_by_position_whatever_the_direction() {
+        let positions = [
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.5, 1.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0; 3],
+            [0.5, -1.0, 0.0],
+        ];
+        for second in [[3, 4, 5], [4, 3, 5]] {
+            assert_eq!(
+                welded(&[[0, 1, 2], second], &positions).unwrap().welded,
+                [(3, 1), (4, 0)]
+            );
+        }
+    }
+
+    #[test]
+    fn edges_inside_a_surface_do_not_weld() {
+        // Two folded sheets (pairs of triangles) whose inner edges coincide and nothing else does.
+        let positions = [
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.5, 1.0, 0.0],
+            [0.5, -1.0, 0.0],
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.5, 0.0, 1.0],
+            [0.5, 0.0, -1.0],
+        ];
+        let sheets = [[0, 1, 2], [1, 0, 3], [4, 5, 6], [5, 4, 7]];
+        assert!(welded(&sheets, &positions).is_none());
+    }
+
+    #[test]
+    fn a_seam_that_opens_is_refused() {
+        let (triangles, mut positions) = split_cube();
+        let welding = welded(&triangles, &positions).unwrap();
+        for position in &mut positions {
+            *position = position.map(|value| value * 3.0 - 1.0);
+        }
+        welding.check(Positions::F64(&positions)).unwrap();
+        let (vertex, leader) = welding.welded[5];
+        positions[vertex as usize][1] = positions[vertex as usize][1].next_up();
+        let opened = welding.check(Positions::F64(&positions));
+        assert!(matches!(opened, Err(Reason::SeamOpened { a, b }) if (a, b) == (leader, vertex)));
+    }
+
+    #[test]
+    fn degenerate_triangles_are_no_danger() {
+        let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3], [1.0, 0.0, 0.0]];
+        assert!(welded(&[[0, 0, 0], [1, 1, 1]], &positions).is_none());
+        // Each uses one edge once.
+        assert_eq!(
+            welded(&[[0, 0, 1], [2, 3, 3]], &positions).unwrap().welded,
+            [(2, 0), (3, 1)]
+        );
+    }
+}

@@ -1,12 +1,17 @@
 //! The program `pliant`: one file or folder a verb, this one chooses among them.
 //!
-//! Whatever goes wrong ends in one line on standard error that says what, where and what to do, and in exit code 2.
+//! Whatever goes wrong ends in one line on standard error that says what, where and what to do, and in exit code 2. If
+//! standard output is closed before the end, as `head` does, the exit code is 2 too, without a line.
 
+mod bench;
 mod check;
 mod run;
+mod table;
 mod tree_options;
 
+use anyhow::Context;
 use clap::{Parser, Subcommand};
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// Find which triangles of deforming meshes intersect, exactly.
@@ -23,6 +28,8 @@ enum Verb {
     Run(run::Arguments),
     /// Check your own meshes or mesh sequences for intersections
     Check(check::Arguments),
+    /// Compare methods side by side: the paper's experiments and ours
+    Bench(bench::Arguments),
 }
 
 const EXAMPLES: &str = "\
@@ -31,7 +38,8 @@ Examples:
   pliant run cloth --steps 30 --format json   a folding sheet with itself
   pliant check shirt.ply                      one body: does it intersect itself?
   pliant check 'shirt_*.obj' 'body_*.obj'     two sequences, frame by frame, against each other
-  pliant check walk.npz --count               how many pairs in each frame";
+  pliant check walk.npz --count               how many pairs in each frame
+  pliant bench experiment-1                   the paper's figure 3: ours, the older methods, other libraries";
 
 /// What the caller of the program learns from its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,13 +54,37 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().verb {
         Verb::Run(arguments) => run::run(&arguments),
         Verb::Check(arguments) => check::check(&arguments),
+        Verb::Bench(arguments) => bench::bench(&arguments),
     };
     match outcome {
         Ok(Outcome::Clear) => ExitCode::SUCCESS,
         Ok(Outcome::Intersects) => ExitCode::from(1),
         Err(error) => {
-            eprintln!("pliant: {error:#}");
+            // Whoever reads has gone (`| head`): nobody to tell.
+            if !is_broken_pipe(&error) {
+                complain(&format!("pliant: {error:#}"));
+            }
             ExitCode::from(2)
         }
     }
+}
+
+/// Text on standard output.
+fn print_all(text: &str) -> anyhow::Result<()> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .context("cannot write to standard output")
+}
+
+/// A line on standard error; if even that is closed, there is nothing left to do.
+fn complain(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error
+        .chain()
+        .filter_map(|cause| cause.downcast_ref::<io::Error>())
+        .any(|cause| cause.kind() == io::ErrorKind::BrokenPipe)
 }

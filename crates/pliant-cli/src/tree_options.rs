@@ -11,7 +11,7 @@ pub(crate) struct TreeOptions {
     /// The most children of a node
     #[arg(long, value_name = "N", default_value = "8", value_parser = ["2", "4", "8"])]
     degree: String,
-    /// How triangles are divided into a tree: at the centre of a node's box, at the mean of the triangles' midpoints (both in the paper), or into equal parts
+    /// How triangles are divided into a tree: at the centre of a node's box, at the mean of the triangles' midpoints, along the mesh into connected pieces (all in the paper), or into equal parts
     #[arg(long, value_enum, default_value_t = Partition::Balanced)]
     partition: Partition,
     /// The most triangles in a leaf; 1 in the paper
@@ -33,6 +33,7 @@ enum Partition {
     Centre,
     Mean,
     Balanced,
+    Connectivity,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -65,6 +66,7 @@ impl TreeOptions {
             Partition::Centre => pliant::Partition::Centre,
             Partition::Mean => pliant::Partition::Mean,
             Partition::Balanced => pliant::Partition::Balanced,
+            Partition::Connectivity => pliant::Partition::Connectivity,
         };
         options.leaf_size = self.leaf_size;
         options.update = match self.update {

@@ -62,7 +62,7 @@ pub enum Reason {
     #[error("face {face} has {corners} corners; a face needs at least 3")]
     FewCorners { face: u64, corners: usize },
     #[error(
-        "face {face} uses vertex {index}, but the vertices are numbered {first} to {last} here"
+        "face {face} uses vertex {index}, but {}", numbering(*first, *last)
     )]
     VertexIndex {
         face: u64,
@@ -71,7 +71,7 @@ pub enum Reason {
         last: i64,
     },
     #[error(
-        "{axis} of vertex {vertex} is {value}; coordinates must be finite and at most 3.4028235e38 in magnitude"
+        "{axis} of vertex {vertex} is {value:e}; coordinates must be finite and at most 3.4028235e38 in magnitude"
     )]
     Coordinate { vertex: u64, axis: char, value: f64 },
     #[error("holds no vertices")]
@@ -112,6 +112,17 @@ pub enum Reason {
     Changed,
     #[error("an earlier frame could not be read, so the frames after it are not handed out")]
     AfterError,
+}
+
+/// Which numbers there are; a file whose vertices are not counted yet allows all that a vertex can have.
+fn numbering(first: i64, last: i64) -> String {
+    if last < first {
+        "there are no vertices yet".to_owned()
+    } else if last >= i64::from(u32::MAX) - 1 {
+        "no vertex can have that number".to_owned()
+    } else {
+        format!("the vertices are numbered {first} to {last} here")
+    }
 }
 
 impl Error {

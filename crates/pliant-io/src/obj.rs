@@ -242,7 +242,7 @@ mod tests {
         );
         assert_eq!(
             with("\\\nf 1 \\\n2 4294967296"),
-            ", line 5: face 0 uses vertex 4294967296, but the vertices are numbered 1 to 4294967295 here"
+            ", line 5: face 0 uses vertex 4294967296, but no vertex can have that number"
         );
         assert_eq!(
             with("v 1 2"),
@@ -267,7 +267,7 @@ mod tests {
         );
         assert_eq!(
             message("\nf -1 -2 -3"),
-            ", line 2: face 0 uses vertex -1, but the vertices are numbered 0 to -1 here"
+            ", line 2: face 0 uses vertex -1, but there are no vertices yet"
         );
     }
 

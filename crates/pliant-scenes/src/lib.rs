@@ -44,4 +44,5 @@ mod trig;
 mod vector;
 
 pub use error::SceneError;
+pub use motion::Pose;
 pub use scene::{Asks, Scene};

@@ -97,26 +97,40 @@ impl Spin {
     }
 }
 
-/// The rigid motion of a body at one moment: turned about its own centre, then carried to it.
-#[derive(Debug)]
-pub(crate) struct Pose {
-    rows: [Vec3; 3],
-    centre: Vec3,
+/// The rigid motion of a body at one moment: where its own frame is in the world.
+///
+/// A scene computes in f64 and rounds once. For a vertex whose position in the body's own frame is `l` as
+/// [`local_positions`](crate::Scene::local_positions) gives it, and in the world `w` as
+/// [`positions`](crate::Scene::positions) does, `rotation · l + translation` is off `w` by the two roundings to f32, and by f64
+/// arithmetic, which is nothing beside them: on every axis by at most 2⁻²⁴ (|l| + |w|), where |l| is the length of `l` and |w| the
+/// size of that coordinate of `w`, and a millionth of that.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Rows of the rotation matrix; orthonormal to 1e-14.
+    pub rotation: [[f64; 3]; 3],
+    /// Where the origin of the body's own frame is.
+    pub translation: [f64; 3],
 }
 
 impl Pose {
     pub(crate) fn new(spin: &Spin, path: &Path, now: Moment) -> Self {
         Self {
-            rows: spin.rows(now),
-            centre: path.centre(now),
+            rotation: spin.rows(now),
+            translation: path.centre(now),
         }
     }
 
     /// The point `p` of the body, in the world, rounded once to the precision of a scene.
     #[inline]
     pub(crate) fn place(&self, p: Vec3) -> [f32; 3] {
-        add(self.rows.map(|row| dot(row, p)), self.centre).map(|x| x as f32)
+        rounded(add(self.rotation.map(|row| dot(row, p)), self.translation))
     }
+}
+
+/// To the precision of a scene.
+#[inline]
+pub(crate) fn rounded(p: Vec3) -> [f32; 3] {
+    p.map(|x| x as f32)
 }
 
 #[cfg(test)]

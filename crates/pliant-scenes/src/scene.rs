@@ -7,7 +7,7 @@
 use std::fmt;
 
 use crate::error::SceneError;
-use crate::motion::Moment;
+use crate::motion::{Moment, Pose};
 use crate::scenes;
 use crate::surface::{MAX_TRIANGLES, Nearest, Surface};
 use crate::vector::Vec3;
@@ -16,6 +16,16 @@ use crate::vector::Vec3;
 pub(crate) trait Body: Send + Sync {
     /// The vertices of the surface `rest` as they are `now`; both slices have the same length.
     fn place(&self, now: Moment, rest: &[Vec3], out: &mut [[f32; 3]]);
+
+    /// Where the frame is in which the body deforms; none if the world is that frame.
+    fn pose(&self, _now: Moment) -> Option<Pose> {
+        None
+    }
+
+    /// As [`place`](Self::place), but in that frame.
+    fn place_in_own_frame(&self, now: Moment, rest: &[Vec3], out: &mut [[f32; 3]]) {
+        self.place(now, rest, out);
+    }
 }
 
 /// What does not depend on size and seed.
@@ -180,6 +190,47 @@ impl Scene {
         let vertices = self.vertex_count(body);
         assert_eq!(out.len(), vertices, "body {body} has {vertices} vertices");
         self.bodies[body].place(self.moment(step), &self.surface.rest, out);
+    }
+
+    /// Where a body as a whole is at a step: the frame in which it deforms, for methods that want rigid motion and
+    /// deformation apart. None for a body that deforms in the world itself, as the cloth does.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body.
+    ///
+    /// ```
+    /// use pliant_scenes::Scene;
+    ///
+    /// let scene = Scene::new("crowd", Some(80), Scene::DEFAULT_SEED)?;
+    /// let (mut world, mut local) = (Vec::new(), Vec::new());
+    /// scene.positions(3, 17, &mut world);
+    /// scene.local_positions(3, 17, &mut local);
+    /// let pose = scene.pose(3, 17).expect("spheres turn and move");
+    /// for (w, l) in world.iter().zip(&local) {
+    ///     for axis in 0..3 {
+    ///         let row = pose.rotation[axis];
+    ///         let turned: f64 = (0..3).map(|i| row[i] * f64::from(l[i])).sum();
+    ///         let placed = turned + pose.translation[axis];
+    ///         assert!((placed - f64::from(w[axis])).abs() < 1e-6);
+    ///     }
+    /// }
+    /// # Ok::<(), pliant_scenes::SceneError>(())
+    /// ```
+    pub fn pose(&self, body: usize, step: u32) -> Option<Pose> {
+        self.assert_body(body);
+        self.bodies[body].pose(self.moment(step))
+    }
+
+    /// As [`positions`](Self::positions), but in the body's own frame: [`Pose`] says how these become those. For a body
+    /// without a [`pose`](Self::pose) they are the same.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body.
+    pub fn local_positions(&self, body: usize, step: u32, out: &mut Vec<[f32; 3]>) {
+        out.resize(self.vertex_count(body), [0.0; 3]);
+        self.bodies[body].place_in_own_frame(self.moment(step), &self.surface.rest, out);
     }
 
     /// A scene of its parts: the surface of `triangles` triangles, if there is one, and the bodies.

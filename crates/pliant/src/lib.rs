@@ -53,7 +53,7 @@
 //! world         bodies and their shapes; the one place where the phases meet
 //! mesh          connectivity, in tree order; never moves
 //! geometry      f32 or f64 coordinates, boxes in f32, rounded outward
-//! tree          boxes of degree 2, 4, 8; build: initial shape (centre, mean), balanced
+//! tree          boxes of degree 2, 4, 8; build: initial shape (centre, mean), mesh connectivity, balanced
 //! update        bottom-up, top-down, hybrid
 //! broad_phase   brute force; sweep and prune
 //! traversal     tree against tree, tree against itself

@@ -49,7 +49,8 @@ impl Degree {
     }
 }
 
-/// How the triangles of a body are divided into a tree, on the shape it has when the tree is built (paper, 3.2).
+/// How the triangles of a body are divided into a tree when it is built (paper, 3.2): by the shape that the body has then, or
+/// by its mesh alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Partition {
@@ -60,6 +61,10 @@ pub enum Partition {
     Mean,
     /// Every node is cut into parts of equal size, such that leaves and lanes are full. Not in the paper.
     Balanced,
+    /// The paper's mesh connectivity tree: the triangles below a node are one connected piece of the mesh, neighbours sharing
+    /// an edge, or components of it, each whole. Pieces are as equal as connectedness allows and have short borders. The shape
+    /// that the body has when the tree is built does not matter.
+    Connectivity,
 }
 
 /// Which boxes are made when (paper, 3.3).

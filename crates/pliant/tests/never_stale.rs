@@ -3,21 +3,24 @@
 mod common;
 
 use common::{Lcg, every_configuration, sheet};
-use pliant::{BodyId, Options, Pair, World};
+use pliant::{BodyId, Options, Pair, Scalar, World};
 
 /// What a test knows of a body: enough to build it anew.
 #[derive(Clone)]
-struct Known {
+struct Known<S> {
     id: BodyId,
     triangles: Vec<[u32; 3]>,
-    positions: Vec<[f32; 3]>,
+    positions: Vec<[S; 3]>,
     membership: u32,
     mask: u32,
-    loose: Option<([f32; 3], [f32; 3])>,
 }
 
 /// The pairs of a world that was never anything else, with the ids of the one that lives.
-fn fresh_pairs(options: Options, known: &[Known], ignored: &[(BodyId, BodyId)]) -> Vec<Pair> {
+fn fresh_pairs<S: Scalar>(
+    options: Options,
+    known: &[Known<S>],
+    ignored: &[(BodyId, BodyId)],
+) -> Vec<Pair> {
     let mut world = World::with_options(options);
     for body in known {
         let id = world.add(&body.triangles, &body.positions).unwrap();
@@ -46,29 +49,37 @@ fn fresh_pairs(options: Options, known: &[Known], ignored: &[(BodyId, BodyId)]) 
 }
 
 /// A small crumpled sheet somewhere near the origin.
-fn crumpled(random: &mut Lcg, flat: &[[f32; 3]]) -> Vec<[f32; 3]> {
+fn crumpled_near(random: &mut Lcg, flat: &[[f32; 3]]) -> Vec<[f32; 3]> {
     let shift = [(); 3].map(|()| random.unit() * 2.0);
     flat.iter()
         .map(|place| std::array::from_fn(|axis| place[axis] + shift[axis] + random.unit() * 0.3))
         .collect()
 }
 
-#[test]
 #[expect(clippy::too_many_lines, reason = "one arm a call of the library")]
-fn a_world_that_lives_answers_like_one_built_fresh() {
+fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f64) -> S) {
     let configurations = every_configuration();
-    for seed in 0..60 {
+    for seed in seeds {
         let mut random = Lcg(seed);
         let options = configurations[random.below(configurations.len() as u32) as usize];
         let (triangles, flat) = sheet(3 + random.below(4));
-        let mut world = World::with_options(options);
-        let mut known: Vec<Known> = Vec::new();
-        let mut ignored = Vec::new();
+        // Now and then everything is far away, and comes back: in f64 the origin of the boxes follows.
+        let mut here = 0.0;
+        let place = |positions: &[[f32; 3]], here: f64| -> Vec<[S; 3]> {
+            positions
+                .iter()
+                .map(|position| position.map(|x| convert(f64::from(x) + here)))
+                .collect()
+        };
+        let mut world = World::<S>::with_options(options);
+        let mut known: Vec<Known<S>> = Vec::new();
+        let mut ignored: Vec<(BodyId, BodyId)> = Vec::new();
         for _ in 0..60 {
             let some = (!known.is_empty()).then(|| random.below(known.len() as u32) as usize);
-            match (random.below(14), some) {
+            match (random.below(15), some) {
+                (13, _) => here = if here == 0.0 { shift } else { 0.0 },
                 (0..=1, _) | (_, None) => {
-                    let positions = crumpled(&mut random, &flat);
+                    let positions = place(&crumpled_near(&mut random, &flat), here);
                     let id = world.add(&triangles, &positions).unwrap();
                     assert!(
                         known.iter().all(|body| body.id < id),
@@ -81,21 +92,20 @@ fn a_world_that_lives_answers_like_one_built_fresh() {
                         positions,
                         membership: all,
                         mask: all,
-                        loose: None,
                     });
                 }
                 (2, Some(some)) => {
                     let removed = known.remove(some).id;
                     world.remove(removed).unwrap();
                     assert!(
-                        world.set_positions(removed, &flat).is_err(),
+                        world.set_positions(removed, &place(&flat, here)).is_err(),
                         "a removed id is refused"
                     );
                 }
                 // One body moves, perhaps twice.
                 (3..=6, Some(some)) => {
                     for _ in 0..=random.below(2) {
-                        let positions = crumpled(&mut random, &flat);
+                        let positions = place(&crumpled_near(&mut random, &flat), here);
                         if random.below(2) == 0 {
                             world.set_positions(known[some].id, &positions).unwrap();
                         } else {
@@ -126,28 +136,35 @@ fn a_world_that_lives_answers_like_one_built_fresh() {
                     }
                 }
                 (10, Some(some)) => {
-                    let loose = (random.below(2) == 0).then_some(([-0.5; 3], [4.0; 3]));
-                    known[some].loose = loose;
+                    let loose = (random.below(2) == 0)
+                        .then_some(([convert(-0.5 - shift); 3], [convert(4.0 + shift); 3]));
                     world.set_loose_box(known[some].id, loose).unwrap();
                 }
                 // Refused calls change nothing.
                 (11, Some(some)) => {
                     let id = known[some].id;
-                    let mut bad = crumpled(&mut random, &flat);
+                    let mut bad = place(&crumpled_near(&mut random, &flat), here);
                     let vertex = random.below(bad.len() as u32) as usize;
-                    bad[vertex][1] =
-                        [f32::NAN, f32::INFINITY, f32::NEG_INFINITY][random.below(3) as usize];
+                    bad[vertex][1] = convert(
+                        [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][random.below(3) as usize],
+                    );
                     assert!(world.set_positions(id, &bad).is_err());
                     assert!(
                         world
-                            .write_positions(id, |buffer| buffer[1..].fill([0.0; 3]))
+                            .write_positions(id, |buffer| buffer[1..].fill([convert(0.0); 3]))
                             .is_err()
                     );
-                    assert!(world.set_positions(id, &flat[1..]).is_err());
-                    assert!(world.add(&[[0, 1, 99_999]], &flat).is_err());
+                    assert!(world.set_positions(id, &place(&flat, here)[1..]).is_err());
+                    assert!(world.add(&[[0, 1, 99_999]], &place(&flat, here)).is_err());
                     assert!(
                         world
-                            .set_loose_box(id, Some(([50.0; 3], [51.0; 3])))
+                            .set_loose_box(
+                                id,
+                                Some((
+                                    [convert(50.0 + 2.0 * shift); 3],
+                                    [convert(51.0 + 2.0 * shift); 3]
+                                ))
+                            )
                             .is_err()
                     );
                 }
@@ -174,6 +191,37 @@ fn a_world_that_lives_answers_like_one_built_fresh() {
             }
         }
     }
+}
+
+#[test]
+fn a_world_that_lives_answers_like_one_built_fresh() {
+    check_lives::<f32>(0..40, 0.0, |x| x as f32);
+    check_lives::<f32>(40..60, 100.0, |x| x as f32);
+    check_lives::<f64>(60..80, 0.0, |x| x);
+    check_lives::<f64>(80..120, 1e7, |x| x);
+}
+
+/// Boxes that were made relative to one origin are not true relative to another.
+#[test]
+fn f64_boxes_follow_the_origin() {
+    let at = |s: f64, t: f64| {
+        [
+            [s, 0.0, -t],
+            [s + 1.0, 0.0, t],
+            [s + 1.0, 1.0, t],
+            [s, 1.0, -t],
+        ]
+    };
+    let square = [[0, 1, 2], [0, 2, 3]];
+    let mut world = World::new();
+    let still = world.add(&square, &at(1e7, 0.0)).unwrap();
+    let moving = world.add(&square, &at(0.0, 1.0)).unwrap();
+    world.self_intersection_pairs(still).unwrap();
+    for _ in 0..2 {
+        world.set_positions(moving, &at(1e7, 1.0)).unwrap();
+    }
+    assert_eq!(world.intersection_pairs().len(), 4);
+    world.validate().unwrap();
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The paper's point, in counted work rather than time: how many boxes each update makes.
 
-use pliant::{Options, Partition, Scalar, Statistics, Update, World};
+use pliant::{Degree, Options, Partition, Scalar, Statistics, Update, World};
 use pliant_scenes::Scene;
 use std::num::NonZeroU32;
 
@@ -127,13 +127,13 @@ fn a_deep_tree_needs_no_stack() {
     let triangles: Vec<[u32; 3]> = (0..140).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let deep = move || {
         let mut options = Options::paper();
-        options.degree = pliant::Degree::Two;
-        for (partition, depth) in [(Partition::Centre, 90), (Partition::Mean, 25)] {
+        options.degree = Degree::Two;
+        for (partition, depths) in [(Partition::Centre, 90..140), (Partition::Mean, 25..40)] {
             options.partition = partition;
             let mut world = World::<f32>::with_options(options);
             let ids = [(); 2].map(|()| world.add(&triangles, &positions).unwrap());
             let found = world.tree_shape(ids[0]).unwrap().depth;
-            assert!(found > depth, "{partition:?}: {found}");
+            assert!(depths.contains(&found), "{partition:?}: {found}");
             assert_eq!(
                 world
                     .intersection_pairs_between(ids[0], ids[1])
@@ -150,6 +150,135 @@ fn a_deep_tree_needs_no_stack() {
         .unwrap()
         .join()
         .unwrap();
+}
+
+/// Triangles that no rule can tell apart are divided evenly, so that the tree is no deeper than it must be.
+#[test]
+fn triangles_in_one_place_make_a_shallow_tree() {
+    let place = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0_f32]];
+    let triangles = vec![[0, 1, 2]; 1000];
+    for partition in [Partition::Centre, Partition::Mean, Partition::Balanced] {
+        for (degree, depth) in [(Degree::Two, 10), (Degree::Four, 5), (Degree::Eight, 4)] {
+            let mut options = Options::paper();
+            (options.partition, options.degree) = (partition, degree);
+            let mut world = World::with_options(options);
+            let body = world.add(&triangles, &place).unwrap();
+            assert_eq!(world.tree_shape(body).unwrap().depth, depth, "{options:?}");
+            assert!(
+                world.self_intersection_pairs(body).unwrap().is_empty(),
+                "they share their vertices"
+            );
+        }
+    }
+}
+
+/// A box is cut along its longest side, or its two longest: a row of triangles along any axis is halved, not its thickness.
+#[test]
+fn the_longest_sides_are_cut() {
+    for axis in 0..3 {
+        for (degree, depth) in [(Degree::Two, 6), (Degree::Four, 6), (Degree::Eight, 6)] {
+            // 64 triangles in a row of 64 cells, zigzagging a little in the two other directions.
+            let mut positions = Vec::new();
+            for i in 0..64 {
+                for (along, up, side) in [(0.3, 0.0, 0.0), (0.7, 0.0, 0.1), (0.5, 0.1, 0.0)] {
+                    let mut position = [
+                        up + 0.01 * (i % 2) as f32,
+                        side + 0.01 * (i / 2 % 2) as f32,
+                        0.0,
+                    ];
+                    position[2] = i as f32 + along;
+                    position.rotate_left(axis);
+                    positions.push(position);
+                }
+            }
+            let triangles: Vec<[u32; 3]> = (0..64).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+            let mut options = Options::paper();
+            options.degree = degree;
+            let mut world = World::with_options(options);
+            let body = world.add(&triangles, &positions).unwrap();
+            // Cutting the row in halves is what needs six levels; a degree above two splits the zigzag on the way.
+            let found = world.tree_shape(body).unwrap().depth;
+            assert!(
+                if degree == Degree::Two {
+                    found == depth
+                } else {
+                    found <= depth
+                },
+                "axis {axis}, {degree:?}: {found}"
+            );
+        }
+    }
+}
+
+/// Meshes that lie in one place have a pair for every two triangles. The first is found after a few, a visitor stops the work,
+/// and memory does not grow with the pairs.
+#[test]
+fn the_first_of_very_many_pairs_is_found_at_once() {
+    let (count, place) = (
+        100_000_u32,
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0_f32]],
+    );
+    let triangles: Vec<[u32; 3]> = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let positions: Vec<[f32; 3]> = (0..count).flat_map(|_| place).collect();
+    for mut options in [Options::paper(), Options::default()] {
+        for leaf_size in [1, 8, 1000] {
+            options.leaf_size = leaf_size.try_into().unwrap();
+            let mut world = World::with_options(options);
+            let [a, b] = [(); 2].map(|()| world.add(&triangles, &positions).unwrap());
+            let work = allocation_counter::measure(|| {
+                assert!(world.first_intersection_between(a, b).unwrap().is_some());
+                assert!(
+                    world.statistics().candidate_pairs == 1,
+                    "{:?}",
+                    world.statistics()
+                );
+                assert!(
+                    world.statistics().node_pairs < 10_000,
+                    "{:?}",
+                    world.statistics()
+                );
+                assert!(world.first_self_intersection(a).unwrap().is_some());
+            });
+            assert!(work.bytes_max < 16 << 20, "{options:?}: {work:?}");
+            let mut seen = 0;
+            let stopped = world.visit_self_intersections(b, |_| {
+                seen += 1;
+                if seen == 50_000 {
+                    std::ops::ControlFlow::Break(())
+                } else {
+                    std::ops::ControlFlow::Continue(())
+                }
+            });
+            assert!(stopped.unwrap().is_break());
+            assert!(world.statistics().candidate_pairs < 60_000);
+        }
+    }
+}
+
+/// Thousands of bodies can go as fast as they came, in any order.
+#[test]
+fn removing_bodies_is_not_quadratic() {
+    let place = |i: u32| {
+        [[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [0.0, 0.5, 0.0]]
+            .map(|[x, y, z]| [x + (i % 100) as f32, y + (i / 100) as f32, z])
+    };
+    for newest_first in [false, true] {
+        let mut world = World::<f32>::new();
+        let mut ids: Vec<_> = (0..20_000)
+            .map(|i| world.add(&[[0, 1, 2]], &place(i)).unwrap())
+            .collect();
+        assert!(world.intersection_pairs().is_empty());
+        if newest_first {
+            ids.reverse();
+        }
+        let start = std::time::Instant::now();
+        for id in ids {
+            world.remove(id).unwrap();
+        }
+        // Milliseconds; a quadratic way took seconds. The bound is for slow machines.
+        assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
+        assert_eq!(world.intersection_pairs(), []);
+    }
 }
 
 /// `cargo test --release -p pliant --test work -- --ignored --nocapture`: some seconds and about two gigabytes.

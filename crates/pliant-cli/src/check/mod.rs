@@ -5,7 +5,7 @@ mod sequence;
 
 use crate::Outcome;
 use clap::{Args, ValueEnum};
-use output::{Frame, Output};
+use output::Output;
 use pliant::{Scalar, World};
 use pliant_io::{OpenOptions, Precision};
 use sequence::Sequence;
@@ -49,10 +49,10 @@ enum Format {
 /// Checks all frames and prints what intersects.
 pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(pattern) = pliant_io::looks_like_a_series(&arguments.bodies) {
-        eprintln!(
+        crate::complain(&format!(
             "pliant: note: {} arguments are {0} bodies; if they are frames of one body, quote the pattern: '{pattern}'",
             arguments.bodies.len()
-        );
+        ));
     }
     let sequence = Sequence::open(
         &arguments.bodies,
@@ -71,32 +71,26 @@ fn check_frames<S: Scalar + sequence::FromFile>(
     arguments: &Arguments,
     mut sequence: Sequence,
 ) -> anyhow::Result<Outcome> {
-    let mut output = Output::begin(
-        arguments.format,
-        arguments.count,
-        arguments.first,
-        &sequence,
-    )?;
+    let mut output = Output::begin(arguments, &sequence)?;
     let mut world = World::<S>::new();
-    let checked = (|| {
-        for frame in 0..sequence.frame_count() {
-            sequence.load_frame(frame, &mut world)?;
-            let pairs = pairs_of_frame(arguments, &mut world)?;
-            output.frame(&Frame { frame, pairs })?;
-        }
-        Ok(())
-    })();
+    let (mut buffer, mut pairs) = (Vec::new(), Vec::new());
+    let checked = (0..sequence.frame_count()).try_for_each(|frame| {
+        sequence.load_frame(frame, &mut world, &mut buffer)?;
+        find_pairs(arguments, &mut world, &mut pairs)?;
+        output.frame(frame, &pairs)
+    });
     output.end(checked)
 }
 
 /// (body, triangle, body, triangle), sorted; at most one of them if only the first is asked for.
-fn pairs_of_frame<S: Scalar>(
+fn find_pairs<S: Scalar>(
     arguments: &Arguments,
     world: &mut World<S>,
-) -> anyhow::Result<Vec<[u32; 4]>> {
+    pairs: &mut Vec<[u32; 4]>,
+) -> anyhow::Result<()> {
     let bodies: Vec<_> = world.bodies().collect();
     let itself = arguments.itself || bodies.len() == 1;
-    let mut pairs = Vec::new();
+    pairs.clear();
     if arguments.first {
         pairs.extend(world.first_intersection().map(row));
     } else {
@@ -117,7 +111,7 @@ fn pairs_of_frame<S: Scalar>(
         }
     }
     pairs.sort_unstable();
-    Ok(pairs)
+    Ok(())
 }
 
 fn row(pair: pliant::Pair) -> [u32; 4] {

@@ -10,18 +10,16 @@
 //! `--count` there are no `pairs`; with `--first`, `count` is 0 or 1 and `"complete": false` says that the list was not meant
 //! to be complete. If a frame cannot be checked, the object ends with `"error"`.
 
-use super::Format;
 use super::sequence::Sequence;
+use super::{Arguments, Format};
 use crate::Outcome;
+use anyhow::Context;
 use pliant_io::Body;
 use serde::Serialize;
 use std::io::{self, BufWriter, Stdout, Write};
 
-/// One frame's answer.
-pub(super) struct Frame {
-    pub(super) frame: usize,
-    pub(super) pairs: Vec<[u32; 4]>,
-}
+/// What a failing write is the failure of.
+const WRITING: &str = "cannot write to standard output";
 
 /// Where answers go.
 pub(super) struct Output {
@@ -66,125 +64,157 @@ fn is_zero(number: &usize) -> bool {
 
 impl Output {
     /// Prints what is known before the first frame.
-    pub(super) fn begin(
-        format: Format,
-        count_only: bool,
-        first_only: bool,
-        sequence: &Sequence,
-    ) -> anyhow::Result<Self> {
-        let mut out = BufWriter::new(io::stdout());
-        let bodies = sequence.bodies();
-        match format {
-            Format::Json => {
-                let entries: Vec<_> = bodies.iter().map(entry).collect();
-                write!(
-                    out,
-                    r#"{{"format":1,"bodies":{},"frames":["#,
-                    serde_json::to_string(&entries)?
-                )?;
-            }
-            Format::Table => {
-                for (number, body) in bodies.iter().enumerate() {
-                    let (vertices, triangles) = (body.vertex_count(), body.triangles().len());
-                    write!(
-                        out,
-                        "body {number}: {}, {vertices} vertices, {triangles} triangles",
-                        body.name()
-                    )?;
-                    if body.welded() > 0 {
-                        write!(
-                            out,
-                            ", {} vertices welded where boundary edges coincide",
-                            body.welded()
-                        )?;
-                    }
-                    writeln!(out)?;
-                }
-                let first_pair = if count_only { "" } else { "  first pair" };
-                writeln!(out, "\n{:>8}{:>10}{first_pair}", "frame", "pairs")?;
-            }
-        }
-        Ok(Self {
-            out,
-            format,
-            count_only,
-            first_only,
+    pub(super) fn begin(arguments: &Arguments, sequence: &Sequence) -> anyhow::Result<Self> {
+        let mut output = Self {
+            out: BufWriter::new(io::stdout()),
+            format: arguments.format,
+            count_only: arguments.count,
+            first_only: arguments.first,
             frames: 0,
             intersecting: 0,
             worst: None,
-        })
+        };
+        output
+            .print_head(arguments, sequence.bodies())
+            .context(WRITING)?;
+        Ok(output)
+    }
+
+    fn print_head(&mut self, arguments: &Arguments, bodies: &[Body]) -> io::Result<()> {
+        let out = &mut self.out;
+        if self.format == Format::Json {
+            let entries: Vec<_> = bodies.iter().map(entry).collect();
+            return write!(
+                out,
+                r#"{{"format":1,"bodies":{},"frames":["#,
+                serde_json::to_string(&entries)?
+            );
+        }
+        for (number, body) in bodies.iter().enumerate() {
+            let [vertices, triangles] = [
+                (body.vertex_count(), "vertex", "vertices"),
+                (body.triangles().len(), "triangle", "triangles"),
+            ]
+            .map(counted);
+            write!(
+                out,
+                "body {number}: {}, {vertices}, {triangles}",
+                printable(body.name())
+            )?;
+            if body.welded() > 0 {
+                let welded = counted((body.welded(), "vertex", "vertices"));
+                write!(out, ", {welded} welded where boundary edges coincide")?;
+            }
+            writeln!(out)?;
+        }
+        let asked = match (bodies.len(), arguments.itself) {
+            (1, _) => "the body with itself",
+            (_, true) => "the bodies with each other, and each with itself",
+            (_, false) => "the bodies with each other, not with themselves",
+        };
+        let first_pair = if self.count_only { "" } else { "  first pair" };
+        writeln!(
+            out,
+            "checked: {asked}\n\n{:>8}{:>10}{first_pair}",
+            "frame", "pairs"
+        )
     }
 
     /// Prints one frame.
-    pub(super) fn frame(&mut self, answer: &Frame) -> anyhow::Result<()> {
-        let Frame { frame, pairs } = answer;
+    pub(super) fn frame(&mut self, frame: usize, pairs: &[[u32; 4]]) -> anyhow::Result<()> {
+        self.print_frame(frame, pairs).context(WRITING)?;
         let count = pairs.len();
-        match self.format {
-            Format::Json => {
-                let entry = FrameEntry {
-                    frame: *frame,
-                    count,
-                    complete: self.first_only.then_some(false),
-                    pairs: (!self.count_only).then_some(pairs),
-                };
-                let separator = if self.frames > 0 { "," } else { "" };
-                write!(self.out, "{separator}\n{}", serde_json::to_string(&entry)?)?;
-            }
-            Format::Table => {
-                write!(self.out, "{frame:>8}{count:>10}")?;
-                if let Some([body_a, a, body_b, b]) = pairs.first().filter(|_| !self.count_only) {
-                    write!(
-                        self.out,
-                        "  triangle {a} of body {body_a}, triangle {b} of body {body_b}"
-                    )?;
-                }
-                writeln!(self.out)?;
-                // Someone is looking: a long sequence shows each frame when it is done.
-                self.out.flush()?;
-            }
-        }
         self.frames += 1;
         self.intersecting += usize::from(count > 0);
         if count > self.worst.map_or(0, |(_, most)| most) {
-            self.worst = Some((*frame, count));
+            self.worst = Some((frame, count));
         }
         Ok(())
     }
 
+    fn print_frame(&mut self, frame: usize, pairs: &[[u32; 4]]) -> io::Result<()> {
+        let count = pairs.len();
+        let out = &mut self.out;
+        if self.format == Format::Json {
+            let complete = self.first_only.then_some(false);
+            let entry = FrameEntry {
+                frame,
+                count,
+                complete,
+                pairs: (!self.count_only).then_some(pairs),
+            };
+            let separator = if self.frames > 0 { "," } else { "" };
+            write!(out, "{separator}\n{}", serde_json::to_string(&entry)?)?;
+        } else {
+            write!(out, "{frame:>8}{count:>10}")?;
+            if let Some([body_a, a, body_b, b]) = pairs.first().filter(|_| !self.count_only) {
+                write!(
+                    out,
+                    "  triangle {a} of body {body_a}, triangle {b} of body {body_b}"
+                )?;
+            }
+            writeln!(out)?;
+        }
+        // Someone is looking, or reading: each frame is shown when it is done.
+        out.flush()
+    }
+
     /// Prints the end, of a check that was completed or of one that could not be.
     pub(super) fn end(mut self, checked: anyhow::Result<()>) -> anyhow::Result<Outcome> {
-        match (self.format, &checked) {
-            (Format::Json, Ok(())) => writeln!(self.out, "\n]}}")?,
-            (Format::Json, Err(error)) => {
-                writeln!(
-                    self.out,
-                    "\n],\"error\":{}}}",
-                    serde_json::to_string(&format!("{error:#}"))?
-                )?;
-            }
-            (Format::Table, Ok(())) => {
-                write!(
-                    self.out,
-                    "\n{} of {} frames intersect",
-                    self.intersecting, self.frames
-                )?;
-                match self.worst.filter(|_| !self.first_only) {
-                    Some((frame, count)) => {
-                        writeln!(self.out, "; most pairs: {count} in frame {frame}")?;
-                    }
-                    None => writeln!(self.out)?,
-                }
-            }
-            (Format::Table, Err(_)) => {}
-        }
-        self.out.flush()?;
-        checked?;
+        let printed = self.print_end(checked.as_ref().err()).context(WRITING);
+        // If both went wrong, what stopped the check comes first.
+        checked.and(printed)?;
         Ok(if self.intersecting > 0 {
             Outcome::Intersects
         } else {
             Outcome::Clear
         })
     }
+
+    fn print_end(&mut self, error: Option<&anyhow::Error>) -> io::Result<()> {
+        let out = &mut self.out;
+        match (self.format, error) {
+            (Format::Json, None) => writeln!(out, "\n]}}")?,
+            (Format::Json, Some(error)) => {
+                writeln!(
+                    out,
+                    "\n],\"error\":{}}}",
+                    serde_json::to_string(&format!("{error:#}"))?
+                )?;
+            }
+            (Format::Table, None) => {
+                write!(
+                    out,
+                    "\n{} of {} frames intersect",
+                    self.intersecting, self.frames
+                )?;
+                if let Some((frame, count)) = self.worst.filter(|_| !self.first_only) {
+                    write!(out, "; most pairs: {count} in frame {frame}")?;
+                }
+                writeln!(out)?;
+            }
+            (Format::Table, Some(_)) => {}
+        }
+        out.flush()
+    }
+}
+
+/// `1 vertex`, `2 vertices`.
+fn counted((number, one, many): (usize, &str, &str)) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
+}
+
+/// A name without characters that would steer a terminal.
+fn printable(name: &str) -> String {
+    name.chars()
+        .flat_map(|c| {
+            if c.is_control() {
+                c.escape_default().collect::<Vec<_>>()
+            } else {
+                vec![c]
+            }
+        })
+        .collect()
 }
 
 fn entry(body: &Body) -> BodyEntry<'_> {

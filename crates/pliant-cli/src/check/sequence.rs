@@ -1,4 +1,5 @@
-//! Bodies read side by side: frame by frame, about two frames in memory (the reader's and the world's).
+//! Bodies read side by side, frame by frame. In memory are the reader's frame and the world's (its shape and the one before it,
+//! whose memory the next is written into); where a file is widened to f64, that too.
 
 use anyhow::{Context, bail};
 use pliant::{Scalar, World};
@@ -89,14 +90,14 @@ impl Sequence {
         }
     }
 
-    /// Brings the world to a frame; frames come in order, and the first makes the bodies.
+    /// Brings the world to a frame; frames come in order, and the first makes the bodies. `buffer` is scratch.
     pub(super) fn load_frame<S: FromFile>(
         &mut self,
         frame: usize,
         world: &mut World<S>,
+        buffer: &mut Vec<[S; 3]>,
     ) -> anyhow::Result<()> {
         let ids: Vec<_> = world.bodies().collect();
-        let mut buffer = Vec::new();
         for (place, body) in self.bodies.iter_mut().enumerate() {
             if frame > 0 && body.frame_count() == 1 {
                 continue;
@@ -110,7 +111,7 @@ impl Sequence {
             let Some(positions) = body.next_frame()? else {
                 bail!("{name}: frame {frame} is missing")
             };
-            let positions = S::from_file(positions, &mut buffer);
+            let positions = S::from_file(positions, buffer);
             if frame == 0 {
                 world.add(&triangles, positions).with_context(|| name)?;
             } else {

@@ -2,8 +2,8 @@
 
 mod record;
 
-use crate::Outcome;
 use crate::tree_options::{TreeOptions, value_name};
+use crate::{Outcome, print_all};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -103,10 +103,15 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         trees: &arguments.trees,
         played,
     };
-    match arguments.format {
-        Format::Table => print!("{}", record.table()),
-        Format::Json => println!("{}", record.json()),
-    }
+    let text = match arguments.format {
+        Format::Table => record.table(),
+        Format::Json => format!(
+            "{}
+",
+            record.json()
+        ),
+    };
+    print_all(&text)?;
     Ok(Outcome::Clear)
 }
 

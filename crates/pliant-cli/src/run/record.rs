@@ -1,8 +1,7 @@
 //! What was played, for people and for programs.
 
+use crate::table::{grouped, table};
 use crate::tree_options::TreeOptions;
-use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, Table};
 use pliant::Statistics;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -158,7 +157,7 @@ impl Record<'_> {
                 milliseconds(time(worst))
             ),
         ]);
-        let _ = writeln!(text, "{found}\n");
+        let _ = writeln!(text, "{}\n", found.trim_fmt());
 
         let mut times = table(&["time a step", "median", "worst"]);
         let figures: [(&str, fn(&StepRecord) -> f64); 3] = [
@@ -172,11 +171,11 @@ impl Record<'_> {
             let worst = sorted.last().copied().unwrap_or_default();
             times.add_row([
                 name.to_owned(),
-                milliseconds(sorted[sorted.len() / 2]),
+                milliseconds(median(&sorted)),
                 milliseconds(worst),
             ]);
         }
-        let _ = writeln!(text, "{times}\n");
+        let _ = writeln!(text, "{}\n", times.trim_fmt());
 
         let mut work = table(&["work", "all steps", &format!("step {}", last.step)]);
         for ((_, what, total), (_, _, at_last)) in named(&self.total())
@@ -185,52 +184,16 @@ impl Record<'_> {
         {
             work.add_row([what.to_owned(), grouped(total), grouped(at_last)]);
         }
-        let _ = writeln!(text, "{work}");
+        let _ = writeln!(text, "{}", work.trim_fmt());
         text
     }
 }
 
-/// Words on the left, figures on the right, no lines.
-fn table(header: &[&str]) -> Table {
-    let mut table = Table::new();
-    table.load_style(NOTHING).set_header(header);
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    table
+/// Of at least one sorted value.
+fn median(sorted: &[f64]) -> f64 {
+    f64::midpoint(sorted[(sorted.len() - 1) / 2], sorted[sorted.len() / 2])
 }
 
 fn milliseconds(value: f64) -> String {
     format!("{value:.3} ms")
-}
-
-/// 20480 as 20,480.
-fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let mut grouped = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            grouped.push(',');
-        }
-        grouped.push(digit);
-    }
-    grouped
-}
-
-#[cfg(test)]
-mod tests {
-    use super::grouped;
-
-    #[test]
-    fn groups_of_three() {
-        for (number, text) in [
-            (0, "0"),
-            (999, "999"),
-            (1000, "1,000"),
-            (20480, "20,480"),
-            (1_310_720, "1,310,720"),
-        ] {
-            assert_eq!(grouped(number), text);
-        }
-    }
 }

@@ -4,7 +4,7 @@
 
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// What a run of the program left behind.
 pub(crate) struct Said {
@@ -53,4 +53,26 @@ pub(crate) fn pliant(folder: &Path, arguments: &[&str]) -> Said {
         out: String::from_utf8(output.stdout).unwrap(),
         err: String::from_utf8(output.stderr).unwrap(),
     }
+}
+
+/// Runs `pliant` with standard output, and perhaps standard error, closed or full; returns the exit code and what it said on
+/// standard error.
+#[cfg(unix)]
+pub(crate) fn pliant_into(
+    folder: &Path,
+    arguments: &[&str],
+    out: Stdio,
+    err: Stdio,
+) -> (i32, String) {
+    let child = Command::new(env!("CARGO_BIN_EXE_pliant"))
+        .current_dir(folder)
+        .args(arguments)
+        .stdout(out)
+        .stderr(err)
+        .spawn();
+    let output = child.unwrap().wait_with_output().unwrap();
+    (
+        output.status.code().expect("the program was not killed"),
+        String::from_utf8(output.stderr).unwrap(),
+    )
 }

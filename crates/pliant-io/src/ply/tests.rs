@@ -187,7 +187,7 @@ fn ascii_errors_name_the_line() {
     );
     assert_eq!(
         with("3 0 1 2", "3 0 1 -1"),
-        ", line 14: face 0 uses vertex -1, but the vertices are numbered 0 to 4294967294 here"
+        ", line 14: face 0 uses vertex -1, but no vertex can have that number"
     );
     assert_eq!(
         with("3 0 1 2\n", "\n"),

@@ -12,7 +12,7 @@
 //! arms meet only where they swing far across; the core is small to leave them room.
 
 use crate::bumps::{Bumps, LANES};
-use crate::motion::{Moment, Path, Pose, Spin};
+use crate::motion::{Moment, Path, Pose, Spin, rounded};
 use crate::rng::Rng;
 use crate::scene::Body;
 use crate::trig::{cos, sin};
@@ -64,11 +64,16 @@ impl ArmedSphere {
             path,
         }
     }
-}
 
-impl Body for ArmedSphere {
-    fn place(&self, now: Moment, rest: &[Vec3], out: &mut [[f32; 3]]) {
-        let pose = Pose::new(&self.spin, &self.path, now);
+    /// Its points in its own frame, each as `finish` writes it.
+    #[inline]
+    fn shape(
+        &self,
+        now: Moment,
+        rest: &[Vec3],
+        out: &mut [[f32; 3]],
+        finish: impl Fn(Vec3) -> [f32; 3],
+    ) {
         let arms = self.arms.each_ref().map(|arm| arm.at(now));
         for (points, out) in rest.chunks(LANES).zip(out.chunks_mut(LANES)) {
             let heights = self.bumps.heights(now.step, points);
@@ -77,9 +82,24 @@ impl Body for ArmedSphere {
                 let shape = arms
                     .iter()
                     .fold(core, |p, arm| add(p, arm.drawn_out(*point)));
-                *out = pose.place(shape);
+                *out = finish(shape);
             }
         }
+    }
+}
+
+impl Body for ArmedSphere {
+    fn place(&self, now: Moment, rest: &[Vec3], out: &mut [[f32; 3]]) {
+        let pose = Pose::new(&self.spin, &self.path, now);
+        self.shape(now, rest, out, |p| pose.place(p));
+    }
+
+    fn pose(&self, now: Moment) -> Option<Pose> {
+        Some(Pose::new(&self.spin, &self.path, now))
+    }
+
+    fn place_in_own_frame(&self, now: Moment, rest: &[Vec3], out: &mut [[f32; 3]]) {
+        self.shape(now, rest, out, rounded);
     }
 }
 

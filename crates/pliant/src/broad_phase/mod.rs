@@ -1,7 +1,6 @@
 //! From the boxes of all bodies to the pairs that overlap (paper, 3.4).
 //!
-//! Bodies are numbered by their place in the world; pairs come sorted, the smaller place first. A body's box is its exact one,
-//! or a loose one that holds for every pose and stands still.
+//! Bodies are numbered by their place in the world. A body's box is its exact one, or a loose one that holds for every pose and stands still.
 
 mod brute_force;
 mod sweep_and_prune;
@@ -31,8 +30,8 @@ impl BroadPhase {
         }
     }
 
-    /// The pairs of overlapping boxes, sorted. Bodies are those of the last call, but for removals told by
-    /// [`BroadPhase::remove`], then added ones at the end.
+    /// The pairs of overlapping boxes, by the places of the boxes, in no order. Bodies are those of the last call, but for
+    /// removals told by [`BroadPhase::swap_remove`], then added ones at the end.
     pub(crate) fn overlapping(&mut self, boxes: &[Aabb]) -> &[BodyPair] {
         let sweep = match self.rule {
             crate::BroadPhase::Auto => boxes.len() > MOST_FOR_BRUTE_FORCE,
@@ -47,10 +46,32 @@ impl BroadPhase {
         &self.pairs
     }
 
-    /// A body is gone; those after it move up one place.
-    pub(crate) fn remove(&mut self, place: u32) {
+    /// The body at `place` goes, and the last one, at `last`, takes its place.
+    pub(crate) fn swap_remove(&mut self, place: usize, last: usize) {
         if let Some(sweep) = &mut self.sweep {
-            sweep.remove(place);
+            sweep.swap_remove(place, last);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_of_bodies_chooses() {
+        let apart = |count: usize| -> Vec<Aabb> {
+            (0..count)
+                .map(|i| Aabb {
+                    lo: [i as f32; 3],
+                    hi: [i as f32 + 0.5; 3],
+                })
+                .collect()
+        };
+        let mut broad_phase = BroadPhase::new(crate::BroadPhase::Auto);
+        for (count, sweeps) in [(100, false), (101, true), (100, false)] {
+            assert!(broad_phase.overlapping(&apart(count)).is_empty());
+            assert_eq!(broad_phase.sweep.is_some(), sweeps, "{count} bodies");
         }
     }
 }

@@ -63,6 +63,10 @@ pub(super) struct SweepAndPrune {
     axes: [Vec<End>; 3],
     /// Sorted, without duplicates.
     pairs: Vec<BodyPair>,
+    /// For the bodies as they stand now, the place of each in the lists, or `NEW`.
+    listed_as: Vec<u32>,
+    /// Whether any are gone that the lists still hold.
+    some_are_gone: bool,
     // Scratch: pairs that began and ceased to overlap, the next list of pairs, and intervals open in a sweep.
     new: Vec<BodyPair>,
     gone: Vec<BodyPair>,
@@ -70,10 +74,15 @@ pub(super) struct SweepAndPrune {
     open: Vec<u32>,
 }
 
+const NEW: u32 = u32::MAX;
+
 impl SweepAndPrune {
     /// See [`super::BroadPhase::overlapping`].
     pub(super) fn overlapping(&mut self, boxes: &[Aabb]) -> &[BodyPair] {
-        let known = self.axes[0].len() / 2;
+        self.listed_as.resize(boxes.len(), NEW);
+        if std::mem::take(&mut self.some_are_gone) {
+            self.forget_the_gone();
+        }
         for (axis, ends) in self.axes.iter_mut().enumerate() {
             for end in &mut *ends {
                 let value = &boxes[end.body() as usize];
@@ -84,20 +93,24 @@ impl SweepAndPrune {
                 };
             }
             // New bodies stand behind all others, overlapping nothing, and are sorted in like any that moved.
-            for (body, value) in boxes.iter().enumerate().skip(known) {
+            for body in (0..boxes.len()).filter(|&body| self.listed_as[body] == NEW) {
                 let body_and_side = 2 * body as u32;
                 ends.push(End {
-                    value: value.lo[axis],
+                    value: boxes[body].lo[axis],
                     body_and_side,
                 });
                 ends.push(End {
-                    value: value.hi[axis],
+                    value: boxes[body].hi[axis],
                     body_and_side: body_and_side + 1,
                 });
             }
         }
+        let new = self.listed_as.iter().filter(|&&place| place == NEW).count();
+        for (listed_as, place) in self.listed_as.iter_mut().zip(0..) {
+            *listed_as = place;
+        }
         let mut budget = self.axes[0].len() * EXCHANGES_PER_END;
-        let many_are_new = known < boxes.len() / 2;
+        let many_are_new = new > boxes.len() / 2;
         if many_are_new || !self.sort_by_exchanges(boxes, &mut budget) {
             self.sort_from_scratch(boxes);
         }
@@ -105,22 +118,37 @@ impl SweepAndPrune {
         &self.pairs
     }
 
-    /// See [`super::BroadPhase::remove`].
-    pub(super) fn remove(&mut self, place: u32) {
-        if place as usize >= self.axes[0].len() / 2 {
-            return; // Added since the last query: not in the lists yet.
-        }
-        let moved = |body: u32| if body > place { body - 1 } else { body };
-        for ends in &mut self.axes {
-            ends.retain(|end| end.body() != place);
-            for end in ends {
-                end.body_and_side = 2 * moved(end.body()) + (end.body_and_side & 1);
+    /// See [`super::BroadPhase::swap_remove`]; `last` is the place of the last body. The lists are put right by the next query,
+    /// in one pass for all that are gone.
+    pub(super) fn swap_remove(&mut self, place: usize, last: usize) {
+        self.listed_as.resize(last + 1, NEW);
+        self.listed_as.swap_remove(place);
+        self.some_are_gone = true;
+    }
+
+    /// Takes bodies that are gone out of the lists, and gives the others their places of now.
+    fn forget_the_gone(&mut self) {
+        let listed = self.axes[0].len() / 2;
+        let mut places = vec![NEW; listed];
+        for (&listed_as, place) in self.listed_as.iter().zip(0..) {
+            if listed_as != NEW {
+                places[listed_as as usize] = place;
             }
         }
-        self.pairs.retain(|pair| !pair.contains(&place));
-        for pair in &mut self.pairs {
-            *pair = pair.map(moved);
+        let place_of = |body: u32| places[body as usize];
+        for ends in &mut self.axes {
+            ends.retain_mut(|end| {
+                let place = place_of(end.body());
+                end.body_and_side = place.wrapping_mul(2) + u32::from(end.is_upper());
+                place != NEW
+            });
         }
+        self.pairs.retain_mut(|pair| {
+            let [a, b] = pair.map(place_of);
+            *pair = [a.min(b), a.max(b)];
+            a != NEW && b != NEW
+        });
+        self.pairs.sort_unstable();
     }
 
     /// Returns false if the budget did not suffice; pairs and order are then to be made anew.
@@ -184,8 +212,8 @@ impl SweepAndPrune {
             while let Some(new) = new.next_if(|&new| new < pair) {
                 next.push(new);
             }
-            // A pair that is known may begin to overlap again on one axis; it is one pair.
-            new.next_if_eq(&pair);
+            // A known pair overlaps on every axis, so on none of them can it begin to.
+            debug_assert_ne!(new.peek(), Some(&pair));
             if gone.next_if_eq(&pair).is_none() {
                 next.push(pair);
             }
@@ -314,11 +342,16 @@ mod tests {
                         boxes.push(random.cube(range));
                         for _ in 0..random.below(4) {
                             if !boxes.is_empty() {
-                                let place = random.below(boxes.len() as u32);
-                                boxes.remove(place as usize);
-                                sweep.remove(place);
+                                let place = random.below(boxes.len() as u32) as usize;
+                                sweep.swap_remove(place, boxes.len() - 1);
+                                boxes.swap_remove(place);
                             }
                         }
+                        boxes.extend(
+                            (0..random.below(3))
+                                .map(|_| random.cube(range))
+                                .collect::<Vec<_>>(),
+                        );
                     }
                 }
             }
@@ -345,5 +378,54 @@ mod tests {
             })
             .collect();
         check(&mut sweep, &shifted);
+    }
+
+    #[test]
+    fn coherent_motion_is_sorted_by_few_exchanges() {
+        let row = |shift: f32| -> Vec<Aabb> {
+            let lo = (0..1000).map(|i| [i as f32 + shift * (i % 3) as f32, 0.0, 0.0]);
+            lo.map(|lo| Aabb {
+                lo,
+                hi: lo.map(|x| x + 0.7),
+            })
+            .collect()
+        };
+        let mut sweep = SweepAndPrune::default();
+        sweep.overlapping(&row(0.0));
+        for step in 1..10 {
+            let boxes = row(step as f32 * 0.05);
+            check(&mut sweep, &boxes);
+        }
+        // Each body passes few others: a hundred bodies' worth of exchanges would be enough for all steps.
+        for (axis, ends) in sweep.axes.iter_mut().enumerate() {
+            for end in ends {
+                let value = &row(0.6)[end.body() as usize];
+                end.value = if end.is_upper() {
+                    value.hi[axis]
+                } else {
+                    value.lo[axis]
+                };
+            }
+        }
+        let mut budget = 1000;
+        assert!(
+            sweep.sort_by_exchanges(&row(0.6), &mut budget),
+            "sorted within the budget"
+        );
+        assert!(budget < 1000, "and not for nothing");
+        // The same jump of all bodies to the other end is beyond any budget.
+        let mut reversed = row(0.6);
+        reversed.reverse();
+        for ends in &mut sweep.axes[..1] {
+            for end in ends {
+                let value = &reversed[end.body() as usize];
+                end.value = if end.is_upper() {
+                    value.hi[0]
+                } else {
+                    value.lo[0]
+                };
+            }
+        }
+        assert!(!sweep.sort_by_exchanges(&reversed, &mut 16_000));
     }
 }

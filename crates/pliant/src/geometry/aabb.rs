@@ -1,5 +1,7 @@
 //! One axis-aligned box. Many of them side by side are `kernels::BoxLanes`.
 
+use super::scalar::{larger, smaller};
+
 /// A closed box `lo <= x <= hi` in `f32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Aabb {
@@ -20,12 +22,12 @@ impl Aabb {
         (0..3).all(|axis| self.lo[axis] <= other.hi[axis] && other.lo[axis] <= self.hi[axis])
     }
 
-    /// The smallest box that holds both.
+    /// The smallest box that holds both; an empty lane's NaN, on the right, is passed over.
     #[inline]
     pub(crate) fn merge(&self, other: &Self) -> Self {
         Self {
-            lo: std::array::from_fn(|axis| self.lo[axis].min(other.lo[axis])),
-            hi: std::array::from_fn(|axis| self.hi[axis].max(other.hi[axis])),
+            lo: std::array::from_fn(|axis| smaller(self.lo[axis], other.lo[axis])),
+            hi: std::array::from_fn(|axis| larger(self.hi[axis], other.hi[axis])),
         }
     }
 

@@ -26,14 +26,6 @@ pub trait Scalar:
     fn to_f64(self) -> f64;
     /// Finite and at most `f32::MAX` in magnitude.
     fn is_in_range(self) -> bool;
-    /// The smaller of two; the other one if one is NaN.
-    #[doc(hidden)]
-    #[must_use]
-    fn smaller(self, other: Self) -> Self;
-    /// The larger of two; the other one if one is NaN.
-    #[doc(hidden)]
-    #[must_use]
-    fn larger(self, other: Self) -> Self;
     /// The largest `f32` that is not above `self - origin`.
     #[doc(hidden)]
     fn round_down(self, origin: f64) -> f32;
@@ -65,14 +57,6 @@ impl Scalar for f32 {
         self.abs() <= f32::MAX
     }
     #[inline]
-    fn smaller(self, other: Self) -> Self {
-        self.min(other)
-    }
-    #[inline]
-    fn larger(self, other: Self) -> Self {
-        self.max(other)
-    }
-    #[inline]
     fn round_down(self, _origin: f64) -> f32 {
         self
     }
@@ -99,14 +83,6 @@ impl Scalar for f64 {
         self.abs() <= f32::MAX.into()
     }
     #[inline]
-    fn smaller(self, other: Self) -> Self {
-        self.min(other)
-    }
-    #[inline]
-    fn larger(self, other: Self) -> Self {
-        self.max(other)
-    }
-    #[inline]
     fn round_down(self, origin: f64) -> f32 {
         let (difference, error) = difference(self, origin);
         let rounded = difference as f32;
@@ -122,6 +98,18 @@ impl Scalar for f64 {
     fn round_up(self, origin: f64) -> f32 {
         -(-self).round_down(-origin)
     }
+}
+
+/// The smaller of two; `a` if either is NaN. One instruction, which `f32::min`, careful on both sides, is not.
+#[inline]
+pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
+    if b < a { b } else { a }
+}
+
+/// The larger of two; `a` if either is NaN.
+#[inline]
+pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
+    if b > a { b } else { a }
 }
 
 /// `a - b` rounded to nearest, and what the rounding left out (Knuth's two-sum: the pair is exact).

@@ -1,5 +1,6 @@
 //! The shape a body has now, and the boxes of its parts.
 
+use super::scalar::{larger, smaller};
 use super::{Aabb, Scalar};
 
 /// The current shape of a body, as everything that makes boxes sees it.
@@ -26,11 +27,12 @@ impl<S: Scalar> Bounds<S> {
         hi: [S::NEG_INFINITY; 3],
     };
 
+    /// A NaN is passed over.
     #[inline]
     pub(crate) fn include(&mut self, point: [S; 3]) {
         for axis in 0..3 {
-            self.lo[axis] = self.lo[axis].smaller(point[axis]);
-            self.hi[axis] = self.hi[axis].larger(point[axis]);
+            self.lo[axis] = smaller(self.lo[axis], point[axis]);
+            self.hi[axis] = larger(self.hi[axis], point[axis]);
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::geometry::Aabb;
 
 /// N closed boxes in structure-of-arrays order. An empty lane is NaN: ordered comparisons with it are false, so it overlaps nothing, not even an
-/// infinite box (a pair of infinities would), and `f32::min` and `f32::max` pass it over.
+/// infinite box (a pair of infinities would), and merging passes it over.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoxLanes<const N: usize> {
     lo: [[f32; N]; 3],
@@ -40,29 +40,42 @@ impl<const N: usize> BoxLanes<N> {
 
     /// Bit i is set if lane i overlaps `query`; touching counts.
     #[inline]
-    pub(crate) fn overlaps(&self, query: &Aabb) -> u32 {
+    pub(crate) fn overlaps(&self, query: &Aabb) -> u64 {
         // Every lane is computed and no comparison ends the loop: what a wide register does in six compares.
-        let mut mask = 0;
+        let mut overlaps = [0; 8];
         for lane in 0..N {
-            let mut overlaps = true;
-            for axis in 0..3 {
-                overlaps &= (self.lo[axis][lane] <= query.hi[axis])
-                    & (self.hi[axis][lane] >= query.lo[axis]);
-            }
-            mask |= u32::from(overlaps) << lane;
+            overlaps[lane] = 1;
         }
-        mask
+        for axis in 0..3 {
+            for lane in 0..N {
+                let below = self.lo[axis][lane] <= query.hi[axis];
+                let above = self.hi[axis][lane] >= query.lo[axis];
+                overlaps[lane] &= u8::from(below & above);
+            }
+        }
+        // Byte i of the product's factor is 0 or 1; the multiplier moves it to bit i of the highest byte.
+        u64::from_le_bytes(overlaps).wrapping_mul(0x0102_0408_1020_4080) >> 56
+    }
+}
+
+impl BoxLanes<8> {
+    /// Bit 8 i + j is set if lane i overlaps lane j of `other`; touching counts.
+    #[inline]
+    pub(crate) fn overlaps_all(&self, other: &Self) -> u64 {
+        (0..8).fold(0, |mask, lane| {
+            mask | other.overlaps(&self.get(lane)) << (8 * lane)
+        })
     }
 }
 
 /// The numbers of the bits set in a mask, lowest first.
 #[inline]
-pub(crate) fn lanes_of(mask: u32) -> impl Iterator<Item = usize> {
+pub(crate) fn bits_of(mask: u64) -> impl Iterator<Item = usize> {
     let mut rest = mask;
     std::iter::from_fn(move || {
-        let lane = rest.trailing_zeros();
+        let bit = rest.trailing_zeros();
         rest &= rest.wrapping_sub(1);
-        (lane < u32::BITS).then_some(lane as usize)
+        (bit < u64::BITS).then_some(bit as usize)
     })
 }
 
@@ -88,6 +101,37 @@ mod tests {
     }
 
     #[test]
+    fn eight_against_eight_agree_with_one_against_eight() {
+        let some = |shift: f32| {
+            let mut lanes = BoxLanes::<8>::EMPTY;
+            for lane in 0..7 {
+                let lo = [
+                    (lane * 5 % 7) as f32 * 0.5,
+                    (lane % 3) as f32 + shift,
+                    shift,
+                ];
+                lanes.set(
+                    lane,
+                    &Aabb {
+                        lo,
+                        hi: lo.map(|x| x + 1.0),
+                    },
+                );
+            }
+            lanes
+        };
+        let (a, b) = (some(0.0), some(0.5));
+        for i in 0..8 {
+            assert_eq!(
+                a.overlaps_all(&b) >> (8 * i) & 0xff,
+                b.overlaps(&a.get(i)),
+                "lane {i}"
+            );
+        }
+        assert!((8..49).contains(&a.overlaps_all(&b).count_ones()));
+    }
+
+    #[test]
     fn lanes_agree_with_single_boxes() {
         let boxes: Vec<Aabb> = (0..27)
             .map(|i| [(i % 3) as f32, (i / 3 % 3) as f32, (i / 9) as f32])
@@ -105,10 +149,7 @@ mod tests {
                 let expected: Vec<usize> = (0..eight.len())
                     .filter(|&lane| eight[lane].overlaps(query))
                     .collect();
-                assert_eq!(
-                    lanes_of(lanes.overlaps(query)).collect::<Vec<_>>(),
-                    expected
-                );
+                assert_eq!(bits_of(lanes.overlaps(query)).collect::<Vec<_>>(), expected);
             }
         }
     }

@@ -5,4 +5,4 @@
 
 mod boxes;
 
-pub(crate) use boxes::{BoxLanes, lanes_of};
+pub(crate) use boxes::{BoxLanes, bits_of};

@@ -2,7 +2,7 @@
 
 use crate::pairs::{Candidate, LeafPair, NodePair};
 use crate::statistics::Statistics;
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 
 /// The first batch is small, so that a visitor that stops at the first pair stops early.
 const FIRST_BATCH: usize = 16;
@@ -21,10 +21,10 @@ pub(crate) trait Meeting {
     fn expand(&self, pair: NodePair, nodes: &mut Vec<NodePair>, leaves: &mut Vec<LeafPair>);
     /// Makes true what [`Meeting::candidates`] will read.
     fn reach_leaves(&mut self, pair: LeafPair, statistics: &mut Statistics);
-    /// The triangles of the first leaf, counted from 0: candidates come a row at a time.
-    fn rows(&self, pair: LeafPair) -> Range<u32>;
-    /// Triangles of the second leaf whose boxes overlap that of the `row`-th triangle of the first.
-    fn candidates(&self, pair: LeafPair, row: u32, candidates: &mut Vec<Candidate>);
+    /// How many blocks of triangles the first leaf has: candidates come a block at a time.
+    fn blocks(&self, pair: LeafPair) -> usize;
+    /// Triangles of a block of the first leaf and of the second leaf whose boxes overlap.
+    fn candidates(&self, pair: LeafPair, block: usize, candidates: &mut Vec<Candidate>);
     /// Whether two triangles intersect, and if so, the caller's numbers of them.
     fn decide(&self, candidate: Candidate, statistics: &mut Statistics) -> Option<[u32; 2]>;
 }
@@ -75,8 +75,8 @@ pub(crate) fn descend(
         }
         candidates.clear();
         for &pair in &*leaves {
-            for row in meeting.rows(pair) {
-                meeting.candidates(pair, row, candidates);
+            for block in 0..meeting.blocks(pair) {
+                meeting.candidates(pair, block, candidates);
                 if candidates.len() >= MOST_CANDIDATES {
                     decide(meeting, candidates, statistics, visit)?;
                 }

@@ -22,10 +22,10 @@ mod descent;
 mod one_tree;
 mod two_trees;
 
-use crate::geometry::{Aabb, Shape};
-use crate::kernels::lanes_of;
+use crate::geometry::Shape;
+use crate::kernels::bits_of;
 use crate::mesh::Mesh;
-use crate::pairs::{LeafPair, NodePair};
+use crate::pairs::{Candidate, LeafPair, NodePair};
 use crate::tree::{Below, LEAF_LANES, Leaves, NodeId, Tree};
 pub(crate) use descent::{Scratch, descend};
 pub(crate) use one_tree::OneTree;
@@ -51,11 +51,11 @@ fn expand<const N: usize>(
         (Below::Leaf(leaf_a), Below::Leaf(leaf_b)) => leaves.push([leaf_a, leaf_b]),
         (Below::Leaf(_), Below::Group(below)) => {
             let mask = b.groups[below as usize].boxes.overlaps(&a.box_of(node_a));
-            nodes.extend(lanes_of(mask).map(|lane| [node_a, NodeId::new::<N>(below, lane)]));
+            nodes.extend(bits_of(mask).map(|lane| [node_a, NodeId::new::<N>(below, lane)]));
         }
         (Below::Group(below), Below::Leaf(_)) => {
             let mask = a.groups[below as usize].boxes.overlaps(&b.box_of(node_b));
-            nodes.extend(lanes_of(mask).map(|lane| [NodeId::new::<N>(below, lane), node_b]));
+            nodes.extend(bits_of(mask).map(|lane| [NodeId::new::<N>(below, lane), node_b]));
         }
         (Below::Group(below_a), Below::Group(below_b)) => {
             let (group_a, group_b) = (&a.groups[below_a as usize], &b.groups[below_b as usize]);
@@ -63,38 +63,32 @@ fn expand<const N: usize>(
                 let child_a = NodeId::new::<N>(below_a, lane_a);
                 let mask = group_b.boxes.overlaps(&group_a.boxes.get(lane_a));
                 nodes.extend(
-                    lanes_of(mask).map(|lane_b| [child_a, NodeId::new::<N>(below_b, lane_b)]),
+                    bits_of(mask).map(|lane_b| [child_a, NodeId::new::<N>(below_b, lane_b)]),
                 );
             }
         }
     }
 }
 
-/// The box of the `index`-th triangle of a leaf.
+/// The pairs of triangles of a leaf's block and of another leaf whose boxes overlap, of one tree or of two. `keep` may take
+/// bits (8 i + j: triangles i and j) out of the mask of each block of the second leaf.
 #[inline]
-fn triangle_box(leaves: &Leaves, leaf: u32, index: u32) -> Aabb {
-    let index = index as usize;
-    leaves.boxes(leaf)[index / LEAF_LANES].get(index % LEAF_LANES)
-}
-
-/// The triangles of a leaf from its `from`-th on whose boxes overlap `query`.
-#[inline]
-fn overlapping_triangles(
-    leaves: &Leaves,
-    leaf: u32,
-    from: u32,
-    query: Aabb,
-) -> impl Iterator<Item = u32> {
-    let first = leaves.triangles(leaf).start;
-    let blocks = leaves
-        .boxes(leaf)
+fn overlapping_triangles<'l>(
+    a: &'l Leaves,
+    (leaf_a, block_a): (u32, usize),
+    b: &'l Leaves,
+    leaf_b: u32,
+    keep: impl Fn(usize) -> u64 + 'l,
+) -> impl Iterator<Item = Candidate> + 'l {
+    let block = &a.boxes(leaf_a)[block_a];
+    let first_a = a.triangles(leaf_a).start + (block_a * LEAF_LANES) as u32;
+    let first_b = b.triangles(leaf_b).start;
+    b.boxes(leaf_b)
         .iter()
         .enumerate()
-        .skip(from as usize / LEAF_LANES);
-    blocks.flat_map(move |(block, boxes)| {
-        let start = (block * LEAF_LANES) as u32;
-        let before = from.saturating_sub(start);
-        let mask = boxes.overlaps(&query) & (u32::MAX << before);
-        lanes_of(mask).map(move |lane| first + start + lane as u32)
-    })
+        .flat_map(move |(block_b, other)| {
+            let first_b = first_b + (block_b * LEAF_LANES) as u32;
+            let mask = block.overlaps_all(other) & keep(block_b);
+            bits_of(mask).map(move |bit| [first_a + (bit / 8) as u32, first_b + (bit % 8) as u32])
+        })
 }

@@ -4,15 +4,15 @@
 //! the pairs of different children that overlap.
 
 use super::descent::Meeting;
-use super::{Side, expand, overlapping_triangles, triangle_box};
+use super::{Side, expand, overlapping_triangles};
 use crate::geometry::Scalar;
-use crate::kernels::lanes_of;
+use crate::kernels::bits_of;
 use crate::narrow_phase;
 use crate::pairs::{Candidate, LeafPair, NodePair};
 use crate::statistics::Statistics;
 use crate::tree::{Below, NodeId};
 use crate::update::{reach_group, reach_leaf};
-use std::ops::Range;
+use std::cmp::Ordering;
 
 /// A tree whose root box is true.
 pub(crate) struct OneTree<'t, const N: usize, S> {
@@ -20,6 +20,16 @@ pub(crate) struct OneTree<'t, const N: usize, S> {
     /// How many levels are made when one is reached.
     pub(crate) levels_at_once: u32,
 }
+
+/// Of the pairs (i, j) of eight lanes, bit 8 i + j, those with j > i.
+const LATER_LANES: u64 = {
+    let (mut mask, mut lane) = (0, 0);
+    while lane < 8 {
+        mask |= (0xff << (lane + 1) & 0xff) << (8 * lane);
+        lane += 1;
+    }
+    mask
+};
 
 impl<const N: usize, S: Scalar> Meeting for OneTree<'_, N, S> {
     fn start(&self) -> NodePair {
@@ -50,9 +60,9 @@ impl<const N: usize, S: Scalar> Meeting for OneTree<'_, N, S> {
                     let child = NodeId::new::<N>(below, lane);
                     nodes.push([child, child]);
                     let later =
-                        group.boxes.overlaps(&group.boxes.get(lane)) & (u32::MAX << lane << 1);
+                        group.boxes.overlaps(&group.boxes.get(lane)) & (u64::MAX << lane << 1);
                     nodes.extend(
-                        lanes_of(later).map(|other| [child, NodeId::new::<N>(below, other)]),
+                        bits_of(later).map(|other| [child, NodeId::new::<N>(below, other)]),
                     );
                 }
             }
@@ -66,31 +76,31 @@ impl<const N: usize, S: Scalar> Meeting for OneTree<'_, N, S> {
         }
     }
 
-    fn rows(&self, [leaf_a, leaf_b]: LeafPair) -> Range<u32> {
-        let triangles = self.side.tree.leaves.triangles(leaf_a).len() as u32;
-        // The last triangle of a leaf has none after it.
-        0..if leaf_a == leaf_b {
-            triangles - 1
-        } else {
-            triangles
-        }
+    fn blocks(&self, [leaf_a, _]: LeafPair) -> usize {
+        self.side.tree.leaves.block_count(leaf_a)
     }
 
-    fn candidates(&self, [leaf_a, leaf_b]: LeafPair, row: u32, candidates: &mut Vec<Candidate>) {
+    fn candidates(
+        &self,
+        [leaf_a, leaf_b]: LeafPair,
+        block: usize,
+        candidates: &mut Vec<Candidate>,
+    ) {
         let Side { tree, mesh, .. } = &self.side;
         let leaves = &tree.leaves;
-        let a = leaves.triangles(leaf_a).start + row;
         if leaves.have_boxes() {
-            let from = if leaf_a == leaf_b { row + 1 } else { 0 };
-            let overlapping =
-                overlapping_triangles(leaves, leaf_b, from, triangle_box(leaves, leaf_a, row));
-            candidates.extend(
-                overlapping
-                    .filter(|&b| !mesh.share_a_vertex(a, b))
-                    .map(|b| [a, b]),
-            );
+            // Within one leaf, each pair of triangles once, and none with itself.
+            let keep = |other: usize| match other.cmp(&block) {
+                _ if leaf_a != leaf_b => u64::MAX,
+                Ordering::Less => 0,
+                Ordering::Equal => LATER_LANES,
+                Ordering::Greater => u64::MAX,
+            };
+            let overlapping = overlapping_triangles(leaves, (leaf_a, block), leaves, leaf_b, keep);
+            candidates.extend(overlapping.filter(|&[a, b]| !mesh.share_a_vertex(a, b)));
         } else {
-            let b = leaves.triangles(leaf_b).start;
+            let [a, b] = [leaf_a, leaf_b].map(|leaf| leaves.triangles(leaf).start);
+            // A leaf with itself is one triangle with itself, which shares its vertices.
             if !mesh.share_a_vertex(a, b) {
                 candidates.push([a, b]);
             }

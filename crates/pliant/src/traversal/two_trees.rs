@@ -1,14 +1,13 @@
 //! Two bodies.
 
 use super::descent::Meeting;
-use super::{Side, expand, overlapping_triangles, triangle_box};
+use super::{Side, expand, overlapping_triangles};
 use crate::geometry::Scalar;
 use crate::narrow_phase;
 use crate::pairs::{Candidate, LeafPair, NodePair};
 use crate::statistics::Statistics;
 use crate::tree::{Below, NodeId};
 use crate::update::{reach_group, reach_leaf};
-use std::ops::Range;
 
 /// Two trees whose root boxes are true and overlap.
 pub(crate) struct TwoTrees<'t, const N: usize, S> {
@@ -43,20 +42,32 @@ impl<const N: usize, S: Scalar> Meeting for TwoTrees<'_, N, S> {
         }
     }
 
-    fn rows(&self, [leaf_a, _]: LeafPair) -> Range<u32> {
-        0..self.a.tree.leaves.triangles(leaf_a).len() as u32
+    fn blocks(&self, [leaf_a, _]: LeafPair) -> usize {
+        self.a.tree.leaves.block_count(leaf_a)
     }
 
-    fn candidates(&self, [leaf_a, leaf_b]: LeafPair, row: u32, candidates: &mut Vec<Candidate>) {
+    fn candidates(
+        &self,
+        [leaf_a, leaf_b]: LeafPair,
+        block: usize,
+        candidates: &mut Vec<Candidate>,
+    ) {
         let (leaves_a, leaves_b) = (&self.a.tree.leaves, &self.b.tree.leaves);
-        let triangle_a = leaves_a.triangles(leaf_a).start + row;
         if leaves_a.have_boxes() {
-            let query = triangle_box(leaves_a, leaf_a, row);
-            candidates
-                .extend(overlapping_triangles(leaves_b, leaf_b, 0, query).map(|b| [triangle_a, b]));
+            let all = |_| u64::MAX;
+            candidates.extend(overlapping_triangles(
+                leaves_a,
+                (leaf_a, block),
+                leaves_b,
+                leaf_b,
+                all,
+            ));
         } else {
             // One triangle a leaf: its box is the leaf's, which overlaps.
-            candidates.push([triangle_a, leaves_b.triangles(leaf_b).start]);
+            candidates.push([
+                leaves_a.triangles(leaf_a).start,
+                leaves_b.triangles(leaf_b).start,
+            ]);
         }
     }
 

@@ -65,6 +65,12 @@ impl Leaves {
         self.blocks.is_some()
     }
 
+    /// How many blocks of eight the triangles of a leaf fill.
+    #[inline]
+    pub(crate) fn block_count(&self, leaf: u32) -> usize {
+        self.triangles(leaf).len().div_ceil(LEAF_LANES)
+    }
+
     pub(crate) fn epoch(&self, leaf: u32) -> u64 {
         self.leaves[leaf as usize].epoch
     }

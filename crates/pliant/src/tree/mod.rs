@@ -15,6 +15,7 @@
 
 pub(crate) mod build;
 mod leaves;
+mod parts;
 mod siblings;
 mod validate;
 mod vertex_sets;

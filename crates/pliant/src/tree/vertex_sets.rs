@@ -16,7 +16,7 @@ pub(crate) struct VertexSets {
     /// First and end of the run of vertices that the node's triangles use first.
     runs: Vec<[u32; 2]>,
     /// The first border vertex of each node, and the end.
-    border_starts: Vec<u32>,
+    border_starts: Vec<usize>,
     border: Vec<u32>,
 }
 
@@ -49,7 +49,7 @@ impl VertexSets {
                 }
             }
             runs.push(run);
-            border_starts.push(border.len() as u32);
+            border_starts.push(border.len());
         }
         border.shrink_to_fit();
         Self {
@@ -66,7 +66,7 @@ impl VertexSets {
 
     fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[u32]) {
         let [start, end] = self.runs[node];
-        let border = self.border_starts[node] as usize..self.border_starts[node + 1] as usize;
+        let border = self.border_starts[node]..self.border_starts[node + 1];
         (start as usize..end as usize, &self.border[border])
     }
 

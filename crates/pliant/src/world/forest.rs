@@ -4,7 +4,7 @@ use crate::geometry::Scalar;
 use crate::mesh::Mesh;
 use crate::options::{Degree, Options, Partition};
 use crate::tree::Tree;
-use crate::tree::build::{Balanced, Cut, InitialShape, Plan, plan};
+use crate::tree::build::{Balanced, Connectivity, Cut, InitialShape, Plan, plan};
 
 /// One tree a body, all of one degree.
 #[derive(Debug)]
@@ -56,8 +56,9 @@ impl Forest {
         mesh
     }
 
-    pub(super) fn remove(&mut self, place: usize) {
-        with_trees!(self, trees => drop(trees.remove(place)));
+    /// The tree at `place` goes, and the last takes its place.
+    pub(super) fn swap_remove(&mut self, place: usize) {
+        with_trees!(self, trees => drop(trees.swap_remove(place)));
     }
 }
 
@@ -81,6 +82,12 @@ fn divide<S: Scalar>(triangles: &[[u32; 3]], positions: &[[S; 3]], options: &Opt
             degree,
             leaf_size,
             &mut Balanced::new(triangles, positions, degree, leaf_size),
+        ),
+        Partition::Connectivity => plan(
+            triangles.len(),
+            degree,
+            leaf_size,
+            &mut Connectivity::new(triangles, degree, leaf_size),
         ),
     }
 }

@@ -5,6 +5,7 @@
 
 mod body;
 mod forest;
+mod parts;
 mod queries;
 mod step;
 mod validate;
@@ -19,10 +20,12 @@ use crate::traversal::Scratch;
 use body::Body;
 pub(crate) use body::validate as validate_body;
 use forest::{Forest, with_trees};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 /// A body of a world: a number in order of adding, never used again in that world.
+///
+/// An id means nothing in another world; there it is refused, or is another body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BodyId(pub u32);
 
@@ -51,12 +54,13 @@ pub struct TreeShape {
 /// A call that is refused returns an [`Error`] and leaves the world as it was.
 pub struct World<S> {
     options: Options,
-    /// Sorted by id, so that a body's place in the list is its place in every result.
+    /// In no order that matters: a removed body's place is taken by the last.
     bodies: Vec<Body<S>>,
+    places: BTreeMap<BodyId, usize>,
     /// The trees of the bodies, in the same places.
     forest: Forest,
     next_id: Option<u32>,
-    /// Pairs of ids, the smaller first, that do not meet in queries of the whole world.
+    /// Pairs of bodies that do not meet in queries of the whole world, each pair in both orders.
     ignored: BTreeSet<(BodyId, BodyId)>,
     broad_phase: BroadPhase,
     /// Boxes are relative to this point; zero for `f32`.
@@ -67,7 +71,10 @@ pub struct World<S> {
     lent: Vec<[S; 3]>,
     scratch: Scratch,
     boxes: Vec<Aabb>,
+    /// Bodies that may meet, by their places, in the order of their ids; as the broad phase found them.
     body_pairs: Vec<[usize; 2]>,
+    /// Whether nothing has happened since that could change them.
+    body_pairs_hold: bool,
     pairs: Vec<Pair>,
     pairs_of_bodies: Vec<[u32; 2]>,
     statistics: Statistics,
@@ -86,6 +93,7 @@ impl<S: Scalar> World<S> {
         Self {
             options,
             bodies: Vec::new(),
+            places: BTreeMap::new(),
             forest: Forest::new(options.degree),
             next_id: Some(0),
             ignored: BTreeSet::new(),
@@ -96,6 +104,7 @@ impl<S: Scalar> World<S> {
             scratch: Scratch::default(),
             boxes: Vec::new(),
             body_pairs: Vec::new(),
+            body_pairs_hold: false,
             pairs: Vec::new(),
             pairs_of_bodies: Vec::new(),
             statistics: Statistics::default(),
@@ -131,9 +140,10 @@ impl<S: Scalar> World<S> {
         let mesh = self
             .forest
             .plant(self.bodies.len(), triangles, positions, &self.options);
+        self.places.insert(id, self.bodies.len());
         self.bodies.push(Body::new(id, mesh, positions));
         self.next_id = id.0.checked_add(1);
-        self.moves += 1;
+        self.note_movement();
         Ok(id)
     }
 
@@ -144,16 +154,29 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](ErrorKind::NoSuchBody).
     pub fn remove(&mut self, body: BodyId) -> Result<(), Error> {
         let place = self.place(body)?;
-        self.bodies.remove(place);
-        self.forest.remove(place);
-        self.broad_phase.remove(place as u32);
-        self.ignored.retain(|&(a, b)| a != body && b != body);
+        self.places.remove(&body);
+        self.bodies.swap_remove(place);
+        self.forest.swap_remove(place);
+        self.broad_phase.swap_remove(place, self.bodies.len());
+        if let Some(moved) = self.bodies.get(place) {
+            self.places.insert(moved.id(), place);
+        }
+        let others: Vec<_> = self
+            .ignored
+            .range((body, BodyId(0))..=(body, BodyId(u32::MAX)))
+            .copied()
+            .collect();
+        for (_, other) in others {
+            self.ignored.remove(&(body, other));
+            self.ignored.remove(&(other, body));
+        }
+        self.body_pairs_hold = false;
         Ok(())
     }
 
     /// The bodies of this world, in the order in which they were added.
     pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyId> {
-        self.bodies.iter().map(Body::id)
+        self.places.keys().copied()
     }
 
     /// Gives a body a new shape: one position for each of its vertices, shape (n, 3), in the order in which it was added.
@@ -175,12 +198,13 @@ impl<S: Scalar> World<S> {
                 body: Some(body),
                 kind,
             })?;
-        self.moves += 1;
+        self.note_movement();
         Ok(())
     }
 
-    /// Like [`set_positions`](Self::set_positions), but `write` fills a buffer of the world's, shape (n, 3), so that the
-    /// caller needs none. The buffer comes filled with NaN: every vertex must be written.
+    /// Like [`set_positions`](Self::set_positions), but `write` fills a buffer of the world's, shape (n, 3), in the order in
+    /// which the vertices were added, so that the caller needs none of its own. The buffer comes filled with NaN: every
+    /// vertex must be written. The same checked pass then takes the shape over, into the order of the tree.
     ///
     /// # Errors
     ///
@@ -209,7 +233,7 @@ impl<S: Scalar> World<S> {
                 kind,
             }
         })?;
-        self.moves += 1;
+        self.note_movement();
         Ok(())
     }
 
@@ -239,6 +263,7 @@ impl<S: Scalar> World<S> {
     pub fn set_filter(&mut self, body: BodyId, membership: u32, mask: u32) -> Result<(), Error> {
         let place = self.place(body)?;
         self.bodies[place].set_filter(membership, mask);
+        self.body_pairs_hold = false;
         Ok(())
     }
 
@@ -248,8 +273,9 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`SameBody`](ErrorKind::SameBody).
     pub fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
-        let pair = self.two_bodies(a, b)?;
-        self.ignored.insert(pair);
+        self.two_bodies(a, b)?;
+        self.ignored.extend([(a, b), (b, a)]);
+        self.body_pairs_hold = false;
         Ok(())
     }
 
@@ -259,8 +285,10 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`SameBody`](ErrorKind::SameBody).
     pub fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
-        let pair = self.two_bodies(a, b)?;
-        self.ignored.remove(&pair);
+        self.two_bodies(a, b)?;
+        self.ignored.remove(&(a, b));
+        self.ignored.remove(&(b, a));
+        self.body_pairs_hold = false;
         Ok(())
     }
 
@@ -286,7 +314,7 @@ impl<S: Scalar> World<S> {
                 body: Some(body),
                 kind,
             })?;
-        self.moves += 1;
+        self.note_movement();
         Ok(())
     }
 
@@ -323,25 +351,28 @@ impl<S: Scalar> World<S> {
 
     /// Where a body stands in the lists.
     fn place(&self, body: BodyId) -> Result<usize, Error> {
-        self.bodies
-            .binary_search_by_key(&body, Body::id)
-            .map_err(|_| Error {
-                body: Some(body),
-                kind: ErrorKind::NoSuchBody,
-            })
+        self.places.get(&body).copied().ok_or(Error {
+            body: Some(body),
+            kind: ErrorKind::NoSuchBody,
+        })
     }
 
-    /// Two different bodies of this world, the smaller id first.
-    fn two_bodies(&self, a: BodyId, b: BodyId) -> Result<(BodyId, BodyId), Error> {
-        self.place(a)?;
-        self.place(b)?;
+    /// Where two different bodies stand in the lists.
+    fn two_bodies(&self, a: BodyId, b: BodyId) -> Result<[usize; 2], Error> {
+        let places = [self.place(a)?, self.place(b)?];
         if a == b {
             return Err(Error {
                 body: Some(a),
                 kind: ErrorKind::SameBody,
             });
         }
-        Ok((a.min(b), a.max(b)))
+        Ok(places)
+    }
+
+    /// A body has a new shape or box.
+    fn note_movement(&mut self) {
+        self.moves += 1;
+        self.body_pairs_hold = false;
     }
 }
 

@@ -8,7 +8,7 @@ use super::step::Step;
 use super::{BodyId, World};
 use crate::error::Error;
 use crate::geometry::{Bounds, Scalar};
-use crate::pairs::Pair;
+use crate::pairs::{BodyPair, Pair};
 use crate::statistics::Statistics;
 use std::ops::ControlFlow;
 
@@ -130,8 +130,7 @@ impl<S: Scalar> World<S> {
         b: BodyId,
         mut visit: impl FnMut([u32; 2]) -> ControlFlow<B>,
     ) -> Result<ControlFlow<B>, Error> {
-        self.two_bodies(a, b)?;
-        let places = [self.place(a)?, self.place(b)?];
+        let places = self.two_bodies(a, b)?;
         self.begin();
         let mut answer = ControlFlow::Continue(());
         let (mut step, forest) = self.step();
@@ -280,8 +279,12 @@ impl<S: Scalar> World<S> {
         );
     }
 
-    /// The broad phase: bodies whose boxes overlap and that filters let meet, into `body_pairs`.
+    /// The broad phase: bodies whose boxes overlap and that filters let meet, into `body_pairs`, the smaller id first, in the
+    /// order of ids.
     fn find_body_pairs(&mut self) {
+        if std::mem::replace(&mut self.body_pairs_hold, true) {
+            return;
+        }
         let Self {
             bodies,
             ignored,
@@ -293,17 +296,29 @@ impl<S: Scalar> World<S> {
         } = self;
         boxes.clear();
         boxes.extend(bodies.iter().map(|body| body.broad_box(*origin)));
-        let overlapping = broad_phase
-            .overlapping(boxes)
-            .iter()
-            .map(|pair| pair.map(|place| place as usize));
+        let in_order = |[a, b]: BodyPair| {
+            let places = [a as usize, b as usize];
+            if bodies[places[0]].id() < bodies[places[1]].id() {
+                places
+            } else {
+                [places[1], places[0]]
+            }
+        };
         body_pairs.clear();
-        body_pairs.extend(overlapping.filter(|places| {
-            let [a, b] = places.map(|place| &bodies[place]);
-            a.may_meet(b)
-                && a.exact_box(*origin).overlaps(&b.exact_box(*origin))
-                && !ignored.contains(&(a.id(), b.id()))
-        }));
+        body_pairs.extend(
+            broad_phase
+                .overlapping(boxes)
+                .iter()
+                .copied()
+                .map(in_order)
+                .filter(|places| {
+                    let [a, b] = places.map(|place| &bodies[place]);
+                    a.may_meet(b)
+                        && a.exact_box(*origin).overlaps(&b.exact_box(*origin))
+                        && !ignored.contains(&(a.id(), b.id()))
+                }),
+        );
+        body_pairs.sort_unstable_by_key(|places| places.map(|place| bodies[place].id()));
     }
 
     /// For `f64`: moves the point that boxes are relative to when the bodies have moved away from it, because the digits of an
@@ -331,6 +346,7 @@ impl<S: Scalar> World<S> {
         if away > 2.0 * radius {
             self.origin = centre;
             self.bodies.iter_mut().for_each(Body::forget_boxes);
+            self.body_pairs_hold = false;
         }
     }
 

@@ -5,8 +5,8 @@ use super::forest::with_trees;
 use crate::geometry::Scalar;
 
 impl<S: Scalar> World<S> {
-    /// Checks every invariant of every tree: the structure, and that each box that claims to be true is the box of the
-    /// vertices below it as they are now. For tests and bug reports; no sequence of calls should ever make it fail.
+    /// Checks every invariant of every tree: the structure, that each box that claims to be true is the box of the vertices
+    /// below it as they are now, and that the nodes of mesh connectivity trees are connected pieces or whole components. For tests and bug reports; no sequence of calls should ever make it fail.
     ///
     /// Cost: every triangle once a level.
     ///
@@ -19,7 +19,7 @@ impl<S: Scalar> World<S> {
                 return Err(format!("{} trees for {} bodies", trees.len(), self.bodies.len()));
             }
             for (tree, body) in trees.iter().zip(&self.bodies) {
-                tree.validate(&body.mesh, &body.shape(self.origin)).map_err(|what| format!("{}: {what}", body.id()))?;
+                tree.validate(&body.mesh, &body.shape(self.origin), self.options.partition).map_err(|what| format!("{}: {what}", body.id()))?;
             }
         });
         Ok(())

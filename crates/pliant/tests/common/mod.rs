@@ -20,7 +20,12 @@ pub(crate) fn every_configuration() -> Vec<Options> {
     };
     let mut all = Vec::new();
     for degree in [Degree::Two, Degree::Four, Degree::Eight] {
-        for partition in [Partition::Centre, Partition::Mean, Partition::Balanced] {
+        for partition in [
+            Partition::Centre,
+            Partition::Mean,
+            Partition::Balanced,
+            Partition::Connectivity,
+        ] {
             for leaf_size in [1, 3, 8, 20] {
                 for update in [
                     Update::BottomUp,

@@ -11,9 +11,11 @@
 //! apart (all midpoints in one place), the loop cuts the order it finds into equal pieces, so every build ends.
 
 mod balanced;
+mod connectivity;
 mod initial_shape;
 
 pub(crate) use balanced::Balanced;
+pub(crate) use connectivity::Connectivity;
 pub(crate) use initial_shape::{Cut, InitialShape};
 use std::ops::Range;
 

@@ -1,14 +1,26 @@
 //! What is always true of a tree.
 
+mod connectedness;
+
 use super::{Below, NodeId, Tree};
 use crate::geometry::{Aabb, Scalar, Shape};
 use crate::mesh::Mesh;
+use crate::options::Partition;
+use connectedness::Connectedness;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 impl<const N: usize> Tree<N> {
-    /// Checks structure and boxes; `Err` says what is wrong. Allocates and takes its time.
-    pub(crate) fn validate<S: Scalar>(&self, mesh: &Mesh, shape: &Shape<S>) -> Result<(), String> {
+    /// Checks structure, boxes and what the partition promises; `Err` says what is wrong. Allocates and takes its time.
+    pub(crate) fn validate<S: Scalar>(
+        &self,
+        mesh: &Mesh,
+        shape: &Shape<S>,
+        partition: Partition,
+    ) -> Result<(), String> {
+        if partition == Partition::Connectivity {
+            self.validate_connectedness(mesh)?;
+        }
         let count = mesh.corners().len() as u32;
         let mut visited = 0;
         let mut deepest = 0;
@@ -91,6 +103,26 @@ impl<const N: usize> Tree<N> {
                 self.node_count(),
                 self.depth
             ));
+        }
+        Ok(())
+    }
+
+    /// Of every node, leaves included.
+    fn validate_connectedness(&self, mesh: &Mesh) -> Result<(), String> {
+        let connectedness = Connectedness::new(mesh.corners());
+        let mut open = vec![NodeId::ROOT];
+        while let Some(node) = open.pop() {
+            let triangles = self.triangles_below(node)?;
+            if !connectedness.holds_for(triangles.start as usize..triangles.end as usize) {
+                let (group, lane) = node.group_and_lane::<N>();
+                return Err(format!(
+                    "node {group}/{lane}: neither one connected piece nor whole components"
+                ));
+            }
+            if let Below::Group(below) = self.child(node).below() {
+                let lanes = 0..self.groups[below as usize].len();
+                open.extend(lanes.map(|lane| NodeId::new::<N>(below, lane)));
+            }
         }
         Ok(())
     }

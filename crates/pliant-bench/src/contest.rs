@@ -1,0 +1,320 @@
+//! Methods on one motion, turn by turn: first their answers are compared, then their times.
+//!
+//! ```text
+//! round 0       every method plays all steps; its pairs must be the truth's, or it is out     (nothing timed)
+//! round 1..     every method plays all steps in a row, as a simulation would; another begins each round
+//!     a step    shapes written freshly into the buffers that methods read    (so vertices are in cache where they fit)
+//!               clock: step                    the update
+//!               clock: the query
+//! ```
+//!
+//! The figure of a step is the median of its rounds. Ratios are taken round by round, because a machine that is slow for a
+//! second is slow for both, and then the median.
+
+use crate::method::{Counters, Method, Pair};
+use crate::motion::{Motion, Placed, Shape};
+use crate::record::{ContestRecord, MethodRecord, Spread, Window, WindowFigures, Wrong, median};
+use std::collections::BTreeSet;
+use std::time::Instant;
+
+/// What is asked at each step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Query {
+    /// All pairs of triangles of different bodies.
+    All,
+    /// Some pair of triangles of different bodies.
+    First,
+    /// All pairs of each body with itself.
+    Itself,
+}
+
+impl Query {
+    /// As on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::All => "all",
+            Self::First => "first",
+            Self::Itself => "self",
+        }
+    }
+}
+
+/// A method that takes part, under a short name.
+pub struct Contender {
+    /// What it is called in tables; [`Method::name`] adds its parameters.
+    pub label: String,
+    /// The method.
+    pub method: Box<dyn Method>,
+}
+
+impl Contender {
+    /// A method under a short name.
+    pub fn new(label: &str, method: impl Method + 'static) -> Self {
+        Self {
+            label: label.to_owned(),
+            method: Box::new(method),
+        }
+    }
+}
+
+/// Methods on one motion.
+pub struct Contest {
+    /// What it is called.
+    pub name: String,
+    /// What is played.
+    pub motion: Motion,
+    /// What is asked.
+    pub query: Query,
+    /// The method whose answers are taken for true: simple, and not one of ours.
+    pub truth: Box<dyn Method>,
+    /// The methods; ratios are to the first.
+    pub methods: Vec<Contender>,
+    /// Parts of the steps.
+    pub windows: Vec<Window>,
+}
+
+/// One round's times of one method: (update, query) in milliseconds at each step.
+type Round = Vec<(f64, f64)>;
+
+impl Contest {
+    /// How many steps will be played, for progress.
+    pub fn length(&self, rounds: usize) -> u64 {
+        ((rounds + 1) * self.methods.len() * self.motion.steps.len()) as u64
+    }
+
+    /// Compares the answers, then plays `rounds` rounds. `progress` is told of every step played.
+    pub fn play(mut self, rounds: usize, progress: &mut dyn FnMut(u64)) -> ContestRecord {
+        // A window without steps (the small forms have few) has no figures.
+        self.windows.retain(|window| {
+            self.motion
+                .steps
+                .iter()
+                .any(|step| (window.first..=window.last).contains(step))
+        });
+        let mut shapes: Vec<Placed> = self
+            .motion
+            .bodies
+            .iter()
+            .map(|body| body.first.clone())
+            .collect();
+        let build = |method: &mut Box<dyn Method>, motion: &Motion| {
+            let start = Instant::now();
+            method.build(&motion.meshes());
+            milliseconds(start, Instant::now())
+        };
+        build(&mut self.truth, &self.motion);
+        let build_ms: Vec<f64> = self
+            .methods
+            .iter_mut()
+            .map(|entry| build(&mut entry.method, &self.motion))
+            .collect();
+
+        // What building counted is not work of a step.
+        self.methods
+            .iter_mut()
+            .for_each(|entry| drop(entry.method.take_counters()));
+        let mut wrong: Vec<Option<Wrong>> = vec![None; self.methods.len()];
+        let mut counters: Vec<Vec<Counters>> = vec![Vec::new(); self.methods.len()];
+        let mut pairs = Vec::new();
+        for (&step, frame) in self.motion.steps.iter().zip(&self.motion.frames) {
+            let all = |method: &mut Box<dyn Method>| match self.query {
+                Query::Itself => method.self_pairs().map(<[Pair]>::to_vec),
+                _ => Some(method.all_pairs().to_vec()),
+            };
+            write(&mut shapes, frame);
+            self.truth.step(&views(&shapes));
+            let truth = all(&mut self.truth).unwrap_or_default();
+            pairs.push(truth.len());
+            for ((Contender { method, .. }, wrong), counters) in
+                self.methods.iter_mut().zip(&mut wrong).zip(&mut counters)
+            {
+                method.step(&views(&shapes));
+                let answer = if self.query == Query::First {
+                    let first = method.first_pair();
+                    first_is_right(first, &truth)
+                } else {
+                    compare(&all(method).unwrap_or_default(), &truth)
+                };
+                counters.push(method.take_counters());
+                if let (Err((missing, extra)), None) = (answer, &wrong) {
+                    *wrong = Some(Wrong {
+                        step,
+                        missing,
+                        extra,
+                    });
+                }
+                progress(1);
+            }
+        }
+
+        let mut played: Vec<Vec<Round>> = vec![Vec::new(); self.methods.len()];
+        let contestants: Vec<usize> = (0..self.methods.len())
+            .filter(|&place| wrong[place].is_none())
+            .collect();
+        for round in 0..rounds {
+            for turn in 0..contestants.len() {
+                let place = contestants[(turn + round) % contestants.len()];
+                let times = self.play_round(place, &mut shapes, progress);
+                played[place].push(times);
+            }
+        }
+        self.record(&build_ms, wrong, counters, pairs, &played)
+    }
+
+    fn play_round(
+        &mut self,
+        place: usize,
+        shapes: &mut [Placed],
+        progress: &mut dyn FnMut(u64),
+    ) -> Round {
+        let method = &mut self.methods[place].method;
+        let mut times = Vec::with_capacity(self.motion.frames.len());
+        for frame in &self.motion.frames {
+            write(shapes, frame);
+            let shapes = views(shapes);
+            let start = Instant::now();
+            method.step(&shapes);
+            let updated = Instant::now();
+            match self.query {
+                Query::All => drop(std::hint::black_box(method.all_pairs())),
+                Query::First => drop(std::hint::black_box(method.first_pair())),
+                Query::Itself => drop(std::hint::black_box(method.self_pairs())),
+            }
+            let end = Instant::now();
+            times.push((milliseconds(start, updated), milliseconds(updated, end)));
+            progress(1);
+        }
+        times
+    }
+
+    fn record(
+        &self,
+        build_ms: &[f64],
+        wrong: Vec<Option<Wrong>>,
+        counters: Vec<Vec<Counters>>,
+        pairs: Vec<usize>,
+        played: &[Vec<Round>],
+    ) -> ContestRecord {
+        let steps = &self.motion.steps;
+        let step_median = |rounds: &[Round], figure: fn((f64, f64)) -> f64, step: usize| {
+            median(
+                &rounds
+                    .iter()
+                    .map(|round| figure(round[step]))
+                    .collect::<Vec<_>>(),
+            )
+        };
+        let methods = self
+            .methods
+            .iter()
+            .enumerate()
+            .zip(wrong)
+            .zip(counters)
+            .map(|(((place, entry), wrong), counters)| {
+                let rounds = &played[place];
+                let list = |figure: fn((f64, f64)) -> f64| -> Vec<f64> {
+                    if rounds.is_empty() {
+                        Vec::new()
+                    } else {
+                        (0..steps.len())
+                            .map(|step| step_median(rounds, figure, step))
+                            .collect()
+                    }
+                };
+                let both = list(|(update, query)| update + query);
+                let figures = |window: &Window| {
+                    let inside: Vec<usize> = (0..steps.len())
+                        .filter(|&step| (window.first..=window.last).contains(&steps[step]))
+                        .collect();
+                    let of_window: Vec<f64> = inside.iter().map(|&step| both[step]).collect();
+                    let sum = |round: &Round| {
+                        inside
+                            .iter()
+                            .map(|&step| round[step].0 + round[step].1)
+                            .sum::<f64>()
+                    };
+                    let ratios = played[0]
+                        .iter()
+                        .zip(rounds)
+                        .map(|(reference, own)| sum(reference) / sum(own))
+                        .collect();
+                    WindowFigures {
+                        median_ms: median(&of_window),
+                        mean_ms: of_window.iter().sum::<f64>() / of_window.len() as f64,
+                        worst_ms: of_window.iter().copied().fold(0.0, f64::max),
+                        speedup: (!played[0].is_empty()).then(|| Spread::of(ratios)),
+                    }
+                };
+                MethodRecord {
+                    name: entry.label.clone(),
+                    parameters: entry.method.name(),
+                    wrong,
+                    build_ms: build_ms[place],
+                    windows: if both.is_empty() {
+                        Vec::new()
+                    } else {
+                        self.windows.iter().map(figures).collect()
+                    },
+                    update_ms: list(|(update, _)| update),
+                    query_ms: list(|(_, query)| query),
+                    counters,
+                }
+            });
+        ContestRecord {
+            name: self.name.clone(),
+            motion: self.motion.name.clone(),
+            bodies: self.motion.bodies.len(),
+            triangles: self
+                .motion
+                .bodies
+                .first()
+                .map_or(0, |body| body.triangles.len()),
+            query: self.query.name().to_owned(),
+            steps: steps.clone(),
+            pairs,
+            truth: self.truth.name(),
+            reference: self
+                .methods
+                .first()
+                .map_or_else(String::new, |entry| entry.label.clone()),
+            windows: self.windows.clone(),
+            methods: methods.collect(),
+        }
+    }
+}
+
+/// Writes the shapes of a step into the buffers that methods read.
+fn write(shapes: &mut [Placed], frame: &[Placed]) {
+    for (shape, placed) in shapes.iter_mut().zip(frame) {
+        shape.copy_from(placed);
+    }
+}
+
+fn views(shapes: &[Placed]) -> Vec<Shape<'_>> {
+    shapes.iter().map(Placed::shape).collect()
+}
+
+fn milliseconds(from: Instant, to: Instant) -> f64 {
+    (to - from).as_secs_f64() * 1e3
+}
+
+/// `Err` counts what is missing from an answer and what is too much.
+fn compare(answer: &[Pair], truth: &[Pair]) -> Result<(), (usize, usize)> {
+    if answer == truth {
+        return Ok(());
+    }
+    let sets = [truth, answer].map(|pairs| pairs.iter().collect::<BTreeSet<_>>());
+    let missing = sets[0].difference(&sets[1]).count();
+    let extra = sets[1].difference(&sets[0]).count();
+    // Neither: the same pairs, but not sorted or some of them twice.
+    Err((missing, extra.max(usize::from(missing == 0))))
+}
+
+fn first_is_right(first: Option<Pair>, truth: &[Pair]) -> Result<(), (usize, usize)> {
+    match first {
+        None if truth.is_empty() => Ok(()),
+        None => Err((1, 0)),
+        Some(pair) if truth.binary_search(&pair).is_ok() => Ok(()),
+        Some(_) => Err((usize::from(!truth.is_empty()), 1)),
+    }
+}

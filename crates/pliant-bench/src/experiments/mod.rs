@@ -1,0 +1,232 @@
+//! The experiments: which motion, which methods, and what is claimed.
+//!
+//! An experiment is a plan: contests, made one after the other because their motions are large, and then what follows from
+//! all of them. Each has a small form, for tests.
+
+mod bodies;
+mod cloth;
+mod degenerate;
+mod degrees;
+mod experiment_1;
+mod experiment_3;
+mod levels;
+mod response;
+mod splits;
+mod table_1;
+
+use crate::contest::{Contender, Contest, Query};
+use crate::decision::exact;
+use crate::method::Method;
+use crate::methods::{
+    BruteForce, BucketTree, Frame, Obvhs, Ours, Parry, Smith, Sweep, VanDenBergen,
+};
+use crate::motion::Motion;
+use crate::record::{Claim, ContestRecord, ExperimentRecord, Verdict, Window};
+use pliant::{Degree, Options, Update};
+use pliant_scenes::Scene;
+
+/// How large an experiment is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// As in the paper, or larger.
+    Full,
+    /// A small form that takes seconds, for tests: it says nothing about speed.
+    Small,
+}
+
+/// A contest to be: its motion is computed when its turn comes.
+pub struct Planned {
+    /// Methods times steps: what one round is in progress.
+    pub steps_a_round: u64,
+    make: Box<dyn FnOnce() -> Contest>,
+}
+
+impl Planned {
+    /// A contest of `methods` methods over `steps` steps.
+    fn new(methods: usize, steps: usize, make: impl FnOnce() -> Contest + 'static) -> Self {
+        Self {
+            steps_a_round: (methods * steps) as u64,
+            make: Box::new(make),
+        }
+    }
+}
+
+/// One experiment.
+pub struct Experiment {
+    /// As on the command line.
+    pub name: &'static str,
+    /// One line for people.
+    pub about: &'static str,
+    plan: fn(Form) -> Vec<Planned>,
+    claims: fn(&[ContestRecord]) -> Vec<Claim>,
+}
+
+/// All experiments, in the order in which `all` runs them.
+pub const EXPERIMENTS: [Experiment; 9] = [
+    experiment_1::EXPERIMENT,
+    table_1::EXPERIMENT,
+    experiment_3::EXPERIMENT,
+    degrees::EXPERIMENT,
+    splits::EXPERIMENT,
+    levels::EXPERIMENT,
+    bodies::EXPERIMENT,
+    cloth::EXPERIMENT,
+    degenerate::EXPERIMENT,
+];
+
+impl Experiment {
+    /// How many steps will be played by all methods together: the length of a progress bar.
+    pub fn length(&self, form: Form, rounds: usize) -> u64 {
+        (self.plan)(form)
+            .iter()
+            .map(|planned| planned.steps_a_round * (rounds as u64 + 1))
+            .sum()
+    }
+
+    /// Plays all contests. `progress` is told the contest at hand and the steps played.
+    pub fn run(
+        &self,
+        form: Form,
+        rounds: usize,
+        progress: &mut dyn FnMut(&str, u64),
+    ) -> ExperimentRecord {
+        let contests: Vec<ContestRecord> = (self.plan)(form)
+            .into_iter()
+            .map(|planned| {
+                let contest = (planned.make)();
+                let name = contest.name.clone();
+                contest.play(rounds, &mut |steps| progress(&name, steps))
+            })
+            .collect();
+        let claims = (self.claims)(&contests);
+        ExperimentRecord {
+            experiment: self.name.to_owned(),
+            small: form == Form::Small,
+            rounds,
+            contests,
+            claims,
+        }
+    }
+}
+
+// The methods by the names that tables use.
+
+const DEFAULT: &str = "pliant";
+const HYBRID: &str = "pliant, paper: hybrid";
+const TOP_DOWN: &str = "pliant, paper: top-down";
+const BOTTOM_UP: &str = "pliant, paper: bottom-up";
+const BERGEN_LOCAL: &str = "van den Bergen, local frame";
+const BERGEN_WORLD: &str = "van den Bergen, world frame";
+const BERGEN_LOCAL_8: &str = "van den Bergen, local frame, 8-ary";
+const BERGEN_WORLD_8: &str = "van den Bergen, world frame, 8-ary";
+const SMITH: &str = "Smith et al., depth 7";
+const BUCKETS_3: &str = "BucketTree, depth 3";
+const BUCKETS_4: &str = "BucketTree, depth 4";
+const BUCKETS_5: &str = "BucketTree, depth 5";
+const FLAT_SWEEP: &str = "flat sweep";
+const BRUTE_FORCE: &str = "brute force over boxes";
+const PARRY: &str = "parry3d";
+const OBVHS_1: &str = "obvhs, 1 a leaf";
+const OBVHS_4: &str = "obvhs, 4 a leaf";
+
+/// The library in a configuration.
+fn ours(label: &str, change: impl FnOnce(&mut Options)) -> Contender {
+    let mut options = if label == DEFAULT {
+        Options::default()
+    } else {
+        Options::paper()
+    };
+    change(&mut options);
+    Contender::new(label, Ours::new(label, options))
+}
+
+/// A method by its name in tables.
+fn contender(label: &'static str) -> Contender {
+    let bergen = |frame, degree| Contender::new(label, VanDenBergen::new(frame, degree, exact));
+    match label {
+        TOP_DOWN => ours(label, |options| options.update = Update::TopDown),
+        BOTTOM_UP => ours(label, |options| options.update = Update::BottomUp),
+        BERGEN_LOCAL => bergen(Frame::Local, Degree::Two),
+        BERGEN_WORLD => bergen(Frame::World, Degree::Two),
+        BERGEN_LOCAL_8 => bergen(Frame::Local, Degree::Eight),
+        BERGEN_WORLD_8 => bergen(Frame::World, Degree::Eight),
+        SMITH => Contender::new(label, Smith::new(7, true, exact)),
+        BUCKETS_3 => Contender::new(label, BucketTree::new(3, exact)),
+        BUCKETS_4 => Contender::new(label, BucketTree::new(4, exact)),
+        BUCKETS_5 => Contender::new(label, BucketTree::new(5, exact)),
+        FLAT_SWEEP => Contender::new(label, Sweep::new(exact)),
+        BRUTE_FORCE => Contender::new(label, BruteForce::new(exact)),
+        PARRY => Contender::new(label, Parry::new(exact)),
+        OBVHS_1 => Contender::new(label, Obvhs::new(1, exact)),
+        OBVHS_4 => Contender::new(label, Obvhs::new(4, exact)),
+        _ => ours(label, |_| ()),
+    }
+}
+
+fn contenders(labels: &[&'static str]) -> Vec<Contender> {
+    labels.iter().map(|label| contender(label)).collect()
+}
+
+/// What is taken for true: no tree, and not ours.
+fn truth() -> Box<dyn Method> {
+    Box::new(Sweep::new(exact))
+}
+
+/// A scene that is known to exist.
+fn scene(name: &str, triangles: usize) -> Scene {
+    Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).expect("the size is one of the scene's")
+}
+
+/// Steps `stride`, 2 `stride`, ... up to `last`.
+fn every(stride: u32, last: u32) -> Vec<u32> {
+    (stride..=last).step_by(stride as usize).collect()
+}
+
+fn window(name: &str, first: u32, last: u32) -> Window {
+    Window {
+        name: name.to_owned(),
+        first,
+        last,
+    }
+}
+
+/// The windows of a scene of 200 steps.
+fn windows() -> Vec<Window> {
+    vec![
+        window("easy", 1, 50),
+        window("hard", 151, 200),
+        window("all", 1, 200),
+    ]
+}
+
+/// A contest on a scene.
+fn on_scene(
+    name: &str,
+    scene: &Scene,
+    steps: &[u32],
+    query: Query,
+    methods: Vec<Contender>,
+) -> Contest {
+    Contest {
+        name: name.to_owned(),
+        motion: Motion::of_scene(scene, steps.iter().copied()),
+        query,
+        truth: truth(),
+        methods,
+        windows: windows(),
+    }
+}
+
+/// A claim that some factor is at least `wanted`; it holds weaker down to `least`.
+fn factor_claim(claim: &str, factor: f64, wanted: f64, least: f64, figure: String) -> Claim {
+    let verdict = match factor {
+        factor if factor >= wanted => Verdict::Holds,
+        factor if factor >= least => Verdict::HoldsWeaker,
+        _ => Verdict::DoesNotHoldToday,
+    };
+    Claim {
+        claim: claim.to_owned(),
+        verdict,
+        figure,
+    }
+}

@@ -1,0 +1,97 @@
+//! What a query collects: the same for every method that proposes its candidates one by one.
+
+use crate::decision::{Decision, Triangle};
+use crate::method::{Counters, Pair};
+use std::ops::ControlFlow;
+
+/// How much of the answer is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// Every pair.
+    All,
+    /// One pair, whichever comes first.
+    First,
+}
+
+/// Decides candidates, keeps the pairs that intersect, says when there are enough.
+pub(super) struct Answer {
+    decision: Decision,
+    wanted: Wanted,
+    pairs: Vec<Pair>,
+    /// The method adds its boxes and box tests; decisions are counted here.
+    pub(super) counters: Counters,
+}
+
+impl Answer {
+    pub(super) fn new(decision: Decision) -> Self {
+        Self {
+            decision,
+            wanted: Wanted::All,
+            pairs: Vec::new(),
+            counters: Counters::default(),
+        }
+    }
+
+    /// Forgets the pairs of the query before.
+    pub(super) fn begin(&mut self, wanted: Wanted) {
+        self.wanted = wanted;
+        self.pairs.clear();
+    }
+
+    /// Decides a candidate. Breaks when nothing more is wanted.
+    #[inline]
+    pub(super) fn candidate(&mut self, pair: Pair, a: &Triangle, b: &Triangle) -> ControlFlow<()> {
+        self.counters.decisions += 1;
+        if !(self.decision)(a, b) {
+            return ControlFlow::Continue(());
+        }
+        self.pairs.push(pair);
+        match self.wanted {
+            Wanted::All => ControlFlow::Continue(()),
+            Wanted::First => ControlFlow::Break(()),
+        }
+    }
+
+    /// The pairs in order. Keys are whole numbers of 128 bits: one comparison, not four.
+    pub(super) fn sorted(&mut self) -> &[Pair] {
+        self.pairs.sort_unstable_by_key(|pair| {
+            pair.iter()
+                .fold(0_u128, |key, &part| key << 32 | u128::from(part))
+        });
+        &self.pairs
+    }
+
+    pub(super) fn first(&self) -> Option<Pair> {
+        self.pairs.first().copied()
+    }
+}
+
+/// A pair of one body with itself, in order.
+#[inline]
+pub(super) fn self_pair(body: usize, a: u32, b: u32) -> Pair {
+    [body as u32, a.min(b), body as u32, a.max(b)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn large_numbers_are_sorted_part_by_part() {
+        let mut answer = Answer::new(|_, _| true);
+        let pairs = [
+            [0, 1, 2, 3],
+            [0, 1, 3, 0],
+            [0, 2, 0, u32::MAX],
+            [1, 0, u32::MAX, 0],
+            [1, u32::MAX, 0, 0],
+            [2, 0, 0, 0],
+        ];
+        let point = [[0.0; 3]; 3];
+        for pair in pairs.into_iter().rev() {
+            assert!(answer.candidate(pair, &point, &point).is_continue());
+        }
+        assert_eq!(answer.sorted(), pairs);
+        assert_eq!(answer.counters.decisions, 6);
+    }
+}

@@ -1,0 +1,115 @@
+//! What the older methods have in common: their own copy of all bodies, boxes, and brute force over pairs of bodies.
+
+use crate::decision::Triangle;
+use crate::motion::{BodyMesh, Shape};
+
+/// A closed box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Aabb {
+    pub(crate) lo: [f32; 3],
+    pub(crate) hi: [f32; 3],
+}
+
+impl Aabb {
+    /// Holds nothing; merging with it changes nothing.
+    pub(crate) const EMPTY: Self = Self {
+        lo: [f32::INFINITY; 3],
+        hi: [f32::NEG_INFINITY; 3],
+    };
+
+    /// The smallest box around points.
+    pub(crate) fn of(points: &[[f32; 3]]) -> Self {
+        points.iter().fold(Self::EMPTY, |hull, &point| {
+            hull.merge(&Self {
+                lo: point,
+                hi: point,
+            })
+        })
+    }
+
+    /// The smallest box that holds both.
+    #[inline]
+    pub(crate) fn merge(&self, other: &Self) -> Self {
+        Self {
+            lo: std::array::from_fn(|axis| self.lo[axis].min(other.lo[axis])),
+            hi: std::array::from_fn(|axis| self.hi[axis].max(other.hi[axis])),
+        }
+    }
+
+    /// What both hold; a box whose `lo` is above its `hi` if there is nothing.
+    #[inline]
+    pub(crate) fn overlap(&self, other: &Self) -> Self {
+        Self {
+            lo: std::array::from_fn(|axis| self.lo[axis].max(other.lo[axis])),
+            hi: std::array::from_fn(|axis| self.hi[axis].min(other.hi[axis])),
+        }
+    }
+
+    /// Touching counts.
+    #[inline]
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        (0..3).all(|axis| self.lo[axis] <= other.hi[axis] && other.lo[axis] <= self.hi[axis])
+    }
+}
+
+/// All bodies in the world, in the shape of the last step.
+#[derive(Debug, Default)]
+pub(crate) struct Bodies {
+    pub(crate) triangles: Vec<Vec<[u32; 3]>>,
+    pub(crate) positions: Vec<Vec<[f32; 3]>>,
+    /// Boxes of whole bodies.
+    pub(crate) boxes: Vec<Aabb>,
+}
+
+impl Bodies {
+    pub(crate) fn build(bodies: &[BodyMesh<'_>]) -> Self {
+        let mut all = Self {
+            triangles: bodies.iter().map(|body| body.triangles.to_vec()).collect(),
+            positions: bodies
+                .iter()
+                .map(|body| body.shape.world.to_vec())
+                .collect(),
+            boxes: Vec::new(),
+        };
+        all.boxes = all
+            .positions
+            .iter()
+            .map(|positions| Aabb::of(positions))
+            .collect();
+        all
+    }
+
+    /// Copies the shapes and makes the boxes of the bodies.
+    pub(crate) fn take_over(&mut self, shapes: &[Shape<'_>]) {
+        for ((positions, own_box), shape) in
+            self.positions.iter_mut().zip(&mut self.boxes).zip(shapes)
+        {
+            positions.copy_from_slice(shape.world);
+            *own_box = Aabb::of(positions);
+        }
+    }
+
+    #[inline]
+    pub(crate) fn corners(&self, body: usize, triangle: u32) -> Triangle {
+        self.triangles[body][triangle as usize].map(|vertex| self.positions[body][vertex as usize])
+    }
+
+    #[inline]
+    pub(crate) fn triangle_box(&self, body: usize, triangle: u32) -> Aabb {
+        Aabb::of(&self.corners(body, triangle))
+    }
+
+    /// Pairs of bodies whose boxes overlap, the smaller first.
+    pub(crate) fn overlapping_pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+        let count = self.boxes.len();
+        (0..count)
+            .flat_map(move |a| (a + 1..count).map(move |b| [a, b]))
+            .filter(|&[a, b]| self.boxes[a].overlaps(&self.boxes[b]))
+    }
+}
+
+/// Whether two triangles of one body have a vertex in common.
+#[inline]
+pub(crate) fn share_a_vertex(a: [u32; 3], b: [u32; 3]) -> bool {
+    a.iter().any(|vertex| b.contains(vertex))
+}

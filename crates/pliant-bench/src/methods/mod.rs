@@ -1,0 +1,23 @@
+//! One file or folder a method.
+
+mod answer;
+mod bodies;
+mod brute_force;
+mod bucket_tree;
+mod obvhs;
+mod ours;
+mod parry;
+mod region;
+mod smith;
+mod sweep;
+mod triangle_box;
+mod van_den_bergen;
+
+pub use brute_force::BruteForce;
+pub use bucket_tree::BucketTree;
+pub use obvhs::Obvhs;
+pub use ours::Ours;
+pub use parry::Parry;
+pub use smith::Smith;
+pub use sweep::Sweep;
+pub use van_den_bergen::{Frame, VanDenBergen};

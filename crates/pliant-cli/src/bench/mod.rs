@@ -1,0 +1,99 @@
+//! `pliant bench`: methods side by side, and what the paper claims about them.
+
+mod tables;
+
+use crate::{Outcome, print_all};
+use anyhow::{Context, bail};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use pliant_bench::experiments::{EXPERIMENTS, Experiment, Form};
+use pliant_bench::machine::this_machine;
+use pliant_bench::record::Record;
+use std::path::PathBuf;
+
+#[derive(Args, Debug)]
+#[command(after_help = experiments_help())]
+pub(crate) struct Arguments {
+    /// The experiment, or `all`
+    name: String,
+    /// How often every method plays every step; figures are medians
+    #[arg(long, value_name = "R", default_value = "5", value_parser = clap::value_parser!(u16).range(1..))]
+    rounds: u16,
+    /// A small form that takes seconds, to see what there is; its times mean nothing
+    #[arg(long)]
+    small: bool,
+    /// Write everything that was measured to a file, as benchmarks/record.schema.json describes it
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+fn experiments_help() -> String {
+    let lines = EXPERIMENTS
+        .iter()
+        .map(|experiment| format!("  {:<14}{}\n", experiment.name, experiment.about));
+    format!(
+        "Experiments:\n{}  {:<14}everything",
+        lines.collect::<String>(),
+        "all"
+    )
+}
+
+/// Runs experiments and prints what was found.
+pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let chosen: Vec<&Experiment> = EXPERIMENTS
+        .iter()
+        .filter(|experiment| arguments.name == "all" || arguments.name == experiment.name)
+        .collect();
+    if chosen.is_empty() {
+        let names: Vec<_> = EXPERIMENTS
+            .iter()
+            .map(|experiment| experiment.name)
+            .collect();
+        bail!(
+            "there is no experiment {:?}; there are {} and all",
+            arguments.name,
+            names.join(", ")
+        );
+    }
+    if let Some(file) = &arguments.json {
+        // Before hours are spent: can it be written?
+        std::fs::write(file, "").with_context(|| format!("cannot write {}", file.display()))?;
+    }
+    let form = if arguments.small {
+        Form::Small
+    } else {
+        Form::Full
+    };
+    let rounds = usize::from(arguments.rounds);
+    let machine = this_machine();
+    print_all(&format!("{}\n", tables::machine_line(&machine)))?;
+
+    let length = chosen
+        .iter()
+        .map(|experiment| experiment.length(form, rounds))
+        .sum();
+    let bar = ProgressBar::new(length).with_style(ProgressStyle::with_template(
+        "{msg} {wide_bar} {percent} %, {elapsed} gone, {eta} to go",
+    )?);
+    let mut record = Record {
+        format: 1,
+        machine,
+        experiments: Vec::new(),
+    };
+    for experiment in chosen {
+        let done = experiment.run(form, rounds, &mut |contest, steps| {
+            bar.set_message(contest.to_owned());
+            bar.inc(steps);
+        });
+        bar.suspend(|| print_all(&tables::experiment(&done)))?;
+        record.experiments.push(done);
+        if let Some(file) = &arguments.json {
+            // After each experiment: what was measured is not lost if a later one fails.
+            let text = serde_json::to_string_pretty(&record)?;
+            std::fs::write(file, text + "\n")
+                .with_context(|| format!("cannot write {}", file.display()))?;
+        }
+    }
+    bar.finish_and_clear();
+    Ok(Outcome::Clear)
+}

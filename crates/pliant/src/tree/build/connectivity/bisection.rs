@@ -1,0 +1,141 @@
+//! A graph in two: by whole components, or both sides connected.
+
+use super::coarsening::{Coarsening, Level};
+use super::components::Components;
+use super::far_ends::FarEnds;
+use super::graph::Graph;
+use super::refinement::{Quality, Refinement};
+use super::search::{Search, UNREACHED};
+use super::sides::{Shares, Side};
+use super::subtree::Subtree;
+
+/// A graph of this many nodes is coarse enough to be cut.
+const COARSE: usize = 48;
+/// It is no use to go on where contracting takes away less than this part of the nodes.
+const WORTH_IT: usize = 20;
+
+#[derive(Debug, Default)]
+pub(super) struct Bisection {
+    search: Search,
+    components: Components,
+    /// Coarser and coarser; the memory of the largest graph so far.
+    levels: Vec<Level>,
+    coarsening: Coarsening,
+    far_ends: FarEnds,
+    subtree: Subtree,
+    refinement: Refinement,
+    /// A cut to compare with, or to make the next of.
+    other: Vec<Side>,
+}
+
+impl Bisection {
+    /// Gives each of two or more nodes a side; none is empty.
+    pub(super) fn bisect(&mut self, graph: &Graph, shares: Shares, sides: &mut Vec<Side>) {
+        self.search.clear(graph.len());
+        self.search.reach(graph, 0);
+        if self.search.order.len() < graph.len() {
+            self.deal_components(graph, sides);
+        } else {
+            self.cut(graph, shares, sides);
+        }
+    }
+
+    /// The search has reached the first component.
+    fn deal_components(&mut self, graph: &Graph, sides: &mut Vec<Side>) {
+        let mut reached = self.search.order.len();
+        self.components.clear();
+        self.components.push(reached as u32);
+        for node in 0..graph.len() as u32 {
+            if self.search.distances[node as usize] == UNREACHED {
+                self.search.reach(graph, node);
+                let size = self.search.order.len() - reached;
+                self.components.push(size as u32);
+                reached += size;
+            }
+        }
+        // Components came one after the other.
+        sides.clear();
+        sides.resize(graph.len(), false);
+        let mut nodes = self.search.order.iter();
+        for (size, side) in self.components.deal() {
+            for &node in nodes.by_ref().take(size as usize) {
+                sides[node as usize] = side;
+            }
+        }
+    }
+
+    /// Cuts a connected graph.
+    fn cut(&mut self, graph: &Graph, shares: Shares, sides: &mut Vec<Side>) {
+        let coarsest = self.coarsen(graph);
+        let mut quality = self.cut_between_far_ends(coarsest, graph, shares, sides);
+        for level in (0..coarsest).rev() {
+            let coarse_of = self.levels[level].coarse_of.iter();
+            self.other.clear();
+            self.other
+                .extend(coarse_of.map(|&node| sides[node as usize]));
+            std::mem::swap(&mut self.other, sides);
+            let finer = at_level(level, &self.levels, graph);
+            quality = self.refinement.refine(finer, shares, sides);
+        }
+        if quality.excess > 0 {
+            self.subtree.cut_off(graph, shares, &mut self.other);
+            if self.refinement.refine(graph, shares, &mut self.other) < quality {
+                std::mem::swap(&mut self.other, sides);
+            }
+        }
+    }
+
+    /// Contracts the graph again and again, and returns at which level it is coarse.
+    fn coarsen(&mut self, graph: &Graph) -> usize {
+        let most = (graph.total() / COARSE as u32).max(1) * 3 / 2;
+        let mut level = 0;
+        loop {
+            if self.levels.len() == level {
+                self.levels.push(Level::default());
+            }
+            let (levels, coarser) = self.levels.split_at_mut(level);
+            let finer = at_level(level, levels, graph);
+            if finer.len() <= COARSE {
+                return level;
+            }
+            self.coarsening.coarsen(finer, most, &mut coarser[0]);
+            if (finer.len() - coarser[0].graph.len()) * WORTH_IT < finer.len() {
+                return level;
+            }
+            level += 1;
+        }
+    }
+
+    /// The best of the cuts between far ends at a level, refined.
+    fn cut_between_far_ends(
+        &mut self,
+        level: usize,
+        graph: &Graph,
+        shares: Shares,
+        sides: &mut Vec<Side>,
+    ) -> Quality {
+        let graph = at_level(level, &self.levels, graph);
+        let ends = self.far_ends.find(graph);
+        let mut best = Quality::WORST;
+        for b in 1..ends {
+            for a in 0..b {
+                let other = &mut self.other;
+                self.far_ends.cut_between(graph, [a, b], shares, other);
+                let quality = self.refinement.refine(graph, shares, other);
+                if quality < best {
+                    best = quality;
+                    std::mem::swap(other, sides);
+                }
+            }
+        }
+        best
+    }
+}
+
+/// The graph at a level: 0 is the one to be cut.
+fn at_level<'a>(level: usize, levels: &'a [Level], graph: &'a Graph) -> &'a Graph {
+    match level {
+        0 => graph,
+        _ => &levels[level - 1].graph,
+    }
+}

@@ -1,0 +1,261 @@
+//! A shorter border and more equal sides, a node at a time: Fiduccia and Mattheyses (*A Linear-Time Heuristic for Improving
+//! Network Partitions*, 1982), on a cut whose sides are connected and stay so.
+//!
+//! A pass moves nodes of the border to the other side, always the one that shortens the border most, and each once; it goes on
+//! for a while where the border gets longer, and in the end back to the best cut it saw. A side that is too heavy gives nodes
+//! away until it is not. A node whose side might fall apart stays (`nearby`).
+
+use super::graph::Graph;
+use super::nearby::Nearby;
+use super::sides::{Shares, Side};
+use std::collections::BinaryHeap;
+use std::ops::RangeInclusive;
+
+/// How good a cut is: less is better, first things first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Quality {
+    /// How much heavier a side is than it may be.
+    pub(super) excess: u32,
+    /// Weight of the links between the sides.
+    pub(super) border: u32,
+    /// How far the weights are from the shares.
+    pub(super) unevenness: u64,
+}
+
+impl Quality {
+    /// No cut is as bad.
+    pub(super) const WORST: Self = Self {
+        excess: u32::MAX,
+        border: u32::MAX,
+        unevenness: u64::MAX,
+    };
+}
+
+/// A pass ends this many moves after the best cut it saw: about as many as a border has edges, the root of the weight.
+const PATIENCE: RangeInclusive<usize> = 12..=64;
+/// There are no more passes than this; most often the second finds nothing.
+const MOST_PASSES: u32 = 4;
+/// A side may have this part of the whole more than its share, where that makes the border shorter.
+const TOLERANCE: u32 = 256;
+
+#[derive(Debug, Default)]
+pub(super) struct Refinement {
+    /// By node: the weight of its links within its side, and across the border.
+    within: Vec<u32>,
+    across: Vec<u32>,
+    /// By node: the last pass that moved it.
+    moved_in: Vec<u32>,
+    /// Nodes of each side that may be moved; entries that are no longer true are passed over.
+    candidates: [BinaryHeap<Candidate>; 2],
+    moves: Vec<u32>,
+    nearby: Nearby,
+}
+
+/// A node and its gain in one number, which orders by gain, then by the lowest node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Candidate(u64);
+
+impl Candidate {
+    #[inline]
+    fn new(gain: i32, node: u32) -> Self {
+        let ascending = gain.cast_unsigned() ^ 1 << 31;
+        Self(u64::from(ascending) << 32 | u64::from(!node))
+    }
+
+    #[inline]
+    fn node(self) -> u32 {
+        !(self.0 as u32)
+    }
+}
+
+impl Refinement {
+    /// Improves a cut with two connected sides, which stay connected.
+    pub(super) fn refine(&mut self, graph: &Graph, shares: Shares, sides: &mut [Side]) -> Quality {
+        let mut cut = Cut::new(self, graph, shares, sides);
+        let mut quality = cut.quality();
+        for pass in 1..=MOST_PASSES {
+            let better = cut.improve(pass);
+            if better == quality {
+                break;
+            }
+            quality = better;
+        }
+        quality
+    }
+}
+
+/// A cut of a graph, and what is known of it.
+struct Cut<'a> {
+    graph: &'a Graph,
+    shares: Shares,
+    /// What the sides may weigh.
+    limits: [u32; 2],
+    sides: &'a mut [Side],
+    weights: [u32; 2],
+    border: u32,
+    known: &'a mut Refinement,
+}
+
+impl<'a> Cut<'a> {
+    fn new(
+        known: &'a mut Refinement,
+        graph: &'a Graph,
+        shares: Shares,
+        sides: &'a mut [Side],
+    ) -> Self {
+        known.within.clear();
+        known.across.clear();
+        known.moved_in.clear();
+        known.moved_in.resize(graph.len(), 0);
+        known.nearby.clear(graph.len());
+        let mut weights = [0; 2];
+        let mut both_ways = 0;
+        for node in 0..graph.len() as u32 {
+            let side = sides[node as usize];
+            let mut sums = [0; 2];
+            for link in graph.links(node) {
+                sums[usize::from(sides[link.to as usize] != side)] += link.weight;
+            }
+            known.within.push(sums[0]);
+            known.across.push(sums[1]);
+            weights[usize::from(side)] += graph.weight(node);
+            both_ways += sums[1];
+        }
+        // Where nodes are heavy no cut is quite even.
+        let slack = graph.total() / TOLERANCE + graph.heaviest() / 2;
+        Self {
+            graph,
+            shares,
+            limits: shares.limits(graph.total(), slack),
+            sides,
+            weights,
+            border: both_ways / 2,
+            known,
+        }
+    }
+
+    fn quality(&self) -> Quality {
+        let excess = |side: usize| self.weights[side].saturating_sub(self.limits[side]);
+        Quality {
+            excess: excess(0).max(excess(1)),
+            border: self.border,
+            unevenness: self.shares.unevenness(self.weights),
+        }
+    }
+
+    /// One pass. Returns the quality of the cut it leaves, which is not worse than before.
+    fn improve(&mut self, pass: u32) -> Quality {
+        self.known.candidates.iter_mut().for_each(BinaryHeap::clear);
+        self.known.moves.clear();
+        for node in 0..self.graph.len() as u32 {
+            self.offer(node, pass);
+        }
+        let border = self.graph.total().isqrt() as usize;
+        let patience = border.clamp(*PATIENCE.start(), *PATIENCE.end());
+        let (mut best, mut best_moves) = (self.quality(), 0);
+        while let Some(node) = self.next(pass) {
+            self.change_side(node);
+            self.known.moves.push(node);
+            self.known.moved_in[node as usize] = pass;
+            for link in self.graph.links(node) {
+                self.offer(link.to, pass);
+            }
+            let quality = self.quality();
+            if quality < best {
+                (best, best_moves) = (quality, self.known.moves.len());
+            } else if self.known.moves.len() - best_moves >= patience {
+                break;
+            }
+        }
+        for undone in (best_moves..self.known.moves.len()).rev() {
+            self.change_side(self.known.moves[undone]);
+        }
+        best
+    }
+
+    /// Makes a node a candidate, if it is on the border and this pass has not moved it.
+    #[inline]
+    fn offer(&mut self, node: u32, pass: u32) {
+        if self.may_be_moved(node, pass) {
+            let candidate = Candidate::new(self.gain(node), node);
+            self.known.candidates[usize::from(self.sides[node as usize])].push(candidate);
+        }
+    }
+
+    #[inline]
+    fn may_be_moved(&self, node: u32, pass: u32) -> bool {
+        self.known.across[node as usize] > 0 && self.known.moved_in[node as usize] < pass
+    }
+
+    /// How much shorter the border becomes if a node is moved.
+    #[inline]
+    fn gain(&self, node: u32) -> i32 {
+        self.known.across[node as usize].cast_signed()
+            - self.known.within[node as usize].cast_signed()
+    }
+
+    /// The best node to move, if there is one.
+    fn next(&mut self, pass: u32) -> Option<u32> {
+        // If a side is too heavy, it is the fuller one.
+        let fuller = self.shares.fuller(self.weights);
+        let excess = self.weights[fuller].saturating_sub(self.limits[fuller]);
+        loop {
+            let best = [self.best(0, pass), self.best(1, pass)];
+            let from = if excess == 0 && best[1 - fuller] > best[fuller] {
+                1 - fuller
+            } else {
+                fuller
+            };
+            let node = best[from]?.node();
+            self.known.candidates[from].pop();
+            let there = self.weights[1 - from] + self.graph.weight(node);
+            let too_much = there.saturating_sub(self.limits[1 - from]);
+            let fits = if excess == 0 {
+                too_much <= self.graph.heaviest()
+            } else {
+                too_much < excess
+            };
+            // One that must stay is offered again when something next to it is moved.
+            if fits && self.known.nearby.may_leave(self.graph, self.sides, node) {
+                return Some(node);
+            }
+        }
+    }
+
+    /// The best candidate of a side, once those that are no longer true are gone.
+    fn best(&mut self, side: usize, pass: u32) -> Option<Candidate> {
+        while let Some(&candidate) = self.known.candidates[side].peek() {
+            let node = candidate.node();
+            if usize::from(self.sides[node as usize]) == side
+                && self.may_be_moved(node, pass)
+                && candidate == Candidate::new(self.gain(node), node)
+            {
+                return Some(candidate);
+            }
+            self.known.candidates[side].pop();
+        }
+        None
+    }
+
+    fn change_side(&mut self, node: u32) {
+        let here = node as usize;
+        let weight = self.graph.weight(node);
+        self.weights[usize::from(self.sides[here])] -= weight;
+        self.sides[here] = !self.sides[here];
+        self.weights[usize::from(self.sides[here])] += weight;
+
+        let Refinement { within, across, .. } = &mut *self.known;
+        self.border = self.border + within[here] - across[here];
+        std::mem::swap(&mut within[here], &mut across[here]);
+        for link in self.graph.links(node) {
+            let there = link.to as usize;
+            if self.sides[there] == self.sides[here] {
+                within[there] += link.weight;
+                across[there] -= link.weight;
+            } else {
+                within[there] -= link.weight;
+                across[there] += link.weight;
+            }
+        }
+    }
+}

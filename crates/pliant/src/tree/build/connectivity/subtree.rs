@@ -1,0 +1,67 @@
+//! A cut for graphs like trees: one side is a subtree of a breadth-first tree.
+//!
+//! Both sides of it are connected. Where many arms are equally far from two ends, a cut between them may leave all of these on
+//! one side; this one does not: of k links at most at each node, some subtree has at least a k-th of the weight (less one
+//! node) and not much more than half, so that halving ends after few levels on any mesh, where k is six.
+
+use super::graph::Graph;
+use super::search::Search;
+use super::sides::{Shares, Side};
+
+#[derive(Debug, Default)]
+pub(super) struct Subtree {
+    search: Search,
+    /// By node: the node above, and the weight of its subtree.
+    above: Vec<u32>,
+    weights: Vec<u32>,
+}
+
+impl Subtree {
+    /// Cuts a connected graph of two nodes or more.
+    pub(super) fn cut_off(&mut self, graph: &Graph, shares: Shares, sides: &mut Vec<Side>) {
+        let root = self.search.farthest(graph, 0);
+        self.search.farthest(graph, root);
+        let Search { order, distances } = &self.search;
+        self.above.clear();
+        self.above.resize(graph.len(), root);
+        self.weights.clear();
+        self.weights.resize(graph.len(), 0);
+        let mut best = (u64::MAX, root);
+        for &node in order[1..].iter().rev() {
+            let nearer = |to: u32| distances[to as usize] < distances[node as usize];
+            let above = graph.links(node).iter().find(|link| nearer(link.to));
+            let above = above.map_or(root, |link| link.to);
+            let weight = self.weights[node as usize] + graph.weight(node);
+            self.weights[above as usize] += weight;
+            self.above[node as usize] = above;
+            let unevenness = shares.unevenness([graph.total() - weight, weight]);
+            best = best.min((unevenness, node));
+        }
+        sides.clear();
+        sides.resize(graph.len(), false);
+        for &node in &order[1..] {
+            let above = self.above[node as usize];
+            sides[node as usize] = node == best.1 || sides[above as usize];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::graph::tests::{path, star};
+    use super::*;
+
+    #[test]
+    fn arms_are_cut_off() {
+        let (mut subtree, mut sides) = (Subtree::default(), Vec::new());
+        let mut smaller = |graph: &Graph| {
+            subtree.cut_off(graph, Shares::halves(2), &mut sides);
+            let here = sides.iter().filter(|&&side| side).count();
+            here.min(graph.len() - here)
+        };
+        assert_eq!(smaller(&path(2)), 1);
+        assert_eq!(smaller(&path(20)), 10);
+        assert_eq!(smaller(&star(3, 10)), 10);
+        assert_eq!(smaller(&star(6, 10)), 10);
+    }
+}

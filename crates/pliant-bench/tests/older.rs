@@ -406,10 +406,17 @@ fn what_touches_is_found_in_any_frame() {
             rotation: random.rotation(),
             translation: random.vector(far),
         };
-        let meeting = a.place(random.vector(1.0)).map(|x| f64::from(x as f32));
+        let meeting = a.place(random.vector(1.0)).map(|x| x as f32);
+        // Any point that is rounded to it.
+        let near_meeting = |random: &mut Random| -> [f64; 3] {
+            std::array::from_fn(|axis| {
+                let spacing = f64::from(meeting[axis].next_up()) - f64::from(meeting[axis]);
+                f64::from(meeting[axis]) + 0.49 * spacing * random.signed()
+            })
+        };
         // A corner at the meeting point; the other two on the lower side of it along `axis` of the frame.
         let corner = |pose: &Pose, sign: f64, random: &mut Random| {
-            let at = back(pose, meeting);
+            let at = back(pose, near_meeting(random));
             let other = |random: &mut Random| {
                 let mut off = random.vector(1.0);
                 off[axis] = -sign * (off[axis].abs() + 0.01);
@@ -433,7 +440,7 @@ fn what_touches_is_found_in_any_frame() {
             placed(b, &corner(&b, -1.0, &mut random))
         } else {
             b.rotation = random.rotation();
-            placed(b, &[back(&b, meeting); 3])
+            placed(b, &[back(&b, near_meeting(&mut random)); 3])
         };
         assert_eq!(below.world[0], above.world[0], "they meet in the world");
         for bodies in [[&below, &above], [&above, &below]] {

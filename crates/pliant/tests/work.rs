@@ -281,7 +281,7 @@ fn removing_bodies_is_not_quadratic() {
     }
 }
 
-/// `cargo test --release -p pliant --test work -- --ignored --nocapture`: some seconds and about two gigabytes.
+/// `cargo test --release -p pliant --test work -- --ignored --nocapture`: half a minute and some gigabytes.
 #[test]
 #[ignore = "large"]
 fn ten_million_triangles() {

@@ -4,8 +4,10 @@ use crate::pairs::{Candidate, LeafPair, NodePair};
 use crate::statistics::Statistics;
 use std::ops::ControlFlow;
 
-/// The first batch is small, so that a visitor that stops at the first pair stops early.
-const FIRST_BATCH: usize = 16;
+/// The first batch is one pair, and batches double: a visitor that stops at the first pair has then made few boxes that it did
+/// not need (on the two spheres from contact on, 16 instead made 1,841 boxes where this makes 520, and took 1.8 times as long),
+/// and one that wants all pairs loses nothing.
+const FIRST_BATCH: usize = 1;
 /// The longest batch: long enough that changing between the phases costs nothing, short enough that its groups stay in cache.
 const LONGEST_BATCH: usize = 1024;
 /// Candidates are decided when there are so many, even within a pair of leaves: this bounds memory whatever the leaf size is.

@@ -3,7 +3,7 @@
 //! ```text
 //! stack = [(root, root)]                                    boxes true and overlapping
 //! while the stack is not empty:
-//!     take a batch from its top                             16 pairs, then 32, ... up to 1024
+//!     take a batch from its top                             1 pair, then 2, 4, ... up to 1024
 //!     reach:   make true the groups below the batch         the only step that writes boxes
 //!     expand:  children whose boxes overlap onto the stack, pairs of leaves aside
 //!     leaves:  reach them too, then triangle against triangle: candidates

@@ -1,4 +1,5 @@
-//! One query, phase by phase: the only place where broad phase, update, traversal and narrow phase meet.
+//! One query of two bodies or of one: boxes compared, upper levels made true, trees descended. Which bodies, the broad phase
+//! says: see `queries`.
 
 use super::body::Body;
 use crate::geometry::Scalar;

@@ -136,4 +136,34 @@ mod tests {
             assert!(meets(&triangle, &region));
         }
     }
+
+    #[test]
+    fn a_plane_that_touches_a_corner_is_not_lost_to_rounding() {
+        let mut state = 2_u64;
+        let mut random = |below: u64| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            ((state >> 33) % below) as f32
+        };
+        let region = Aabb {
+            lo: [-3.0, -1.0, -9.0],
+            hi: [5.0, 3.0, 7.0],
+        };
+        for _ in 0..10_000 {
+            // Two directions upright on a normal that points away from the box, in whole numbers.
+            let [a, b, c] = std::array::from_fn(|_| 1.0 + random(1_000));
+            let (d, e) = ([b, -a, 0.0], [0.0, c, -b]);
+            let mut offset = || -> [f32; 3] {
+                let (s, t) = (random(2_000) - 1_000.0, random(2_000) - 1_000.0);
+                std::array::from_fn(|axis| s * d[axis] + t * e[axis])
+            };
+            let (first, second) = (offset(), offset());
+            let third = std::array::from_fn(|axis| -(first[axis] + second[axis]));
+            // The middle of the triangle is the corner of the box; all coordinates are exact.
+            let triangle = [first, second, third]
+                .map(|offset| std::array::from_fn(|axis| region.hi[axis] + offset[axis]));
+            assert!(meets(&triangle, &region));
+        }
+    }
 }

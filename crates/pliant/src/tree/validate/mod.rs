@@ -172,3 +172,37 @@ impl<const N: usize> Tree<N> {
         Ok(end_of(false)?.start..end_of(true)?.end)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tree::build::{Balanced, Connectivity, Split, plan};
+
+    /// What is wrong with the tree that a rule makes of these triangles, as a mesh connectivity tree.
+    fn fault(triangles: &[[u32; 3]], positions: &[[f32; 3]], rule: &mut impl Split) -> String {
+        let mut plan = plan(triangles.len(), 8, 2, rule);
+        let order = std::mem::take(&mut plan.order);
+        let mesh = Mesh::in_order(triangles, positions.len(), order);
+        let shape = Shape {
+            positions,
+            origin: [0.0; 3],
+            epoch: 1,
+        };
+        let tree = Tree::<8>::new(&plan, &mesh);
+        assert_eq!(tree.validate(&mesh, &shape, Partition::Balanced), Ok(()));
+        let found = tree.validate(&mesh, &shape, Partition::Connectivity);
+        found.err().unwrap_or_default()
+    }
+
+    #[test]
+    fn a_tree_by_shape_is_no_connectivity_tree() {
+        // A strip whose triangles lie to and fro.
+        let strip: Vec<[u32; 3]> = (0..32).map(|i| [i, i + 1, i + 2]).collect();
+        let positions: Vec<[f32; 3]> = (0..34).map(|i| [(i * 13 % 34) as f32, 0.0, 0.0]).collect();
+        let mut balanced = Balanced::new(&strip, &positions, 8, 2);
+        let found = fault(&strip, &positions, &mut balanced);
+        assert!(found.contains("neither one connected piece"), "{found}");
+        let mut connectivity = Connectivity::new(&strip, 8, 2);
+        assert_eq!(fault(&strip, &positions, &mut connectivity), "");
+    }
+}

@@ -11,7 +11,7 @@ use super::subtree::Subtree;
 
 /// A graph of this many nodes is coarse enough to be cut.
 const COARSE: usize = 48;
-/// It is no use to go on where contracting takes away less than this part of the nodes.
+/// Contracting goes on while it takes one of so many nodes away, or more.
 const WORTH_IT: usize = 20;
 
 #[derive(Debug, Default)]

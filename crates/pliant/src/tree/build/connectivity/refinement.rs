@@ -35,7 +35,7 @@ impl Quality {
 const PATIENCE: RangeInclusive<usize> = 12..=64;
 /// There are no more passes than this; most often the second finds nothing.
 const MOST_PASSES: u32 = 4;
-/// A side may have this part of the whole more than its share, where that makes the border shorter.
+/// A side may have one in so many more than its share, where that makes the border shorter.
 const TOLERANCE: u32 = 256;
 
 #[derive(Debug, Default)]

@@ -119,7 +119,7 @@ const BERGEN_LOCAL: &str = "van den Bergen, local frame";
 const BERGEN_WORLD: &str = "van den Bergen, world frame";
 const BERGEN_LOCAL_8: &str = "van den Bergen, local frame, 8-ary";
 const BERGEN_WORLD_8: &str = "van den Bergen, world frame, 8-ary";
-const SMITH: &str = "Smith et al., depth 7";
+const SMITH: &str = "Smith et al., depth 5";
 const BUCKETS_3: &str = "BucketTree, depth 3";
 const BUCKETS_4: &str = "BucketTree, depth 4";
 const BUCKETS_5: &str = "BucketTree, depth 5";
@@ -150,7 +150,7 @@ fn contender(label: &'static str) -> Contender {
         BERGEN_WORLD => bergen(Frame::World, Degree::Two),
         BERGEN_LOCAL_8 => bergen(Frame::Local, Degree::Eight),
         BERGEN_WORLD_8 => bergen(Frame::World, Degree::Eight),
-        SMITH => Contender::new(label, Smith::new(7, true, exact)),
+        SMITH => Contender::new(label, Smith::new(5, false, exact)),
         BUCKETS_3 => Contender::new(label, BucketTree::new(3, exact)),
         BUCKETS_4 => Contender::new(label, BucketTree::new(4, exact)),
         BUCKETS_5 => Contender::new(label, BucketTree::new(5, exact)),

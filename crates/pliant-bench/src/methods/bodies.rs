@@ -1,5 +1,6 @@
 //! What the older methods have in common: their own copy of all bodies, boxes, and brute force over pairs of bodies.
 
+use super::triangle_box::triangle_box;
 use crate::decision::Triangle;
 use crate::motion::{BodyMesh, Shape};
 
@@ -96,7 +97,10 @@ impl Bodies {
 
     #[inline]
     pub(crate) fn triangle_box(&self, body: usize, triangle: u32) -> Aabb {
-        Aabb::of(&self.corners(body, triangle))
+        triangle_box(
+            self.triangles[body][triangle as usize],
+            &self.positions[body],
+        )
     }
 
     /// Pairs of bodies whose boxes overlap, the smaller first.

@@ -218,7 +218,8 @@ impl Body {
 
 #[inline]
 fn triangle_box(positions: &[[f32; 3]], corners: [u32; 3]) -> Aabb {
-    Aabb::from_points(&corners.map(|vertex| positions[vertex as usize].into()))
+    let own_box = super::triangle_box::triangle_box(corners, positions);
+    Aabb::new(own_box.lo.into(), own_box.hi.into())
 }
 
 /// The triangles of a leaf.

@@ -89,7 +89,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
         record.experiments.push(done);
         if let Some(file) = &arguments.json {
             // After each experiment: what was measured is not lost if a later one fails.
-            let text = serde_json::to_string_pretty(&record)?;
+            let text = serde_json::to_string(&record)?;
             std::fs::write(file, text + "\n")
                 .with_context(|| format!("cannot write {}", file.display()))?;
         }

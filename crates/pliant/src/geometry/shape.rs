@@ -8,6 +8,8 @@ use super::{Aabb, Scalar};
 pub(crate) struct Shape<'a, S> {
     /// Positions in tree order.
     pub(crate) positions: &'a [[S; 3]],
+    /// The corners of each triangle, both in tree order.
+    pub(crate) triangles: &'a [[u32; 3]],
     /// Boxes are relative to this point (zero for `f32`).
     pub(crate) origin: [f64; 3],
     /// Counts the changes of shape; a box made in another epoch is not true.
@@ -51,19 +53,23 @@ impl<S: Scalar> Bounds<S> {
 }
 
 impl<S: Scalar> Shape<'_, S> {
-    /// The box of one triangle, given by its corners.
+    /// The box of one triangle.
     #[inline]
-    pub(crate) fn box_of(&self, corners: [u32; 3]) -> Aabb {
-        let mut bounds = Bounds::EMPTY;
-        for corner in corners {
-            bounds.include(self.positions[corner as usize]);
-        }
+    pub(crate) fn box_of(&self, triangle: u32) -> Aabb {
+        // Not corner by corner into bounds: three corners at once keep their minima and maxima in registers.
+        let [a, b, c] =
+            self.triangles[triangle as usize].map(|vertex| &self.positions[vertex as usize]);
+        let bounds = Bounds {
+            lo: std::array::from_fn(|axis| smaller(smaller(a[axis], b[axis]), c[axis])),
+            hi: std::array::from_fn(|axis| larger(larger(a[axis], b[axis]), c[axis])),
+        };
         bounds.to_box(self.origin)
     }
 
     /// Three corners of a triangle as the decision wants them; exact.
     #[inline]
-    pub(crate) fn corners(&self, corners: [u32; 3]) -> [[f64; 3]; 3] {
-        corners.map(|corner| self.positions[corner as usize].map(S::to_f64))
+    pub(crate) fn corners(&self, triangle: u32) -> [[f64; 3]; 3] {
+        self.triangles[triangle as usize]
+            .map(|vertex| self.positions[vertex as usize].map(S::to_f64))
     }
 }

@@ -70,9 +70,9 @@ impl<const N: usize, S: Scalar> Meeting for OneTree<'_, N, S> {
     }
 
     fn reach_leaves(&mut self, pair: LeafPair, statistics: &mut Statistics) {
-        let Side { tree, mesh, shape } = &mut self.side;
+        let Side { tree, shape, .. } = &mut self.side;
         for leaf in pair {
-            statistics.triangle_boxes += reach_leaf(tree, leaf, mesh.corners(), shape);
+            statistics.triangle_boxes += reach_leaf(tree, leaf, shape);
         }
     }
 
@@ -109,9 +109,8 @@ impl<const N: usize, S: Scalar> Meeting for OneTree<'_, N, S> {
 
     fn decide(&self, [a, b]: Candidate, statistics: &mut Statistics) -> Option<[u32; 2]> {
         let Side { mesh, shape, .. } = &self.side;
-        let corners = |triangle: u32| shape.corners(mesh.corners()[triangle as usize]);
         let id = |triangle: u32| mesh.triangle_ids()[triangle as usize];
-        narrow_phase::intersect::<S>(&corners(a), &corners(b), statistics)
+        narrow_phase::intersect::<S>(&shape.corners(a), &shape.corners(b), statistics)
             .then(|| [id(a).min(id(b)), id(a).max(id(b))])
     }
 }

@@ -37,8 +37,7 @@ impl<const N: usize, S: Scalar> Meeting for TwoTrees<'_, N, S> {
 
     fn reach_leaves(&mut self, pair: LeafPair, statistics: &mut Statistics) {
         for (side, leaf) in [&mut self.a, &mut self.b].into_iter().zip(pair) {
-            statistics.triangle_boxes +=
-                reach_leaf(side.tree, leaf, side.mesh.corners(), &side.shape);
+            statistics.triangle_boxes += reach_leaf(side.tree, leaf, &side.shape);
         }
     }
 
@@ -72,8 +71,8 @@ impl<const N: usize, S: Scalar> Meeting for TwoTrees<'_, N, S> {
     }
 
     fn decide(&self, [a, b]: Candidate, statistics: &mut Statistics) -> Option<[u32; 2]> {
-        let corners_a = self.a.shape.corners(self.a.mesh.corners()[a as usize]);
-        let corners_b = self.b.shape.corners(self.b.mesh.corners()[b as usize]);
+        let corners_a = self.a.shape.corners(a);
+        let corners_b = self.b.shape.corners(b);
         narrow_phase::intersect::<S>(&corners_a, &corners_b, statistics).then(|| {
             [
                 self.a.mesh.triangle_ids()[a as usize],

@@ -40,6 +40,9 @@ pub(super) fn make_levels_true<const N: usize, S: Scalar>(
         for lane in 0..lanes {
             let value = match tree.groups[group].children[lane].below() {
                 Below::Group(below) if place < lowest => tree.groups[below as usize].boxes.union(),
+                Below::Leaf(leaf) if tree.leaves.triangles(leaf).len() == 1 => {
+                    shape.box_of(tree.leaves.triangles(leaf).start)
+                }
                 _ => tree
                     .vertices
                     .box_of(tree.groups[group].first_node as usize + lane, shape),

@@ -27,23 +27,16 @@ pub(crate) fn reach_group<const N: usize, S: Scalar>(
 pub(crate) fn reach_leaf<const N: usize, S: Scalar>(
     tree: &mut Tree<N>,
     leaf: u32,
-    corners: &[[u32; 3]],
     shape: &Shape<S>,
 ) -> u64 {
     if !tree.leaves.have_boxes() || tree.leaves.epoch(leaf) == shape.epoch {
         return 0;
     }
     let triangles = tree.leaves.triangles(leaf);
-    let corners = &corners[triangles.start as usize..triangles.end as usize];
-    for (block, corners) in tree
-        .leaves
-        .make_true(leaf, shape.epoch)
-        .iter_mut()
-        .zip(corners.chunks(LEAF_LANES))
-    {
-        for (lane, &corners) in corners.iter().enumerate() {
-            block.set(lane, &shape.box_of(corners));
-        }
+    let count = triangles.len() as u64;
+    let blocks = tree.leaves.make_true(leaf, shape.epoch);
+    for (place, triangle) in triangles.enumerate() {
+        blocks[place / LEAF_LANES].set(place % LEAF_LANES, &shape.box_of(triangle));
     }
-    corners.len() as u64
+    count
 }

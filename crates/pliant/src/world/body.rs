@@ -87,6 +87,7 @@ impl<S: Scalar> Body<S> {
     pub(super) fn shape(&self, origin: [f64; 3]) -> Shape<'_, S> {
         Shape {
             positions: &self.positions,
+            triangles: self.mesh.corners(),
             origin,
             epoch: self.epoch,
         }

@@ -3,7 +3,7 @@
 mod connectedness;
 
 use super::{Below, NodeId, Tree};
-use crate::geometry::{Aabb, Scalar, Shape};
+use crate::geometry::{Aabb, Bounds, Scalar, Shape};
 use crate::mesh::Mesh;
 use crate::options::Partition;
 use connectedness::Connectedness;
@@ -55,9 +55,11 @@ impl<const N: usize> Tree<N> {
             let is_true = siblings.epoch == shape.epoch;
             let own_box = is_true.then(|| siblings.boxes.get(lane));
             if let Some(own_box) = own_box {
-                let exact = listed.iter().fold(Aabb::EMPTY, |union, &vertex| {
-                    union.merge(&shape.box_of([vertex; 3]))
-                });
+                let mut bounds = Bounds::EMPTY;
+                listed
+                    .iter()
+                    .for_each(|&vertex| bounds.include(shape.positions[vertex as usize]));
+                let exact = bounds.to_box(shape.origin);
                 if own_box != exact {
                     return Err(format!(
                         "node {group}/{lane}: claims to be true and is {own_box:?}, not {exact:?}"
@@ -71,7 +73,7 @@ impl<const N: usize> Tree<N> {
             }
 
             match siblings.children[lane].below() {
-                Below::Leaf(leaf) => self.validate_leaf(leaf, mesh, shape)?,
+                Below::Leaf(leaf) => self.validate_leaf(leaf, shape)?,
                 Below::Group(below) => {
                     let mut next = triangles.start;
                     let lanes = self.groups[below as usize].len();
@@ -127,12 +129,7 @@ impl<const N: usize> Tree<N> {
         Ok(())
     }
 
-    fn validate_leaf<S: Scalar>(
-        &self,
-        leaf: u32,
-        mesh: &Mesh,
-        shape: &Shape<S>,
-    ) -> Result<(), String> {
+    fn validate_leaf<S: Scalar>(&self, leaf: u32, shape: &Shape<S>) -> Result<(), String> {
         if !self.leaves.have_boxes() || self.leaves.epoch(leaf) != shape.epoch {
             return Ok(());
         }
@@ -140,7 +137,7 @@ impl<const N: usize> Tree<N> {
         for (index, triangle) in triangles.enumerate() {
             let (block, lane) = (index / super::LEAF_LANES, index % super::LEAF_LANES);
             let found = self.leaves.boxes(leaf)[block].get(lane);
-            let exact = shape.box_of(mesh.corners()[triangle as usize]);
+            let exact = shape.box_of(triangle);
             if found != exact {
                 return Err(format!(
                     "leaf {leaf}: triangle {triangle} has box {found:?}, not {exact:?}"
@@ -185,6 +182,7 @@ mod tests {
         let mesh = Mesh::in_order(triangles, positions.len(), order);
         let shape = Shape {
             positions,
+            triangles: mesh.corners(),
             origin: [0.0; 3],
             epoch: 1,
         };

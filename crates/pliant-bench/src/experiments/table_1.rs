@@ -29,7 +29,7 @@ const METHODS: [&str; 2] = [HYBRID, DEFAULT];
 
 fn plan(form: Form) -> Vec<Planned> {
     let sizes: Vec<(usize, Vec<u32>)> = if form == Form::Full {
-        // Every second step; the largest at some steps only, first contact and the end among them.
+        // The sizes of today at some steps only, first contact and the end among them.
         let today =
             [327_680, 1_310_720].map(|triangles| (triangles, vec![30, 60, 61, 100, 150, 175, 200]));
         PAPER

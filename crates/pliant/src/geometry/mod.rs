@@ -6,4 +6,5 @@ mod shape;
 
 pub(crate) use aabb::Aabb;
 pub use scalar::Scalar;
+pub(crate) use scalar::{larger, smaller};
 pub(crate) use shape::{Bounds, Shape};

@@ -1,6 +1,6 @@
 //! N boxes side by side, and one box against all of them.
 
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, larger, smaller};
 
 /// N closed boxes in structure-of-arrays order. An empty lane is NaN: ordered comparisons with it are false, so it overlaps nothing, not even an
 /// infinite box (a pair of infinities would), and merging passes it over.
@@ -32,10 +32,27 @@ impl<const N: usize> BoxLanes<N> {
         }
     }
 
-    /// The smallest box that holds all lanes.
+    /// The smallest box that holds all lanes. Lanes are used from the first on, so of two lanes the lower is never the empty one
+    /// alone, and passing over a NaN on the right is enough.
     #[inline]
     pub(crate) fn union(&self) -> Aabb {
-        (0..N).fold(Aabb::EMPTY, |union, lane| union.merge(&self.get(lane)))
+        // Halves are folded onto each other, in steps that a wide register does at once; one lane after the other would wait
+        // for each comparison.
+        let (mut lo, mut hi) = (self.lo, self.hi);
+        let mut width = N;
+        while width > 1 {
+            width /= 2;
+            for axis in 0..3 {
+                for lane in 0..width {
+                    lo[axis][lane] = smaller(lo[axis][lane], lo[axis][lane + width]);
+                    hi[axis][lane] = larger(hi[axis][lane], hi[axis][lane + width]);
+                }
+            }
+        }
+        Aabb {
+            lo: lo.map(|lanes| lanes[0]),
+            hi: hi.map(|lanes| lanes[0]),
+        }
     }
 
     /// Bit i is set if lane i overlaps `query`; touching counts.
@@ -91,13 +108,18 @@ mod tests {
         };
         let mut lanes = BoxLanes::<8>::EMPTY;
         assert_eq!(lanes.overlaps(&everything), 0);
-        let unit = Aabb {
-            lo: [0.0; 3],
-            hi: [1.0; 3],
-        };
-        lanes.set(5, &unit);
-        assert_eq!(lanes.overlaps(&everything), 1 << 5);
-        assert_eq!(lanes.union(), unit);
+        let mut union = Aabb::EMPTY;
+        for lane in 0..8 {
+            let lo = [(lane * 3 % 8) as f32, -(lane as f32), (lane * 5 % 8) as f32];
+            let value = Aabb {
+                lo,
+                hi: lo.map(|x| x + 0.5),
+            };
+            lanes.set(lane, &value);
+            union = union.merge(&value);
+            assert_eq!(lanes.overlaps(&everything), (1 << (lane + 1)) - 1);
+            assert_eq!(lanes.union(), union, "{} lanes", lane + 1);
+        }
     }
 
     #[test]

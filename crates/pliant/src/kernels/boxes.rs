@@ -108,7 +108,10 @@ mod tests {
         };
         let mut lanes = BoxLanes::<8>::EMPTY;
         assert_eq!(lanes.overlaps(&everything), 0);
-        let mut union = Aabb::EMPTY;
+        let mut union = Aabb {
+            lo: [f32::INFINITY; 3],
+            hi: [f32::NEG_INFINITY; 3],
+        };
         for lane in 0..8 {
             let lo = [(lane * 3 % 8) as f32, -(lane as f32), (lane * 5 % 8) as f32];
             let value = Aabb {
@@ -116,7 +119,8 @@ mod tests {
                 hi: lo.map(|x| x + 0.5),
             };
             lanes.set(lane, &value);
-            union = union.merge(&value);
+            union.lo = std::array::from_fn(|axis| union.lo[axis].min(value.lo[axis]));
+            union.hi = std::array::from_fn(|axis| union.hi[axis].max(value.hi[axis]));
             assert_eq!(lanes.overlaps(&everything), (1 << (lane + 1)) - 1);
             assert_eq!(lanes.union(), union, "{} lanes", lane + 1);
         }

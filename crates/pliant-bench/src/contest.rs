@@ -136,12 +136,14 @@ impl Contest {
                     compare(&all(method).unwrap_or_default(), &truth)
                 };
                 counters.push(method.take_counters());
-                if let (Err((missing, extra)), None) = (answer, &wrong) {
-                    *wrong = Some(Wrong {
+                if let Err((missing, extra)) = answer {
+                    let wrong = wrong.get_or_insert(Wrong {
                         step,
-                        missing,
-                        extra,
+                        missing: 0,
+                        extra: 0,
                     });
+                    wrong.missing += missing;
+                    wrong.extra += extra;
                 }
                 progress(1);
             }

@@ -96,7 +96,7 @@ pub struct MethodRecord {
     pub name: String,
     /// The method's own name, with every parameter.
     pub parameters: String,
-    /// If its pairs are not the truth's: where first. It is then not timed, and the lists below are empty.
+    /// If its pairs are not the truth's: where first, and how often. It is then not timed, and the lists below are empty.
     pub wrong: Option<Wrong>,
     /// Building, once.
     pub build_ms: f64,
@@ -137,15 +137,15 @@ pub struct Spread {
     pub most: f64,
 }
 
-/// A step at which a method's answer is not the truth.
+/// Where a method's answers are not the truth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wrong {
     /// The first such step.
     pub step: u32,
-    /// Pairs that are true and missing.
+    /// Pairs that are true and missing, over all steps.
     pub missing: usize,
-    /// Pairs that are not true.
+    /// Pairs that are not true, over all steps.
     pub extra: usize,
 }
 

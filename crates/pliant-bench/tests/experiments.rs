@@ -204,7 +204,7 @@ fn a_wrong_method_is_found_out_and_not_timed() {
         record.methods[1].wrong,
         Some(Wrong {
             step: 150,
-            missing: 1,
+            missing: 2,
             extra: 0
         })
     );

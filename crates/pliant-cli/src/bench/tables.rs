@@ -95,7 +95,7 @@ fn row(method: &MethodRecord, record: &ContestRecord) -> Vec<String> {
     match &method.wrong {
         Some(wrong) => {
             row.push(format!(
-                "wrong at step {}: {} missing, {} too many",
+                "wrong from step {} on: {} missing, {} too many",
                 wrong.step, wrong.missing, wrong.extra
             ));
             row.resize(1 + 2 * record.windows.len(), String::new());

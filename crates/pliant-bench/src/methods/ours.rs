@@ -44,7 +44,7 @@ fn row(pair: pliant::Pair) -> Pair {
 
 impl Method for Ours {
     fn name(&self) -> String {
-        self.name.clone()
+        format!("{}: {:?}", self.name, self.world.options())
     }
 
     fn build(&mut self, bodies: &[BodyMesh<'_>]) {

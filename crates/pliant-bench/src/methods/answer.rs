@@ -1,7 +1,8 @@
 //! What a query collects: the same for every method that proposes its candidates one by one.
 
 use crate::decision::{Decision, Triangle};
-use crate::method::{Counters, Pair};
+use crate::method::{Counters, Method, Pair};
+use crate::motion::{BodyMesh, Shape};
 use std::ops::ControlFlow;
 
 /// How much of the answer is wanted.
@@ -63,6 +64,58 @@ impl Answer {
 
     pub(super) fn first(&self) -> Option<Pair> {
         self.pairs.first().copied()
+    }
+}
+
+/// A method that proposes candidates one by one; what it collects and when it stops is the same for all of them.
+pub(super) trait Proposer {
+    /// See [`Method::name`].
+    fn name(&self) -> String;
+    /// See [`Method::build`].
+    fn build(&mut self, bodies: &[BodyMesh<'_>]);
+    /// See [`Method::step`].
+    fn step(&mut self, shapes: &[Shape<'_>]);
+    /// Proposes pairs of triangles of different bodies to the answer, until it breaks.
+    fn between_bodies(&mut self) -> ControlFlow<()>;
+    /// Proposes pairs of triangles of one body, of all bodies.
+    fn within_bodies(&mut self) -> ControlFlow<()>;
+    /// Where candidates go.
+    fn answer(&mut self) -> &mut Answer;
+}
+
+impl<P: Proposer> Method for P {
+    fn name(&self) -> String {
+        Proposer::name(self)
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        Proposer::build(self, bodies);
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        Proposer::step(self, shapes);
+    }
+
+    fn all_pairs(&mut self) -> &[Pair] {
+        self.answer().begin(Wanted::All);
+        let _ = self.between_bodies();
+        self.answer().sorted()
+    }
+
+    fn first_pair(&mut self) -> Option<Pair> {
+        self.answer().begin(Wanted::First);
+        let _ = self.between_bodies();
+        self.answer().first()
+    }
+
+    fn self_pairs(&mut self) -> Option<&[Pair]> {
+        self.answer().begin(Wanted::All);
+        let _ = self.within_bodies();
+        Some(self.answer().sorted())
+    }
+
+    fn take_counters(&mut self) -> Counters {
+        std::mem::take(&mut self.answer().counters)
     }
 }
 

@@ -4,11 +4,11 @@
 //! It is the floor well built: boxes are made once a query and body, and compared eight at a time, each axis a row of eight
 //! numbers, without a branch until all eight are known.
 
-use super::answer::{Answer, Wanted, self_pair};
+use super::answer::{Answer, Proposer, self_pair};
 use super::bodies::{Aabb, Bodies, share_a_vertex};
 use super::region::{Region, gather_overlap};
 use crate::decision::Decision;
-use crate::method::{Counters, Method, Pair};
+
 use crate::motion::{BodyMesh, Shape};
 use std::ops::ControlFlow;
 
@@ -29,6 +29,20 @@ impl BruteForce {
             rows: Vec::new(),
             answer: Answer::new(decision),
         }
+    }
+}
+
+impl Proposer for BruteForce {
+    fn name(&self) -> String {
+        "brute force over boxes".to_owned()
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        self.bodies = Bodies::build(bodies);
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        self.bodies.take_over(shapes);
     }
 
     fn between_bodies(&mut self) -> ControlFlow<()> {
@@ -82,41 +96,9 @@ impl BruteForce {
         }
         ControlFlow::Continue(())
     }
-}
 
-impl Method for BruteForce {
-    fn name(&self) -> String {
-        "brute force over boxes".to_owned()
-    }
-
-    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
-        self.bodies = Bodies::build(bodies);
-    }
-
-    fn step(&mut self, shapes: &[Shape<'_>]) {
-        self.bodies.take_over(shapes);
-    }
-
-    fn all_pairs(&mut self) -> &[Pair] {
-        self.answer.begin(Wanted::All);
-        let _ = self.between_bodies();
-        self.answer.sorted()
-    }
-
-    fn first_pair(&mut self) -> Option<Pair> {
-        self.answer.begin(Wanted::First);
-        let _ = self.between_bodies();
-        self.answer.first()
-    }
-
-    fn self_pairs(&mut self) -> Option<&[Pair]> {
-        self.answer.begin(Wanted::All);
-        let _ = self.within_bodies();
-        Some(self.answer.sorted())
-    }
-
-    fn take_counters(&mut self) -> Counters {
-        std::mem::take(&mut self.answer.counters)
+    fn answer(&mut self) -> &mut Answer {
+        &mut self.answer
     }
 }
 

@@ -14,10 +14,10 @@
 //!
 //! Every box test is visible and counted. Boxes are those of the refit; what is made where leaves meet is part of the test.
 
-use super::answer::{Answer, Wanted, self_pair};
+use super::answer::{Answer, Proposer, self_pair};
 use super::bodies::share_a_vertex;
 use crate::decision::{Decision, Triangle};
-use crate::method::{Counters, Method, Pair};
+
 use crate::motion::{BodyMesh, Shape};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
@@ -52,6 +52,27 @@ impl Obvhs {
             bodies: Vec::new(),
             scratch: Scratch::default(),
             answer: Answer::new(decision),
+        }
+    }
+}
+
+impl Proposer for Obvhs {
+    fn name(&self) -> String {
+        format!("obvhs 0.4 ({} a leaf)", self.triangles_a_leaf)
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        self.bodies = bodies
+            .iter()
+            .map(|body| Body::build(body, self.triangles_a_leaf))
+            .collect();
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        for (body, shape) in self.bodies.iter_mut().zip(shapes) {
+            body.positions.copy_from_slice(shape.world);
+            body.refit();
+            self.answer.counters.boxes += body.tree.nodes.len() as u64;
         }
     }
 
@@ -100,48 +121,9 @@ impl Obvhs {
         }
         ControlFlow::Continue(())
     }
-}
 
-impl Method for Obvhs {
-    fn name(&self) -> String {
-        format!("obvhs 0.4 ({} a leaf)", self.triangles_a_leaf)
-    }
-
-    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
-        self.bodies = bodies
-            .iter()
-            .map(|body| Body::build(body, self.triangles_a_leaf))
-            .collect();
-    }
-
-    fn step(&mut self, shapes: &[Shape<'_>]) {
-        for (body, shape) in self.bodies.iter_mut().zip(shapes) {
-            body.positions.copy_from_slice(shape.world);
-            body.refit();
-            self.answer.counters.boxes += body.tree.nodes.len() as u64;
-        }
-    }
-
-    fn all_pairs(&mut self) -> &[Pair] {
-        self.answer.begin(Wanted::All);
-        let _ = self.between_bodies();
-        self.answer.sorted()
-    }
-
-    fn first_pair(&mut self) -> Option<Pair> {
-        self.answer.begin(Wanted::First);
-        let _ = self.between_bodies();
-        self.answer.first()
-    }
-
-    fn self_pairs(&mut self) -> Option<&[Pair]> {
-        self.answer.begin(Wanted::All);
-        let _ = self.within_bodies();
-        Some(self.answer.sorted())
-    }
-
-    fn take_counters(&mut self) -> Counters {
-        std::mem::take(&mut self.answer.counters)
+    fn answer(&mut self) -> &mut Answer {
+        &mut self.answer
     }
 }
 

@@ -8,11 +8,11 @@
 //! Nothing is kept from step to step, there is nothing to go stale and no structure to be wrong: this is also the method that
 //! others are compared with where all pairs without boxes would take too long.
 
-use super::answer::{Answer, Wanted, self_pair};
+use super::answer::{Answer, Proposer, self_pair};
 use super::bodies::{Aabb, Bodies, share_a_vertex};
 use super::region::{Region, gather_overlap};
 use crate::decision::Decision;
-use crate::method::{Counters, Method, Pair};
+
 use crate::motion::{BodyMesh, Shape};
 use std::ops::ControlFlow;
 
@@ -33,6 +33,20 @@ impl Sweep {
             sorted: Default::default(),
             answer: Answer::new(decision),
         }
+    }
+}
+
+impl Proposer for Sweep {
+    fn name(&self) -> String {
+        "flat sweep".to_owned()
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        self.bodies = Bodies::build(bodies);
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        self.bodies.take_over(shapes);
     }
 
     fn between_bodies(&mut self) -> ControlFlow<()> {
@@ -91,41 +105,9 @@ impl Sweep {
         }
         ControlFlow::Continue(())
     }
-}
 
-impl Method for Sweep {
-    fn name(&self) -> String {
-        "flat sweep".to_owned()
-    }
-
-    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
-        self.bodies = Bodies::build(bodies);
-    }
-
-    fn step(&mut self, shapes: &[Shape<'_>]) {
-        self.bodies.take_over(shapes);
-    }
-
-    fn all_pairs(&mut self) -> &[Pair] {
-        self.answer.begin(Wanted::All);
-        let _ = self.between_bodies();
-        self.answer.sorted()
-    }
-
-    fn first_pair(&mut self) -> Option<Pair> {
-        self.answer.begin(Wanted::First);
-        let _ = self.between_bodies();
-        self.answer.first()
-    }
-
-    fn self_pairs(&mut self) -> Option<&[Pair]> {
-        self.answer.begin(Wanted::All);
-        let _ = self.within_bodies();
-        Some(self.answer.sorted())
-    }
-
-    fn take_counters(&mut self) -> Counters {
-        std::mem::take(&mut self.answer.counters)
+    fn answer(&mut self) -> &mut Answer {
+        &mut self.answer
     }
 }
 

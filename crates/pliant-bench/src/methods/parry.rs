@@ -15,10 +15,9 @@
 //! `leaf_pairs` does before its first check (four pairs of children of the roots, taken as overlapping) and the box tests of a
 //! tree with itself are not visible, and not counted.
 
-use super::answer::{Answer, Wanted, self_pair};
+use super::answer::{Answer, Proposer, self_pair};
 use super::bodies::share_a_vertex;
 use crate::decision::{Decision, Triangle};
-use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
 use parry3d::bounding_volume::{Aabb, BoundingVolume};
 use parry3d::math::Vector;
@@ -43,6 +42,42 @@ impl Parry {
             boxes: Vec::new(),
             workspace: BvhWorkspace::default(),
             answer: Answer::new(decision),
+        }
+    }
+}
+
+#[inline]
+fn corners(mesh: &TriMesh, triangle: u32) -> Triangle {
+    let vertices = mesh.vertices();
+    mesh.indices()[triangle as usize].map(|vertex| vertices[vertex as usize].to_array())
+}
+
+impl Proposer for Parry {
+    fn name(&self) -> String {
+        "parry3d 0.31".to_owned()
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        let mesh = |body: &BodyMesh<'_>| {
+            let vertices = body.shape.world.iter().map(|&p| Vector::from(p)).collect();
+            TriMesh::with_flags(vertices, body.triangles.to_vec(), TriMeshFlags::DEFORMABLE)
+                .expect("a scene's bodies have triangles")
+        };
+        self.meshes = bodies.iter().map(mesh).collect();
+        self.boxes = self.meshes.iter().map(TriMesh::local_aabb).collect();
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        for ((mesh, own_box), shape) in self.meshes.iter_mut().zip(&mut self.boxes).zip(shapes) {
+            mesh.update_vertices(|vertices| {
+                for (vertex, &position) in vertices.iter_mut().zip(shape.world) {
+                    *vertex = Vector::from(position);
+                }
+            });
+            *own_box = mesh.local_aabb();
+            // The leaves, and the nodes above them but for the root, which is not stored.
+            let leaves = mesh.indices().len() as u64;
+            self.answer.counters.boxes += leaves + leaves.saturating_sub(2);
         }
     }
 
@@ -77,7 +112,7 @@ impl Parry {
         ControlFlow::Continue(())
     }
 
-    fn within_bodies(&mut self) {
+    fn within_bodies(&mut self) -> ControlFlow<()> {
         let Self {
             meshes,
             workspace,
@@ -95,63 +130,10 @@ impl Parry {
                     }
                 });
         }
-    }
-}
-
-#[inline]
-fn corners(mesh: &TriMesh, triangle: u32) -> Triangle {
-    let vertices = mesh.vertices();
-    mesh.indices()[triangle as usize].map(|vertex| vertices[vertex as usize].to_array())
-}
-
-impl Method for Parry {
-    fn name(&self) -> String {
-        "parry3d 0.31".to_owned()
+        ControlFlow::Continue(())
     }
 
-    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
-        let mesh = |body: &BodyMesh<'_>| {
-            let vertices = body.shape.world.iter().map(|&p| Vector::from(p)).collect();
-            TriMesh::with_flags(vertices, body.triangles.to_vec(), TriMeshFlags::DEFORMABLE)
-                .expect("a scene's bodies have triangles")
-        };
-        self.meshes = bodies.iter().map(mesh).collect();
-        self.boxes = self.meshes.iter().map(TriMesh::local_aabb).collect();
-    }
-
-    fn step(&mut self, shapes: &[Shape<'_>]) {
-        for ((mesh, own_box), shape) in self.meshes.iter_mut().zip(&mut self.boxes).zip(shapes) {
-            mesh.update_vertices(|vertices| {
-                for (vertex, &position) in vertices.iter_mut().zip(shape.world) {
-                    *vertex = Vector::from(position);
-                }
-            });
-            *own_box = mesh.local_aabb();
-            // The leaves, and the nodes above them but for the root, which is not stored.
-            let leaves = mesh.indices().len() as u64;
-            self.answer.counters.boxes += leaves + leaves.saturating_sub(2);
-        }
-    }
-
-    fn all_pairs(&mut self) -> &[Pair] {
-        self.answer.begin(Wanted::All);
-        let _ = self.between_bodies();
-        self.answer.sorted()
-    }
-
-    fn first_pair(&mut self) -> Option<Pair> {
-        self.answer.begin(Wanted::First);
-        let _ = self.between_bodies();
-        self.answer.first()
-    }
-
-    fn self_pairs(&mut self) -> Option<&[Pair]> {
-        self.answer.begin(Wanted::All);
-        self.within_bodies();
-        Some(self.answer.sorted())
-    }
-
-    fn take_counters(&mut self) -> Counters {
-        std::mem::take(&mut self.answer.counters)
+    fn answer(&mut self) -> &mut Answer {
+        &mut self.answer
     }
 }

@@ -23,8 +23,7 @@ mod relation;
 mod tree;
 
 use crate::decision::Decision;
-use crate::method::{Counters, Method, Pair};
-use crate::methods::answer::{Answer, Wanted, self_pair};
+use crate::methods::answer::{Answer, Proposer, self_pair};
 use crate::methods::bodies::Aabb;
 use crate::motion::{BodyMesh, Pose, Shape};
 use centre_box::CentreBox;
@@ -63,11 +62,35 @@ impl VanDenBergen {
             answer: Answer::new(decision),
         }
     }
+}
 
-    fn query(&mut self, wanted: Wanted) {
-        self.answer.begin(wanted);
-        // Breaks when there is enough.
-        let _ = self.between_bodies();
+impl Proposer for VanDenBergen {
+    fn name(&self) -> String {
+        let frame = match self.frame {
+            Frame::Local => "local",
+            Frame::World => "world",
+        };
+        let degree = match self.degree {
+            Degree::Two => "binary",
+            Degree::Four => "4-ary",
+            Degree::Eight => "8-ary",
+        };
+        format!("van den Bergen ({frame} frame, {degree})")
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        let halvings = self.degree.get().ilog2();
+        self.bodies = bodies
+            .iter()
+            .map(|body| Body::build(body, self.frame, halvings))
+            .collect();
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        for (body, shape) in self.bodies.iter_mut().zip(shapes) {
+            body.take_over(shape, self.frame);
+            self.answer.counters.boxes += body.tree.all().len() as u64;
+        }
     }
 
     fn between_bodies(&mut self) -> ControlFlow<()> {
@@ -117,55 +140,9 @@ impl VanDenBergen {
         }
         ControlFlow::Continue(())
     }
-}
 
-impl Method for VanDenBergen {
-    fn name(&self) -> String {
-        let frame = match self.frame {
-            Frame::Local => "local",
-            Frame::World => "world",
-        };
-        let degree = match self.degree {
-            Degree::Two => "binary",
-            Degree::Four => "4-ary",
-            Degree::Eight => "8-ary",
-        };
-        format!("van den Bergen ({frame} frame, {degree})")
-    }
-
-    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
-        let halvings = self.degree.get().ilog2();
-        self.bodies = bodies
-            .iter()
-            .map(|body| Body::build(body, self.frame, halvings))
-            .collect();
-    }
-
-    fn step(&mut self, shapes: &[Shape<'_>]) {
-        for (body, shape) in self.bodies.iter_mut().zip(shapes) {
-            body.take_over(shape, self.frame);
-            self.answer.counters.boxes += body.tree.all().len() as u64;
-        }
-    }
-
-    fn all_pairs(&mut self) -> &[Pair] {
-        self.query(Wanted::All);
-        self.answer.sorted()
-    }
-
-    fn first_pair(&mut self) -> Option<Pair> {
-        self.query(Wanted::First);
-        self.answer.first()
-    }
-
-    fn self_pairs(&mut self) -> Option<&[Pair]> {
-        self.answer.begin(Wanted::All);
-        let _ = self.within_bodies();
-        Some(self.answer.sorted())
-    }
-
-    fn take_counters(&mut self) -> Counters {
-        std::mem::take(&mut self.answer.counters)
+    fn answer(&mut self) -> &mut Answer {
+        &mut self.answer
     }
 }
 

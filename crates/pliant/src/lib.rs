@@ -71,6 +71,7 @@ mod narrow_phase;
 mod options;
 mod pairs;
 pub mod reference;
+mod sort;
 mod statistics;
 mod traversal;
 mod tree;

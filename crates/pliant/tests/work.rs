@@ -44,10 +44,7 @@ fn in_easy_steps_the_hybrid_makes_a_small_part_of_the_boxes() {
         let mut boxes = |update| {
             options.update = update;
             let (work, complete) = first_50_steps(options);
-            (
-                work.boxes_bottom_up + work.boxes_top_down + work.triangle_boxes,
-                complete,
-            )
+            (work.boxes_bottom_up + work.boxes_top_down, complete)
         };
         let (bottom_up, complete) = boxes(Update::BottomUp);
         let (hybrid, _) = boxes(Update::HYBRID);
@@ -228,7 +225,7 @@ fn the_first_of_very_many_pairs_is_found_at_once() {
             let work = allocation_counter::measure(|| {
                 assert!(world.first_intersection_between(a, b).unwrap().is_some());
                 assert!(
-                    world.statistics().candidate_pairs == 1,
+                    world.statistics().candidate_pairs <= 64,
                     "{:?}",
                     world.statistics()
                 );

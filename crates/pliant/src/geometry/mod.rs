@@ -1,10 +1,12 @@
 //! Coordinates, boxes, and how the first become the second.
 
 mod aabb;
+mod points;
 mod scalar;
 mod shape;
 
 pub(crate) use aabb::Aabb;
+pub(crate) use points::Points;
 pub use scalar::Scalar;
-pub(crate) use scalar::{larger, smaller};
-pub(crate) use shape::{Bounds, Shape};
+pub(crate) use scalar::{OUTWARD, larger, smaller};
+pub(crate) use shape::{Bounds, Origin, Shape};

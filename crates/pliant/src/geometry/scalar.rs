@@ -4,9 +4,24 @@
 //! `f32` whatever the coordinates are. A box only ever *skips* work, so it must hold its triangles; how tightly is a matter of speed. For `f32` it is exact. For
 //! `f64` it is relative to one origin of the world (far from zero an `f32` has no digits left for the shape) and rounded outward.
 
+use crate::kernels::Wide;
+use std::ops::{Add, Mul};
+
 /// A coordinate: `f32` or `f64`. Sealed, because the proofs behind the decisions are for these two.
+#[expect(
+    private_bounds,
+    reason = "sealed; what kernels need of it is not for users"
+)]
 pub trait Scalar:
-    sealed::Sealed + Copy + PartialOrd + std::fmt::Debug + Default + Send + Sync + 'static
+    sealed::Sealed
+    + Wide
+    + PartialOrd
+    + Add<Output = Self>
+    + Mul<Output = Self>
+    + std::fmt::Debug
+    + Default
+    + Send
+    + Sync
 {
     /// The value that no position may have; a buffer is filled with it before the caller writes.
     #[doc(hidden)]
@@ -26,10 +41,10 @@ pub trait Scalar:
     fn to_f64(self) -> f64;
     /// Finite and at most `f32::MAX` in magnitude.
     fn is_in_range(self) -> bool;
-    /// The largest `f32` that is not above `self - origin`.
+    /// An `f32` that is not above `self - origin`; for `f32` itself, the origin being zero.
     #[doc(hidden)]
     fn round_down(self, origin: f64) -> f32;
-    /// The smallest `f32` that is not below `self - origin`.
+    /// An `f32` that is not below `self - origin`; for `f32` itself, the origin being zero.
     #[doc(hidden)]
     fn round_up(self, origin: f64) -> f32;
 }
@@ -84,21 +99,21 @@ impl Scalar for f64 {
     }
     #[inline]
     fn round_down(self, origin: f64) -> f32 {
-        let (difference, error) = difference(self, origin);
-        let rounded = difference as f32;
-        let above = rounded as f64 - difference;
-        // The true value is difference + error. An f32 that equals the rounded difference lies above it when the error is negative.
-        if above > 0.0 || (above == 0.0 && error < 0.0) {
-            rounded.next_down()
-        } else {
-            rounded
-        }
+        // Two roundings to nearest, to f64 and to f32, are off by less than a quarter of what is taken away here; so is that
+        // of this line itself. Below the normal range the absolute term is for what is lost there. A difference beyond
+        // f32 is brought back to the largest f32, which is below it.
+        let nearest = smaller((self - origin) as f32, f32::MAX);
+        nearest - (nearest.abs() * OUTWARD + f32::MIN_POSITIVE)
     }
     #[inline]
     fn round_up(self, origin: f64) -> f32 {
-        -(-self).round_down(-origin)
+        let nearest = larger((self - origin) as f32, -f32::MAX);
+        nearest + (nearest.abs() * OUTWARD + f32::MIN_POSITIVE)
     }
 }
+
+/// 2^-22, four times the most by which rounding to the nearest `f32` is off.
+pub(crate) const OUTWARD: f32 = 2.0 * f32::EPSILON;
 
 /// The smaller of two; `a` if either is NaN. One instruction, which `f32::min`, careful on both sides, is not.
 #[inline]
@@ -112,15 +127,6 @@ pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
 
-/// `a - b` rounded to nearest, and what the rounding left out (Knuth's two-sum: the pair is exact).
-#[inline]
-fn difference(a: f64, b: f64) -> (f64, f64) {
-    let difference = a - b;
-    let b_part = a - difference;
-    let a_part = difference + b_part;
-    (difference, (a - a_part) + (b_part - b))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -131,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn outward_rounding_holds_the_exact_difference_and_is_tight() {
+    fn outward_rounding_holds_the_exact_difference_and_little_more() {
         let values = [
             0.0,
             1.0,
@@ -150,8 +156,9 @@ mod tests {
                 assert!(exact(below as f64) <= true_value, "{x} - {origin}");
                 assert!(exact(above as f64) >= true_value, "{x} - {origin}");
                 let gap = f64::from(above) - f64::from(below);
+                let size = f64::from(below.abs().max(above.abs()));
                 assert!(
-                    below == above || below.next_up() == above,
+                    gap <= size * 2f64.powi(-20) + 2f64.powi(-120),
                     "{x} - {origin}: {gap}"
                 );
             }
@@ -162,10 +169,10 @@ mod tests {
     fn rounding_survives_the_ends_of_the_range() {
         let max = f64::from(f32::MAX);
         assert_eq!(max.round_up(-max), f32::INFINITY);
-        assert_eq!(max.round_down(-max), f32::MAX);
+        assert!((1e38..f32::MAX).contains(&max.round_down(-max)));
         assert_eq!((-max).round_down(max), f32::NEG_INFINITY);
-        assert_eq!((-max).round_up(max), -f32::MAX);
-        assert_eq!(1e-300.round_down(0.0), 0.0);
+        assert!((1e38..f32::MAX).contains(&-(-max).round_up(max)));
+        assert!(1e-300.round_down(0.0) <= 0.0);
         assert!(1e-300.round_up(0.0) > 0.0);
         assert!((-1e-300).round_down(0.0) < 0.0);
     }

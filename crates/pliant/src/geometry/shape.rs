@@ -1,20 +1,23 @@
 //! The shape a body has now, and the boxes of its parts.
 
 use super::scalar::{larger, smaller};
-use super::{Aabb, Scalar};
+use super::{Aabb, Points, Scalar};
 
 /// The current shape of a body, as everything that makes boxes sees it.
 #[derive(Clone, Copy)]
 pub(crate) struct Shape<'a, S> {
     /// Positions in tree order.
-    pub(crate) positions: &'a [[S; 3]],
+    pub(crate) positions: &'a Points<S>,
     /// The corners of each triangle, both in tree order.
     pub(crate) triangles: &'a [[u32; 3]],
     /// Boxes are relative to this point (zero for `f32`).
-    pub(crate) origin: [f64; 3],
+    pub(crate) origin: Origin,
     /// Counts the changes of shape; a box made in another epoch is not true.
     pub(crate) epoch: u64,
 }
+
+/// The point that the boxes of a world are relative to, and one number that means nothing.
+pub(crate) type Origin = [f64; 4];
 
 /// The exact extent of some points, in the caller's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +43,7 @@ impl<S: Scalar> Bounds<S> {
 
     /// The box that holds these bounds: exact for `f32`, rounded outward for `f64`.
     #[inline]
-    pub(crate) fn to_box(self, origin: [f64; 3]) -> Aabb {
+    pub(crate) fn to_box(self, origin: Origin) -> Aabb {
         Aabb {
             lo: std::array::from_fn(|axis| self.lo[axis].round_down(origin[axis])),
             hi: std::array::from_fn(|axis| self.hi[axis].round_up(origin[axis])),
@@ -53,23 +56,18 @@ impl<S: Scalar> Bounds<S> {
 }
 
 impl<S: Scalar> Shape<'_, S> {
-    /// The box of one triangle.
-    #[inline]
+    /// The box of one triangle: what the kernels must give.
     pub(crate) fn box_of(&self, triangle: u32) -> Aabb {
-        // Not corner by corner into bounds: three corners at once keep their minima and maxima in registers.
-        let [a, b, c] =
-            self.triangles[triangle as usize].map(|vertex| &self.positions[vertex as usize]);
-        let bounds = Bounds {
-            lo: std::array::from_fn(|axis| smaller(smaller(a[axis], b[axis]), c[axis])),
-            hi: std::array::from_fn(|axis| larger(larger(a[axis], b[axis]), c[axis])),
-        };
+        let mut bounds = Bounds::EMPTY;
+        for vertex in self.triangles[triangle as usize] {
+            bounds.include(self.positions.get(vertex));
+        }
         bounds.to_box(self.origin)
     }
 
-    /// Three corners of a triangle as the decision wants them; exact.
+    /// Three corners of a triangle as the exact decision wants them; exact.
     #[inline]
     pub(crate) fn corners(&self, triangle: u32) -> [[f64; 3]; 3] {
-        self.triangles[triangle as usize]
-            .map(|vertex| self.positions[vertex as usize].map(S::to_f64))
+        self.triangles[triangle as usize].map(|vertex| self.positions.get(vertex).map(S::to_f64))
     }
 }

@@ -1,13 +1,15 @@
 //! N boxes side by side, and one box against all of them.
 
 use crate::geometry::{Aabb, larger, smaller};
+use fearless_simd::f32x8;
+use fearless_simd::prelude::*;
 
 /// N closed boxes in structure-of-arrays order. An empty lane is NaN: ordered comparisons with it are false, so it overlaps nothing, not even an
 /// infinite box (a pair of infinities would), and merging passes it over.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoxLanes<const N: usize> {
-    lo: [[f32; N]; 3],
-    hi: [[f32; N]; 3],
+    pub(super) lo: [[f32; N]; 3],
+    pub(super) hi: [[f32; N]; 3],
 }
 
 impl<const N: usize> BoxLanes<N> {
@@ -24,11 +26,22 @@ impl<const N: usize> BoxLanes<N> {
         }
     }
 
-    #[inline]
+    #[cfg(test)]
     pub(crate) fn set(&mut self, lane: usize, value: &Aabb) {
         for axis in 0..3 {
             self.lo[axis][lane] = value.lo[axis];
             self.hi[axis][lane] = value.hi[axis];
+        }
+    }
+
+    /// Makes a lane and those after it empty.
+    #[inline]
+    pub(crate) fn empty_from(&mut self, lane: usize) {
+        for axis in 0..3 {
+            for lane in lane..N {
+                self.lo[axis][lane] = f32::NAN;
+                self.hi[axis][lane] = f32::NAN;
+            }
         }
     }
 
@@ -75,30 +88,51 @@ impl<const N: usize> BoxLanes<N> {
     }
 }
 
-impl BoxLanes<8> {
-    /// Bit 8 i + j is set if lane i overlaps lane j of `other`; touching counts.
-    #[inline]
-    pub(crate) fn overlaps_all(&self, other: &Self) -> u64 {
-        (0..8).fold(0, |mask, lane| {
+impl<const N: usize> BoxLanes<N> {
+    /// Bit 8 i + j is set if lane i overlaps lane j of `other`; touching counts. What [`overlap_mask`] means.
+    #[cfg(test)]
+    fn overlaps_all(&self, other: &Self) -> u64 {
+        (0..N).fold(0, |mask, lane| {
             mask | other.overlaps(&self.get(lane)) << (8 * lane)
         })
     }
 }
 
-/// The numbers of the bits set in a mask, lowest first.
-#[inline]
-pub(crate) fn bits_of(mask: u64) -> impl Iterator<Item = usize> {
-    let mut rest = mask;
-    std::iter::from_fn(move || {
-        let bit = rest.trailing_zeros();
-        rest &= rest.wrapping_sub(1);
-        (bit < u64::BITS).then_some(bit as usize)
-    })
+/// Bit 8 i + j is set if lane i of `a` overlaps lane j of `b`; touching counts.
+#[inline(always)]
+pub(crate) fn overlap_mask<I: Simd, const N: usize>(i: I, a: &BoxLanes<N>, b: &BoxLanes<N>) -> u64 {
+    let empty = f32x8::splat(i, f32::NAN);
+    let (mut b_lo, mut b_hi) = ([empty; 3], [empty; 3]);
+    for axis in 0..3 {
+        b_lo[axis] = eight(i, &b.lo[axis]);
+        b_hi[axis] = eight(i, &b.hi[axis]);
+    }
+    let mut mask = 0;
+    for lane in 0..N {
+        let x = b_lo[0].simd_le(a.hi[0][lane]) & b_hi[0].simd_ge(a.lo[0][lane]);
+        let y = b_lo[1].simd_le(a.hi[1][lane]) & b_hi[1].simd_ge(a.lo[1][lane]);
+        let z = b_lo[2].simd_le(a.hi[2][lane]) & b_hi[2].simd_ge(a.lo[2][lane]);
+        mask |= (x & y & z).to_bitmask() << (8 * lane);
+    }
+    mask
+}
+
+/// A row of N numbers as eight, the rest empty.
+#[inline(always)]
+fn eight<I: Simd, const N: usize>(i: I, row: &[f32; N]) -> f32x8<I> {
+    if let Ok(eight) = row.as_slice().try_into() {
+        return f32x8::load_array_ref(i, eight);
+    }
+    let mut padded = [f32::NAN; 8];
+    padded[..N].copy_from_slice(row);
+    f32x8::load_array(i, padded)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernels::all_levels;
+    use fearless_simd::dispatch;
 
     #[test]
     fn an_empty_lane_meets_nothing_and_adds_nothing() {
@@ -147,6 +181,10 @@ mod tests {
             lanes
         };
         let (a, b) = (some(0.0), some(0.5));
+        for level in all_levels() {
+            let mask = dispatch!(level, i => overlap_mask(i, &a, &b));
+            assert_eq!(mask, a.overlaps_all(&b), "{level:?}");
+        }
         for i in 0..8 {
             assert_eq!(
                 a.overlaps_all(&b) >> (8 * i) & 0xff,
@@ -175,7 +213,10 @@ mod tests {
                 let expected: Vec<usize> = (0..eight.len())
                     .filter(|&lane| eight[lane].overlaps(query))
                     .collect();
-                assert_eq!(bits_of(lanes.overlaps(query)).collect::<Vec<_>>(), expected);
+                let found: Vec<usize> = (0..8)
+                    .filter(|lane| lanes.overlaps(query) >> lane & 1 == 1)
+                    .collect();
+                assert_eq!(found, expected);
             }
         }
     }

@@ -1,7 +1,14 @@
 //! The loop of the traversal, the same for two trees and for one.
 
+use super::Side;
+use super::expand::{candidates, expand};
+use crate::geometry::Scalar;
+use crate::kernels::{Level, bits::Batch};
+use crate::narrow_phase::{self, Undecided};
 use crate::pairs::{Candidate, LeafPair, NodePair};
 use crate::statistics::Statistics;
+use crate::tree::NodeId;
+use fearless_simd::dispatch;
 use std::ops::ControlFlow;
 
 /// The first batch is one pair, and batches double: a visitor that stops at the first pair has then made few boxes that it did
@@ -10,40 +17,46 @@ use std::ops::ControlFlow;
 const FIRST_BATCH: usize = 1;
 /// The longest batch: long enough that changing between the phases costs nothing, short enough that its groups stay in cache.
 const LONGEST_BATCH: usize = 1024;
-/// Candidates are decided when there are so many, even within a pair of leaves: this bounds memory whatever the leaf size is.
+/// Candidates are decided when there are so many, even within a pair of leaves, which bounds memory whatever the leaf size is.
+/// It begins with one block of triangles against another and doubles, like batches.
 const MOST_CANDIDATES: usize = 4096;
 
 /// What is descended: two trees, or one against itself.
-pub(crate) trait Meeting {
-    /// Where to begin; the boxes of these nodes are true and overlap.
-    fn start(&self) -> NodePair;
-    /// Makes true what [`Meeting::expand`] will read.
-    fn reach(&mut self, pair: NodePair, scratch: &mut Vec<u32>, statistics: &mut Statistics);
-    /// Pairs of children that overlap, and of leaves.
-    fn expand(&self, pair: NodePair, nodes: &mut Vec<NodePair>, leaves: &mut Vec<LeafPair>);
-    /// Makes true what [`Meeting::candidates`] will read.
-    fn reach_leaves(&mut self, pair: LeafPair, statistics: &mut Statistics);
-    /// How many blocks of triangles the first leaf has: candidates come a block at a time.
-    fn blocks(&self, pair: LeafPair) -> usize;
-    /// Triangles of a block of the first leaf and of the second leaf whose boxes overlap.
-    fn candidates(&self, pair: LeafPair, block: usize, candidates: &mut Vec<Candidate>);
-    /// Whether two triangles intersect, and if so, the caller's numbers of them.
-    fn decide(&self, candidate: Candidate, statistics: &mut Statistics) -> Option<[u32; 2]>;
+pub(crate) trait Meeting<const N: usize> {
+    /// Of the positions.
+    type Coordinate: Scalar;
+    /// Whether it is one tree against itself.
+    const ITSELF: bool;
+    /// Both bodies, or the one twice.
+    fn sides(&self) -> [&Side<'_, N, Self::Coordinate>; 2];
+    /// Makes true what is below the nodes of a batch.
+    fn reach(
+        &mut self,
+        level: Level,
+        batch: &[NodePair],
+        groups: &mut [Vec<u32>; 2],
+        statistics: &mut Statistics,
+    );
+    /// The caller's numbers of two triangles.
+    fn name(&self, candidate: Candidate) -> [u32; 2];
 }
 
 /// Buffers, kept from query to query.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    pub(crate) groups: Vec<u32>,
-    nodes: Vec<NodePair>,
+    pub(crate) groups: [Vec<u32>; 2],
+    nodes: Batch<NodePair>,
     batch: Vec<NodePair>,
     leaves: Vec<LeafPair>,
-    candidates: Vec<Candidate>,
+    candidates: Batch<Candidate>,
+    undecided: Batch<Undecided>,
+    hits: Vec<Candidate>,
 }
 
 /// Shows the visitor every intersecting pair, until it breaks. The order is deterministic, not sorted.
-pub(crate) fn descend(
-    meeting: &mut impl Meeting,
+pub(crate) fn descend<const N: usize, M: Meeting<N>>(
+    level: Level,
+    meeting: &mut M,
     scratch: &mut Scratch,
     statistics: &mut Statistics,
     visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
@@ -53,54 +66,43 @@ pub(crate) fn descend(
         nodes,
         batch,
         leaves,
-        candidates,
+        candidates: found,
+        undecided,
+        hits,
     } = scratch;
+    let mut decide = |meeting: &M, found: &mut Batch<Candidate>, statistics: &mut Statistics| {
+        let shapes = meeting.sides().map(|side| &side.shape);
+        narrow_phase::decide(level, found, shapes, undecided, hits, statistics);
+        found.clear();
+        hits.iter().try_for_each(|&hit| visit(meeting.name(hit)))
+    };
     nodes.clear();
-    nodes.push(meeting.start());
-    let mut longest = FIRST_BATCH;
-    while !nodes.is_empty() {
-        batch.clear();
-        batch.extend(nodes.drain(nodes.len().saturating_sub(longest)..));
+    found.clear();
+    nodes.push([NodeId::ROOT; 2]);
+    let (mut longest, mut enough) = (FIRST_BATCH, 1);
+    while nodes.len() > 0 {
+        nodes.take_last(longest, batch);
         longest = (longest * 2).min(LONGEST_BATCH);
         statistics.node_pairs += batch.len() as u64;
 
-        for &pair in &*batch {
-            meeting.reach(pair, groups, statistics);
-        }
+        meeting.reach(level, batch, groups, statistics);
         leaves.clear();
-        for &pair in &*batch {
-            meeting.expand(pair, nodes, leaves);
-        }
-
-        for &pair in &*leaves {
-            meeting.reach_leaves(pair, statistics);
-        }
-        candidates.clear();
-        for &pair in &*leaves {
-            for block in 0..meeting.blocks(pair) {
-                meeting.candidates(pair, block, candidates);
-                if candidates.len() >= MOST_CANDIDATES {
-                    decide(meeting, candidates, statistics, visit)?;
-                }
-            }
-        }
-        decide(meeting, candidates, statistics, visit)?;
-    }
-    ControlFlow::Continue(())
-}
-
-/// Decides the candidates and empties their list.
-fn decide(
-    meeting: &impl Meeting,
-    candidates: &mut Vec<Candidate>,
-    statistics: &mut Statistics,
-    visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
-) -> ControlFlow<()> {
-    for candidate in candidates.drain(..) {
-        statistics.candidate_pairs += 1;
-        if let Some(pair) = meeting.decide(candidate, statistics) {
-            statistics.pairs += 1;
-            visit(pair)?;
+        let trees = meeting.sides().map(|side| &*side.tree);
+        dispatch!(level, i => if M::ITSELF {
+            expand::<_, N, true>(i, trees, batch, nodes, leaves);
+        } else {
+            expand::<_, N, false>(i, trees, batch, nodes, leaves);
+        });
+        let (mesh, trees) = (meeting.sides()[0].mesh, trees.map(|tree| &tree.leaves));
+        let mut next = (0, 0, 0);
+        while next.0 < leaves.len() {
+            next = dispatch!(level, i => if M::ITSELF {
+                candidates::<_, true>(i, trees, mesh, leaves, next, found, enough)
+            } else {
+                candidates::<_, false>(i, trees, mesh, leaves, next, found, enough)
+            });
+            enough = (2 * enough).min(MOST_CANDIDATES);
+            decide(meeting, found, statistics)?;
         }
     }
     ControlFlow::Continue(())

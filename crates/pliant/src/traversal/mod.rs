@@ -6,7 +6,7 @@
 //!     take a batch from its top                             1 pair, then 2, 4, ... up to 1024
 //!     reach:   make true the groups below the batch         the only step that writes boxes
 //!     expand:  children whose boxes overlap onto the stack, pairs of leaves aside
-//!     leaves:  reach them too, then triangle against triangle: candidates
+//!     leaves:  triangle against triangle, whose boxes are true with the leaf's: candidates
 //!     decide the candidates, hand what intersects to the visitor
 //! ```
 //!
@@ -19,14 +19,16 @@
 //! Differs from the paper, which descends pair by pair; the boxes it reaches are the same but for the order.
 
 mod descent;
+mod expand;
 mod one_tree;
 mod two_trees;
 
-use crate::geometry::Shape;
-use crate::kernels::bits_of;
+use crate::geometry::{Scalar, Shape};
+use crate::kernels::Level;
 use crate::mesh::Mesh;
-use crate::pairs::{Candidate, LeafPair, NodePair};
-use crate::tree::{Below, LEAF_LANES, Leaves, NodeId, Tree};
+use crate::statistics::Statistics;
+use crate::tree::{Below, NodeId, Tree};
+use crate::update::reach_groups;
 pub(crate) use descent::{Scratch, descend};
 pub(crate) use one_tree::OneTree;
 pub(crate) use two_trees::TwoTrees;
@@ -38,57 +40,31 @@ pub(crate) struct Side<'t, const N: usize, S> {
     pub(crate) shape: Shape<'t, S>,
 }
 
-/// The children of two nodes that overlap, of one tree or of two.
-#[inline]
-fn expand<const N: usize>(
-    a: &Tree<N>,
-    b: &Tree<N>,
-    [node_a, node_b]: NodePair,
-    nodes: &mut Vec<NodePair>,
-    leaves: &mut Vec<LeafPair>,
+/// Makes true what is below some nodes.
+fn reach<const N: usize, S: Scalar>(
+    level: Level,
+    side: &mut Side<'_, N, S>,
+    nodes: impl Iterator<Item = NodeId>,
+    levels: u32,
+    [reached, groups]: &mut [Vec<u32>; 2],
+    statistics: &mut Statistics,
 ) {
-    match (a.child(node_a).below(), b.child(node_b).below()) {
-        (Below::Leaf(leaf_a), Below::Leaf(leaf_b)) => leaves.push([leaf_a, leaf_b]),
-        (Below::Leaf(_), Below::Group(below)) => {
-            let mask = b.groups[below as usize].boxes.overlaps(&a.box_of(node_a));
-            nodes.extend(bits_of(mask).map(|lane| [node_a, NodeId::new::<N>(below, lane)]));
-        }
-        (Below::Group(below), Below::Leaf(_)) => {
-            let mask = a.groups[below as usize].boxes.overlaps(&b.box_of(node_b));
-            nodes.extend(bits_of(mask).map(|lane| [NodeId::new::<N>(below, lane), node_b]));
-        }
-        (Below::Group(below_a), Below::Group(below_b)) => {
-            let (group_a, group_b) = (&a.groups[below_a as usize], &b.groups[below_b as usize]);
-            for lane_a in 0..group_a.len() {
-                let child_a = NodeId::new::<N>(below_a, lane_a);
-                let mask = group_b.boxes.overlaps(&group_a.boxes.get(lane_a));
-                nodes.extend(
-                    bits_of(mask).map(|lane_b| [child_a, NodeId::new::<N>(below_b, lane_b)]),
-                );
-            }
-        }
+    reached.clear();
+    let tree = &*side.tree;
+    reached.extend(nodes.filter_map(|node| match tree.child(node).below() {
+        Below::Group(below) if tree.groups[below as usize].epoch != side.shape.epoch => Some(below),
+        _ => None,
+    }));
+    if !reached.is_empty() {
+        let boxes = reach_groups(
+            level,
+            side.tree,
+            reached,
+            levels,
+            &side.shape,
+            groups,
+            statistics,
+        );
+        statistics.boxes_top_down += boxes;
     }
-}
-
-/// The pairs of triangles of a leaf's block and of another leaf whose boxes overlap, of one tree or of two. `keep` may take
-/// bits (8 i + j: triangles i and j) out of the mask of each block of the second leaf.
-#[inline]
-fn overlapping_triangles<'l>(
-    a: &'l Leaves,
-    (leaf_a, block_a): (u32, usize),
-    b: &'l Leaves,
-    leaf_b: u32,
-    keep: impl Fn(usize) -> u64 + 'l,
-) -> impl Iterator<Item = Candidate> + 'l {
-    let block = &a.boxes(leaf_a)[block_a];
-    let first_a = a.triangles(leaf_a).start + (block_a * LEAF_LANES) as u32;
-    let first_b = b.triangles(leaf_b).start;
-    b.boxes(leaf_b)
-        .iter()
-        .enumerate()
-        .flat_map(move |(block_b, other)| {
-            let first_b = first_b + (block_b * LEAF_LANES) as u32;
-            let mask = block.overlaps_all(other) & keep(block_b);
-            bits_of(mask).map(move |bit| [first_a + (bit / 8) as u32, first_b + (bit % 8) as u32])
-        })
 }

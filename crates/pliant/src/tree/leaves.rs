@@ -1,7 +1,7 @@
 //! The triangles in every leaf and, where leaves hold several, the boxes of these triangles.
 //!
 //! With one triangle a leaf, as in the paper, the leaf's box is the triangle's and nothing else is kept. With more, each leaf
-//! owns as many blocks of eight boxes as its triangles need. They are made when the leaf is met by another leaf.
+//! owns as many blocks of eight boxes as its triangles need. They are made with the leaf's own box, and true if that is.
 
 use crate::kernels::BoxLanes;
 use std::ops::Range;
@@ -14,8 +14,6 @@ pub(crate) struct Leaf {
     start: u32,
     end: u32,
     first_block: u32,
-    /// The epoch of the body in which the triangles' boxes were made.
-    pub(crate) epoch: u64,
 }
 
 #[derive(Debug)]
@@ -46,7 +44,6 @@ impl Leaves {
             start: triangles.start,
             end: triangles.end,
             first_block: first_block as u32,
-            epoch: 0,
         };
         self.leaves.push(leaf);
         self.leaves.len() as u32 - 1
@@ -65,20 +62,9 @@ impl Leaves {
         self.blocks.is_some()
     }
 
-    /// How many blocks of eight the triangles of a leaf fill.
+    /// The boxes of a leaf's triangles, to be written.
     #[inline]
-    pub(crate) fn block_count(&self, leaf: u32) -> usize {
-        self.triangles(leaf).len().div_ceil(LEAF_LANES)
-    }
-
-    pub(crate) fn epoch(&self, leaf: u32) -> u64 {
-        self.leaves[leaf as usize].epoch
-    }
-
-    /// The boxes of a leaf's triangles, to be written, and the note that they are true in `epoch`.
-    #[inline]
-    pub(crate) fn make_true(&mut self, leaf: u32, epoch: u64) -> &mut [BoxLanes<LEAF_LANES>] {
-        self.leaves[leaf as usize].epoch = epoch;
+    pub(crate) fn boxes_mut(&mut self, leaf: u32) -> &mut [BoxLanes<LEAF_LANES>] {
         let blocks = self.blocks_of(leaf);
         self.blocks.as_mut().map_or(&mut [], |all| &mut all[blocks])
     }

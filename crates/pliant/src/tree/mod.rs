@@ -28,7 +28,7 @@ pub(crate) use siblings::{Below, Child, Siblings};
 pub(crate) use vertex_sets::VertexSets;
 
 /// A node: one lane of one group of siblings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct NodeId(u32);
 
 impl NodeId {

@@ -7,7 +7,6 @@
 //! Paper, 3.3: "we update the node's AABB by traversing the shared vertices of the faces in the node".
 
 use super::build::Plan;
-use crate::geometry::{Aabb, Bounds, Scalar, Shape};
 use crate::mesh::Mesh;
 
 /// Indexed by node, counted level by level.
@@ -64,24 +63,12 @@ impl VertexSets {
         self.runs.len()
     }
 
-    fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[u32]) {
+    /// The vertices below a node: a run and a border.
+    #[inline]
+    pub(crate) fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[u32]) {
         let [start, end] = self.runs[node];
         let border = self.border_starts[node]..self.border_starts[node + 1];
         (start as usize..end as usize, &self.border[border])
-    }
-
-    /// The box of a node from the vertices below it, each read once.
-    #[inline]
-    pub(crate) fn box_of<S: Scalar>(&self, node: usize, shape: &Shape<S>) -> Aabb {
-        let (run, border) = self.run_and_border(node);
-        let mut bounds = Bounds::EMPTY;
-        for &position in &shape.positions[run] {
-            bounds.include(position);
-        }
-        for &vertex in border {
-            bounds.include(shape.positions[vertex as usize]);
-        }
-        bounds.to_box(shape.origin)
     }
 
     /// The vertices below a node, run first.

@@ -1,8 +1,10 @@
 //! How far ahead: the level down to which boxes are made before a traversal begins.
 
-use super::top_down::reach_group;
+use super::top_down::reach_groups;
 use crate::Update;
 use crate::geometry::{Scalar, Shape};
+use crate::kernels::Level;
+use crate::statistics::Statistics;
 use crate::tree::Tree;
 
 /// The level of the lowest boxes made ahead, in a tree whose deepest leaf is at level `depth`.
@@ -16,13 +18,22 @@ fn level_ahead(update: Update, depth: u32) -> u32 {
 
 /// Makes the upper levels true, unless they are. Returns the boxes made.
 pub(crate) fn refresh_ahead<const N: usize, S: Scalar>(
+    level: Level,
     tree: &mut Tree<N>,
     update: Update,
     shape: &Shape<S>,
     groups: &mut Vec<u32>,
-) -> u64 {
+    statistics: &mut Statistics,
+) {
+    let levels = level_ahead(update, tree.depth) + 1;
     // The root's group is the first that any of them makes.
-    reach_group(tree, 0, level_ahead(update, tree.depth) + 1, shape, groups)
+    let boxes = reach_groups(level, tree, &[0], levels, shape, groups, statistics);
+    // The root alone, from the vertices, is the beginning of top-down.
+    *(if update == Update::TopDown {
+        &mut statistics.boxes_top_down
+    } else {
+        &mut statistics.boxes_bottom_up
+    }) += boxes;
 }
 
 #[cfg(test)]

@@ -17,4 +17,4 @@ mod hybrid;
 mod top_down;
 
 pub(crate) use hybrid::refresh_ahead;
-pub(crate) use top_down::{reach_group, reach_leaf};
+pub(crate) use top_down::reach_groups;

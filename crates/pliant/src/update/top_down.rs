@@ -5,38 +5,29 @@
 
 use super::bottom_up::make_levels_true;
 use crate::geometry::{Scalar, Shape};
-use crate::tree::{LEAF_LANES, Tree};
+use crate::kernels::Level;
+use crate::statistics::Statistics;
+use crate::tree::Tree;
+use fearless_simd::dispatch;
 
-/// Makes a group true, and with it `levels - 1` levels below, unless it is true already.
-#[inline]
-pub(crate) fn reach_group<const N: usize, S: Scalar>(
+/// Makes groups true, and with each of them `levels - 1` levels below. Returns how many boxes of nodes it made.
+pub(crate) fn reach_groups<const N: usize, S: Scalar>(
+    level: Level,
     tree: &mut Tree<N>,
-    group: u32,
+    reached: &[u32],
     levels: u32,
     shape: &Shape<S>,
     groups: &mut Vec<u32>,
+    statistics: &mut Statistics,
 ) -> u64 {
-    if tree.groups[group as usize].epoch == shape.epoch {
-        return 0;
-    }
-    make_levels_true(tree, group, levels, shape, groups)
-}
-
-/// Makes the boxes of a leaf's triangles true, unless they are, or unless the leaf's own box is all there is.
-#[inline]
-pub(crate) fn reach_leaf<const N: usize, S: Scalar>(
-    tree: &mut Tree<N>,
-    leaf: u32,
-    shape: &Shape<S>,
-) -> u64 {
-    if !tree.leaves.have_boxes() || tree.leaves.epoch(leaf) == shape.epoch {
-        return 0;
-    }
-    let triangles = tree.leaves.triangles(leaf);
-    let count = triangles.len() as u64;
-    let blocks = tree.leaves.make_true(leaf, shape.epoch);
-    for (place, triangle) in triangles.enumerate() {
-        blocks[place / LEAF_LANES].set(place % LEAF_LANES, &shape.box_of(triangle));
-    }
-    count
+    dispatch!(level, i => {
+        let mut boxes = 0;
+        for &group in reached {
+            // A group may have been made with one above it, or be in the list twice.
+            if tree.groups[group as usize].epoch != shape.epoch {
+                boxes += make_levels_true(i, tree, group, levels, shape, groups, statistics);
+            }
+        }
+        boxes
+    })
 }

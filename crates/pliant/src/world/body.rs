@@ -2,16 +2,21 @@
 
 use super::BodyId;
 use crate::error::ErrorKind;
-use crate::geometry::{Aabb, Bounds, Scalar, Shape};
+use crate::geometry::{Aabb, Bounds, Origin, Points, Scalar, Shape};
+use crate::kernels::{Level, take_over::take_over};
 use crate::mesh::{self, Mesh};
 
 pub(super) struct Body<S> {
     id: BodyId,
     pub(super) mesh: Mesh,
-    /// The shape, in tree order.
+    /// The shape, as the caller orders vertices.
     positions: Vec<[S; 3]>,
     /// Where the next shape is written, so that a bad one never replaces a good one.
     spare: Vec<[S; 3]>,
+    /// The shape in tree order, made when the body meets another.
+    in_tree_order: Points<S>,
+    /// Whether that is the shape that the body has now.
+    is_in_order: bool,
     /// Of the vertices that triangles use.
     bounds: Bounds<S>,
     /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other epochs are not true.
@@ -48,20 +53,18 @@ fn is_in_range<S: Scalar>([x, y, z]: [S; 3]) -> bool {
 impl<S: Scalar> Body<S> {
     /// A body of validated parts; positions in the caller's order.
     pub(super) fn new(id: BodyId, mesh: Mesh, positions: &[[S; 3]]) -> Self {
-        let in_tree_order: Vec<_> = mesh
-            .vertex_ids()
-            .iter()
-            .map(|&vertex| positions[vertex as usize])
-            .collect();
-        let mut bounds = Bounds::EMPTY;
-        in_tree_order[..mesh.used_vertices()]
-            .iter()
-            .for_each(|&position| bounds.include(position));
+        let bounds = bounds_of(
+            mesh.vertex_ids()[..mesh.used_vertices()]
+                .iter()
+                .map(|&vertex| positions[vertex as usize]),
+        );
         Self {
             id,
             mesh,
-            spare: in_tree_order.clone(),
-            positions: in_tree_order,
+            positions: positions.to_vec(),
+            spare: positions.to_vec(),
+            in_tree_order: Points::with_len(positions.len()),
+            is_in_order: false,
             bounds,
             epoch: 1,
             membership: u32::MAX,
@@ -82,11 +85,32 @@ impl<S: Scalar> Body<S> {
         self.positions.len()
     }
 
-    /// What makes boxes and decides pairs.
+    /// Brings the shape into tree order, which everything that looks at it needs.
+    pub(super) fn bring_into_order(&mut self) {
+        if !self.is_in_order {
+            self.in_tree_order
+                .gather(&self.positions, self.mesh.vertex_ids());
+            self.is_in_order = true;
+        }
+    }
+
+    /// The shape in tree order, whether it was brought into it or not.
+    pub(super) fn in_tree_order(&self) -> Points<S> {
+        let mut points = Points::with_len(self.positions.len());
+        points.gather(&self.positions, self.mesh.vertex_ids());
+        points
+    }
+
+    pub(super) fn epoch(&self) -> u64 {
+        self.epoch
+    }
+
+    /// What makes boxes and decides pairs; of a body that was brought into order.
     #[inline]
-    pub(super) fn shape(&self, origin: [f64; 3]) -> Shape<'_, S> {
+    pub(super) fn shape(&self, origin: Origin) -> Shape<'_, S> {
+        debug_assert!(self.is_in_order);
         Shape {
-            positions: &self.positions,
+            positions: &self.in_tree_order,
             triangles: self.mesh.corners(),
             origin,
             epoch: self.epoch,
@@ -100,52 +124,38 @@ impl<S: Scalar> Body<S> {
 
     /// The box of the body as it is.
     #[inline]
-    pub(super) fn exact_box(&self, origin: [f64; 3]) -> Aabb {
+    pub(super) fn exact_box(&self, origin: Origin) -> Aabb {
         self.bounds.to_box(origin)
     }
 
     /// The box that the broad phase works with: the loose one if there is one.
-    pub(super) fn broad_box(&self, origin: [f64; 3]) -> Aabb {
+    pub(super) fn broad_box(&self, origin: Origin) -> Aabb {
         self.loose.unwrap_or(self.bounds).to_box(origin)
     }
 
     /// Takes a new shape over, in one pass; or leaves the body as it is and says what was wrong.
-    pub(super) fn take_over(&mut self, positions: &[[S; 3]]) -> Result<(), ErrorKind> {
+    pub(super) fn take_over(
+        &mut self,
+        level: Level,
+        positions: &[[S; 3]],
+    ) -> Result<(), ErrorKind> {
         if positions.len() != self.positions.len() {
             return Err(ErrorKind::WrongLength {
                 expected: self.positions.len(),
                 found: positions.len(),
             });
         }
-        // A NaN or an infinity cannot be seen in the bounds (a comparison passes it over), so it is looked for as we go; which
-        // vertex it was is found out only if there was one.
-        let (used, unused) = self.spare.split_at_mut(self.mesh.used_vertices());
-        let (used_ids, unused_ids) = self.mesh.vertex_ids().split_at(used.len());
-        let mut all_in_range = true;
-        let mut bounds = Bounds::EMPTY;
-        for (place, &vertex) in used.iter_mut().zip(used_ids) {
-            let position = positions[vertex as usize];
-            *place = position;
-            all_in_range &= is_in_range(position);
-            bounds.include(position);
-        }
-        let mut all_bounds = bounds;
-        for (place, &vertex) in unused.iter_mut().zip(unused_ids) {
-            let position = positions[vertex as usize];
-            *place = position;
-            all_in_range &= is_in_range(position);
-            all_bounds.include(position);
-        }
-        if !all_in_range {
+        let Some(all) = take_over(level, positions, &mut self.spare) else {
+            // Which vertex it was is found out only if there was one.
             return Err(first_outside(
                 positions,
                 |&position| is_in_range(position),
                 |vertex, position| ErrorKind::BadPosition { vertex, position },
             ));
-        }
+        };
         if let Some(loose) = self
             .loose
-            .filter(|loose| !(loose.holds(all_bounds.lo) && loose.holds(all_bounds.hi)))
+            .filter(|loose| !(loose.holds(all.lo) && loose.holds(all.hi)))
         {
             return Err(first_outside(
                 positions,
@@ -154,7 +164,14 @@ impl<S: Scalar> Body<S> {
             ));
         }
         std::mem::swap(&mut self.positions, &mut self.spare);
-        self.bounds = bounds;
+        let used = self.mesh.used_vertices();
+        self.bounds = if used == self.positions.len() {
+            all
+        } else {
+            let used = self.mesh.vertex_ids()[..used].iter();
+            bounds_of(used.map(|&vertex| self.positions[vertex as usize]))
+        };
+        self.is_in_order = false;
         self.epoch += 1;
         Ok(())
     }
@@ -164,21 +181,20 @@ impl<S: Scalar> Body<S> {
         self.epoch += 1;
     }
 
-    /// Triangles and shape as the caller numbers them.
-    pub(super) fn in_callers_order(&self) -> (Vec<[u32; 3]>, Vec<[S; 3]>) {
-        let mut positions = vec![[S::NAN; 3]; self.positions.len()];
-        for (&position, &vertex) in self.positions.iter().zip(self.mesh.vertex_ids()) {
-            positions[vertex as usize] = position;
-        }
-        (self.mesh.in_callers_order(), positions)
+    /// Triangles as the caller numbers them.
+    pub(super) fn triangles(&self) -> Vec<[u32; 3]> {
+        self.mesh.in_callers_order()
     }
 
-    /// The same body in the order of a new tree; positions, the same as now, in the caller's order.
-    pub(super) fn reorder(&mut self, mesh: Mesh, positions: &[[S; 3]]) {
-        for (place, &vertex) in self.positions.iter_mut().zip(mesh.vertex_ids()) {
-            *place = positions[vertex as usize];
-        }
+    /// The shape as the caller orders vertices.
+    pub(super) fn positions(&self) -> &[[S; 3]] {
+        &self.positions
+    }
+
+    /// The same body in the order of a new tree.
+    pub(super) fn reorder(&mut self, mesh: Mesh) {
         self.mesh = mesh;
+        self.is_in_order = false;
         self.epoch += 1;
     }
 
@@ -200,10 +216,10 @@ impl<S: Scalar> Body<S> {
             if !is_box {
                 return Err(ErrorKind::BadLooseBox);
             }
-            let (_, positions) = self.in_callers_order();
+            let positions = &self.positions;
             if !positions.iter().all(|&position| loose.holds(position)) {
                 return Err(first_outside(
-                    &positions,
+                    positions,
                     |&position| loose.holds(position),
                     |vertex, position| ErrorKind::OutsideLooseBox { vertex, position },
                 ));
@@ -212,6 +228,12 @@ impl<S: Scalar> Body<S> {
         self.loose = loose;
         Ok(())
     }
+}
+
+fn bounds_of<S: Scalar>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {
+    let mut bounds = Bounds::EMPTY;
+    positions.for_each(|position| bounds.include(position));
+    bounds
 }
 
 /// The error for the first position that is not good; there is one.

@@ -12,7 +12,8 @@ mod validate;
 
 use crate::broad_phase::BroadPhase;
 use crate::error::{Error, ErrorKind};
-use crate::geometry::{Aabb, Bounds, Scalar};
+use crate::geometry::{Aabb, Bounds, Origin, Scalar};
+use crate::kernels::{self, Level};
 use crate::options::Options;
 use crate::pairs::Pair;
 use crate::statistics::Statistics;
@@ -54,6 +55,8 @@ pub struct TreeShape {
 /// A call that is refused returns an [`Error`] and leaves the world as it was.
 pub struct World<S> {
     options: Options,
+    /// The instructions that kernels use.
+    level: Level,
     /// In no order that matters: a removed body's place is taken by the last.
     bodies: Vec<Body<S>>,
     places: BTreeMap<BodyId, usize>,
@@ -64,7 +67,7 @@ pub struct World<S> {
     ignored: BTreeSet<(BodyId, BodyId)>,
     broad_phase: BroadPhase,
     /// Boxes are relative to this point; zero for `f32`.
-    origin: [f64; 3],
+    origin: Origin,
     /// Shapes taken over since the origin was last looked at.
     moves: usize,
     /// What `write_positions` lends.
@@ -77,6 +80,9 @@ pub struct World<S> {
     body_pairs_hold: bool,
     pairs: Vec<Pair>,
     pairs_of_bodies: Vec<[u32; 2]>,
+    /// Scratch of the sorting of pairs.
+    spare_pairs: Vec<Pair>,
+    spare_pairs_of_bodies: Vec<[u32; 2]>,
     statistics: Statistics,
     /// Work done by `update` since the last query.
     done_early: Statistics,
@@ -92,13 +98,14 @@ impl<S: Scalar> World<S> {
     pub fn with_options(options: Options) -> Self {
         Self {
             options,
+            level: kernels::widest(),
             bodies: Vec::new(),
             places: BTreeMap::new(),
             forest: Forest::new(options.degree),
             next_id: Some(0),
             ignored: BTreeSet::new(),
             broad_phase: BroadPhase::new(options.broad_phase),
-            origin: [0.0; 3],
+            origin: [0.0; 4],
             moves: 0,
             lent: Vec::new(),
             scratch: Scratch::default(),
@@ -107,6 +114,8 @@ impl<S: Scalar> World<S> {
             body_pairs_hold: false,
             pairs: Vec::new(),
             pairs_of_bodies: Vec::new(),
+            spare_pairs: Vec::new(),
+            spare_pairs_of_bodies: Vec::new(),
             statistics: Statistics::default(),
             done_early: Statistics::default(),
         }
@@ -193,7 +202,7 @@ impl<S: Scalar> World<S> {
     pub fn set_positions(&mut self, body: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
         let place = self.place(body)?;
         self.bodies[place]
-            .take_over(positions)
+            .take_over(self.level, positions)
             .map_err(|kind| Error {
                 body: Some(body),
                 kind,
@@ -219,20 +228,22 @@ impl<S: Scalar> World<S> {
         self.lent.clear();
         self.lent.resize(body_there.vertex_count(), [S::NAN; 3]);
         write(&mut self.lent);
-        body_there.take_over(&self.lent).map_err(|kind| {
-            let kind = match kind {
-                ErrorKind::BadPosition { vertex, position }
-                    if position.iter().any(|x| x.is_nan()) =>
-                {
-                    ErrorKind::NotWritten { vertex }
+        body_there
+            .take_over(self.level, &self.lent)
+            .map_err(|kind| {
+                let kind = match kind {
+                    ErrorKind::BadPosition { vertex, position }
+                        if position.iter().any(|x| x.is_nan()) =>
+                    {
+                        ErrorKind::NotWritten { vertex }
+                    }
+                    other => other,
+                };
+                Error {
+                    body: Some(body),
+                    kind,
                 }
-                other => other,
-            };
-            Error {
-                body: Some(body),
-                kind,
-            }
-        })?;
+            })?;
         self.note_movement();
         Ok(())
     }
@@ -245,11 +256,11 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](ErrorKind::NoSuchBody).
     pub fn rebuild(&mut self, body: BodyId) -> Result<(), Error> {
         let place = self.place(body)?;
-        let (triangles, positions) = self.bodies[place].in_callers_order();
+        let body = &mut self.bodies[place];
         let mesh = self
             .forest
-            .plant(place, &triangles, &positions, &self.options);
-        self.bodies[place].reorder(mesh, &positions);
+            .plant(place, &body.triangles(), body.positions(), &self.options);
+        body.reorder(mesh);
         Ok(())
     }
 

@@ -9,6 +9,7 @@ use super::{BodyId, World};
 use crate::error::Error;
 use crate::geometry::{Bounds, Scalar};
 use crate::pairs::{BodyPair, Pair};
+use crate::sort::sort_by_numbers;
 use crate::statistics::Statistics;
 use std::ops::ControlFlow;
 
@@ -31,7 +32,12 @@ impl<S: Scalar> World<S> {
             pairs.push(pair);
             ControlFlow::Continue(())
         });
-        pairs.sort_unstable();
+        // The bodies on the left come in order already.
+        for of_one_body in pairs.chunk_by_mut(|p, q| p.body_a == q.body_a) {
+            sort_by_numbers(of_one_body, &mut self.spare_pairs, |pair| {
+                [pair.triangle_a, pair.body_b.0, pair.triangle_b]
+            });
+        }
         self.pairs = pairs;
         &self.pairs
     }
@@ -237,6 +243,7 @@ impl<S: Scalar> World<S> {
     fn step(&mut self) -> (Step<'_, S>, &mut Forest) {
         let Self {
             options,
+            level,
             bodies,
             forest,
             origin,
@@ -247,6 +254,7 @@ impl<S: Scalar> World<S> {
         (
             Step {
                 options,
+                level: *level,
                 bodies,
                 origin: *origin,
                 scratch,
@@ -260,6 +268,7 @@ impl<S: Scalar> World<S> {
     fn early(&mut self, work: impl FnOnce(&mut Step<'_, S>, &mut Forest)) {
         let Self {
             options,
+            level,
             bodies,
             forest,
             origin,
@@ -270,6 +279,7 @@ impl<S: Scalar> World<S> {
         work(
             &mut Step {
                 options,
+                level: *level,
                 bodies,
                 origin: *origin,
                 scratch,
@@ -344,7 +354,8 @@ impl<S: Scalar> World<S> {
         }));
         // Within two radii a box loses two of its 24 bits at most; the slack keeps a moving world from settling every step.
         if away > 2.0 * radius {
-            self.origin = centre;
+            let [x, y, z] = centre;
+            self.origin = [x, y, z, 0.0];
             self.bodies.iter_mut().for_each(Body::forget_boxes);
             self.body_pairs_hold = false;
         }
@@ -364,7 +375,7 @@ impl<S: Scalar> World<S> {
             pairs.push(pair);
             ControlFlow::Continue(())
         });
-        pairs.sort_unstable();
+        sort_by_numbers(&mut pairs, &mut self.spare_pairs_of_bodies, |&pair| pair);
         self.pairs_of_bodies = pairs;
         visited.map(|_: ControlFlow<()>| &*self.pairs_of_bodies)
     }

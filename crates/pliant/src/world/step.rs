@@ -2,7 +2,8 @@
 //! says: see `queries`.
 
 use super::body::Body;
-use crate::geometry::Scalar;
+use crate::geometry::{Origin, Scalar};
+use crate::kernels::Level;
 use crate::options::Options;
 use crate::statistics::Statistics;
 use crate::traversal::{OneTree, Scratch, Side, TwoTrees, descend};
@@ -16,8 +17,9 @@ pub(super) type Visit<'v> = &'v mut dyn FnMut([u32; 2]) -> ControlFlow<()>;
 /// What a query needs besides trees.
 pub(super) struct Step<'w, S> {
     pub(super) options: &'w Options,
-    pub(super) bodies: &'w [Body<S>],
-    pub(super) origin: [f64; 3],
+    pub(super) level: Level,
+    pub(super) bodies: &'w mut [Body<S>],
+    pub(super) origin: Origin,
     pub(super) scratch: &'w mut Scratch,
     pub(super) statistics: &'w mut Statistics,
 }
@@ -25,16 +27,16 @@ pub(super) struct Step<'w, S> {
 impl<S: Scalar> Step<'_, S> {
     /// Makes the upper levels of a tree true for this frame.
     pub(super) fn refresh_ahead<const N: usize>(&mut self, tree: &mut Tree<N>, body: usize) {
-        let shape = self.bodies[body].shape(self.origin);
-        let update = self.options.update;
-        let boxes = refresh_ahead(tree, update, &shape, &mut self.scratch.groups);
-        // The root alone, from the vertices, is the beginning of top-down.
-        let top_down = update == crate::Update::TopDown;
-        *(if top_down {
-            &mut self.statistics.boxes_top_down
-        } else {
-            &mut self.statistics.boxes_bottom_up
-        }) += boxes;
+        let body = &mut self.bodies[body];
+        body.bring_into_order();
+        refresh_ahead(
+            self.level,
+            tree,
+            self.options.update,
+            &body.shape(self.origin),
+            &mut self.scratch.groups[1],
+            self.statistics,
+        );
     }
 
     /// Two different bodies; the visitor sees (triangle of `a`, triangle of `b`).
@@ -44,11 +46,8 @@ impl<S: Scalar> Step<'_, S> {
         [a, b]: [usize; 2],
         visit: Visit,
     ) -> ControlFlow<()> {
-        let (body_a, body_b) = (&self.bodies[a], &self.bodies[b]);
-        if !body_a
-            .exact_box(self.origin)
-            .overlaps(&body_b.exact_box(self.origin))
-        {
+        let [box_a, box_b] = [a, b].map(|body| self.bodies[body].exact_box(self.origin));
+        if !box_a.overlaps(&box_b) {
             return ControlFlow::Continue(());
         }
         self.statistics.body_pairs += 1;
@@ -57,6 +56,7 @@ impl<S: Scalar> Step<'_, S> {
             .expect("two different bodies, one tree each");
         self.refresh_ahead(tree_a, a);
         self.refresh_ahead(tree_b, b);
+        let (body_a, body_b) = (&self.bodies[a], &self.bodies[b]);
         let mut meeting = TwoTrees {
             a: Side {
                 tree: tree_a,
@@ -70,7 +70,13 @@ impl<S: Scalar> Step<'_, S> {
             },
             levels_at_once: self.options.update.levels_at_once(),
         };
-        descend(&mut meeting, self.scratch, self.statistics, visit)
+        descend(
+            self.level,
+            &mut meeting,
+            self.scratch,
+            self.statistics,
+            visit,
+        )
     }
 
     /// A body with itself; the visitor sees (smaller triangle, larger triangle).
@@ -91,6 +97,12 @@ impl<S: Scalar> Step<'_, S> {
             },
             levels_at_once: self.options.update.levels_at_once(),
         };
-        descend(&mut meeting, self.scratch, self.statistics, visit)
+        descend(
+            self.level,
+            &mut meeting,
+            self.scratch,
+            self.statistics,
+            visit,
+        )
     }
 }

@@ -2,7 +2,7 @@
 
 use super::World;
 use super::forest::with_trees;
-use crate::geometry::Scalar;
+use crate::geometry::{Scalar, Shape};
 
 impl<S: Scalar> World<S> {
     /// Checks every invariant of every tree: the structure, that each box that claims to be true is the box of the vertices
@@ -19,7 +19,9 @@ impl<S: Scalar> World<S> {
                 return Err(format!("{} trees for {} bodies", trees.len(), self.bodies.len()));
             }
             for (tree, body) in trees.iter().zip(&self.bodies) {
-                tree.validate(&body.mesh, &body.shape(self.origin), self.options.partition).map_err(|what| format!("{}: {what}", body.id()))?;
+                let positions = body.in_tree_order();
+                let shape = Shape { positions: &positions, triangles: body.mesh.corners(), origin: self.origin, epoch: body.epoch() };
+                tree.validate(&body.mesh, &shape, self.options.partition).map_err(|what| format!("{}: {what}", body.id()))?;
             }
         });
         Ok(())

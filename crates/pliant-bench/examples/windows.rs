@@ -1,0 +1,112 @@
+//! How long the library takes in the windows of the benchmark's scenes, and nothing else: for a profiler, and while working on it.
+//!
+//! Every step is played several times, all steps one round after the other; a figure is the mean over the steps of a window of
+//! the least time that each step took, which other work on the machine hardly disturbs.
+//!
+//! ```sh
+//! cargo run --release -p pliant-bench --example windows -- [NAME ...] [--rounds R]
+//! ```
+
+use pliant::{BodyId, World};
+use pliant_bench::motion::Motion;
+use pliant_scenes::Scene;
+use std::time::Instant;
+
+/// Name, scene, triangles a body, steps, what is asked.
+type Window = (
+    &'static str,
+    &'static str,
+    usize,
+    std::ops::RangeInclusive<u32>,
+    Ask,
+);
+
+#[derive(Clone, Copy)]
+enum Ask {
+    All,
+    First,
+    Itself,
+}
+
+const WINDOWS: [Window; 8] = [
+    ("easy", "spheres", 20_480, 1..=50, Ask::All),
+    ("hard", "spheres", 20_480, 150..=200, Ask::All),
+    ("deepest", "spheres", 20_480, 200..=200, Ask::All),
+    ("first", "spheres", 20_480, 60..=200, Ask::First),
+    ("crowd", "crowd", 5_120, 150..=200, Ask::All),
+    ("cloth", "cloth", 79_202, 35..=50, Ask::Itself),
+    ("large", "spheres", 327_680, 190..=200, Ask::All),
+    ("largest", "spheres", 1_310_720, 196..=200, Ask::All),
+];
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let rounds = arguments
+        .iter()
+        .position(|argument| argument == "--rounds")
+        .map_or(20, |at| {
+            arguments[at + 1].parse().expect("a number of rounds")
+        });
+    let named: Vec<&str> = arguments
+        .iter()
+        .map(String::as_str)
+        .take_while(|argument| *argument != "--rounds")
+        .collect();
+    for window in WINDOWS {
+        if named.is_empty() || named.contains(&window.0) {
+            play(window, rounds);
+        }
+    }
+}
+
+fn play((name, scene, triangles, steps, ask): Window, rounds: u32) {
+    let scene = Scene::new(scene, Some(triangles), Scene::DEFAULT_SEED).expect("a scene");
+    let motion = Motion::of_scene(&scene, steps);
+    let mut world = World::<f32>::new();
+    let bodies: Vec<BodyId> = motion
+        .bodies
+        .iter()
+        .map(|body| {
+            world
+                .add(&body.triangles, &body.first.world)
+                .expect("good bodies")
+        })
+        .collect();
+    let mut least = vec![[f64::INFINITY; 2]; motion.frames.len()];
+    let mut work = pliant::Statistics::default();
+    let mut found = 0;
+    for _ in 0..rounds {
+        work = pliant::Statistics::default();
+        found = 0;
+        for (frame, least) in motion.frames.iter().zip(&mut least) {
+            let start = Instant::now();
+            for (&body, placed) in bodies.iter().zip(frame) {
+                world
+                    .set_positions(body, &placed.world)
+                    .expect("good shapes");
+            }
+            let moved = start.elapsed().as_secs_f64();
+            match ask {
+                Ask::All => found += world.intersection_pairs().len(),
+                Ask::First => found += usize::from(world.first_intersection().is_some()),
+                Ask::Itself => {
+                    for &body in &bodies {
+                        found += world.self_intersection_pairs(body).expect("there").len();
+                    }
+                }
+            }
+            let all = start.elapsed().as_secs_f64();
+            *least = [least[0].min(moved), least[1].min(all)];
+            work += *world.statistics();
+        }
+    }
+    let steps = least.len() as f64;
+    let mean = |which: usize| 1e3 * least.iter().map(|times| times[which]).sum::<f64>() / steps;
+    println!(
+        "{name:8} {:8.4} ms a step, of it {:.4} in set_positions; {:.0} pairs",
+        mean(1),
+        mean(0),
+        found as f64 / steps
+    );
+    println!("         a step: {work:?} / {steps}");
+}

@@ -1,0 +1,40 @@
+//! Points side by side in memory, laid out so that one is read as four numbers at once.
+
+use super::Scalar;
+
+/// Points of three coordinates and a fourth number that means nothing, so that each fills a register of four.
+#[derive(Clone, Debug)]
+pub(crate) struct Points<S> {
+    points: Vec<[S; 4]>,
+}
+
+impl<S: Scalar> Points<S> {
+    /// Room for points that are yet to come.
+    pub(crate) fn with_len(len: usize) -> Self {
+        Self {
+            points: vec![[S::default(); 4]; len],
+        }
+    }
+
+    /// Takes the points that `order` names.
+    pub(crate) fn gather(&mut self, from: &[[S; 3]], order: &[u32]) {
+        for (place, &point) in self.points.iter_mut().zip(order) {
+            let [x, y, z] = from[point as usize];
+            *place = [x, y, z, z];
+        }
+    }
+
+    #[inline]
+    pub(crate) fn get(&self, point: u32) -> [S; 3] {
+        let [x, y, z, _] = *self.wide(point);
+        [x, y, z]
+    }
+}
+
+impl<S> Points<S> {
+    /// A point and the number that means nothing.
+    #[inline(always)]
+    pub(crate) fn wide(&self, point: u32) -> &[S; 4] {
+        &self.points[point as usize]
+    }
+}

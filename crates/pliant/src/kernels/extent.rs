@@ -1,0 +1,134 @@
+//! Boxes from points: of a run of points and some others, and of triangles by eights.
+
+use super::boxes::BoxLanes;
+use super::wide::lanes_of;
+use crate::geometry::{Aabb, Points, Scalar, Shape};
+use fearless_simd::f32x4;
+use fearless_simd::prelude::*;
+
+/// A box in two registers: its lower corner and its upper, and in each one number that means nothing.
+pub(crate) type Extent<I> = (f32x4<I>, f32x4<I>);
+
+/// Puts the first `count` of these boxes side by side.
+#[inline(always)]
+pub(crate) fn store<I: Simd, const N: usize>(
+    boxes: [Extent<I>; 8],
+    count: usize,
+    lanes: &mut BoxLanes<N>,
+) {
+    let (mut lo, mut hi) = ([boxes[0].0; 8], [boxes[0].1; 8]);
+    for lane in 1..8 {
+        (lo[lane], hi[lane]) = boxes[lane];
+    }
+    let (lo, hi) = (lanes_of(lo), lanes_of(hi));
+    for axis in 0..3 {
+        lanes.lo[axis].copy_from_slice(&lo[axis].as_slice()[..N]);
+        lanes.hi[axis].copy_from_slice(&hi[axis].as_slice()[..N]);
+    }
+    if count < N {
+        lanes.empty_from(count);
+    }
+}
+
+/// No box; what is in a lane that is not used.
+#[inline(always)]
+pub(crate) fn nothing<I: Simd>(i: I) -> Extent<I> {
+    (f32x4::splat(i, f32::NAN), f32x4::splat(i, f32::NAN))
+}
+
+/// A box that is known already.
+#[inline(always)]
+pub(crate) fn of_box<I: Simd>(i: I, known: &Aabb) -> Extent<I> {
+    let wide = |[x, y, z]: [f32; 3]| f32x4::simd_from(i, [x, y, z, z]);
+    (wide(known.lo), wide(known.hi))
+}
+
+/// The box of the points of a run and of some others; there is one at least.
+#[inline(always)]
+pub(crate) fn of_points<I: Simd, S: Scalar>(
+    i: I,
+    shape: &Shape<S>,
+    run: std::ops::Range<usize>,
+    others: &[u32],
+) -> Extent<I> {
+    let first = S::load(
+        i,
+        shape
+            .positions
+            .wide(others.first().copied().unwrap_or(run.start as u32)),
+    );
+    // Two of each, so that a minimum does not wait for the one before.
+    let (mut lo, mut hi) = ([first; 2], [first; 2]);
+    let last = run.end as u32 - 1;
+    for place in run.step_by(2) {
+        for (which, vertex) in [place as u32, last.min(place as u32 + 1)]
+            .into_iter()
+            .enumerate()
+        {
+            let point = S::load(i, shape.positions.wide(vertex));
+            lo[which] = lo[which].min(point);
+            hi[which] = hi[which].max(point);
+        }
+    }
+    for pair in others.chunks(2) {
+        for (which, vertex) in [pair[0], pair[pair.len() - 1]].into_iter().enumerate() {
+            let point = S::load(i, shape.positions.wide(vertex));
+            lo[which] = lo[which].min(point);
+            hi[which] = hi[which].max(point);
+        }
+    }
+    S::outward(lo[0].min(lo[1]), hi[0].max(hi[1]), &shape.origin)
+}
+
+/// The box of one triangle.
+#[inline(always)]
+pub(crate) fn of_triangle<I: Simd, S: Scalar>(i: I, shape: &Shape<S>, triangle: u32) -> Extent<I> {
+    of_corners(
+        i,
+        shape.positions,
+        shape.triangles[triangle as usize],
+        &shape.origin,
+    )
+}
+
+#[inline(always)]
+fn of_corners<I: Simd, S: Scalar>(
+    i: I,
+    positions: &Points<S>,
+    corners: [u32; 3],
+    origin: &[f64; 4],
+) -> Extent<I> {
+    let a = S::load(i, positions.wide(corners[0]));
+    let b = S::load(i, positions.wide(corners[1]));
+    let c = S::load(i, positions.wide(corners[2]));
+    S::outward(a.min(b).min(c), a.max(b).max(c), origin)
+}
+
+/// Makes the boxes of one to eight triangles, and returns the box of them all.
+#[inline(always)]
+pub(crate) fn of_block<I: Simd, S: Scalar>(
+    i: I,
+    shape: &Shape<S>,
+    triangles: &[[u32; 3]],
+    block: &mut BoxLanes<8>,
+) -> Extent<I> {
+    // What is missing to eight is the last again: nothing to a union.
+    let last = triangles.len() - 1;
+    let mut boxes = [nothing(i); 8];
+    for lane in 0..8 {
+        let corners = triangles[lane.min(last)];
+        boxes[lane] = of_corners(i, shape.positions, corners, &shape.origin);
+    }
+    store(boxes, triangles.len(), block);
+    let [a, b, c, d, e, f, g, h] = boxes;
+    union(
+        union(union(a, b), union(c, d)),
+        union(union(e, f), union(g, h)),
+    )
+}
+
+/// The box of two.
+#[inline(always)]
+pub(crate) fn union<I: Simd>(a: Extent<I>, b: Extent<I>) -> Extent<I> {
+    (a.0.min(b.0), a.1.max(b.1))
+}

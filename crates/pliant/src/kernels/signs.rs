@@ -1,0 +1,169 @@
+//! Orientation signs of eight candidates at once, in f32, where rounding cannot change them.
+//!
+//! For points p0, p1, p2, q let e1 = p1 - p0, e2 = p2 - p0, n = e1 x e2, t = q - p0. With u = 2^-24 each difference carries one
+//! rounding to f32 (differences of f64 a second, 2^29 times smaller), each component of n two differences, a product and a
+//! subtraction, and n . t another difference, a product and two sums: eight roundings on every path. Let |v| be the largest
+//! component of v. Then n . t is six products of magnitude at most |e1| |e2| |t|, and the computed value is off by at most
+//! 8 u 6 |e1| |e2| |t|, to first order; a ninth u covers the rest and the rounding of the bound:
+//!
+//! ```text
+//! |n . t| > 54 u |e1| |e2| |t|    the sign is certain
+//! ```
+//!
+//! What is lost below the normal range (differences of f64 that are no normal f32, products that underflow, and all of it if
+//! the thread flushes subnormals to zero) is at most 2^-126 a step, times two of the lengths. It is less than the slack of the
+//! ninth u if every length is at least 2^-40 = [`SHORTEST`], which is therefore asked for; shorter ones, zero among them, are
+//! left to exact arithmetic. Comparisons are strict, so infinities and NaN are not certain either.
+//!
+//! Coarser than the bound of `narrow_phase::orientation` by the shape of the triangles, but without a second sum for each sign.
+
+use super::wide::{Corners, Rows, Wide};
+use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, mask32x8};
+
+/// 54 u.
+const RELATIVE_ERROR: f32 = 54.0 * (f32::EPSILON / 2.0);
+const SHORTEST: f32 = 1.0 / (1_u64 << 40) as f32;
+
+/// The plane signs of eight pairs of triangles A, B; bit i of a mask is pair i.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PlaneSigns {
+    /// One triangle lies on one side of the other's plane: they do not intersect.
+    pub(crate) apart: u8,
+    /// All six signs are certain, and none is zero.
+    pub(crate) certain: u8,
+    /// Which of them are positive: of the corners of A against B, then of B against A.
+    pub(crate) positive: [u8; 6],
+}
+
+#[inline(always)]
+pub(crate) fn plane_signs<I: Simd, S: Wide>(i: I, corners: &Corners<S>) -> PlaneSigns {
+    let (a0, a1, a2, b0, b1, b2) = (0, 1, 2, 3, 4, 5);
+    let [a_1, a_2, a_b, a_b1, a_b2, b_1, b_2, b_a1, b_a2] = S::differences(
+        i,
+        corners,
+        [
+            (a1, a0),
+            (a2, a0),
+            (b0, a0),
+            (b1, a0),
+            (b2, a0),
+            (b1, b0),
+            (b2, b0),
+            (a1, b0),
+            (a2, b0),
+        ],
+    );
+    let (l_1, l_2, l_b) = (length(a_1), length(a_2), length(a_b));
+    let (l_b1, l_b2) = (length(a_b1), length(a_b2));
+    let (k_1, k_2, k_a1, k_a2) = (length(b_1), length(b_2), length(b_a1), length(b_a2));
+
+    // Of the corners of B against A.
+    let (normal, scale) = (cross(a_1, a_2), l_1 * l_2 * RELATIVE_ERROR);
+    let of_b = Signs([
+        compare(dot(normal, a_b), scale * l_b),
+        compare(dot(normal, a_b1), scale * l_b1),
+        compare(dot(normal, a_b2), scale * l_b2),
+    ]);
+    // Of the corners of A against B; b0 - a0 stands for a0 - b0.
+    let (normal, scale) = (cross(b_1, b_2), k_1 * k_2 * RELATIVE_ERROR);
+    let [plus, minus] = compare(dot(normal, a_b), scale * l_b);
+    let of_a = Signs([
+        [minus, plus],
+        compare(dot(normal, b_a1), scale * k_a1),
+        compare(dot(normal, b_a2), scale * k_a2),
+    ]);
+
+    let shortest = l_1.min(l_2).min(l_b).min(l_b1).min(l_b2);
+    let shortest = shortest.min(k_1).min(k_2).min(k_a1).min(k_a2);
+    let long_enough = shortest.simd_ge(SHORTEST);
+    PlaneSigns {
+        apart: bits((of_a.one_side() | of_b.one_side()) & long_enough),
+        certain: bits(of_a.certain() & of_b.certain() & long_enough),
+        positive: [
+            bits(of_a.0[0][0]),
+            bits(of_a.0[1][0]),
+            bits(of_a.0[2][0]),
+            bits(of_b.0[0][0]),
+            bits(of_b.0[1][0]),
+            bits(of_b.0[2][0]),
+        ],
+    }
+}
+
+/// Of three points: certainly positive, certainly negative.
+struct Signs<I: Simd>([[mask32x8<I>; 2]; 3]);
+
+impl<I: Simd> Signs<I> {
+    /// All positive or all negative.
+    #[inline(always)]
+    fn one_side(&self) -> mask32x8<I> {
+        let [a, b, c] = self.0;
+        (a[0] & b[0] & c[0]) | (a[1] & b[1] & c[1])
+    }
+
+    /// All known.
+    #[inline(always)]
+    fn certain(&self) -> mask32x8<I> {
+        let [a, b, c] = self.0;
+        (a[0] | a[1]) & (b[0] | b[1]) & (c[0] | c[1])
+    }
+}
+
+#[inline(always)]
+fn bits<I: Simd>(mask: mask32x8<I>) -> u8 {
+    mask.to_bitmask() as u8
+}
+
+/// Two signs of eight pairs of lines; bit i of a mask is pair i.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct LineSigns {
+    /// Both are certainly negative.
+    pub(crate) both_negative: u8,
+    /// One at least is certainly positive.
+    pub(crate) one_positive: u8,
+}
+
+/// The orientations of p1 q1 p2 q2 and of p1 r1 r2 p2, for corners p1 q1 r1 of A and p2 q2 r2 of B.
+#[inline(always)]
+pub(crate) fn line_signs<I: Simd, S: Wide>(i: I, corners: &Corners<S>) -> LineSigns {
+    let [q1, r1, p2, q2, r2] = S::differences(i, corners, [(1, 0), (2, 0), (3, 0), (4, 0), (5, 0)]);
+    let (lq1, lr1, lp2) = (length(q1), length(r1), length(p2));
+    let (lq2, lr2) = (length(q2), length(r2));
+    let [first_plus, first_minus] =
+        compare(dot(cross(q1, p2), q2), lq1 * lp2 * RELATIVE_ERROR * lq2);
+    let [second_plus, second_minus] =
+        compare(dot(cross(r1, r2), p2), lr1 * lr2 * RELATIVE_ERROR * lp2);
+    let shortest = lq1.min(lr1).min(lp2).min(lq2).min(lr2);
+    let long_enough = shortest.simd_ge(SHORTEST);
+    LineSigns {
+        both_negative: bits(first_minus & second_minus & long_enough),
+        one_positive: bits((first_plus | second_plus) & long_enough),
+    }
+}
+
+/// The largest component.
+#[inline(always)]
+fn length<I: Simd>([x, y, z]: Rows<I>) -> f32x8<I> {
+    x.abs().max(y.abs()).max(z.abs())
+}
+
+#[inline(always)]
+fn cross<I: Simd>(a: Rows<I>, b: Rows<I>) -> Rows<I> {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+#[inline(always)]
+fn dot<I: Simd>(a: Rows<I>, b: Rows<I>) -> f32x8<I> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Certainly positive, certainly negative.
+#[inline(always)]
+fn compare<I: Simd>(value: f32x8<I>, bound: f32x8<I>) -> [mask32x8<I>; 2] {
+    [value.simd_gt(bound), value.simd_lt(-bound)]
+}

@@ -20,7 +20,11 @@ pub(crate) use triangles::{Triangle, triangles_intersect};
 
 /// Whether two closed triangles have a point in common; a degenerate triangle is the segment or point that it is.
 #[inline]
-fn intersect<S: Scalar>(a: &Triangle, b: &Triangle, statistics: &mut Statistics) -> bool {
+pub(crate) fn intersect<S: Scalar>(
+    a: &Triangle,
+    b: &Triangle,
+    statistics: &mut Statistics,
+) -> bool {
     let mut filtered = Filtered::new(S::UNDERFLOW);
     let intersect = triangles_intersect(a, b, &mut filtered);
     statistics.exact_decisions += u64::from(filtered.was_uncertain());

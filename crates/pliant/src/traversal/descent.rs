@@ -51,6 +51,8 @@ pub(crate) struct Scratch {
     candidates: Batch<Candidate>,
     undecided: Batch<Undecided>,
     hits: Vec<Candidate>,
+    /// The pair at which a visitor broke, in tree order.
+    pub(crate) broke_at: Option<Candidate>,
 }
 
 /// Shows the visitor every intersecting pair, until it breaks. The order is deterministic, not sorted.
@@ -69,12 +71,19 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
         candidates: found,
         undecided,
         hits,
+        broke_at,
     } = scratch;
     let mut decide = |meeting: &M, found: &mut Batch<Candidate>, statistics: &mut Statistics| {
         let shapes = meeting.sides().map(|side| &side.shape);
         narrow_phase::decide(level, found, shapes, undecided, hits, statistics);
         found.clear();
-        hits.iter().try_for_each(|&hit| visit(meeting.name(hit)))
+        hits.iter().try_for_each(|&hit| {
+            let flow = visit(meeting.name(hit));
+            if flow.is_break() {
+                *broke_at = Some(hit);
+            }
+            flow
+        })
     };
     nodes.clear();
     found.clear();

@@ -101,6 +101,19 @@ impl<S: Scalar> Body<S> {
         points
     }
 
+    /// The caller's number of a triangle in tree order.
+    pub(super) fn name(&self, triangle: u32) -> u32 {
+        self.mesh.triangle_ids()[triangle as usize]
+    }
+
+    /// The corners of a triangle in tree order, from the shape as the caller orders vertices; exact.
+    pub(super) fn corners_now(&self, triangle: u32) -> [[f64; 3]; 3] {
+        self.mesh.corners()[triangle as usize].map(|vertex| {
+            let vertex = self.mesh.vertex_ids()[vertex as usize];
+            self.positions[vertex as usize].map(S::to_f64)
+        })
+    }
+
     pub(super) fn epoch(&self) -> u64 {
         self.epoch
     }

@@ -9,6 +9,7 @@ mod parts;
 mod queries;
 mod step;
 mod validate;
+mod witness;
 
 use crate::broad_phase::BroadPhase;
 use crate::error::{Error, ErrorKind};
@@ -23,6 +24,7 @@ pub(crate) use body::validate as validate_body;
 use forest::{Forest, with_trees};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use witness::Witnesses;
 
 /// A body of a world: a number in order of adding, never used again in that world.
 ///
@@ -73,6 +75,7 @@ pub struct World<S> {
     /// What `write_positions` lends.
     lent: Vec<[S; 3]>,
     scratch: Scratch,
+    witnesses: Witnesses,
     boxes: Vec<Aabb>,
     /// Bodies that may meet, by their places, in the order of their ids; as the broad phase found them.
     body_pairs: Vec<[usize; 2]>,
@@ -109,6 +112,7 @@ impl<S: Scalar> World<S> {
             moves: 0,
             lent: Vec::new(),
             scratch: Scratch::default(),
+            witnesses: Witnesses::default(),
             boxes: Vec::new(),
             body_pairs: Vec::new(),
             body_pairs_hold: false,
@@ -179,6 +183,7 @@ impl<S: Scalar> World<S> {
             self.ignored.remove(&(body, other));
             self.ignored.remove(&(other, body));
         }
+        self.witnesses.forget(body);
         self.body_pairs_hold = false;
         Ok(())
     }
@@ -256,11 +261,15 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](ErrorKind::NoSuchBody).
     pub fn rebuild(&mut self, body: BodyId) -> Result<(), Error> {
         let place = self.place(body)?;
-        let body = &mut self.bodies[place];
-        let mesh = self
-            .forest
-            .plant(place, &body.triangles(), body.positions(), &self.options);
-        body.reorder(mesh);
+        let body_there = &mut self.bodies[place];
+        let mesh = self.forest.plant(
+            place,
+            &body_there.triangles(),
+            body_there.positions(),
+            &self.options,
+        );
+        body_there.reorder(mesh);
+        self.witnesses.forget(body);
         Ok(())
     }
 

@@ -5,7 +5,7 @@
 use super::body::Body;
 use super::forest::{Forest, with_trees};
 use super::step::Step;
-use super::{BodyId, World};
+use super::{BodyId, World, witness};
 use crate::error::Error;
 use crate::geometry::{Bounds, Scalar};
 use crate::pairs::{BodyPair, Pair};
@@ -46,7 +46,25 @@ impl<S: Scalar> World<S> {
     ///
     /// Whether there is one never depends on options or history; which one may.
     pub fn first_intersection(&mut self) -> Option<Pair> {
-        self.visit_intersections(ControlFlow::Break).break_value()
+        if let Some([a, b]) = self
+            .witnesses
+            .of_world
+            .filter(|&bodies| self.do_meet(bodies))
+            && let Some([triangle_a, triangle_b]) = self.ask_witness([a, b])
+        {
+            return Some(Pair {
+                body_a: a,
+                triangle_a,
+                body_b: b,
+                triangle_b,
+            });
+        }
+        let found = self.visit_intersections(ControlFlow::Break).break_value();
+        self.witnesses.of_world = found.map(|pair| [pair.body_a, pair.body_b]);
+        if let Some(bodies) = self.witnesses.of_world {
+            self.keep_witness(bodies);
+        }
+        found
     }
 
     /// Shows `visit` every intersecting pair of triangles of different bodies once, until it breaks; returns what it broke
@@ -120,9 +138,17 @@ impl<S: Scalar> World<S> {
         a: BodyId,
         b: BodyId,
     ) -> Result<Option<[u32; 2]>, Error> {
-        Ok(self
+        self.two_bodies(a, b)?;
+        if let Some(pair) = self.ask_witness([a, b]) {
+            return Ok(Some(pair));
+        }
+        let found = self
             .visit_intersections_between(a, b, ControlFlow::Break)?
-            .break_value())
+            .break_value();
+        if found.is_some() {
+            self.keep_witness([a, b]);
+        }
+        Ok(found)
     }
 
     /// Shows `visit` every intersecting pair (triangle of `a`, triangle of `b`) once, until it breaks.
@@ -168,9 +194,17 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     #[doc(alias = "does_self_intersect")]
     pub fn first_self_intersection(&mut self, body: BodyId) -> Result<Option<[u32; 2]>, Error> {
-        Ok(self
+        self.place(body)?;
+        if let Some([a, b]) = self.ask_witness([body; 2]) {
+            return Ok(Some([a.min(b), a.max(b)]));
+        }
+        let found = self
             .visit_self_intersections(body, ControlFlow::Break)?
-            .break_value())
+            .break_value();
+        if found.is_some() {
+            self.keep_witness([body; 2]);
+        }
+        Ok(found)
     }
 
     /// Shows `visit` every intersecting pair of a body with itself once, until it breaks.
@@ -228,6 +262,38 @@ impl<S: Scalar> World<S> {
     /// What the last query did, and the calls of [`update`](Self::update) and [`update_body`](Self::update_body) before it.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
+    }
+}
+
+/// The pair that answered the last question for a first pair.
+impl<S: Scalar> World<S> {
+    /// Whether two bodies that were there are there still, and meet in queries of the whole world.
+    fn do_meet(&self, [a, b]: [BodyId; 2]) -> bool {
+        let [body_a, body_b] =
+            [a, b].map(|body| self.places.get(&body).map(|&place| &self.bodies[place]));
+        !self.ignored.contains(&(a, b))
+            && matches!((body_a, body_b), (Some(body_a), Some(body_b)) if body_a.may_meet(body_b))
+    }
+
+    /// A pair of these bodies at or near the last answer, if one intersects, as the caller numbers triangles.
+    fn ask_witness(&mut self, bodies: [BodyId; 2]) -> Option<[u32; 2]> {
+        let last = self.witnesses.get(bodies)?;
+        let both = bodies.map(|body| &self.bodies[self.places[&body]]);
+        let mut statistics = self.done_early;
+        let found = witness::near(both, last, &mut statistics)?;
+        self.statistics = statistics;
+        self.done_early = Statistics::default();
+        let [a, b] = found;
+        let names = [both[0].name(a), both[1].name(b)];
+        self.witnesses.keep(bodies, found);
+        Some(names)
+    }
+
+    /// Keeps the pair at which the last traversal stopped.
+    fn keep_witness(&mut self, bodies: [BodyId; 2]) {
+        if let Some(found) = self.scratch.broke_at.take() {
+            self.witnesses.keep(bodies, found);
+        }
     }
 }
 

@@ -26,11 +26,11 @@ impl Random {
 
     /// In 0..count.
     pub fn below(&mut self, count: u32) -> u32 {
-        ((self.bits() >> 32) * u64::from(count) >> 32) as u32
+        (((self.bits() >> 32) * u64::from(count)) >> 32) as u32
     }
 
     fn between(&mut self, least: i32, most: i32) -> i32 {
-        least + self.below((most - least + 1) as u32) as i32
+        least + self.below(most.abs_diff(least) + 1) as i32
     }
 
     fn one_in(&mut self, count: u32) -> bool {
@@ -68,7 +68,7 @@ fn power(exponent: i32) -> f64 {
     if exponent < -1022 {
         f64::from_bits(1 << (exponent + 1074))
     } else {
-        f64::from_bits(((exponent + 1023) as u64) << 52)
+        f64::from_bits(u64::from(exponent.abs_diff(-1023)) << 52)
     }
 }
 
@@ -97,9 +97,9 @@ pub enum Class {
     Points,
     /// One side a million or more times shorter than the others, or three corners almost in a line.
     Slivers,
-    /// A vertex in common.
+    /// A vertex in common, or nearly.
     SharedVertex,
-    /// An edge in common; sometimes in one plane.
+    /// An edge in common, or nearly; sometimes in one plane.
     SharedEdge,
     /// The same triangle, corners in another order, perhaps nudged.
     Identical,
@@ -348,6 +348,12 @@ fn shared(random: &mut Random, single: bool, count: usize) -> [Triangle; 2] {
         either(random, single)
     };
     b[..count].copy_from_slice(&a[..count]);
+    if random.one_in(3) {
+        // Or nearly in common.
+        for p in &mut b[..count] {
+            *p = p.map(|x| random.nudged(x, single));
+        }
+    }
     [a, b]
 }
 

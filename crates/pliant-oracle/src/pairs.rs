@@ -389,14 +389,15 @@ fn scales(random: &mut Random, single: bool) -> [Triangle; 2] {
 fn subnormal(random: &mut Random) -> [Triangle; 2] {
     let mut pair = lattice(random).map(|triangle| triangle.map(|p| p.map(|x| x * power(-149))));
     if random.one_in(3) {
-        let corner = random.below(6) as usize;
-        pair.as_flattened_mut()[corner] = [(); 3].map(|()| random.real(true));
+        let axis = random.below(3) as usize;
+        let scale = power(random.between(100, 149));
+        for p in pair.as_flattened_mut() {
+            p[axis] *= scale;
+        }
     }
     if random.one_in(3) {
-        let axis = random.below(3) as usize;
-        for p in pair.as_flattened_mut() {
-            p[axis] *= power(random.between(100, 149));
-        }
+        let corner = random.below(6) as usize;
+        pair.as_flattened_mut()[corner] = [(); 3].map(|()| random.real(true));
     }
     pair
 }

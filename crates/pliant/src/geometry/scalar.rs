@@ -70,8 +70,8 @@ impl Scalar for f64 {
     const NAN: Self = f64::NAN;
     const INFINITY: Self = f64::INFINITY;
     const NEG_INFINITY: Self = f64::NEG_INFINITY;
-    // 2^-1071 = 8 x the smallest subnormal.
-    const UNDERFLOW: f64 = f64::from_bits(8);
+    // 2^-1018, sixteen times the smallest normal number.
+    const UNDERFLOW: f64 = f64::from_bits(5 << 52);
     const BOXES_ARE_EXACT: bool = false;
 
     #[inline]

@@ -1,13 +1,14 @@
 //! Whether two triangles intersect, decided exactly.
 //!
 //! `orientation` gives the sign of a determinant of four points: by a floating-point filter with a proven bound, and by exact
-//! arithmetic where the filter is not certain. `triangles` decides on these signs alone, so its answer is that of exact
+//! arithmetic where the filter is not certain; `wide` is that arithmetic for coordinates near the smallest there are. `triangles` decides on these signs alone, so its answer is that of exact
 //! arithmetic: independent of scale, of the order of triangles and corners, of processor and compiler.
 //!
 //! The paper uses the test of Möller (1997), which decides on rounded interval ends and a tolerance.
 
 mod orientation;
 mod triangles;
+mod wide;
 
 use crate::geometry::Scalar;
 use crate::statistics::Statistics;

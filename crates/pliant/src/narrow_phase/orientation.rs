@@ -10,14 +10,21 @@
 //! |n . t| > 9 u (N . |t|) + underflow (|t_x| + |t_y| + |t_z| + 1)
 //! ```
 //!
-//! where the last term is for products that lose digits below the normal range: zero for f32 input, whose products of three
-//! differences stay far inside f64; 2^-1071 for f64 input (a product that underflows is off by at most 2^-1075; four of them
-//! are multiplied by each |t_i|, three more are added). The strict comparison leaves NaN uncertain.
-//! n . (d - a) is used, never n . d - n . a, whose error grows with the distance from the origin.
+//! where the last term is for results below the normal range. It is zero for f32 input, whose products of three differences stay
+//! far inside f64. For f64 input each such result is off by at most 2^-1022, whether it is rounded to a subnormal number or
+//! flushed to zero: three in a component of n, multiplied by |t_i|, and six in n . t and the bound itself; 2^-1018 covers all.
+//! The strict comparison leaves NaN uncertain. n . (d - a) is used, never n . d - n . a, whose error grows with the distance from
+//! the origin.
 //!
 //! Where the filter is not certain, `robust::orient3d` (Shewchuk's adaptive expansions) has the last word. With input up to
-//! `f32::MAX` it cannot overflow. **Its limit is underflow**: f64 coordinates must be zero or at least 2^-305 in magnitude for
-//! the sign to be exact; f32 coordinates always are.
+//! `f32::MAX` it cannot overflow. Its limit is underflow. If no coordinate but zero is below 2^-288, all are multiples of 2^-340,
+//! whatever it forms from them is a multiple of 2^-1020, and nothing but its error bounds is ever subnormal; an error smaller than
+//! that in a multiple of 2^-1020 is none. For smaller coordinates, which no f32 is, `wide` has the last word, in integers. In the
+//! plane the same holds for products of two, from 2^-459.
+//!
+//! So every sign is exact for every f32 and f64 in range.
+
+use super::wide;
 
 /// A point as every decision sees it; the conversion from f32 or f64 is exact.
 pub(crate) type Point = [f64; 3];
@@ -37,10 +44,37 @@ pub(crate) struct Exact;
 
 impl Orientation for Exact {
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        let coord = |&[x, y, z]: &Point| robust::Coord3D { x, y, z };
-        // robust's determinant is that of (a - d, b - d, c - d), which is minus n . t.
-        sign_of(-robust::orient3d(coord(a), coord(b), coord(c), coord(d)))
+        if [a, b, c, d]
+            .into_iter()
+            .all(|point| are_from(SMALLEST, point))
+        {
+            adaptive(a, b, c, d)
+        } else {
+            wide::orientation(a, b, c, d)
+        }
     }
+}
+
+/// `robust` is exact if no coordinate but zero is smaller in magnitude: 2^-288.
+const SMALLEST: f64 = f64::from_bits((1023 - 288) << 52);
+
+/// The same in the plane: 2^-459.
+const SMALLEST_2D: f64 = f64::from_bits((1023 - 459) << 52);
+
+/// Whether each coordinate is zero or at least `smallest` in magnitude. As integers: a thread that flushes subnormal numbers
+/// takes them for zero.
+fn are_from(smallest: f64, point: &[f64]) -> bool {
+    // Zero, less one, is the largest of all.
+    point
+        .iter()
+        .all(|x| x.abs().to_bits().wrapping_sub(1) >= smallest.to_bits() - 1)
+}
+
+/// The sign by expansions, as exact as `SMALLEST` says.
+fn adaptive(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+    let coord = |&[x, y, z]: &Point| robust::Coord3D { x, y, z };
+    // robust's determinant is that of (a - d, b - d, c - d), which is minus n . t.
+    sign_of(-robust::orient3d(coord(a), coord(b), coord(c), coord(d)))
 }
 
 /// The filter, and exact arithmetic where it is not certain.
@@ -84,12 +118,20 @@ impl Orientation for Filtered {
             return sign_of(determinant);
         }
         self.uncertain = true;
-        Exact.sign(a, b, c, d)
+        if self.underflow == 0.0 {
+            // No f32 is too small for it.
+            adaptive(a, b, c, d)
+        } else {
+            Exact.sign(a, b, c, d)
+        }
     }
 }
 
 /// The side of the line through a, b on which c lies, in the plane of the first two coordinates given; exact.
 pub(super) fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+    if ![a, b, c].iter().all(|point| are_from(SMALLEST_2D, point)) {
+        return wide::orientation_2d(a, b, c);
+    }
     let coord = |[x, y]: [f64; 2]| robust::Coord { x, y };
     sign_of(robust::orient2d(coord(a), coord(b), coord(c)))
 }

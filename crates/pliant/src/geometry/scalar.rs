@@ -4,6 +4,8 @@
 //! `f32` whatever the coordinates are. A box only ever *skips* work, so it must hold its triangles; how tightly is a matter of speed. For `f32` it is exact. For
 //! `f64` it is relative to one origin of the world (far from zero an `f32` has no digits left for the shape) and rounded outward.
 
+use std::hint::black_box;
+
 /// A coordinate: `f32` or `f64`. Sealed, because the proofs behind the decisions are for these two.
 pub trait Scalar:
     sealed::Sealed + Copy + PartialOrd + std::fmt::Debug + Default + Send + Sync + 'static
@@ -85,6 +87,14 @@ impl Scalar for f64 {
     #[inline]
     fn round_down(self, origin: f64) -> f32 {
         let (difference, error) = difference(self, origin);
+        // An f32 this small would be subnormal, and a thread that flushes those would not round it outward.
+        if difference.abs() < f32::MIN_POSITIVE.into() {
+            return if difference < 0.0 {
+                -f32::MIN_POSITIVE
+            } else {
+                0.0
+            };
+        }
         let rounded = difference as f32;
         let above = rounded as f64 - difference;
         // The true value is difference + error. An f32 that equals the rounded difference lies above it when the error is negative.
@@ -119,6 +129,17 @@ fn difference(a: f64, b: f64) -> (f64, f64) {
     let b_part = a - difference;
     let a_part = difference + b_part;
     (difference, (a - a_part) + (b_part - b))
+}
+
+/// Whether this thread keeps subnormal numbers: neither flushes results to zero nor takes operands for zero.
+#[cfg_attr(
+    not(test),
+    expect(dead_code, reason = "for the calls that bring positions")
+)]
+pub(crate) fn denormals_are_kept() -> bool {
+    // Made, and read: the first is lost by flush-to-zero, the second by denormals-are-zero. Computed now, not by the compiler.
+    let half = black_box(black_box(f64::MIN_POSITIVE) * 0.5);
+    half * 2.0 == f64::MIN_POSITIVE
 }
 
 #[cfg(test)]
@@ -168,5 +189,46 @@ mod tests {
         assert_eq!(1e-300.round_down(0.0), 0.0);
         assert!(1e-300.round_up(0.0) > 0.0);
         assert!((-1e-300).round_down(0.0) < 0.0);
+    }
+
+    #[test]
+    fn a_thread_that_flushes_is_found_out() {
+        assert!(denormals_are_kept());
+        assert_ne!(
+            pliant_oracle::subnormals_flushed(denormals_are_kept),
+            Some(true)
+        );
+        assert!(denormals_are_kept());
+    }
+
+    #[test]
+    fn a_thread_that_flushes_rounds_outward() {
+        let values = [
+            -1e-38,
+            -1e-40,
+            -1e-45,
+            -1e-290,
+            0.0,
+            1e-290,
+            1e-45,
+            1e-40,
+            1.175_494_3e-38,
+            1e-38,
+            3e-38,
+        ];
+        let bounds = || black_box(values).map(|x: f64| [x.round_down(0.0), x.round_up(0.0)]);
+        // Compared here, where no operand is taken for zero.
+        let check = |bounds: [[f32; 2]; 11]| {
+            for (x, [below, above]) in values.into_iter().zip(bounds) {
+                assert!(
+                    f64::from(below) <= x && x <= f64::from(above),
+                    "{below:e} {x:e} {above:e}"
+                );
+            }
+        };
+        check(bounds());
+        if let Some(flushed) = pliant_oracle::subnormals_flushed(bounds) {
+            check(flushed);
+        }
     }
 }

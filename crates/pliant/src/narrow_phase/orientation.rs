@@ -13,7 +13,8 @@
 //! where the last term is for results below the normal range. It is zero for f32 input, whose products of three differences stay
 //! far inside f64. For f64 input each such result is off by at most 2^-1022, whether it is rounded to a subnormal number or
 //! flushed to zero: three in a component of n, multiplied by |t_i|, and six in n . t and the bound itself; 2^-1018 covers all.
-//! The strict comparison leaves NaN uncertain. n . (d - a) is used, never n . d - n . a, whose error grows with the distance from
+//! (Differences below the normal range are exact, or, where they are flushed to zero, do not arise from coordinates that are zero
+//! or at least 2^-969.) The strict comparison leaves NaN uncertain. n . (d - a) is used, never n . d - n . a, whose error grows with the distance from
 //! the origin.
 //!
 //! Where the filter is not certain, `robust::orient3d` (Shewchuk's adaptive expansions) has the last word. With input up to
@@ -129,9 +130,15 @@ impl Orientation for Filtered {
 
 /// The side of the line through a, b on which c lies, in the plane of the first two coordinates given; exact.
 pub(super) fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
-    if ![a, b, c].iter().all(|point| are_from(SMALLEST_2D, point)) {
-        return wide::orientation_2d(a, b, c);
+    if [a, b, c].iter().all(|point| are_from(SMALLEST_2D, point)) {
+        adaptive_2d(a, b, c)
+    } else {
+        wide::orientation_2d(a, b, c)
     }
+}
+
+/// The sign by expansions, as exact as `SMALLEST_2D` says.
+fn adaptive_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     let coord = |[x, y]: [f64; 2]| robust::Coord { x, y };
     sign_of(robust::orient2d(coord(a), coord(b), coord(c)))
 }
@@ -265,5 +272,170 @@ mod tests {
             wrong_without_the_term > 100,
             "{wrong_without_the_term} of {lattices}: the term is needed"
         );
+    }
+
+    /// Multiplies with 2^exponent; exact for integers.
+    fn scaled(points: [Point; 4], exponents: [i32; 3]) -> [Point; 4] {
+        // In two steps, as powi does not reach the smallest powers; the first is exact for the numbers of these tests.
+        let by = |x: f64, exponent: i32| {
+            x * 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
+        };
+        points.map(|p| std::array::from_fn(|axis| by(p[axis], exponents[axis])))
+    }
+
+    /// The oracle's sign, after every source of signs gave the same. Counts signs of which the filter was certain.
+    fn check([a, b, c, d]: [Point; 4], certain: &mut u32) -> Sign {
+        let expected = pliant_oracle::orientation(&a, &b, &c, &d);
+        assert_eq!(
+            Exact.sign(&a, &b, &c, &d),
+            expected,
+            "{a:?} {b:?} {c:?} {d:?}"
+        );
+        let mut check = |underflow| {
+            let mut filtered = Filtered::new(underflow);
+            assert_eq!(
+                filtered.sign(&a, &b, &c, &d),
+                expected,
+                "{a:?} {b:?} {c:?} {d:?}"
+            );
+            *certain += u32::from(!filtered.was_uncertain());
+        };
+        check(f64::UNDERFLOW);
+        if pliant_oracle::fits_f32(&[[a, b, c], [d; 3]]) {
+            check(f32::UNDERFLOW);
+        }
+        expected
+    }
+
+    #[test]
+    fn no_filter_gives_a_wrong_sign_at_any_scale() {
+        let mut random = pliant_oracle::Random::new(4);
+        for exponent in [
+            0, -60, -126, -149, -288, -289, -306, -307, -340, -459, -485, -535, -1022, -1074,
+        ] {
+            let (mut certain, mut zeros) = (0, 0);
+            for round in 0..2_000 {
+                let point = |random: &mut pliant_oracle::Random| {
+                    std::array::from_fn(|_| f64::from(random.below(13)) - 6.0)
+                };
+                let mut points: [Point; 4] = std::array::from_fn(|_| point(&mut random));
+                if round % 3 == 0 {
+                    points[3] = std::array::from_fn(|i| points[1][i] + points[2][i] - points[0][i]);
+                }
+                // All axes at this scale, or one or two of ordinary size, which lift what the others lost.
+                let exponents = match round % 4 {
+                    0 | 1 => [exponent; 3],
+                    2 => [exponent, exponent, 0],
+                    _ => [0, exponent, 100],
+                };
+                zeros += u32::from(check(scaled(points, exponents), &mut certain) == 0);
+            }
+            assert!(
+                (100..1_900).contains(&zeros),
+                "{zeros} zeros at 2^{exponent}"
+            );
+            // From 2^-340 there is nothing left that a filter could be certain of, but with an axis of ordinary size.
+            let least = if exponent >= -126 { 1_500 } else { 0 };
+            assert!(certain >= least, "{certain} certain at 2^{exponent}");
+        }
+    }
+
+    #[test]
+    fn no_filter_gives_a_wrong_sign_on_hard_pairs() {
+        let mut random = pliant_oracle::Random::new(5);
+        let mut certain = 0;
+        for class in pliant_oracle::Class::ALL {
+            for _ in 0..1_500 {
+                let [a, b] = class.pair(&mut random);
+                check([a[0], a[1], a[2], b[0]], &mut certain);
+                check([a[0], a[1], b[0], b[1]], &mut certain);
+            }
+        }
+        assert!(certain > 20_000, "{certain} certain");
+    }
+
+    /// Four points with all their 53 bits, the last of them nearly on the plane of the others; the smallest coordinates, if not
+    /// zero, are from 2^exponent to four times that.
+    fn at_the_limit(random: &mut pliant_oracle::Random, exponent: i32) -> [Point; 4] {
+        let mut coordinate = || -> f64 {
+            let mantissa = (random.bits() >> 11 | 1 << 52) as f64 * 2f64.powi(-52);
+            let sign = if random.below(2) == 0 { 1.0 } else { -1.0 };
+            sign * mantissa * 2f64.powi(random.below(2) as i32)
+        };
+        let [a, b, c]: [Point; 3] = std::array::from_fn(|_| std::array::from_fn(|_| coordinate()));
+        let mut d = std::array::from_fn(|i| b[i] + c[i] - a[i]);
+        for x in &mut d {
+            *x = if x.abs() < 1.0 { 0.0 } else { *x };
+        }
+        let by = 2f64.powi(exponent);
+        [a, b, c, d].map(|p| p.map(|x| x * by))
+    }
+
+    #[test]
+    fn expansions_are_exact_down_to_the_limit_and_not_below() {
+        let mut random = pliant_oracle::Random::new(6);
+        let mut wrong = |exponent: i32, in_plane: bool| {
+            let wrong = |points: [Point; 4]| {
+                let [a, b, c, d] = points;
+                let [p, q, r] = [a, b, d].map(|point| [point[0], point[1]]);
+                if in_plane {
+                    let expected = pliant_oracle::orientation_2d(p, q, r);
+                    assert_eq!(orientation_2d(p, q, r), expected, "{points:?}");
+                    adaptive_2d(p, q, r) != expected
+                } else {
+                    let expected = pliant_oracle::orientation(&a, &b, &c, &d);
+                    assert_eq!(Exact.sign(&a, &b, &c, &d), expected, "{points:?}");
+                    adaptive(&a, &b, &c, &d) != expected
+                }
+            };
+            (0..4_000)
+                .filter(|_| wrong(at_the_limit(&mut random, exponent)))
+                .count()
+        };
+        for exponent in [-288, -287, -280] {
+            assert_eq!(wrong(exponent, false), 0, "2^{exponent}");
+        }
+        for exponent in [-459, -458, -450] {
+            assert_eq!(wrong(exponent, true), 0, "2^{exponent}");
+        }
+        // Beyond it they are wrong; what has the last word there is not.
+        for (exponent, in_plane) in [(-345, false), (-360, false), (-537, true), (-550, true)] {
+            assert!(wrong(exponent, in_plane) > 0, "2^{exponent}");
+        }
+    }
+
+    #[test]
+    fn the_limits_are_where_they_are_said_to_be() {
+        assert_eq!((SMALLEST, SMALLEST_2D), (2f64.powi(-288), 2f64.powi(-459)));
+        for smallest in [SMALLEST, SMALLEST_2D] {
+            assert!(are_from(
+                smallest,
+                &[0.0, -0.0, smallest, -smallest, 1e38, -1e38]
+            ));
+            for below in [smallest.next_down(), f64::MIN_POSITIVE, 5e-324] {
+                assert!(!are_from(smallest, &[1.0, below, 0.0]));
+                assert!(!are_from(smallest, &[0.0, 1.0, -below]));
+            }
+        }
+        // No f32 is below either, so that Filtered need not ask.
+        assert!(are_from(SMALLEST, &[f64::from(f32::from_bits(1))]));
+    }
+
+    #[test]
+    fn the_smallest_numbers_decide_beside_the_largest() {
+        for (tiny, huge) in [
+            (5e-324, 1e38),
+            (1e-320, 1e38),
+            (1e-310, f64::from(f32::MAX)),
+            (1e-300, 1.0),
+        ] {
+            let (a, b, c) = ([0.0; 3], [huge, 0.0, 0.0], [0.0, huge, 0.0]);
+            let at = |z: f64| [huge, huge, z];
+            for (z, expected) in [(tiny, 1), (-tiny, -1), (0.0, 0)] {
+                assert_eq!(check([a, b, c, at(z)], &mut 0), expected, "{tiny} {huge}");
+            }
+            assert_eq!(orientation_2d([0.0, 0.0], [huge, 0.0], [-huge, tiny]), 1);
+            assert_eq!(orientation_2d([0.0, 0.0], [huge, 0.0], [-huge, -tiny]), -1);
+        }
     }
 }

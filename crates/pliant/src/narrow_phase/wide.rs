@@ -135,7 +135,7 @@ mod tests {
         let mut found = [0; 3];
         for round in 0..32_000 {
             let [a, b] = Class::ALL[round % Class::ALL.len()].pair(&mut random);
-            found[(check([a[0], a[1], a[2], b[0]]) + 1) as usize] += 1;
+            found[usize::from((check([a[0], a[1], a[2], b[0]]) + 1).unsigned_abs())] += 1;
         }
         assert!(found.iter().all(|&count| count > 5_000), "{found:?}");
     }

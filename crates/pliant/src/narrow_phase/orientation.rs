@@ -354,37 +354,45 @@ mod tests {
         assert!(certain > 20_000, "{certain} certain");
     }
 
-    /// Four points with all their 53 bits, the last of them nearly on the plane of the others; the smallest coordinates, if not
-    /// zero, are from 2^exponent to four times that.
-    fn at_the_limit(random: &mut pliant_oracle::Random, exponent: i32) -> [Point; 4] {
+    /// Four points with all their 53 bits, the last nearly on the plane of the others, and three nearly on a line. The smallest
+    /// coordinates, if not zero, are from 2^exponent to four times that.
+    fn at_the_limit(
+        random: &mut pliant_oracle::Random,
+        exponent: i32,
+    ) -> ([Point; 4], [[f64; 2]; 3]) {
         let mut coordinate = || -> f64 {
             let mantissa = (random.bits() >> 11 | 1 << 52) as f64 * 2f64.powi(-52);
             let sign = if random.below(2) == 0 { 1.0 } else { -1.0 };
             sign * mantissa * 2f64.powi(random.below(2) as i32)
         };
+        let not_below = |x: f64| if x.abs() < 1.0 { 0.0 } else { x };
         let [a, b, c]: [Point; 3] = std::array::from_fn(|_| std::array::from_fn(|_| coordinate()));
-        let mut d = std::array::from_fn(|i| b[i] + c[i] - a[i]);
-        for x in &mut d {
-            *x = if x.abs() < 1.0 { 0.0 } else { *x };
-        }
+        let d = std::array::from_fn(|i| not_below(b[i] + c[i] - a[i]));
+        let [p, q] = [a, b].map(|point| [point[0], point[1]]);
+        let r = std::array::from_fn(|i| not_below(2.0 * q[i] - p[i]));
         let by = 2f64.powi(exponent);
-        [a, b, c, d].map(|p| p.map(|x| x * by))
+        (
+            [a, b, c, d].map(|p| p.map(|x| x * by)),
+            [p, q, r].map(|p| p.map(|x| x * by)),
+        )
     }
 
     #[test]
     fn expansions_are_exact_down_to_the_limit_and_not_below() {
         let mut random = pliant_oracle::Random::new(6);
         let mut wrong = |exponent: i32, in_plane: bool| {
-            let wrong = |points: [Point; 4]| {
-                let [a, b, c, d] = points;
-                let [p, q, r] = [a, b, d].map(|point| [point[0], point[1]]);
+            let wrong = |([a, b, c, d], [p, q, r]): ([Point; 4], [[f64; 2]; 3])| {
                 if in_plane {
                     let expected = pliant_oracle::orientation_2d(p, q, r);
-                    assert_eq!(orientation_2d(p, q, r), expected, "{points:?}");
+                    assert_eq!(orientation_2d(p, q, r), expected, "{p:?} {q:?} {r:?}");
                     adaptive_2d(p, q, r) != expected
                 } else {
                     let expected = pliant_oracle::orientation(&a, &b, &c, &d);
-                    assert_eq!(Exact.sign(&a, &b, &c, &d), expected, "{points:?}");
+                    assert_eq!(
+                        Exact.sign(&a, &b, &c, &d),
+                        expected,
+                        "{a:?} {b:?} {c:?} {d:?}"
+                    );
                     adaptive(&a, &b, &c, &d) != expected
                 }
             };
@@ -398,9 +406,35 @@ mod tests {
         for exponent in [-459, -458, -450] {
             assert_eq!(wrong(exponent, true), 0, "2^{exponent}");
         }
-        // Beyond it they are wrong; what has the last word there is not.
+        // Well below they are wrong; what has the last word there is not.
         for (exponent, in_plane) in [(-345, false), (-360, false), (-537, true), (-550, true)] {
             assert!(wrong(exponent, in_plane) > 0, "2^{exponent}");
+        }
+    }
+
+    #[test]
+    fn exact_signs_do_not_depend_on_the_thread() {
+        let mut random = pliant_oracle::Random::new(7);
+        let mut points = Vec::new();
+        for exponent in [-288, -289, -340, -459, -460, -470, -485, -511, -520] {
+            points.extend((0..2_000).map(|_| at_the_limit(&mut random, exponent)));
+        }
+        for class in pliant_oracle::Class::ALL {
+            points.extend((0..500).map(|_| {
+                let [a, b] = class.pair(&mut random);
+                let in_plane = [a[0], a[1], b[0]].map(|point| [point[0], point[1]]);
+                ([a[0], a[1], a[2], b[0]], in_plane)
+            }));
+        }
+        let signs = |&([a, b, c, d], [p, q, r]): &([Point; 4], [[f64; 2]; 3])| {
+            [Exact.sign(&a, &b, &c, &d), orientation_2d(p, q, r)]
+        };
+        let all = || -> Vec<_> { points.iter().map(signs).collect() };
+        let ordinary = all();
+        if let Some(flushed) = pliant_oracle::subnormals_flushed(all) {
+            for ((ordinary, flushed), points) in ordinary.iter().zip(flushed).zip(&points) {
+                assert_eq!(*ordinary, flushed, "{points:?}");
+            }
         }
     }
 

@@ -14,6 +14,7 @@ use std::cmp::Ordering;
 /// The side of the plane through a, b, c on which d lies, as [`Orientation`](super::orientation::Orientation) has it.
 #[cold]
 pub(super) fn orientation(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+    let [a, b, c, d] = [a, b, c, d].map(|point| point.map(Number::new));
     let mut sums = Sums::ZERO;
     for (negative, [p, q, r]) in [
         (false, [b, c, d]),
@@ -33,12 +34,39 @@ pub(super) fn orientation(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
 /// The side of the line through a, b on which c lies.
 #[cold]
 pub(super) fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+    let [a, b, c] = [a, b, c].map(|point| point.map(Number::new));
+    let one = Number::new(1.0);
     let mut sums = Sums::ZERO;
     for [p, q] in [[a, b], [b, c], [c, a]] {
-        sums.add(false, [p[0], q[1], 1.0]);
-        sums.add(true, [p[1], q[0], 1.0]);
+        sums.add(false, [p[0], q[1], one]);
+        sums.add(true, [p[1], q[0], one]);
     }
     sums.sign()
+}
+
+/// An integer times a power of two, which is counted from 2^-1074.
+#[derive(Clone, Copy)]
+struct Number {
+    negative: bool,
+    integer: u64,
+    exponent: usize,
+}
+
+impl Number {
+    fn new(x: f64) -> Self {
+        let bits = x.to_bits();
+        let (fraction, exponent) = (bits & ((1 << 52) - 1), (bits >> 52 & 0x7ff) as usize);
+        // Subnormal numbers are multiples of the same power of two as the smallest normal ones.
+        Self {
+            negative: x.is_sign_negative(),
+            integer: if exponent == 0 {
+                fraction
+            } else {
+                fraction | 1 << 52
+            },
+            exponent: exponent.saturating_sub(1),
+        }
+    }
 }
 
 /// Bits of the sums: products of three numbers below 2^1024 in units of 2^-3222, and five for twenty-four of them.
@@ -58,35 +86,33 @@ impl Sums {
     };
 
     /// Adds a product, or takes it away.
-    fn add(&mut self, mut negative: bool, factors: [f64; 3]) {
-        let (mut product, mut shift) = ([1_u64, 0, 0], 0);
-        for factor in factors {
-            let (sign, mantissa, exponent) = parts(factor);
-            negative ^= sign;
-            shift += exponent;
-            let mut carry = 0;
-            for limb in &mut product {
-                let wide = u128::from(*limb) * u128::from(mantissa) + carry;
-                *limb = wide as u64;
-                carry = wide >> 64;
-            }
-        }
-        let sum = if negative {
+    fn add(&mut self, away: bool, [p, q, r]: [Number; 3]) {
+        let sum = if away ^ p.negative ^ q.negative ^ r.negative {
             &mut self.negative
         } else {
             &mut self.positive
         };
+        // 53 bits, 106, 159: three limbs.
+        let two = u128::from(p.integer) * u128::from(q.integer);
+        let [low, high] =
+            [two as u64, (two >> 64) as u64].map(|limb| u128::from(limb) * u128::from(r.integer));
+        let high = high + (low >> 64);
+        let product = [low as u64, high as u64, (high >> 64) as u64];
+
+        let shift = p.exponent + q.exponent + r.exponent;
+        let mut carry = 0;
         let places = &mut sum[shift / 64..];
-        for (first, limb) in product.into_iter().enumerate() {
-            let mut rest = u128::from(limb) << (shift % 64);
-            for place in &mut places[first..] {
-                if rest == 0 {
-                    break;
-                }
-                rest += u128::from(*place);
-                *place = rest as u64;
-                rest >>= 64;
+        for (index, place) in places.iter_mut().enumerate() {
+            // Shifted, a limb goes to two places.
+            let limb = product
+                .get(index)
+                .map_or(0, |&limb| u128::from(limb) << (shift % 64));
+            if limb == 0 && carry == 0 && index >= product.len() {
+                break;
             }
+            let total = limb + u128::from(*place) + carry;
+            *place = total as u64;
+            carry = total >> 64;
         }
     }
 
@@ -96,16 +122,6 @@ impl Sums {
             Ordering::Equal => 0,
             Ordering::Less => -1,
         }
-    }
-}
-
-/// Whether negative, the integer, and the power of two it is to be multiplied with, counted from 2^-1074.
-fn parts(x: f64) -> (bool, u64, usize) {
-    let bits = x.to_bits();
-    let (fraction, exponent) = (bits & ((1 << 52) - 1), (bits >> 52 & 0x7ff) as usize);
-    match exponent {
-        0 => (x.is_sign_negative(), fraction, 0),
-        _ => (x.is_sign_negative(), fraction | 1 << 52, exponent - 1),
     }
 }
 

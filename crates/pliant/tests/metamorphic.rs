@@ -250,7 +250,7 @@ fn soup(random: &mut Lcg, flat: bool) -> Body {
 
 fn soups() -> impl Iterator<Item = Vec<Body>> {
     let mut random = Lcg(17);
-    (0..24).map(move |round| {
+    (0..16).map(move |round| {
         let bodies = 1 + random.below(3);
         (0..bodies)
             .map(|_| soup(&mut random, round % 3 == 0))
@@ -290,7 +290,7 @@ fn order_does_not_matter() {
         assert!(answer(&bodies, true).len() > 50);
         check_order(&bodies, &mut random);
     }
-    assert!(found > 5_000, "{found}");
+    assert!(found > 3_000, "{found}");
 }
 
 #[test]

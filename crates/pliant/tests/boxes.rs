@@ -1,5 +1,6 @@
-//! `f64` coordinates that `f32` boxes cannot hold: every box holds what is below it, and no pair is lost, wherever the bodies are
-//! and whatever a body does. That rounding goes outward, and no farther than it must, is tested beside it, in `geometry`.
+//! `f64` coordinates that `f32` boxes cannot hold: every box is that of what is below it, and no pair is lost, wherever the bodies
+//! are. That a box holds its triangles is tested in `geometry`, against exact sums: pairs alone would not show it, because any
+//! rounding that keeps order, to nearest too, keeps boxes that overlap overlapping.
 
 mod common;
 

@@ -8,6 +8,7 @@ mod common;
 
 use common::Lcg;
 use pliant::{Options, Scalar, World};
+use pliant_oracle::{Class, Random, Triangle, fits_f32};
 use pliant_scenes::Scene;
 use std::collections::BTreeSet;
 
@@ -138,11 +139,11 @@ fn moved(bodies: &[Body], change: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<Body> {
     bodies.iter().map(body).collect()
 }
 
-fn check_order(bodies: &[Body], random: &mut Lcg) {
-    let expected = answer(bodies, true);
+fn check_order(bodies: &[Body], in_f32: bool, random: &mut Lcg) -> usize {
+    let expected = answer(bodies, in_f32);
     for _ in 0..3 {
         let (others, before) = reordered(bodies, random);
-        let found = answer(&others, true);
+        let found = answer(&others, in_f32);
         let back = |(body, triangle): (usize, usize)| {
             let (old_body, triangles) = &before[body];
             (*old_body, triangles[triangle])
@@ -157,6 +158,7 @@ fn check_order(bodies: &[Body], random: &mut Lcg) {
             found.symmetric_difference(&expected)
         );
     }
+    expected.len()
 }
 
 /// Multiplies with a power of two that may be beyond the range of one factor.
@@ -258,6 +260,23 @@ fn soups() -> impl Iterator<Item = Vec<Body>> {
     })
 }
 
+/// Triangles in pairs that nearly touch, nearly lie in one plane, are slivers: many a sign is decided by the last bit.
+/// In `f32`, or with all the digits of `f64`.
+fn hard(single: bool) -> Vec<Body> {
+    let mut random = Random::new(19);
+    let classes = [Class::NearlyCoplanar, Class::NearlyTouching, Class::Slivers];
+    let mut pairs: Vec<[Triangle; 2]> = Vec::new();
+    while pairs.len() < 150 {
+        let pair = classes[pairs.len() % 3].pair(&mut random);
+        pairs.extend((fits_f32(&pair) == single).then_some(pair));
+    }
+    let body = |side: usize| Body {
+        triangles: (0..150).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        positions: pairs.iter().flat_map(|pair| pair[side]).collect(),
+    };
+    vec![body(0), body(1)]
+}
+
 /// A scene at one step, rounded to multiples of 2^-12.
 fn scene(name: &str, triangles: usize, step: u32) -> Vec<Body> {
     let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
@@ -281,21 +300,22 @@ fn scenes() -> [Vec<Body>; 2] {
 #[test]
 fn order_does_not_matter() {
     let mut random = Lcg(23);
-    let mut found = 0;
-    for bodies in soups() {
-        found += answer(&bodies, true).len();
-        check_order(&bodies, &mut random);
-    }
-    for bodies in scenes() {
-        assert!(answer(&bodies, true).len() > 50);
-        check_order(&bodies, &mut random);
-    }
+    let found: usize = soups()
+        .map(|bodies| check_order(&bodies, true, &mut random))
+        .sum();
     assert!(found > 3_000, "{found}");
+    for bodies in scenes() {
+        assert!(check_order(&bodies, true, &mut random) > 50);
+    }
+    for single in [true, false] {
+        assert!(check_order(&hard(single), single, &mut random) > 1_000);
+    }
 }
 
 #[test]
 fn scale_and_mirrors_do_not_matter() {
     // The smallest f32 is 2^-149; the coordinates are integers of four bits, or multiples of 2^-12 below 2^10.
+    check_changes(&hard(true), -60, 60, &[-900, -300]);
     soups().for_each(|bodies| check_changes(&bodies, -149, 123, &[-1074, -600, -350, -288, -200]));
     scenes()
         .iter()

@@ -17,7 +17,8 @@ pub trait Scalar:
     const INFINITY: Self;
     #[doc(hidden)]
     const NEG_INFINITY: Self;
-    /// What the product of three coordinate differences can lose to underflow, in units of the filter's bound: see `narrow_phase`.
+    /// What a sign's filter allows for results below the normal range: see `narrow_phase`. Zero if there are none; then no
+    /// coordinate is too small for adaptive expansions either.
     #[doc(hidden)]
     const UNDERFLOW: f64;
     /// Whether boxes are exact, so that an origin has no use.

@@ -13,9 +13,9 @@
 //! where the last term is for results below the normal range. It is zero for f32 input, whose products of three differences stay
 //! far inside f64. For f64 input each such result is off by at most 2^-1022, whether it is rounded to a subnormal number or
 //! flushed to zero: three in a component of n, multiplied by |t_i|, and six in n . t and the bound itself; 2^-1018 covers all.
-//! (Differences below the normal range are exact, or, where they are flushed to zero, do not arise from coordinates that are zero
-//! or at least 2^-969.) The strict comparison leaves NaN uncertain. n . (d - a) is used, never n . d - n . a, whose error grows with the distance from
-//! the origin.
+//! Differences below the normal range are exact; where a thread flushes them to zero, none arises from coordinates that are zero
+//! or at least 2^-969. The strict comparison leaves NaN uncertain. n . (d - a) is used, never n . d - n . a, whose error grows
+//! with the distance from the origin.
 //!
 //! Where the filter is not certain, `robust::orient3d` (Shewchuk's adaptive expansions) has the last word. With input up to
 //! `f32::MAX` it cannot overflow. Its limit is underflow. If no coordinate but zero is below 2^-288, all are multiples of 2^-340,

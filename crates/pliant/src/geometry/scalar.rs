@@ -29,6 +29,9 @@ pub trait Scalar:
     fn to_f64(self) -> f64;
     /// Finite and at most `f32::MAX` in magnitude.
     fn is_in_range(self) -> bool;
+    /// Whether a thread that flushes subnormal numbers loses this coordinate, or may lose a difference of it and another.
+    #[doc(hidden)]
+    fn needs_subnormals(self) -> bool;
     /// The largest `f32` that is not above `self - origin`.
     #[doc(hidden)]
     fn round_down(self, origin: f64) -> f32;
@@ -59,6 +62,10 @@ impl Scalar for f32 {
     fn is_in_range(self) -> bool {
         self.abs() <= f32::MAX
     }
+    fn needs_subnormals(self) -> bool {
+        // Bits, because such a thread takes a subnormal number for zero; zero, less one, is the largest of all.
+        self.abs().to_bits().wrapping_sub(1) < f32::MIN_POSITIVE.to_bits() - 1
+    }
     #[inline]
     fn round_down(self, _origin: f64) -> f32 {
         self
@@ -84,6 +91,11 @@ impl Scalar for f64 {
     #[inline]
     fn is_in_range(self) -> bool {
         self.abs() <= f32::MAX.into()
+    }
+    fn needs_subnormals(self) -> bool {
+        // 2^-969: from there on coordinates, and so their differences, are multiples of 2^-1021.
+        let smallest = f64::from_bits((1023 - 969) << 52);
+        self.abs().to_bits().wrapping_sub(1) < smallest.to_bits() - 1
     }
     #[inline]
     fn round_down(self, origin: f64) -> f32 {
@@ -200,6 +212,24 @@ mod tests {
             Some(true)
         );
         assert!(denormals_are_kept());
+    }
+
+    #[test]
+    fn coordinates_that_need_subnormals_are_known_in_any_thread() {
+        let smallest = 2f64.powi(-969);
+        let singles = [0.0, -0.0, f32::MIN_POSITIVE, -1.0, 1e-38, -1e-45];
+        let doubles = [0.0, -0.0, smallest, -1.0, smallest.next_down(), -5e-324];
+        let ask = || {
+            let (singles, doubles) = (black_box(singles), black_box(doubles));
+            (
+                singles.map(f32::needs_subnormals),
+                doubles.map(f64::needs_subnormals),
+            )
+        };
+        let expected = [false, false, false, false, true, true];
+        assert_eq!(ask(), (expected, expected));
+        let flushed = pliant_oracle::subnormals_flushed(ask);
+        assert!(flushed.is_none_or(|flushed| flushed == (expected, expected)));
     }
 
     #[test]

@@ -69,25 +69,20 @@ fn a_run_says_the_same_twice() {
 
 /// A grid of `side` by `side` vertices as an OBJ file, bent so that it meets itself and others.
 fn bent(side: usize, phase: f64) -> String {
-    let mut text = String::new();
-    for i in 0..side * side {
-        let (x, y) = ((i % side) as f64, (i / side) as f64);
+    let vertex = |i: usize| {
         let z = ((i * 7919 + 13) % 101) as f64 / 50.0 + phase;
-        text += &format!("v {x} {y} {z}\n");
-    }
-    for y in 0..side - 1 {
-        for x in 1..side {
-            let corner = y * side + x;
-            text += &format!(
-                "f {} {} {} {}\n",
-                corner,
-                corner + 1,
-                corner + side + 1,
-                corner + side
-            );
-        }
-    }
-    text
+        format!("v {} {} {z}\n", i % side, i / side)
+    };
+    // Vertices are counted from 1.
+    let face = |i: usize| {
+        let corner = i / (side - 1) * side + i % (side - 1) + 1;
+        let above = corner + side;
+        format!("f {corner} {} {} {above}\n", corner + 1, above + 1)
+    };
+    let vertices = (0..side * side).map(vertex);
+    vertices
+        .chain((0..(side - 1) * (side - 1)).map(face))
+        .collect()
 }
 
 #[test]

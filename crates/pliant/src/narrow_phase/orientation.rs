@@ -20,12 +20,14 @@
 //! Where the filter is not certain, `robust::orient3d` (Shewchuk's adaptive expansions) has the last word. With input up to
 //! `f32::MAX` it cannot overflow. Its limit is underflow. If no coordinate but zero is below 2^-288, all are multiples of 2^-340,
 //! whatever it forms from them is a multiple of 2^-1020, and nothing but its error bounds is ever subnormal; an error smaller than
-//! that in a multiple of 2^-1020 is none. For smaller coordinates, which no f32 is, `wide` has the last word, in integers. In the
-//! plane the same holds for products of two, from 2^-459.
+//! that in a multiple of 2^-1020 is none. For smaller coordinates, which no f32 is, `wide` has the last word, in integers.
+//!
+//! In the plane the same holds with four roundings, and with products of two: expansions are exact from 2^-459.
 //!
 //! So every sign is exact for every f32 and f64 in range.
 
 use super::wide;
+use crate::geometry::Scalar;
 
 /// A point as every decision sees it; the conversion from f32 or f64 is exact.
 pub(crate) type Point = [f64; 3];
@@ -64,11 +66,12 @@ const SMALLEST_2D: f64 = f64::from_bits((1023 - 459) << 52);
 
 /// Whether each coordinate is zero or at least `smallest` in magnitude. As integers: a thread that flushes subnormal numbers
 /// takes them for zero.
-fn are_from(smallest: f64, point: &[f64]) -> bool {
-    // Zero, less one, is the largest of all.
-    point
-        .iter()
-        .all(|x| x.abs().to_bits().wrapping_sub(1) >= smallest.to_bits() - 1)
+#[inline]
+fn are_from<const N: usize>(smallest: f64, point: &[f64; N]) -> bool {
+    // Zero, less one, is the largest of all. No early exit: comparisons without a branch.
+    point.iter().fold(true, |all, x| {
+        all & (x.abs().to_bits().wrapping_sub(1) >= smallest.to_bits() - 1)
+    })
 }
 
 /// The sign by expansions, as exact as `SMALLEST` says.
@@ -129,13 +132,24 @@ impl Orientation for Filtered {
 }
 
 /// The side of the line through a, b on which c lies, in the plane of the first two coordinates given; exact.
+#[inline]
 pub(super) fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
-    if [a, b, c].iter().all(|point| are_from(SMALLEST_2D, point)) {
+    // Whatever the input, the underflow of f64: it is far below what two differences of f32 can make.
+    let left = (b[0] - a[0]) * (c[1] - a[1]);
+    let right = (b[1] - a[1]) * (c[0] - a[0]);
+    let determinant = left - right;
+    if determinant.abs() > RELATIVE_ERROR_2D * (left.abs() + right.abs()) + f64::UNDERFLOW {
+        return sign_of(determinant);
+    }
+    if are_from(SMALLEST_2D, &[a[0], a[1], b[0], b[1], c[0], c[1]]) {
         adaptive_2d(a, b, c)
     } else {
         wide::orientation_2d(a, b, c)
     }
 }
+
+/// 5 u.
+const RELATIVE_ERROR_2D: f64 = 5.0 * (f64::EPSILON / 2.0);
 
 /// The sign by expansions, as exact as `SMALLEST_2D` says.
 fn adaptive_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
@@ -154,7 +168,6 @@ fn sign_of(value: f64) -> Sign {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Scalar;
 
     /// The determinant of lattice points in integers.
     fn integer(points: [[i64; 3]; 4]) -> Sign {
@@ -304,6 +317,11 @@ mod tests {
         if pliant_oracle::fits_f32(&[[a, b, c], [d; 3]]) {
             check(f32::UNDERFLOW);
         }
+        for (x, y) in [(0, 1), (1, 2), (2, 0)] {
+            let [p, q, r] = [a, b, d].map(|point| [point[x], point[y]]);
+            let expected = pliant_oracle::orientation_2d(p, q, r);
+            assert_eq!(orientation_2d(p, q, r), expected, "{p:?} {q:?} {r:?}");
+        }
         expected
     }
 
@@ -352,6 +370,21 @@ mod tests {
             }
         }
         assert!(certain > 20_000, "{certain} certain");
+    }
+
+    /// Two differences that round to opposite sides, times numbers so small that the products round to a whole one of them.
+    #[test]
+    fn products_that_underflow_are_not_trusted_in_the_plane() {
+        let (unit, tiny) = (2f64.powi(-52), f64::from_bits(1));
+        let a = [0.88 * unit, 0.0];
+        let b = [0.25 + unit, tiny];
+        let c = [2.5 + 2.0 * unit, 10.0 * tiny];
+        assert_eq!(pliant_oracle::orientation_2d(a, b, c), 1);
+        assert!(
+            (b[0] - a[0]) * c[1] < b[1] * (c[0] - a[0]),
+            "which is wrong"
+        );
+        assert_eq!(orientation_2d(a, b, c), 1);
     }
 
     /// Four points with all their 53 bits, the last nearly on the plane of the others, and three nearly on a line. The smallest

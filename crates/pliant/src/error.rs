@@ -52,6 +52,12 @@ pub enum ErrorKind {
         /// Its position.
         position: [f64; 3],
     },
+    /// A coordinate is not zero and so small (below 2^-126 for `f32`, 2^-969 for `f64`) that the calling thread, in which
+    /// flush-to-zero or denormals-are-zero is set, would take it for zero.
+    NeedsSubnormals {
+        /// The vertex.
+        vertex: usize,
+    },
     /// [`write_positions`](crate::World::write_positions) left a vertex unwritten (or wrote a NaN).
     NotWritten {
         /// The first such vertex.
@@ -108,6 +114,11 @@ impl fmt::Display for ErrorKind {
                 f,
                 "vertex {vertex} is at {position:?}; coordinates must be finite and at most {:e} in magnitude",
                 f32::MAX
+            ),
+            Self::NeedsSubnormals { vertex } => write!(
+                f,
+                "vertex {vertex} has a coordinate that this thread takes for zero, because it flushes subnormal numbers; switch \
+                 flush-to-zero and denormals-are-zero off, or make the coordinate zero"
             ),
             Self::NotWritten { vertex } => {
                 write!(f, "vertex {vertex} was not written, or written as NaN")

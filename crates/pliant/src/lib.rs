@@ -33,10 +33,11 @@
 //! - **Surfaces only**: a body wholly inside another meets no triangle of it.
 //! - **All pairs** are one set, sorted. **The first pair** is some member of it: whether there is one never depends on options
 //!   or history, which one it is may.
-//! - **Range**: coordinates are finite and at most `f32::MAX` in magnitude, or they are refused. `f32` coordinates are decided
-//!   exactly down to the smallest subnormal; `f64` coordinates are, if they are zero or at least 2^-305 in magnitude.
-//! - **Floating-point environment**: exactness rests on IEEE 754 rounding to nearest with subnormals. A thread in which
-//!   flush-to-zero or denormals-are-zero was switched on breaks it, as it breaks Rust's own arithmetic.
+//! - **Range**: coordinates are finite and at most `f32::MAX` in magnitude, or they are refused. All others are decided exactly,
+//!   `f32` and `f64`, down to the smallest subnormal.
+//! - **Floating-point environment**: exactness rests on IEEE 754 rounding to nearest. In a thread in which flush-to-zero or
+//!   denormals-are-zero was switched on, answers are the same for coordinates that are zero or at least 2^-126 (`f32`) or
+//!   2^-969 (`f64`) in magnitude; smaller ones are refused there.
 //!
 //! # Never stale
 //!

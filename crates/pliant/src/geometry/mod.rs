@@ -8,5 +8,5 @@ mod shape;
 pub(crate) use aabb::Aabb;
 pub(crate) use points::Points;
 pub use scalar::Scalar;
-pub(crate) use scalar::{OUTWARD, larger, smaller};
+pub(crate) use scalar::{OUTWARD, denormals_are_kept, larger, smaller};
 pub(crate) use shape::{Bounds, Origin, Shape};

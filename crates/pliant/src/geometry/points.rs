@@ -16,6 +16,15 @@ impl<S: Scalar> Points<S> {
         }
     }
 
+    /// Points in the order in which they come.
+    #[cfg(test)]
+    pub(crate) fn of(points: &[[S; 3]]) -> Self {
+        let order: Vec<u32> = (0..points.len() as u32).collect();
+        let mut all = Self::with_len(points.len());
+        all.gather(points, &order);
+        all
+    }
+
     /// Takes the points that `order` names.
     pub(crate) fn gather(&mut self, from: &[[S; 3]], order: &[u32]) {
         for (place, &point) in self.points.iter_mut().zip(order) {

@@ -5,6 +5,7 @@
 //! `f64` it is relative to one origin of the world (far from zero an `f32` has no digits left for the shape) and rounded outward.
 
 use crate::kernels::Wide;
+use std::hint::black_box;
 use std::ops::{Add, Mul};
 
 /// A coordinate: `f32` or `f64`. Sealed, because the proofs behind the decisions are for these two.
@@ -30,7 +31,8 @@ pub trait Scalar:
     const INFINITY: Self;
     #[doc(hidden)]
     const NEG_INFINITY: Self;
-    /// What the product of three coordinate differences can lose to underflow, in units of the filter's bound: see `narrow_phase`.
+    /// What a sign's filter allows for results below the normal range: see `narrow_phase`. Zero if there are none; then no
+    /// coordinate is too small for adaptive expansions either.
     #[doc(hidden)]
     const UNDERFLOW: f64;
     /// Whether boxes are exact, so that an origin has no use.
@@ -41,6 +43,9 @@ pub trait Scalar:
     fn to_f64(self) -> f64;
     /// Finite and at most `f32::MAX` in magnitude.
     fn is_in_range(self) -> bool;
+    /// Whether a thread that flushes subnormal numbers loses this coordinate, or may lose a difference of it and another.
+    #[doc(hidden)]
+    fn needs_subnormals(self) -> bool;
     /// An `f32` that is not above `self - origin`; for `f32` itself, the origin being zero.
     #[doc(hidden)]
     fn round_down(self, origin: f64) -> f32;
@@ -71,6 +76,10 @@ impl Scalar for f32 {
     fn is_in_range(self) -> bool {
         self.abs() <= f32::MAX
     }
+    fn needs_subnormals(self) -> bool {
+        // Bits, because such a thread takes a subnormal number for zero; zero, less one, is the largest of all.
+        self.abs().to_bits().wrapping_sub(1) < f32::MIN_POSITIVE.to_bits() - 1
+    }
     #[inline]
     fn round_down(self, _origin: f64) -> f32 {
         self
@@ -85,8 +94,8 @@ impl Scalar for f64 {
     const NAN: Self = f64::NAN;
     const INFINITY: Self = f64::INFINITY;
     const NEG_INFINITY: Self = f64::NEG_INFINITY;
-    // 2^-1071 = 8 x the smallest subnormal.
-    const UNDERFLOW: f64 = f64::from_bits(8);
+    // 2^-1018, sixteen times the smallest normal number.
+    const UNDERFLOW: f64 = f64::from_bits(5 << 52);
     const BOXES_ARE_EXACT: bool = false;
 
     #[inline]
@@ -96,6 +105,11 @@ impl Scalar for f64 {
     #[inline]
     fn is_in_range(self) -> bool {
         self.abs() <= f32::MAX.into()
+    }
+    fn needs_subnormals(self) -> bool {
+        // 2^-969: from there on coordinates, and so their differences, are multiples of 2^-1021.
+        let smallest = f64::from_bits((1023 - 969) << 52);
+        self.abs().to_bits().wrapping_sub(1) < smallest.to_bits() - 1
     }
     #[inline]
     fn round_down(self, origin: f64) -> f32 {
@@ -125,6 +139,13 @@ pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
 #[inline]
 pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }
+}
+
+/// Whether this thread keeps subnormal numbers: neither flushes results to zero nor takes operands for zero.
+pub(crate) fn denormals_are_kept() -> bool {
+    // Made, and read: the first is lost by flush-to-zero, the second by denormals-are-zero. Computed now, not by the compiler.
+    let half = black_box(black_box(f64::MIN_POSITIVE) * 0.5);
+    half * 2.0 == f64::MIN_POSITIVE
 }
 
 #[cfg(test)]
@@ -175,5 +196,64 @@ mod tests {
         assert!(1e-300.round_down(0.0) <= 0.0);
         assert!(1e-300.round_up(0.0) > 0.0);
         assert!((-1e-300).round_down(0.0) < 0.0);
+    }
+
+    #[test]
+    fn a_thread_that_flushes_is_found_out() {
+        assert!(denormals_are_kept());
+        assert_ne!(
+            pliant_oracle::subnormals_flushed(denormals_are_kept),
+            Some(true)
+        );
+        assert!(denormals_are_kept());
+    }
+
+    #[test]
+    fn coordinates_that_need_subnormals_are_known_in_any_thread() {
+        let smallest = 2f64.powi(-969);
+        let singles = [0.0, -0.0, f32::MIN_POSITIVE, -1.0, 1e-38, -1e-45];
+        let doubles = [0.0, -0.0, smallest, -1.0, smallest.next_down(), -5e-324];
+        let ask = || {
+            let (singles, doubles) = (black_box(singles), black_box(doubles));
+            (
+                singles.map(f32::needs_subnormals),
+                doubles.map(f64::needs_subnormals),
+            )
+        };
+        let expected = [false, false, false, false, true, true];
+        assert_eq!(ask(), (expected, expected));
+        let flushed = pliant_oracle::subnormals_flushed(ask);
+        assert!(flushed.is_none_or(|flushed| flushed == (expected, expected)));
+    }
+
+    #[test]
+    fn a_thread_that_flushes_rounds_outward() {
+        let values = [
+            -1e-38,
+            -1e-40,
+            -1e-45,
+            -1e-290,
+            0.0,
+            1e-290,
+            1e-45,
+            1e-40,
+            1.175_494_3e-38,
+            1e-38,
+            3e-38,
+        ];
+        let bounds = || black_box(values).map(|x: f64| [x.round_down(0.0), x.round_up(0.0)]);
+        // Compared here, where no operand is taken for zero.
+        let check = |bounds: [[f32; 2]; 11]| {
+            for (x, [below, above]) in values.into_iter().zip(bounds) {
+                assert!(
+                    f64::from(below) <= x && x <= f64::from(above),
+                    "{below:e} {x:e} {above:e}"
+                );
+            }
+        };
+        check(bounds());
+        if let Some(flushed) = pliant_oracle::subnormals_flushed(bounds) {
+            check(flushed);
+        }
     }
 }

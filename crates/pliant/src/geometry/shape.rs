@@ -71,3 +71,112 @@ impl<S: Scalar> Shape<'_, S> {
         self.triangles[triangle as usize].map(|vertex| self.positions.get(vertex).map(S::to_f64))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pliant_oracle::{Class, Random, sign_of_sum};
+
+    /// Six corners of every size, which no f32 holds, and an origin.
+    fn corners() -> impl Iterator<Item = (Vec<[f64; 3]>, [f64; 3])> {
+        let mut random = Random::new(12);
+        (0..4_000).map(move |round| {
+            let class = Class::ALL[round % Class::ALL.len()];
+            let [a, b] = class.pair(&mut random);
+            let origin = match round % 5 {
+                0 => [0.0; 3],
+                1 => b[0],
+                2 => [1e7 + 0.1, -3e-5, 1e38],
+                3 => [-1e38, 5e-324, 1e-310],
+                _ => [0.1, -1.0 / 3.0, 1e-40],
+            };
+            ([a, b].concat(), origin)
+        })
+    }
+
+    /// On which side of `bound` the exact `x - origin` lies.
+    fn side(x: f64, origin: f64, bound: f32) -> i8 {
+        match bound {
+            f32::INFINITY => -1,
+            f32::NEG_INFINITY => 1,
+            _ => sign_of_sum(&[x, -origin, -f64::from(bound)]),
+        }
+    }
+
+    fn holds(found: &Aabb, x: [f64; 3], origin: [f64; 3]) -> bool {
+        (0..3).all(|axis| {
+            side(x[axis], origin[axis], found.lo[axis]) >= 0
+                && side(x[axis], origin[axis], found.hi[axis]) <= 0
+        })
+    }
+
+    #[test]
+    fn a_triangle_never_leaves_its_box_nor_a_box_its_parent() {
+        let (mut inexact, mut normal) = (0, 0);
+        for (positions, origin) in corners() {
+            let wide_origin = [origin[0], origin[1], origin[2], 0.0];
+            let shape = Shape {
+                positions: &Points::of(&positions),
+                triangles: &[[0, 1, 2], [3, 4, 5]],
+                origin: wide_origin,
+                epoch: 1,
+            };
+            let boxes = [shape.box_of(0), shape.box_of(1)];
+            let mut bounds = Bounds::EMPTY;
+            positions.iter().for_each(|&p| bounds.include(p));
+            let parent = bounds.to_box(wide_origin);
+            for (corner, &p) in positions.iter().enumerate() {
+                assert!(
+                    holds(&boxes[corner / 3], p, origin),
+                    "{p:?} {origin:?} {boxes:?}"
+                );
+                assert!(holds(&parent, p, origin), "{p:?} {origin:?} {parent:?}");
+            }
+            assert!(
+                boxes.iter().all(|child| parent.holds(child)),
+                "{boxes:?} {parent:?}"
+            );
+            for axis in 0..3 {
+                // Made of its children's boxes instead of its vertices, the parent is the same.
+                let lo = smaller(boxes[0].lo[axis], boxes[1].lo[axis]);
+                let hi = larger(boxes[0].hi[axis], boxes[1].hi[axis]);
+                assert_eq!((lo, hi), (parent.lo[axis], parent.hi[axis]), "{origin:?}");
+                // And no box of normal numbers is larger than it must be by more than a few units in the last place.
+                if lo.abs() <= f32::MIN_POSITIVE || lo.is_infinite() {
+                    continue;
+                }
+                let least = positions
+                    .iter()
+                    .fold(f64::INFINITY, |least, p| least.min(p[axis]));
+                inexact += u32::from(side(least, origin[axis], lo) > 0);
+                normal += 1;
+                let inside = lo + (lo.abs() * 2f32.powi(-20) + 4.0 * f32::MIN_POSITIVE);
+                assert!(
+                    side(least, origin[axis], inside) < 0,
+                    "{least} {origin:?} {lo}"
+                );
+            }
+        }
+        assert!(inexact > 3_000 && normal > 6_000, "{inexact} of {normal}");
+    }
+
+    #[test]
+    fn boxes_of_f32_are_exact() {
+        let positions = [
+            [0.1_f32, -1e-45, f32::MAX],
+            [3e-39, 0.0, -1.0],
+            [7.0, 1e-45, 0.5],
+        ];
+        let shape = Shape {
+            positions: &Points::of(&positions),
+            triangles: &[[0, 1, 2]],
+            origin: [0.0; 4],
+            epoch: 1,
+        };
+        let expected = Aabb {
+            lo: [3e-39, -1e-45, -1.0],
+            hi: [7.0, 1e-45, f32::MAX],
+        };
+        assert_eq!(shape.box_of(0), expected);
+    }
+}

@@ -132,3 +132,88 @@ pub(crate) fn of_block<I: Simd, S: Scalar>(
 pub(crate) fn union<I: Simd>(a: Extent<I>, b: Extent<I>) -> Extent<I> {
     (a.0.min(b.0), a.1.max(b.1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Bounds;
+    use crate::kernels::all_levels;
+    use fearless_simd::dispatch;
+
+    fn aabb<I: Simd>((lo, hi): Extent<I>) -> Aabb {
+        let [corner_lo, corner_hi] = [lo, hi].map(|corner| {
+            let [x, y, z, _] = corner.to_array();
+            [x, y, z]
+        });
+        Aabb {
+            lo: corner_lo,
+            hi: corner_hi,
+        }
+    }
+
+    /// Every level gives the boxes that `Shape` and `Bounds` give, bit for bit.
+    fn check<S: Scalar>(points: &[[S; 3]], origin: [f64; 4]) {
+        let positions = Points::of(points);
+        let triangles: Vec<[u32; 3]> = (0..points.len() as u32 - 2)
+            .map(|first| [first, first + 2, first + 1])
+            .collect();
+        let shape = Shape {
+            positions: &positions,
+            triangles: &triangles,
+            origin,
+            epoch: 1,
+        };
+        for level in all_levels() {
+            dispatch!(level, i => {
+                for count in 1..=8 {
+                    let mut block = BoxLanes::EMPTY;
+                    let all = aabb(of_block(i, &shape, &triangles[3..3 + count], &mut block));
+                    let mut bounds = Bounds::EMPTY;
+                    for place in 0..count {
+                        let triangle = 3 + place as u32;
+                        assert_eq!(block.get(place), shape.box_of(triangle), "{level:?}");
+                        assert_eq!(aabb(of_triangle(i, &shape, triangle)), shape.box_of(triangle));
+                        triangles[3 + place].iter().for_each(|&vertex| bounds.include(positions.get(vertex)));
+                    }
+                    assert_eq!(all, bounds.to_box(origin), "{level:?}");
+                    assert_eq!(aabb(of_box(i, &block.union())), all);
+                    for lane in count..8 {
+                        assert!(block.get(lane).lo.iter().all(|x| x.is_nan()));
+                    }
+                }
+                for (run, others) in [(4..9, &[][..]), (2..2, &[1]), (5..6, &[0, 8]), (0..3, &[7, 5, 9])] {
+                    let mut bounds = Bounds::EMPTY;
+                    let all = run.clone().map(|place| place as u32).chain(others.iter().copied());
+                    all.for_each(|vertex| bounds.include(positions.get(vertex)));
+                    assert_eq!(aabb(of_points(i, &shape, run, others)), bounds.to_box(origin));
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn all_levels_make_the_same_boxes() {
+        let wave = |i: usize| {
+            [
+                (i * i) as f64 * 0.37 - 3.0,
+                1.0 / (i as f64 - 4.5),
+                -1e6 * i as f64,
+            ]
+        };
+        let points: Vec<[f64; 3]> = (0..14).map(wave).collect();
+        let narrow: Vec<[f32; 3]> = points.iter().map(|point| point.map(|x| x as f32)).collect();
+        check(&narrow, [0.0; 4]);
+        check(&points, [0.1, -7.0, 1e5, 0.0]);
+        let far = f64::from(f32::MAX);
+        let wild: Vec<[f64; 3]> = (0..14)
+            .map(|i| {
+                [
+                    [far, -far, 1e-320, 5e-40, 0.0][i % 5],
+                    [1e-310, far][i % 2],
+                    3.0,
+                ]
+            })
+            .collect();
+        check(&wild, [-far, 1e-300, 3.0, 0.0]);
+    }
+}

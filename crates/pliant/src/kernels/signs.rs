@@ -167,3 +167,108 @@ fn dot<I: Simd>(a: Rows<I>, b: Rows<I>) -> f32x8<I> {
 fn compare<I: Simd>(value: f32x8<I>, bound: f32x8<I>) -> [mask32x8<I>; 2] {
     [value.simd_gt(bound), value.simd_lt(-bound)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Points, Scalar};
+    use crate::kernels::all_levels;
+    use fearless_simd::dispatch;
+    use pliant_oracle::{Class, Random, fits_f32, orientation as sign};
+
+    /// How many of the signs of eight pairs were certain; all of those are right, at every level the same.
+    fn check<S: Scalar>(pairs: &[[[[f64; 3]; 3]; 2]; 8], of: impl Fn(f64) -> S) -> u32 {
+        let points = |side: usize| -> Vec<[S; 3]> {
+            let corners = pairs.iter().flat_map(|pair| pair[side]);
+            corners.map(|point| point.map(&of)).collect()
+        };
+        let positions = [Points::of(&points(0)), Points::of(&points(1))];
+        let mut vertices = [[0; 6]; 8];
+        for lane in 0..8 {
+            let first = 3 * lane as u32;
+            vertices[lane] = [0, 1, 2, 0, 1, 2].map(|corner| first + corner);
+        }
+        let corners = Corners {
+            positions: [&positions[0], &positions[1]],
+            vertices,
+        };
+        let level = crate::kernels::widest();
+        let planes = dispatch!(level, i => plane_signs(i, &corners));
+        let lines = dispatch!(level, i => line_signs(i, &corners));
+        for level in all_levels() {
+            assert_eq!(
+                dispatch!(level, i => plane_signs(i, &corners)),
+                planes,
+                "{level:?}"
+            );
+            assert_eq!(
+                dispatch!(level, i => line_signs(i, &corners)),
+                lines,
+                "{level:?}"
+            );
+        }
+        let mut certain = 0;
+        for (lane, [a, b]) in pairs.iter().enumerate() {
+            let is = |mask: u8| mask >> lane & 1 == 1;
+            let of_a = a.map(|corner| sign(&b[0], &b[1], &b[2], &corner));
+            let of_b = b.map(|corner| sign(&a[0], &a[1], &a[2], &corner));
+            if is(planes.apart) {
+                assert!(
+                    [of_a, of_b]
+                        .iter()
+                        .any(|signs| *signs == [1; 3] || *signs == [-1; 3]),
+                    "{a:?} {b:?}"
+                );
+            }
+            if is(planes.certain) {
+                let found = planes.positive.map(|mask| if is(mask) { 1 } else { -1 });
+                assert_eq!(
+                    found,
+                    [of_a[0], of_a[1], of_a[2], of_b[0], of_b[1], of_b[2]],
+                    "{a:?} {b:?}"
+                );
+            }
+            let first = sign(&a[0], &a[1], &b[0], &b[1]);
+            let second = sign(&a[0], &a[2], &b[2], &b[0]);
+            if is(lines.both_negative) {
+                assert_eq!([first, second], [-1; 2], "{a:?} {b:?}");
+            }
+            if is(lines.one_positive) {
+                assert!(first == 1 || second == 1, "{a:?} {b:?}");
+            }
+            certain += u32::from(is(planes.certain | planes.apart));
+            certain += u32::from(is(lines.both_negative | lines.one_positive));
+        }
+        certain
+    }
+
+    #[test]
+    fn certain_signs_are_right_on_hard_pairs_and_at_any_scale() {
+        let mut random = Random::new(3);
+        let (mut certain, mut certain_narrow) = (0, 0);
+        for scale in [0, -40, -60, -126, -149, 60, 120].map(|exponent| 2f64.powi(exponent)) {
+            for class in Class::ALL {
+                for _ in 0..60 {
+                    let pairs: [[[[f64; 3]; 3]; 2]; 8] = std::array::from_fn(|_| {
+                        class.pair(&mut random).map(|triangle| {
+                            triangle.map(|point| {
+                                point.map(|x| {
+                                    let x = x * scale;
+                                    if x.abs() <= f32::MAX.into() { x } else { 1.0 }
+                                })
+                            })
+                        })
+                    });
+                    certain += check(&pairs, |x| x);
+                    if pairs.iter().all(fits_f32) {
+                        certain_narrow += check(&pairs, |x| x as f32);
+                    }
+                }
+            }
+        }
+        assert!(
+            certain > 4_000 && certain_narrow > 1_500,
+            "{certain} {certain_narrow}"
+        );
+    }
+}

@@ -2,7 +2,7 @@
 //!
 //! `eight` decides candidates eight at a time, by signs that single precision makes certain, and leaves few to the other two.
 //! `orientation` gives the sign of a determinant of four points: by a floating-point filter with a proven bound, and by exact
-//! arithmetic where the filter is not certain. `triangles` decides on these signs alone, so its answer is that of exact
+//! arithmetic where the filter is not certain; `wide` is that arithmetic for coordinates near the smallest there are. `triangles` decides on these signs alone, so its answer is that of exact
 //! arithmetic: independent of scale, of the order of triangles and corners, of processor and compiler.
 //!
 //! The paper uses the test of Möller (1997), which decides on rounded interval ends and a tolerance.
@@ -10,6 +10,7 @@
 mod eight;
 mod orientation;
 mod triangles;
+mod wide;
 
 use crate::geometry::Scalar;
 use crate::statistics::Statistics;

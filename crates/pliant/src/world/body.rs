@@ -2,7 +2,7 @@
 
 use super::BodyId;
 use crate::error::ErrorKind;
-use crate::geometry::{Aabb, Bounds, Origin, Points, Scalar, Shape};
+use crate::geometry::{Aabb, Bounds, Origin, Points, Scalar, Shape, denormals_are_kept};
 use crate::kernels::{Level, take_over::take_over};
 use crate::mesh::{self, Mesh};
 
@@ -40,6 +40,19 @@ pub(crate) fn validate<S: Scalar>(
             vertex,
             position: positions[vertex].map(S::to_f64),
         }),
+        None => none_is_lost(positions),
+    }
+}
+
+/// Refuses coordinates so small that this thread, where subnormal numbers are flushed, would lose them. Costs two products
+/// where they are not.
+fn none_is_lost<S: Scalar>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
+    if denormals_are_kept() {
+        return Ok(());
+    }
+    let is_lost = |position: &[S; 3]| position.iter().any(|x| x.needs_subnormals());
+    match positions.iter().position(is_lost) {
+        Some(vertex) => Err(ErrorKind::NeedsSubnormals { vertex }),
         None => Ok(()),
     }
 }
@@ -176,6 +189,7 @@ impl<S: Scalar> Body<S> {
                 |vertex, position| ErrorKind::OutsideLooseBox { vertex, position },
             ));
         }
+        none_is_lost(positions)?;
         std::mem::swap(&mut self.positions, &mut self.spare);
         let used = self.mesh.used_vertices();
         self.bounds = if used == self.positions.len() {

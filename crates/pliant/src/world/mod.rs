@@ -125,6 +125,12 @@ impl<S: Scalar> World<S> {
         }
     }
 
+    /// Makes the kernels use a level of instructions, for tests that all of them give the same answers.
+    #[doc(hidden)]
+    pub fn use_instructions(&mut self, level: Level) {
+        self.level = level;
+    }
+
     /// The options of this world.
     pub fn options(&self) -> &Options {
         &self.options

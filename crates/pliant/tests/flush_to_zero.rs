@@ -1,0 +1,130 @@
+//! A calling thread in which subnormal numbers are flushed to zero and taken for zero, as audio code and physics engines set it.
+//!
+//! Answers are the same there for coordinates that are zero or at least 2^-126 (`f32`) or 2^-969 (`f64`) in magnitude: filter,
+//! exact arithmetic and boxes are made so that what they compute is not subnormal, or that losing it is paid for. Smaller
+//! coordinates are zero in such a thread before anything of ours runs.
+
+use pliant::{Error, ErrorKind, Scalar, World, reference};
+use pliant_oracle::{Class, Random, Triangle, fits_f32, intersect, subnormals_flushed};
+
+/// Zero, or not below 2^exponent.
+fn all_from(exponent: i32, pair: &[Triangle; 2]) -> bool {
+    let mut coordinates = pair.as_flattened().as_flattened().iter();
+    coordinates.all(|&x| x == 0.0 || x.abs() >= 2f64.powi(exponent))
+}
+
+/// What a world and the reference say of each pair. The world moves from pair to pair.
+fn answers<S: Scalar>(pairs: &[[[[S; 3]; 3]; 2]]) -> Vec<[bool; 2]> {
+    let mut world = World::new();
+    let start = [[S::default(); 3]; 3];
+    let bodies = [(); 2].map(|()| world.add(&[[0, 1, 2]], &start).unwrap());
+    let answer = |[a, b]: &[[[S; 3]; 3]; 2]| {
+        world.set_positions(bodies[0], a).unwrap();
+        world.set_positions(bodies[1], b).unwrap();
+        let found = world.intersection_pairs().len();
+        let exact = reference::intersection_pairs(&[[0, 1, 2]], a, &[[0, 1, 2]], b).unwrap();
+        [found == 1, exact.len() == 1]
+    };
+    pairs.iter().map(answer).collect()
+}
+
+/// Compares, in an ordinary thread, what a thread that flushes found with what the oracle says.
+fn check<S: Scalar>(pairs: &[[Triangle; 2]], narrowed: impl Fn(f64) -> S) {
+    let input: Vec<_> = pairs
+        .iter()
+        .map(|pair| pair.map(|triangle| triangle.map(|p| p.map(&narrowed))))
+        .collect();
+    let Some(found) = subnormals_flushed(|| answers(&input)) else {
+        eprintln!("skipped: there is no way to flush subnormals on this processor");
+        return;
+    };
+    for (pair, found) in pairs.iter().zip(found) {
+        assert_eq!(found, [intersect(&pair[0], &pair[1]); 2], "{pair:?}");
+    }
+}
+
+#[test]
+fn answers_stay_right() {
+    let mut random = Random::new(8);
+    for class in Class::ALL {
+        let pairs: Vec<_> = (0..1_000).map(|_| class.pair(&mut random)).collect();
+        let single = |pair: &&[Triangle; 2]| fits_f32(pair) && all_from(-126, pair);
+        let singles: Vec<_> = pairs.iter().filter(single).copied().collect();
+        check(&singles, |x| x as f32);
+        let doubles: Vec<_> = pairs
+            .iter()
+            .filter(|pair| all_from(-969, pair))
+            .copied()
+            .collect();
+        assert!(doubles.len() > 100, "{class:?}");
+        check(&doubles, |x| x);
+    }
+}
+
+/// Where products of two and three differences, and single coordinates, leave the normal range of either type.
+#[test]
+fn answers_stay_right_at_the_ends_of_the_range() {
+    let mut random = Random::new(9);
+    for exponent in [
+        -126, -130, -288, -289, -306, -340, -459, -485, -511, -537, -700, -960,
+    ] {
+        let scale = 2f64.powi(exponent);
+        let mut pair = |round: u32| {
+            let class = [Class::Lattice, Class::Coplanar, Class::Segments][round as usize % 3];
+            class.pair(&mut random).map(|triangle| {
+                triangle.map(|p| match round % 2 {
+                    0 => p.map(|x| x * scale),
+                    // One axis of ordinary size lifts the product of the others.
+                    _ => [p[0] * scale, p[1], p[2] * scale],
+                })
+            })
+        };
+        let pairs: Vec<_> = (0..600)
+            .map(&mut pair)
+            .filter(|pair| all_from(-969, pair))
+            .collect();
+        assert!(pairs.len() > 300);
+        check(&pairs, |x| x);
+        if exponent == -126 {
+            let fits = |pair: &&[Triangle; 2]| fits_f32(pair) && all_from(-126, pair);
+            let singles: Vec<_> = pairs.iter().filter(fits).copied().collect();
+            assert!(singles.len() > 300);
+            check(&singles, |x| x as f32);
+        }
+    }
+}
+
+#[test]
+fn what_such_a_thread_would_lose_is_refused() {
+    let triangles = [[0, 1, 2]];
+    let good = [
+        [0.0, 1.0, 2.0],
+        [3.0, -4.0, 5.0],
+        [f64::MIN_POSITIVE * 2f64.powi(53), 0.0, 0.0],
+    ];
+    let mut bad = good;
+    bad[1][2] = 5e-324;
+    let mut world = World::new();
+    let body = world.add(&triangles, &good).unwrap();
+    let Some((moved, added, same)) = subnormals_flushed(|| {
+        (
+            world.set_positions(body, &bad),
+            world.add(&triangles, &bad),
+            world.set_positions(body, &good),
+        )
+    }) else {
+        return;
+    };
+    let kind = ErrorKind::NeedsSubnormals { vertex: 1 };
+    assert_eq!(
+        moved,
+        Err(Error {
+            body: Some(body),
+            kind: kind.clone()
+        })
+    );
+    assert_eq!(added, Err(Error { body: None, kind }));
+    assert_eq!(same, Ok(()));
+    // In a thread that keeps them they are welcome.
+    world.set_positions(body, &bad).unwrap();
+}

@@ -1,0 +1,296 @@
+//! One committed hash of the sorted pairs per scene, the same for every choice that must not change an answer.
+//!
+//! Whatever changes a pair, on purpose, in another configuration or on another machine, is noticed. A new choice (a number of
+//! threads, an instruction set) is one more line in `axes`.
+
+use fearless_simd::Level;
+use pliant::{BroadPhase, Degree, Options, Partition, Scalar, Update, World, reference};
+use pliant_oracle::subnormals_flushed;
+use pliant_scenes::{Asks, Scene};
+use std::num::NonZeroU32;
+
+/// Scene, triangles a body, steps, and the hash over the pairs of these steps and their number.
+const COMMITTED: [(&str, usize, &[u32], u64, usize); 5] = [
+    ("spheres", 320, &[40, 90, 200], 0x87a1_37e6_0c71_9b8d, 406),
+    ("crowd", 80, &[1, 100, 200], 0x97ee_0d4f_548d_5c48, 146),
+    ("arms", 80, &[1, 100, 200], 0xdeff_8926_bad2_518a, 188),
+    ("gather", 80, &[1, 135, 200], 0x417e_9085_24c3_a036, 3455),
+    ("cloth", 648, &[10, 35, 50], 0x6717_87db_787a_24d6, 675),
+];
+
+/// One way to ask.
+#[derive(Clone, Default)]
+struct Case {
+    options: Options,
+    doubles: bool,
+    /// In a thread that flushes subnormal numbers.
+    flushed: bool,
+    /// The kernels' instructions; the widest that pay if not said.
+    instructions: Option<Level>,
+    name: String,
+}
+
+type Change = (&'static str, fn(&mut Case));
+
+fn instructions(case: &mut Case, level: Level, doubles: bool) {
+    (case.instructions, case.doubles) = (Some(level), doubles);
+}
+
+/// SSE4.2 where there is such a thing.
+fn narrow() -> Level {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if let Some(level) = Level::new().as_sse4_2() {
+        return fearless_simd::Simd::level(level);
+    }
+    Level::baseline()
+}
+
+/// All ways of each choice. Every combination is tried.
+fn axes() -> Vec<Vec<Change>> {
+    vec![
+        vec![
+            ("degree 2", |c| c.options.degree = Degree::Two),
+            ("degree 4", |c| c.options.degree = Degree::Four),
+            ("degree 8", |c| c.options.degree = Degree::Eight),
+        ],
+        vec![
+            ("centre", |c| c.options.partition = Partition::Centre),
+            ("mean", |c| c.options.partition = Partition::Mean),
+            ("balanced", |c| c.options.partition = Partition::Balanced),
+            ("connectivity", |c| {
+                c.options.partition = Partition::Connectivity;
+            }),
+        ],
+        vec![
+            ("bottom-up", |c| c.options.update = Update::BottomUp),
+            ("top-down", |c| c.options.update = Update::TopDown),
+            ("hybrid", |c| c.options.update = Update::HYBRID),
+            ("hybrid 1, 2 at once", |c| c.options.update = hybrid(1, 2)),
+        ],
+        vec![
+            ("1 a leaf", |c| c.options.leaf_size = NonZeroU32::MIN),
+            ("8 a leaf", |c| c.options.leaf_size = number(8)),
+            ("11 a leaf", |c| c.options.leaf_size = number(11)),
+        ],
+        vec![
+            ("f32", |c| c.doubles = false),
+            ("f64", |c| c.doubles = true),
+        ],
+    ]
+}
+
+/// Choices that have nothing to do with the others, each tried once.
+const ALONE: [Change; 10] = [
+    ("baseline, f32", |c| {
+        instructions(c, Level::baseline(), false);
+    }),
+    ("baseline, f64", |c| {
+        instructions(c, Level::baseline(), true);
+    }),
+    ("SSE4.2, f32", |c| {
+        instructions(c, narrow(), false);
+    }),
+    ("SSE4.2, f64", |c| {
+        instructions(c, narrow(), true);
+    }),
+    ("widest, f32", |c| {
+        instructions(c, Level::new(), false);
+    }),
+    ("widest, f64", |c| {
+        instructions(c, Level::new(), true);
+    }),
+    ("brute force", |c| {
+        c.options.broad_phase = BroadPhase::BruteForce;
+    }),
+    ("sweep and prune", |c| {
+        c.options.broad_phase = BroadPhase::SweepAndPrune;
+    }),
+    ("flushed, f32", |c| c.flushed = true),
+    ("flushed, f64", |c| {
+        (c.flushed, c.doubles) = (true, true);
+    }),
+];
+
+fn number(n: u32) -> NonZeroU32 {
+    NonZeroU32::new(n).unwrap()
+}
+
+fn hybrid(level: u32, at_once: u32) -> Update {
+    Update::Hybrid {
+        level: Some(level),
+        levels_at_once: number(at_once),
+    }
+}
+
+fn cases() -> Vec<Case> {
+    let changed = |case: &Case, (name, change): &Change| {
+        let mut case = case.clone();
+        change(&mut case);
+        case.name = format!("{} {name}", case.name);
+        case
+    };
+    let every = |cases: Vec<Case>, axis: Vec<Change>| -> Vec<Case> {
+        cases
+            .iter()
+            .flat_map(|case| axis.iter().map(|change| changed(case, change)))
+            .collect()
+    };
+    let mut cases = axes().into_iter().fold(vec![Case::default()], every);
+    cases.extend(ALONE.iter().map(|change| changed(&Case::default(), change)));
+    cases
+}
+
+/// FNV-1a, 64 bits, over the bytes of each number, least first.
+struct Fnv(u64);
+
+impl Default for Fnv {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Fnv {
+    fn add(&mut self, numbers: &[u32]) {
+        for byte in numbers.iter().flat_map(|number| number.to_le_bytes()) {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+/// Every body at one step; all have the same triangles.
+type Shapes = Vec<Vec<[f32; 3]>>;
+
+fn shapes(scene: &Scene, step: u32) -> Shapes {
+    (0..scene.body_count())
+        .map(|body| {
+            let mut positions = Vec::new();
+            scene.positions(body, step, &mut positions);
+            positions
+        })
+        .collect()
+}
+
+/// The hash of all steps, and the number of pairs. `widen` is exact.
+fn hash<S: Scalar>(
+    case: &Case,
+    scene: &Scene,
+    steps: &[Shapes],
+    widen: fn(f32) -> S,
+) -> (u64, usize) {
+    let widened = |positions: &[[f32; 3]]| -> Vec<[S; 3]> {
+        positions.iter().map(|p| p.map(widen)).collect()
+    };
+    let mut world = World::with_options(case.options);
+    if let Some(level) = case.instructions {
+        world.use_instructions(level);
+    }
+    // Trees are built on the first shape and meet the others.
+    let mut bodies = Vec::new();
+    for (body, positions) in steps[0].iter().enumerate() {
+        bodies.push(
+            world
+                .add(scene.triangles(body), &widened(positions))
+                .unwrap(),
+        );
+    }
+    let (mut fnv, mut count) = (Fnv::default(), 0);
+    for (step, shapes) in steps.iter().enumerate() {
+        for (&body, positions) in bodies.iter().zip(shapes) {
+            world.set_positions(body, &widened(positions)).unwrap();
+        }
+        fnv.add(&[step as u32]);
+        match scene.asks() {
+            Asks::BetweenBodies => {
+                for pair in world.intersection_pairs() {
+                    fnv.add(&[
+                        pair.body_a.0,
+                        pair.triangle_a,
+                        pair.body_b.0,
+                        pair.triangle_b,
+                    ]);
+                    count += 1;
+                }
+            }
+            Asks::Itself => {
+                for pair in world.self_intersection_pairs(bodies[0]).unwrap() {
+                    fnv.add(pair);
+                    count += 1;
+                }
+            }
+        }
+    }
+    (fnv.0, count)
+}
+
+#[test]
+fn pairs_are_the_committed_ones_in_every_case() {
+    for (name, triangles, steps, hash_committed, count_committed) in COMMITTED {
+        let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
+        let steps: Vec<Shapes> = steps.iter().map(|&step| shapes(&scene, step)).collect();
+        for case in cases() {
+            let ask = || {
+                if case.doubles {
+                    hash(&case, &scene, &steps, f64::from)
+                } else {
+                    hash(&case, &scene, &steps, |x| x)
+                }
+            };
+            let found = if case.flushed {
+                // Where a thread cannot be made to flush, an ordinary one will do.
+                subnormals_flushed(ask).unwrap_or_else(ask)
+            } else {
+                ask()
+            };
+            assert!(
+                found == (hash_committed, count_committed),
+                "{name},{}: the hash is {:#018x} over {} pairs",
+                case.name,
+                found.0,
+                found.1
+            );
+        }
+    }
+}
+
+/// What no tree has touched; the scenes of many bodies take too long for it.
+#[test]
+fn the_committed_pairs_are_those_of_the_reference() {
+    for (name, triangles, steps, hash_committed, count_committed) in COMMITTED {
+        let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
+        if scene.body_count() > 2 {
+            continue;
+        }
+        let (mut fnv, mut count) = (Fnv::default(), 0);
+        for (step, &number) in steps.iter().enumerate() {
+            let shapes = shapes(&scene, number);
+            fnv.add(&[step as u32]);
+            if scene.asks() == Asks::BetweenBodies {
+                let [a, b] = [0, 1].map(|body| (scene.triangles(body), &shapes[body][..]));
+                for [i, j] in reference::intersection_pairs(a.0, a.1, b.0, b.1).unwrap() {
+                    fnv.add(&[0, i, 1, j]);
+                    count += 1;
+                }
+            } else {
+                let triangles = scene.triangles(0);
+                for pair in reference::self_intersection_pairs(triangles, &shapes[0]).unwrap() {
+                    fnv.add(&pair);
+                    count += 1;
+                }
+            }
+        }
+        assert_eq!((fnv.0, count), (hash_committed, count_committed), "{name}");
+    }
+}
+
+#[test]
+fn a_case_is_every_combination() {
+    let cases = cases();
+    assert_eq!(cases.len(), 3 * 4 * 4 * 3 * 2 + ALONE.len());
+    let named = |name: &str| cases.iter().filter(|c| c.name.contains(name)).count();
+    assert_eq!((named("f64"), named("degree 4")), (148, 96));
+    assert!(
+        cases
+            .iter()
+            .all(|case| case.doubles == case.name.ends_with("f64"))
+    );
+}

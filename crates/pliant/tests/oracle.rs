@@ -1,0 +1,155 @@
+//! Pairs of triangles on which a decision is likely to go wrong, against an oracle that computes in big integers and from
+//! another definition: `reference`, which decides every sign exactly, and a moving world, whose filters skip what they can.
+//!
+//! Thousands of pairs here; ten million by
+//!
+//! ```sh
+//! cargo test --release -p pliant --test oracle -- --ignored --nocapture
+//! ```
+
+use pliant::{BodyId, Scalar, World, reference};
+use pliant_oracle::{Class, Random, Triangle, fits_f32, intersect};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Two bodies of one triangle, moved from pair to pair.
+struct Moving<S> {
+    world: World<S>,
+    bodies: [BodyId; 2],
+}
+
+impl<S: Scalar> Moving<S> {
+    fn new() -> Self {
+        let mut world = World::new();
+        let start = [[S::default(); 3]; 3];
+        let bodies = [(); 2].map(|()| world.add(&[[0, 1, 2]], &start).unwrap());
+        Self { world, bodies }
+    }
+
+    /// What the world says of a pair, and what the reference does.
+    fn answers(&mut self, pair: [[[S; 3]; 3]; 2]) -> [bool; 2] {
+        for (&body, triangle) in self.bodies.iter().zip(&pair) {
+            self.world.set_positions(body, triangle).unwrap();
+        }
+        let found = self.world.intersection_pairs().len();
+        let reference =
+            reference::intersection_pairs(&[[0, 1, 2]], &pair[0], &[[0, 1, 2]], &pair[1]).unwrap();
+        [found == 1, reference == [[0, 0]]]
+    }
+}
+
+/// What was compared, of one class.
+#[derive(Clone, Copy, Default)]
+struct Tally {
+    pairs: u64,
+    meeting: u64,
+    as_f32: u64,
+    by_exact_arithmetic: u64,
+}
+
+/// Compares the next `count` pairs of a class.
+fn compare(class: Class, seed: u64, count: u64) -> Tally {
+    let (mut singles, mut doubles) = (Moving::<f32>::new(), Moving::<f64>::new());
+    let mut random = Random::new(seed);
+    let mut tally = Tally::default();
+    for index in 0..count {
+        let pair = class.pair(&mut random);
+        let expected = intersect(&pair[0], &pair[1]);
+        let check = |answers: [bool; 2], precision: &str| {
+            assert!(
+                answers == [expected; 2],
+                "{class:?}, seed {seed}, pair {index}, {precision}: the oracle says {expected}, world and reference say \
+                 {answers:?}\n{pair:?}\n{}",
+                in_bits(&pair),
+            );
+        };
+        check(doubles.answers(pair), "f64");
+        tally.by_exact_arithmetic += doubles.world.statistics().exact_decisions;
+        if fits_f32(&pair) {
+            let narrowed = pair.map(|triangle| triangle.map(|p| p.map(|x| x as f32)));
+            check(singles.answers(narrowed), "f32");
+            tally.as_f32 += 1;
+        }
+        tally.pairs += 1;
+        tally.meeting += u64::from(expected);
+    }
+    tally
+}
+
+fn in_bits(pair: &[Triangle; 2]) -> String {
+    let number = |x: &f64| format!("{:#018x}", x.to_bits());
+    let numbers: Vec<_> = pair
+        .as_flattened()
+        .as_flattened()
+        .iter()
+        .map(number)
+        .collect();
+    format!("f64::from_bits of: {}", numbers.join(" "))
+}
+
+#[test]
+fn thousands_of_pairs() {
+    for class in Class::ALL {
+        let tally = compare(class, 1, 600);
+        assert_eq!(tally.pairs, 600);
+        assert!(
+            (50..580).contains(&tally.meeting),
+            "{class:?}: {}",
+            tally.meeting
+        );
+    }
+}
+
+/// 16 classes of 640,000 pairs, a tenth of a class at a time in either of two threads.
+#[test]
+#[ignore = "minutes; see the head of this file"]
+fn ten_million_pairs() {
+    const SHARE: u64 = 32_000;
+    println!(
+        "{:<16}{:>11}{:>11}{:>11}{:>11}{:>9}",
+        "class", "pairs", "meeting", "as f32 too", "exact", "seconds"
+    );
+    let print = |name: &str, tally: Tally, time: Duration| {
+        let Tally {
+            pairs,
+            meeting,
+            as_f32,
+            by_exact_arithmetic,
+        } = tally;
+        let seconds = time.as_secs_f64();
+        println!(
+            "{name:<16}{pairs:>11}{meeting:>11}{as_f32:>11}{by_exact_arithmetic:>11}{seconds:>9.1}"
+        );
+    };
+    let begin = Instant::now();
+    let mut all = Tally::default();
+    for class in Class::ALL {
+        let begin = Instant::now();
+        let half = move |first: u64| {
+            let mut tally = Tally::default();
+            for share in 0..10 {
+                tally += compare(class, 1000 + first + 2 * share, SHARE);
+            }
+            tally
+        };
+        let tally = thread::scope(|scope| {
+            let other = scope.spawn(|| half(1));
+            let mut tally = half(0);
+            tally += other.join().unwrap();
+            tally
+        });
+        print(&format!("{class:?}"), tally, begin.elapsed());
+        all += tally;
+    }
+    print("all", all, begin.elapsed());
+    assert!(all.pairs >= 10_000_000);
+}
+
+impl std::ops::AddAssign for Tally {
+    fn add_assign(&mut self, other: Self) {
+        self.pairs += other.pairs;
+        self.meeting += other.meeting;
+        self.as_f32 += other.as_f32;
+        self.by_exact_arithmetic += other.by_exact_arithmetic;
+    }
+}

@@ -59,10 +59,19 @@ fn main() {
     }
 }
 
+/// As many threads as the environment variable THREADS says.
+fn options() -> pliant::Options {
+    let mut options = pliant::Options::default();
+    if let Ok(threads) = std::env::var("THREADS") {
+        options.threads = threads.parse().expect("a number of threads");
+    }
+    options
+}
+
 fn play((name, scene, triangles, steps, ask): Window, rounds: u32) {
     let scene = Scene::new(scene, Some(triangles), Scene::DEFAULT_SEED).expect("a scene");
     let motion = Motion::of_scene(&scene, steps);
-    let mut world = World::<f32>::new();
+    let mut world = World::<f32>::with_options(options());
     let bodies: Vec<BodyId> = motion
         .bodies
         .iter()

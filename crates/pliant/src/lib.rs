@@ -65,6 +65,7 @@
 
 mod broad_phase;
 mod error;
+mod exec;
 mod geometry;
 mod kernels;
 mod mesh;

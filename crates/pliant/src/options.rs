@@ -1,6 +1,6 @@
 //! Every choice a world offers, every default with its reason.
 
-use std::num::NonZeroU32;
+use std::num::{NonZeroU32, NonZeroUsize};
 
 /// How a [`World`](crate::World) builds and updates its trees and finds bodies that may meet. No choice changes an answer.
 ///
@@ -25,6 +25,9 @@ pub struct Options {
     pub update: Update,
     /// How pairs of bodies that may meet are found. Default: by the number of bodies.
     pub broad_phase: BroadPhase,
+    /// How many threads share the work of a query, the calling one included. Default: 1; more pay from about a millisecond of
+    /// work on. Where the system gives none, the calling thread does it all.
+    pub threads: NonZeroUsize,
 }
 
 /// The most children a node has (paper, 3.2).
@@ -122,6 +125,7 @@ impl Default for Options {
             leaf_size: NonZeroU32::new(8).expect("8 is not 0"),
             update: Update::HYBRID,
             broad_phase: BroadPhase::Auto,
+            threads: NonZeroUsize::MIN,
         }
     }
 }

@@ -25,5 +25,8 @@ pub(crate) type NodePair = [NodeId; 2];
 /// Within the traversal: two leaves whose boxes overlap.
 pub(crate) type LeafPair = [u32; 2];
 
+/// Within the traversal: two blocks of up to eight triangles, in leaves whose boxes overlap.
+pub(crate) type BlockPair = [u32; 2];
+
 /// From the traversal to the narrow phase: two triangles, in tree order, whose boxes overlap.
 pub(crate) type Candidate = [u32; 2];

@@ -7,7 +7,7 @@ use fearless_simd::Level;
 use pliant::{BroadPhase, Degree, Options, Partition, Scalar, Update, World, reference};
 use pliant_oracle::subnormals_flushed;
 use pliant_scenes::{Asks, Scene};
-use std::num::NonZeroU32;
+use std::num::{NonZeroU32, NonZeroUsize};
 
 /// Scene, triangles a body, steps, and the hash over the pairs of these steps and their number.
 const COMMITTED: [(&str, usize, &[u32], u64, usize); 5] = [
@@ -80,7 +80,19 @@ fn axes() -> Vec<Vec<Change>> {
 }
 
 /// Choices that have nothing to do with the others, each tried once.
-const ALONE: [Change; 10] = [
+const ALONE: [Change; 15] = [
+    ("2 threads, f32", |c| c.options.threads = threads(2)),
+    ("7 threads, f32", |c| c.options.threads = threads(7)),
+    ("7 threads, f64", |c| {
+        (c.options.threads, c.doubles) = (threads(7), true);
+    }),
+    ("7 threads, bottom-up", |c| {
+        (c.options.threads, c.options.update) = (threads(7), Update::BottomUp);
+    }),
+    ("7 threads, paper", |c| {
+        c.options = Options::paper();
+        c.options.threads = threads(7);
+    }),
     ("baseline, f32", |c| {
         instructions(c, Level::baseline(), false);
     }),
@@ -113,6 +125,10 @@ const ALONE: [Change; 10] = [
 
 fn number(n: u32) -> NonZeroU32 {
     NonZeroU32::new(n).unwrap()
+}
+
+fn threads(n: usize) -> NonZeroUsize {
+    NonZeroUsize::new(n).unwrap()
 }
 
 fn hybrid(level: u32, at_once: u32) -> Update {
@@ -287,7 +303,7 @@ fn a_case_is_every_combination() {
     let cases = cases();
     assert_eq!(cases.len(), 3 * 4 * 4 * 3 * 2 + ALONE.len());
     let named = |name: &str| cases.iter().filter(|c| c.name.contains(name)).count();
-    assert_eq!((named("f64"), named("degree 4")), (148, 96));
+    assert_eq!((named("f64"), named("degree 4")), (149, 96));
     assert!(
         cases
             .iter()

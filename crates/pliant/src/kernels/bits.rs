@@ -44,6 +44,16 @@ impl<T: Copy + Default> Batch<T> {
         self.items[..end].as_chunks().0
     }
 
+    pub(crate) fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    pub(crate) fn append(&mut self, other: &Self) {
+        self.items.truncate(self.len);
+        self.items.extend_from_slice(&other.items[..other.len]);
+        self.len += other.len;
+    }
+
     #[inline]
     pub(crate) fn len(&self) -> usize {
         self.len
@@ -149,6 +159,11 @@ mod tests {
         }
         assert_eq!(list.as_slice(), expected);
         assert_eq!(list.len(), expected.len());
+        let mut twice = Batch::default();
+        twice.append(&list);
+        twice.append(&list);
+        assert_eq!(twice.as_slice(), [&expected[..]; 2].concat());
+        assert!(!twice.is_empty());
         let eights = list.eights().as_flattened().to_vec();
         assert_eq!(eights.len(), expected.len().next_multiple_of(8));
         assert_eq!(eights[..expected.len()], expected);

@@ -28,7 +28,7 @@ pub(crate) struct Undecided {
     certain: bool,
 }
 
-/// Decides candidates; those that intersect are left in `hits`, in the order of the candidates.
+/// Decides candidates, and appends those that intersect to `hits`, in the order of the candidates.
 pub(crate) fn decide<S: Scalar>(
     level: Level,
     candidates: &mut Batch<Candidate>,
@@ -39,7 +39,7 @@ pub(crate) fn decide<S: Scalar>(
 ) {
     let count = candidates.len();
     statistics.candidate_pairs += count as u64;
-    hits.clear();
+    let hits_before = hits.len();
     undecided.clear();
     dispatch!(level, i => {
         for (eight, number) in candidates.eights().iter().zip(lanes_used(count)) {
@@ -50,7 +50,7 @@ pub(crate) fn decide<S: Scalar>(
             by_lines(i, eight, number, shapes, hits, statistics);
         }
     });
-    statistics.pairs += hits.len() as u64;
+    statistics.pairs += (hits.len() - hits_before) as u64;
 }
 
 /// How many of each eight lanes are used by so many items: eight, and in the last the rest.

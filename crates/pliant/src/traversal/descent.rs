@@ -1,13 +1,14 @@
 //! The loop of the traversal, the same for two trees and for one.
 
 use super::Side;
-use super::expand::{candidates, expand};
+use super::expand::expand;
+use super::meet::{Meet, Place, block_pairs};
 use crate::geometry::Scalar;
-use crate::kernels::{Level, bits::Batch};
-use crate::narrow_phase::{self, Undecided};
-use crate::pairs::{Candidate, LeafPair, NodePair};
+use crate::kernels::bits::Batch;
+use crate::pairs::{BlockPair, Candidate, LeafPair, NodePair};
 use crate::statistics::Statistics;
 use crate::tree::NodeId;
+use crate::update::Updates;
 use fearless_simd::dispatch;
 use std::ops::ControlFlow;
 
@@ -15,11 +16,13 @@ use std::ops::ControlFlow;
 /// not need (on the two spheres from contact on, 16 instead made 1,841 boxes where this makes 520, and took 1.8 times as long),
 /// and one that wants all pairs loses nothing.
 const FIRST_BATCH: usize = 1;
-/// The longest batch: long enough that changing between the phases costs nothing, short enough that its groups stay in cache.
-const LONGEST_BATCH: usize = 1024;
-/// Candidates are decided when there are so many, even within a pair of leaves, which bounds memory whatever the leaf size is.
-/// It begins with one block of triangles against another and doubles, like batches.
-const MOST_CANDIDATES: usize = 4096;
+/// The longest batch of pairs of nodes: long enough for several threads, short enough that its groups stay in cache.
+const LONGEST_BATCH: usize = 2048;
+/// The most pairs of blocks that meet before their hits are shown: this bounds memory whatever the leaf size is.
+const MOST_BLOCKS: usize = 4096;
+/// Pairs of nodes in a job, and pairs of blocks in a job: some tens of microseconds of work.
+const EXPAND_JOB: usize = 512;
+const MEET_JOB: usize = 256;
 
 /// What is descended: two trees, or one against itself.
 pub(crate) trait Meeting<const N: usize> {
@@ -32,7 +35,7 @@ pub(crate) trait Meeting<const N: usize> {
     /// Makes true what is below the nodes of a batch.
     fn reach(
         &mut self,
-        level: Level,
+        updates: Updates,
         batch: &[NodePair],
         groups: &mut [Vec<u32>; 2],
         statistics: &mut Statistics,
@@ -48,71 +51,149 @@ pub(crate) struct Scratch {
     nodes: Batch<NodePair>,
     batch: Vec<NodePair>,
     leaves: Vec<LeafPair>,
-    candidates: Batch<Candidate>,
-    undecided: Batch<Undecided>,
-    hits: Vec<Candidate>,
+    blocks: Vec<BlockPair>,
+    expanded: Vec<Expanded>,
+    met: Vec<Meet>,
     /// The pair at which a visitor broke, in tree order.
     pub(crate) broke_at: Option<Candidate>,
 }
 
+/// What a job of expanding found.
+#[derive(Debug, Default)]
+struct Expanded {
+    nodes: Batch<NodePair>,
+    leaves: Vec<LeafPair>,
+}
+
 /// Shows the visitor every intersecting pair, until it breaks. The order is deterministic, not sorted.
 pub(crate) fn descend<const N: usize, M: Meeting<N>>(
-    level: Level,
+    updates: Updates,
     meeting: &mut M,
     scratch: &mut Scratch,
     statistics: &mut Statistics,
     visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
+    scratch.nodes.clear();
+    scratch.leaves.clear();
+    scratch.nodes.push([NodeId::ROOT; 2]);
+    let (mut longest, mut most) = (FIRST_BATCH, 1);
+    loop {
+        scratch.nodes.take_last(longest, &mut scratch.batch);
+        longest = (longest * 2).min(LONGEST_BATCH);
+        statistics.node_pairs += scratch.batch.len() as u64;
+        meeting.reach(updates, &scratch.batch, &mut scratch.groups, statistics);
+        expand_batch(updates, meeting, scratch);
+
+        let last = scratch.nodes.is_empty();
+        if last || scratch.leaves.len() >= most {
+            meet_leaves(updates, meeting, scratch, &mut most, statistics, visit)?;
+        }
+        if last {
+            return ControlFlow::Continue(());
+        }
+    }
+}
+
+/// Pairs of children onto the stack, pairs of leaves onto their list.
+fn expand_batch<const N: usize, M: Meeting<N>>(
+    updates: Updates,
+    meeting: &M,
+    scratch: &mut Scratch,
+) {
+    let trees = meeting.sides().map(|side| &*side.tree);
+    let expand_some =
+        |batch: &[NodePair], nodes: &mut Batch<NodePair>, leaves: &mut Vec<LeafPair>| {
+            dispatch!(updates.level, i => if M::ITSELF {
+                expand::<_, N, true>(i, trees, batch, nodes, leaves);
+            } else {
+                expand::<_, N, false>(i, trees, batch, nodes, leaves);
+            });
+        };
     let Scratch {
-        groups,
         nodes,
         batch,
         leaves,
-        candidates: found,
-        undecided,
-        hits,
-        broke_at,
+        expanded,
+        ..
     } = scratch;
-    let mut decide = |meeting: &M, found: &mut Batch<Candidate>, statistics: &mut Statistics| {
-        let shapes = meeting.sides().map(|side| &side.shape);
-        narrow_phase::decide(level, found, shapes, undecided, hits, statistics);
-        found.clear();
-        hits.iter().try_for_each(|&hit| {
-            let flow = visit(meeting.name(hit));
-            if flow.is_break() {
-                *broke_at = Some(hit);
-            }
-            flow
-        })
-    };
-    nodes.clear();
-    found.clear();
-    nodes.push([NodeId::ROOT; 2]);
-    let (mut longest, mut enough) = (FIRST_BATCH, 1);
-    while nodes.len() > 0 {
-        nodes.take_last(longest, batch);
-        longest = (longest * 2).min(LONGEST_BATCH);
-        statistics.node_pairs += batch.len() as u64;
+    if batch.len() <= EXPAND_JOB || !updates.threads.are_many() {
+        expand_some(batch, nodes, leaves);
+        return;
+    }
+    let jobs = in_use(expanded, batch.len().div_ceil(EXPAND_JOB));
+    updates.threads.run(jobs, |number, job| {
+        job.nodes.clear();
+        job.leaves.clear();
+        expand_some(
+            part(batch, number, EXPAND_JOB),
+            &mut job.nodes,
+            &mut job.leaves,
+        );
+    });
+    for job in jobs {
+        nodes.append(&job.nodes);
+        leaves.extend_from_slice(&job.leaves);
+    }
+}
 
-        meeting.reach(level, batch, groups, statistics);
-        leaves.clear();
-        let trees = meeting.sides().map(|side| &*side.tree);
-        dispatch!(level, i => if M::ITSELF {
-            expand::<_, N, true>(i, trees, batch, nodes, leaves);
+/// Decides all pairs of leaves on the list, and shows the visitor what intersects.
+fn meet_leaves<const N: usize, M: Meeting<N>>(
+    updates: Updates,
+    meeting: &M,
+    scratch: &mut Scratch,
+    most: &mut usize,
+    statistics: &mut Statistics,
+    visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    let sides = meeting.sides();
+    let trees = sides.map(|side| &side.tree.leaves);
+    let Scratch {
+        leaves,
+        blocks,
+        met,
+        broke_at,
+        ..
+    } = scratch;
+    let mut place = Place::default();
+    while place.pair < leaves.len() {
+        place = if M::ITSELF {
+            block_pairs::<true>(trees, leaves, place, *most, blocks)
         } else {
-            expand::<_, N, false>(i, trees, batch, nodes, leaves);
-        });
-        let (mesh, trees) = (meeting.sides()[0].mesh, trees.map(|tree| &tree.leaves));
-        let mut next = (0, 0, 0);
-        while next.0 < leaves.len() {
-            next = dispatch!(level, i => if M::ITSELF {
-                candidates::<_, true>(i, trees, mesh, leaves, next, found, enough)
+            block_pairs::<false>(trees, leaves, place, *most, blocks)
+        };
+        *most = (*most * 2).min(MOST_BLOCKS);
+        let jobs = in_use(met, blocks.len().div_ceil(MEET_JOB));
+        updates.threads.run(jobs, |number, job| {
+            let pairs = part(blocks, number, MEET_JOB);
+            if M::ITSELF {
+                job.meet::<N, M::Coordinate, true>(updates.level, sides, pairs);
             } else {
-                candidates::<_, false>(i, trees, mesh, leaves, next, found, enough)
-            });
-            enough = (2 * enough).min(MOST_CANDIDATES);
-            decide(meeting, found, statistics)?;
+                job.meet::<N, M::Coordinate, false>(updates.level, sides, pairs);
+            }
+        });
+        for job in &*jobs {
+            *statistics += job.statistics;
+        }
+        for &hit in jobs.iter().flat_map(|job| &job.hits) {
+            if visit(meeting.name(hit)).is_break() {
+                *broke_at = Some(hit);
+                return ControlFlow::Break(());
+            }
         }
     }
+    leaves.clear();
     ControlFlow::Continue(())
+}
+
+/// The first `count` of some jobs, made if there are fewer.
+fn in_use<J: Default>(jobs: &mut Vec<J>, count: usize) -> &mut [J] {
+    if jobs.len() < count {
+        jobs.resize_with(count, J::default);
+    }
+    &mut jobs[..count]
+}
+
+/// The part of a list that a job does.
+fn part<T>(list: &[T], number: usize, size: usize) -> &[T] {
+    &list[number * size..list.len().min((number + 1) * size)]
 }

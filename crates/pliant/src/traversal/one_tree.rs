@@ -6,15 +6,13 @@
 use super::descent::Meeting;
 use super::{Side, reach};
 use crate::geometry::Scalar;
-use crate::kernels::Level;
 use crate::pairs::{Candidate, NodePair};
 use crate::statistics::Statistics;
+use crate::update::Updates;
 
 /// A tree whose root box is true.
 pub(crate) struct OneTree<'t, const N: usize, S> {
     pub(crate) side: Side<'t, N, S>,
-    /// How many levels are made when one is reached.
-    pub(crate) levels_at_once: u32,
 }
 
 impl<const N: usize, S: Scalar> Meeting<N> for OneTree<'_, N, S> {
@@ -27,20 +25,13 @@ impl<const N: usize, S: Scalar> Meeting<N> for OneTree<'_, N, S> {
 
     fn reach(
         &mut self,
-        level: Level,
+        updates: Updates,
         batch: &[NodePair],
         groups: &mut [Vec<u32>; 2],
         statistics: &mut Statistics,
     ) {
         let nodes = batch.as_flattened().iter().copied();
-        reach(
-            level,
-            &mut self.side,
-            nodes,
-            self.levels_at_once,
-            groups,
-            statistics,
-        );
+        reach(updates, &mut self.side, nodes, groups, statistics);
     }
 
     fn name(&self, [a, b]: Candidate) -> [u32; 2] {

@@ -3,16 +3,14 @@
 use super::descent::Meeting;
 use super::{Side, reach};
 use crate::geometry::Scalar;
-use crate::kernels::Level;
 use crate::pairs::{Candidate, NodePair};
 use crate::statistics::Statistics;
+use crate::update::Updates;
 
 /// Two trees whose root boxes are true and overlap.
 pub(crate) struct TwoTrees<'t, const N: usize, S> {
     pub(crate) a: Side<'t, N, S>,
     pub(crate) b: Side<'t, N, S>,
-    /// How many levels are made when one is reached.
-    pub(crate) levels_at_once: u32,
 }
 
 impl<const N: usize, S: Scalar> Meeting<N> for TwoTrees<'_, N, S> {
@@ -25,28 +23,15 @@ impl<const N: usize, S: Scalar> Meeting<N> for TwoTrees<'_, N, S> {
 
     fn reach(
         &mut self,
-        level: Level,
+        updates: Updates,
         batch: &[NodePair],
         groups: &mut [Vec<u32>; 2],
         statistics: &mut Statistics,
     ) {
-        let levels = self.levels_at_once;
-        reach(
-            level,
-            &mut self.a,
-            batch.iter().map(|pair| pair[0]),
-            levels,
-            groups,
-            statistics,
-        );
-        reach(
-            level,
-            &mut self.b,
-            batch.iter().map(|pair| pair[1]),
-            levels,
-            groups,
-            statistics,
-        );
+        let of_a = batch.iter().map(|pair| pair[0]);
+        reach(updates, &mut self.a, of_a, groups, statistics);
+        let of_b = batch.iter().map(|pair| pair[1]);
+        reach(updates, &mut self.b, of_b, groups, statistics);
     }
 
     fn name(&self, [a, b]: Candidate) -> [u32; 2] {

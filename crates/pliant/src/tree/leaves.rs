@@ -16,80 +16,113 @@ pub(crate) struct Leaf {
     first_block: u32,
 }
 
+/// The boxes of eight triangles.
+pub(crate) type Block = BoxLanes<LEAF_LANES>;
+
 #[derive(Debug)]
 pub(crate) struct Leaves {
-    leaves: Vec<Leaf>,
-    /// None where every leaf is one triangle.
-    blocks: Option<Vec<BoxLanes<LEAF_LANES>>>,
+    runs: Vec<Leaf>,
+    /// Whether there are blocks: not where every leaf is one triangle.
+    have_boxes: bool,
+    blocks: Vec<Block>,
+    /// The first triangle of each block.
+    firsts: Vec<u32>,
+}
+
+/// What does not change when boxes do.
+#[derive(Clone, Copy)]
+pub(crate) struct LeafRuns<'t> {
+    runs: &'t [Leaf],
+    have_boxes: bool,
 }
 
 impl Leaves {
     /// Leaves of up to `size` triangles, none yet.
     pub(crate) fn new(size: u32) -> Self {
         Self {
-            leaves: Vec::new(),
-            blocks: (size > 1).then(Vec::new),
+            runs: Vec::new(),
+            have_boxes: size > 1,
+            blocks: Vec::new(),
+            firsts: Vec::new(),
         }
     }
 
     /// Adds a leaf and returns its number.
     pub(crate) fn push(&mut self, triangles: Range<u32>) -> u32 {
-        let blocks = triangles.len().div_ceil(LEAF_LANES);
-        let first_block = self.blocks.as_mut().map_or(0, |all| {
-            let first = all.len();
-            all.resize(first + blocks, BoxLanes::EMPTY);
-            first
-        });
-        let leaf = Leaf {
+        self.runs.push(Leaf {
             start: triangles.start,
             end: triangles.end,
-            first_block: first_block as u32,
-        };
-        self.leaves.push(leaf);
-        self.leaves.len() as u32 - 1
+            first_block: self.blocks.len() as u32,
+        });
+        if self.have_boxes {
+            for first in triangles.step_by(LEAF_LANES) {
+                self.blocks.push(Block::EMPTY);
+                self.firsts.push(first);
+            }
+        }
+        self.runs.len() as u32 - 1
     }
 
     /// The triangles of a leaf, in tree order.
     #[inline]
     pub(crate) fn triangles(&self, leaf: u32) -> Range<u32> {
-        let Leaf { start, end, .. } = self.leaves[leaf as usize];
+        let Leaf { start, end, .. } = self.runs[leaf as usize];
         start..end
     }
 
     /// Whether triangles in leaves have boxes of their own.
     #[inline]
     pub(crate) fn have_boxes(&self) -> bool {
-        self.blocks.is_some()
+        self.have_boxes
     }
 
-    /// The boxes of a leaf's triangles, to be written.
+    /// The numbers of the blocks of a leaf.
     #[inline]
-    pub(crate) fn boxes_mut(&mut self, leaf: u32) -> &mut [BoxLanes<LEAF_LANES>] {
-        let blocks = self.blocks_of(leaf);
-        self.blocks.as_mut().map_or(&mut [], |all| &mut all[blocks])
-    }
-
-    /// The boxes of a leaf's triangles, in order, by eights.
-    #[inline]
-    pub(crate) fn boxes(&self, leaf: u32) -> &[BoxLanes<LEAF_LANES>] {
-        self.blocks
-            .as_ref()
-            .map_or(&[], |all| &all[self.blocks_of(leaf)])
-    }
-
-    #[inline]
-    fn blocks_of(&self, leaf: u32) -> Range<usize> {
+    pub(crate) fn blocks_of(&self, leaf: u32) -> Range<u32> {
         let Leaf {
             start,
             end,
             first_block,
-            ..
-        } = self.leaves[leaf as usize];
-        let first = first_block as usize;
-        first..first + ((end - start) as usize).div_ceil(LEAF_LANES)
+        } = self.runs[leaf as usize];
+        first_block..first_block + (end - start).div_ceil(LEAF_LANES as u32)
+    }
+
+    /// All blocks, in the order of their triangles.
+    #[inline]
+    pub(crate) fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+
+    /// The first triangle of each block.
+    #[inline]
+    pub(crate) fn firsts(&self) -> &[u32] {
+        &self.firsts
+    }
+
+    /// What is read and what is written when boxes are made.
+    pub(crate) fn split(&mut self) -> (LeafRuns<'_>, &mut [Block]) {
+        let runs = LeafRuns {
+            runs: &self.runs,
+            have_boxes: self.have_boxes,
+        };
+        (runs, &mut self.blocks)
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.leaves.len()
+        self.runs.len()
+    }
+}
+
+impl LeafRuns<'_> {
+    /// The triangles of a leaf, and its first block, if it has blocks.
+    #[inline(always)]
+    pub(crate) fn get(&self, leaf: u32) -> (Range<usize>, Option<usize>) {
+        let Leaf {
+            start,
+            end,
+            first_block,
+        } = self.runs[leaf as usize];
+        let first_block = self.have_boxes.then_some(first_block as usize);
+        (start as usize..end as usize, first_block)
     }
 }

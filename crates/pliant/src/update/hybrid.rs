@@ -1,9 +1,9 @@
 //! How far ahead: the level down to which boxes are made before a traversal begins.
 
-use super::top_down::reach_groups;
+use super::bottom_up::make_levels_true;
+use super::make::Work;
 use crate::Update;
-use crate::geometry::{Scalar, Shape};
-use crate::kernels::Level;
+use crate::geometry::Scalar;
 use crate::statistics::Statistics;
 use crate::tree::Tree;
 
@@ -16,18 +16,20 @@ fn level_ahead(update: Update, depth: u32) -> u32 {
     }
 }
 
-/// Makes the upper levels true, unless they are. Returns the boxes made.
-pub(crate) fn refresh_ahead<const N: usize, S: Scalar>(
-    level: Level,
+/// Makes the upper levels true, unless they are.
+pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
+    work: Work<'_, '_, S>,
     tree: &mut Tree<N>,
     update: Update,
-    shape: &Shape<S>,
     groups: &mut Vec<u32>,
     statistics: &mut Statistics,
 ) {
-    let levels = level_ahead(update, tree.depth) + 1;
     // The root's group is the first that any of them makes.
-    let boxes = reach_groups(level, tree, &[0], levels, shape, groups, statistics);
+    if tree.groups[0].epoch == work.shape.epoch {
+        return;
+    }
+    let levels = level_ahead(update, tree.depth) + 1;
+    let boxes = make_levels_true(work, tree, 0, levels, groups, statistics);
     // The root alone, from the vertices, is the beginning of top-down.
     *(if update == Update::TopDown {
         &mut statistics.boxes_top_down

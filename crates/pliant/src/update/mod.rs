@@ -9,12 +9,61 @@
 //! hybrid      ahead: down to level floor(n / 2), or a given one, where n is the level of the deepest leaf
 //! ```
 //!
-//! `hybrid` decides how far ahead, `bottom_up` makes some levels below a group, `top_down` makes what a traversal reaches.
-//! Each returns the number of boxes it made, so that the strategies can be compared by their work.
+//! `hybrid` decides how far ahead, `bottom_up` makes some levels below a group, `top_down` makes what a traversal reaches, and
+//! `make` makes the boxes, for all of them. Boxes made are counted, so that the strategies can be compared by their work.
 
 mod bottom_up;
 mod hybrid;
+mod make;
 mod top_down;
 
-pub(crate) use hybrid::refresh_ahead;
-pub(crate) use top_down::reach_groups;
+use crate::exec::Threads;
+use crate::geometry::{Scalar, Shape};
+use crate::kernels::Level;
+use crate::options::Update;
+use crate::statistics::Statistics;
+use crate::tree::Tree;
+use make::Work;
+
+/// What updates work with.
+#[derive(Clone, Copy)]
+pub(crate) struct Updates<'w> {
+    pub(crate) threads: &'w Threads,
+    pub(crate) level: Level,
+    pub(crate) update: Update,
+}
+
+impl Updates<'_> {
+    /// Makes the upper levels true, unless they are. `groups` is scratch.
+    pub(crate) fn refresh_ahead<const N: usize, S: Scalar>(
+        &self,
+        tree: &mut Tree<N>,
+        shape: &Shape<S>,
+        groups: &mut Vec<u32>,
+        statistics: &mut Statistics,
+    ) {
+        hybrid::refresh_ahead(self.work(shape), tree, self.update, groups, statistics);
+    }
+
+    /// Makes groups true that a traversal has reached; they are not true. The others are scratch.
+    pub(crate) fn reach<const N: usize, S: Scalar>(
+        &self,
+        tree: &mut Tree<N>,
+        shape: &Shape<S>,
+        [reached, groups]: &mut [Vec<u32>; 2],
+        statistics: &mut Statistics,
+    ) {
+        let levels = self.update.levels_at_once();
+        let work = self.work(shape);
+        let boxes = top_down::reach_groups(work, tree, reached, levels, groups, statistics);
+        statistics.boxes_top_down += boxes;
+    }
+
+    fn work<'w, 's, S>(&'w self, shape: &'w Shape<'s, S>) -> Work<'w, 's, S> {
+        Work {
+            threads: self.threads,
+            level: self.level,
+            shape,
+        }
+    }
+}

@@ -13,6 +13,7 @@ mod witness;
 
 use crate::broad_phase::BroadPhase;
 use crate::error::{Error, ErrorKind};
+use crate::exec::Threads;
 use crate::geometry::{Aabb, Bounds, Origin, Scalar};
 use crate::kernels::{self, Level};
 use crate::options::Options;
@@ -59,6 +60,7 @@ pub struct World<S> {
     options: Options,
     /// The instructions that kernels use.
     level: Level,
+    threads: Threads,
     /// In no order that matters: a removed body's place is taken by the last.
     bodies: Vec<Body<S>>,
     places: BTreeMap<BodyId, usize>,
@@ -102,6 +104,7 @@ impl<S: Scalar> World<S> {
         Self {
             options,
             level: kernels::widest(),
+            threads: Threads::new(options.threads),
             bodies: Vec::new(),
             places: BTreeMap::new(),
             forest: Forest::new(options.degree),

@@ -310,6 +310,7 @@ impl<S: Scalar> World<S> {
         let Self {
             options,
             level,
+            threads,
             bodies,
             forest,
             origin,
@@ -321,6 +322,7 @@ impl<S: Scalar> World<S> {
             Step {
                 options,
                 level: *level,
+                threads,
                 bodies,
                 origin: *origin,
                 scratch,
@@ -335,6 +337,7 @@ impl<S: Scalar> World<S> {
         let Self {
             options,
             level,
+            threads,
             bodies,
             forest,
             origin,
@@ -346,6 +349,7 @@ impl<S: Scalar> World<S> {
             &mut Step {
                 options,
                 level: *level,
+                threads,
                 bodies,
                 origin: *origin,
                 scratch,

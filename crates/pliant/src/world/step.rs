@@ -2,13 +2,14 @@
 //! says: see `queries`.
 
 use super::body::Body;
+use crate::exec::Threads;
 use crate::geometry::{Origin, Scalar};
 use crate::kernels::Level;
 use crate::options::Options;
 use crate::statistics::Statistics;
 use crate::traversal::{OneTree, Scratch, Side, TwoTrees, descend};
 use crate::tree::Tree;
-use crate::update::refresh_ahead;
+use crate::update::Updates;
 use std::ops::ControlFlow;
 
 /// What is shown every pair, as the caller numbers triangles, until it breaks.
@@ -18,25 +19,28 @@ pub(super) type Visit<'v> = &'v mut dyn FnMut([u32; 2]) -> ControlFlow<()>;
 pub(super) struct Step<'w, S> {
     pub(super) options: &'w Options,
     pub(super) level: Level,
+    pub(super) threads: &'w Threads,
     pub(super) bodies: &'w mut [Body<S>],
     pub(super) origin: Origin,
     pub(super) scratch: &'w mut Scratch,
     pub(super) statistics: &'w mut Statistics,
 }
 
-impl<S: Scalar> Step<'_, S> {
+impl<'w, S: Scalar> Step<'w, S> {
+    fn updates(&self) -> Updates<'w> {
+        Updates {
+            threads: self.threads,
+            level: self.level,
+            update: self.options.update,
+        }
+    }
+
     /// Makes the upper levels of a tree true for this frame.
     pub(super) fn refresh_ahead<const N: usize>(&mut self, tree: &mut Tree<N>, body: usize) {
-        let body = &mut self.bodies[body];
-        body.bring_into_order();
-        refresh_ahead(
-            self.level,
-            tree,
-            self.options.update,
-            &body.shape(self.origin),
-            &mut self.scratch.groups[1],
-            self.statistics,
-        );
+        self.bodies[body].bring_into_order();
+        let updates = self.updates();
+        let shape = self.bodies[body].shape(self.origin);
+        updates.refresh_ahead(tree, &shape, &mut self.scratch.groups[1], self.statistics);
     }
 
     /// Two different bodies; the visitor sees (triangle of `a`, triangle of `b`).
@@ -57,6 +61,7 @@ impl<S: Scalar> Step<'_, S> {
         self.refresh_ahead(tree_a, a);
         self.refresh_ahead(tree_b, b);
         let (body_a, body_b) = (&self.bodies[a], &self.bodies[b]);
+        let updates = self.updates();
         let mut meeting = TwoTrees {
             a: Side {
                 tree: tree_a,
@@ -68,15 +73,8 @@ impl<S: Scalar> Step<'_, S> {
                 mesh: &body_b.mesh,
                 shape: body_b.shape(self.origin),
             },
-            levels_at_once: self.options.update.levels_at_once(),
         };
-        descend(
-            self.level,
-            &mut meeting,
-            self.scratch,
-            self.statistics,
-            visit,
-        )
+        descend(updates, &mut meeting, self.scratch, self.statistics, visit)
     }
 
     /// A body with itself; the visitor sees (smaller triangle, larger triangle).
@@ -89,20 +87,14 @@ impl<S: Scalar> Step<'_, S> {
         self.statistics.body_pairs += 1;
         self.refresh_ahead(tree, body);
         let body = &self.bodies[body];
+        let updates = self.updates();
         let mut meeting = OneTree {
             side: Side {
                 tree,
                 mesh: &body.mesh,
                 shape: body.shape(self.origin),
             },
-            levels_at_once: self.options.update.levels_at_once(),
         };
-        descend(
-            self.level,
-            &mut meeting,
-            self.scratch,
-            self.statistics,
-            visit,
-        )
+        descend(updates, &mut meeting, self.scratch, self.statistics, visit)
     }
 }

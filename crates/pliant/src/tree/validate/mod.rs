@@ -136,8 +136,12 @@ impl<const N: usize> Tree<N> {
         }
         let triangles = self.leaves.triangles(leaf);
         for (index, triangle) in triangles.enumerate() {
-            let (block, lane) = (index / super::LEAF_LANES, index % super::LEAF_LANES);
-            let found = self.leaves.boxes(leaf)[block].get(lane);
+            let block = self.leaves.blocks_of(leaf).start as usize + index / super::LEAF_LANES;
+            if self.leaves.firsts()[block] as usize + index % super::LEAF_LANES != triangle as usize
+            {
+                return Err(format!("leaf {leaf}: its blocks hold other triangles"));
+            }
+            let found = self.leaves.blocks()[block].get(index % super::LEAF_LANES);
             let exact = shape.box_of(triangle);
             if found != exact {
                 return Err(format!(

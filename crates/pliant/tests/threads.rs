@@ -1,0 +1,75 @@
+//! The number of threads changes nothing but time: not the pairs, not their order, not the counters.
+
+use pliant::{Degree, Options, Pair, Partition, Statistics, Update, World};
+use pliant_scenes::Scene;
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::ops::ControlFlow;
+
+/// What a visitor saw in order, the first pair, and what it took; of bodies with each other and with themselves.
+type Seen = (Vec<Pair>, Vec<[u32; 2]>, Option<Pair>, Vec<Statistics>);
+
+fn play(scene: &Scene, steps: &[u32], mut options: Options, threads: usize) -> Vec<Seen> {
+    options.threads = NonZeroUsize::new(threads).unwrap();
+    let mut world = World::<f32>::with_options(options);
+    let mut positions = Vec::new();
+    let mut bodies = Vec::new();
+    for body in 0..scene.body_count() {
+        scene.positions(body, 1, &mut positions);
+        bodies.push(world.add(scene.triangles(body), &positions).unwrap());
+    }
+    let see = |world: &mut World<f32>| {
+        let mut statistics = Vec::new();
+        let (mut between, mut itself) = (Vec::new(), Vec::new());
+        let _ = world.visit_intersections(|pair| {
+            between.push(pair);
+            ControlFlow::<()>::Continue(())
+        });
+        statistics.push(*world.statistics());
+        let _ = world.visit_self_intersections(bodies[0], |pair| {
+            itself.push(pair);
+            ControlFlow::<()>::Continue(())
+        });
+        statistics.push(*world.statistics());
+        let first = world.first_intersection();
+        statistics.push(*world.statistics());
+        (between, itself, first, statistics)
+    };
+    steps
+        .iter()
+        .map(|&step| {
+            for (body, &id) in bodies.iter().enumerate() {
+                scene.positions(body, step, &mut positions);
+                world.set_positions(id, &positions).unwrap();
+            }
+            see(&mut world)
+        })
+        .collect()
+}
+
+#[test]
+fn pairs_order_and_counters_do_not_depend_on_threads() {
+    let two_at_once = Update::Hybrid {
+        level: Some(1),
+        levels_at_once: NonZeroU32::new(2).unwrap(),
+    };
+    let mut connectivity = Options::paper();
+    connectivity.partition = Partition::Connectivity;
+    let mut binary = Options::default();
+    (binary.degree, binary.update) = (Degree::Two, two_at_once);
+    let mut complete = Options::default();
+    complete.update = Update::BottomUp;
+    for (name, triangles, steps) in [("spheres", 5120, [120, 200]), ("cloth", 5000, [40, 50])] {
+        let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
+        for options in [Options::default(), complete, connectivity, binary] {
+            let alone = play(&scene, &steps, options, 1);
+            let pairs = alone.iter().map(|seen| seen.0.len() + seen.1.len());
+            assert!(pairs.sum::<usize>() > 100, "{name} has contacts");
+            for threads in [2, 3, 7] {
+                assert!(
+                    play(&scene, &steps, options, threads) == alone,
+                    "{name}, {threads} threads, {options:?}"
+                );
+            }
+        }
+    }
+}

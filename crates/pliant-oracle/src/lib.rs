@@ -1,0 +1,122 @@
+//! An independent judge of the library's decisions, for tests only.
+//!
+//! [`intersect`] and [`orientation`] compute in integers of any size, from a definition that the library does not use, and share no
+//! code with it. [`Class`] makes pairs of triangles on which the answer is hard to get right: the same ones on every machine.
+//! [`subnormals_flushed`] runs code as a thread runs it in which the caller has switched subnormal numbers off.
+//!
+//! ```
+//! use pliant_oracle::{Class, Random, intersect};
+//!
+//! let mut random = Random::new(1);
+//! let [a, b] = Class::Lattice.pair(&mut random);
+//! assert_eq!(intersect(&a, &b), intersect(&b, &a));
+//! ```
+
+mod environment;
+mod hull;
+mod integers;
+mod pairs;
+
+pub use environment::subnormals_flushed;
+pub use pairs::{Class, Random, fits_f32};
+
+use hull::{Vector, determinant, minus, zero_in_hull};
+use integers::{Integer, Scaled, scale};
+
+/// Three corners.
+pub type Triangle = [[f64; 3]; 3];
+
+/// Whether two closed triangles have a point in common, whatever their coordinates; a degenerate triangle is the segment or
+/// point that it is.
+///
+/// They have if and only if the origin is a difference of their points; the differences of their points are the convex hull of the
+/// nine differences of their corners.
+///
+/// # Panics
+///
+/// If a coordinate is not finite.
+pub fn intersect(a: &Triangle, b: &Triangle) -> bool {
+    match scale(&[a[0], a[1], a[2], b[0], b[1], b[2]]) {
+        Scaled::Small(corners) => zero_is_a_difference(&corners),
+        Scaled::Big(corners) => zero_is_a_difference(&corners),
+    }
+}
+
+/// Of the convex hull of the first three and that of the others.
+fn zero_is_a_difference<I: Integer>(corners: &[Vector<I>]) -> bool {
+    zero_in_hull(&std::array::from_fn(|i| {
+        minus(&corners[i / 3], &corners[3 + i % 3])
+    }))
+}
+
+/// The sign of the determinant of b - a, c - a, d - a.
+///
+/// # Panics
+///
+/// If a coordinate is not finite.
+pub fn orientation(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3], d: &[f64; 3]) -> i8 {
+    match scale(&[*a, *b, *c, *d]) {
+        Scaled::Small(points) => side(&points),
+        Scaled::Big(points) => side(&points),
+    }
+}
+
+/// On which side of the first three the fourth lies.
+fn side<I: Integer>(points: &[Vector<I>]) -> i8 {
+    let [b, c, d] = [1, 2, 3].map(|i| minus(&points[i], &points[0]));
+    determinant(&b, &c, &d).sign()
+}
+
+/// The sign of the determinant of b - a, c - a in the plane.
+///
+/// # Panics
+///
+/// If a coordinate is not finite.
+pub fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> i8 {
+    let [p, q, r] = [a, b, c].map(|[x, y]| [x, y, 0.0]);
+    // Seen from above a.
+    orientation(&p, &q, &r, &[a[0], a[1], 1.0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dashu_int::IBig;
+
+    #[test]
+    fn small_and_big_integers_say_the_same() {
+        let mut random = Random::new(3);
+        let mut meeting = 0;
+        for round in 0..20_000 {
+            let class = Class::ALL[round % Class::ALL.len()];
+            let [a, b] = class.pair(&mut random);
+            let corners = [a, b].concat();
+            if let Scaled::Small(small) = scale(&corners) {
+                let big: Vec<Vector<IBig>> = small
+                    .iter()
+                    .map(|p| p.map(|x: i128| IBig::from(x)))
+                    .collect();
+                let expected = zero_is_a_difference(&big);
+                assert_eq!(zero_is_a_difference(&small), expected, "{a:?} {b:?}");
+                assert_eq!(side(&small[..4]), side(&big[..4]), "{a:?} {b:?}");
+                meeting += u32::from(expected);
+            }
+        }
+        assert!(meeting > 2_000, "{meeting}");
+    }
+
+    #[test]
+    fn the_largest_small_integers_do_not_overflow() {
+        // The largest differences and determinants that SMALL allows; overflow would panic here.
+        let m = 2f64.powi(40) - 1.0;
+        let a = [[m, m, -m], [-m, m, m], [m, -m, m]];
+        let b = a.map(|p| p.map(|x: f64| -x));
+        assert!(matches!(scale(&[a, b].concat()), Scaled::Small(_)));
+        assert!(!intersect(&a, &b));
+        assert!(intersect(&a, &[b[0], b[1], [m, m, m]]));
+        assert_eq!(
+            orientation(&a[0], &a[1], &a[2], &b[0]),
+            -orientation(&a[0], &a[2], &a[1], &b[0])
+        );
+    }
+}

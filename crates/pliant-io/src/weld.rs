@@ -125,8 +125,8 @@ fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
     edges
 }
 
-/// For each end of an edge the first vertex at its place; vertices that no edge has keep their own
-/// number.
+/// For each end of an edge one vertex that stands for all at its place, no matter which; vertices that
+/// no edge has keep their own number.
 fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> Vec<u32> {
     const UNUSED: u32 = u32::MAX; // the number of no vertex
     let mut place = vec![UNUSED; vertices];
@@ -142,8 +142,7 @@ fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> V
         }
         *place = vertex;
     }
-    // The first of a place is its smallest.
-    ends.sort_unstable_by(|&a, &b| same(a).cmp(&same(b)).then(a.cmp(&b)));
+    ends.sort_unstable_by_key(|&vertex| same(vertex));
     for together in ends.chunk_by(|&a, &b| same(a) == same(b)) {
         for &vertex in together {
             place[vertex as usize] = together[0];

@@ -225,7 +225,9 @@ mod tests {
     /// `large`: as numpy writes it, with numbers of 64 bits.
     fn archive(method: CompressionMethod, large: bool, names: &[&str]) -> Vec<u8> {
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-        archive.set_comment("PK\x05\x06 is not the end").unwrap();
+        archive
+            .set_comment("PK\x05\x06 is not the end, whatever it says")
+            .unwrap();
         for name in names {
             let options = SimpleFileOptions::default()
                 .compression_method(method)

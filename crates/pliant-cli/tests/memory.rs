@@ -11,6 +11,7 @@ mod common;
 
 use common::npz::Surface;
 use common::{Measured, measured};
+use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
@@ -73,12 +74,12 @@ fn memory_does_not_grow_with_the_number_of_frames() {
             let mut text = String::new();
             for i in 0..side * side {
                 let (x, y) = (i % side, i / side);
-                text += &format!("v {x} {y} {}\n", (x * 7 + y * 13 + frame) % 5);
+                writeln!(text, "v {x} {y} {}", (x * 7 + y * 13 + frame) % 5).unwrap();
             }
             for y in 0..side - 1 {
                 for x in 0..side - 1 {
                     let corner = y * side + x + 1;
-                    text += &format!("f {corner} {} {}\n", corner + 1, corner + side);
+                    writeln!(text, "f {corner} {} {}", corner + 1, corner + side).unwrap();
                 }
             }
             fs::write(many.join(format!("{frame}.obj")), text).unwrap();

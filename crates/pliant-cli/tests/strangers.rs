@@ -4,6 +4,7 @@ mod common;
 
 use common::npz::{Entry, archive, array};
 use common::{Measured, measured};
+use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -452,11 +453,11 @@ fn thicket(count: u32, shift: f64) -> String {
     let mut text = String::new();
     for i in 0..count {
         let at = f64::from(i) / 64.0 + shift;
-        text += &format!("v -9 -9 {at}\nv 99 -9 {at}\nv -9 99 {at}\n");
-        text += &format!("v {at} 0 -9\nv {at} 1 -9\nv {at} 0 99\n");
+        writeln!(text, "v -9 -9 {at}\nv 99 -9 {at}\nv -9 99 {at}").unwrap();
+        writeln!(text, "v {at} 0 -9\nv {at} 1 -9\nv {at} 0 99").unwrap();
     }
     for i in 0..2 * count {
-        text += &format!("f {} {} {}\n", 3 * i + 1, 3 * i + 2, 3 * i + 3);
+        writeln!(text, "f {} {} {}", 3 * i + 1, 3 * i + 2, 3 * i + 3).unwrap();
     }
     text
 }
@@ -472,12 +473,8 @@ fn frames_that_change_between_frames() {
             file.write_all(b"# more\n").unwrap();
         }),
         ("shrunk", &|| {
-            File::options()
-                .write(true)
-                .open(&last)
-                .unwrap()
-                .set_len(99)
-                .unwrap()
+            let file = File::options().write(true).open(&last).unwrap();
+            file.set_len(99).unwrap();
         }),
         ("replaced", &|| {
             fs::write(path.join("new"), thicket(40, 19.0)).unwrap();

@@ -9,7 +9,10 @@ pub fn subnormals_flushed<T>(work: impl FnOnce() -> T) -> Option<T> {
         work,
     ));
     #[cfg(not(target_arch = "x86_64"))]
-    let result = Some(work).and(None);
+    let result = {
+        drop(work);
+        None
+    };
     result
 }
 

@@ -78,6 +78,28 @@ pub fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> i8 {
     orientation(&p, &q, &r, &[a[0], a[1], 1.0])
 }
 
+/// The sign of an exact sum.
+///
+/// # Panics
+///
+/// If a number is not finite.
+pub fn sign_of_sum(numbers: &[f64]) -> i8 {
+    let points: Vec<[f64; 3]> = numbers.iter().map(|&x| [x, 0.0, 0.0]).collect();
+    match scale(&points) {
+        Scaled::Small(points) => sum_of_first(&points),
+        Scaled::Big(points) => sum_of_first(&points),
+    }
+}
+
+/// The sign of the sum of first coordinates.
+fn sum_of_first<I: Integer>(points: &[Vector<I>]) -> i8 {
+    let sum = points
+        .iter()
+        .map(|point| point[0].clone())
+        .reduce(|sum, x| sum.plus(&x));
+    sum.map_or(0, |sum| sum.sign())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

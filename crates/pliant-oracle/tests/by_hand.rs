@@ -1,6 +1,8 @@
 //! The oracle on triangles whose answer can be seen.
 
-use pliant_oracle::{Class, Random, Triangle, fits_f32, intersect, orientation, orientation_2d};
+use pliant_oracle::{
+    Class, Random, Triangle, fits_f32, intersect, orientation, orientation_2d, sign_of_sum,
+};
 
 /// In the plane z = 0.
 const A: Triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
@@ -105,6 +107,16 @@ fn orientations() {
         orientation_2d([3.0, 3.0], [1e30, 1e30], [2.0, 2.0f64.next_down()]),
         -1
     );
+}
+
+#[test]
+fn sums() {
+    assert_eq!(sign_of_sum(&[]), 0);
+    assert_eq!(sign_of_sum(&[1e38, 5e-324, -1e38]), 1);
+    assert_eq!(sign_of_sum(&[1e38, -5e-324, -1e38]), -1);
+    assert_eq!(sign_of_sum(&[0.5, 0.25, -0.75]), 0);
+    // Rounded, the sum of the first two is not 0.3; the exact sum is not either.
+    assert_eq!(sign_of_sum(&[0.1, 0.2, -0.3]), 1);
 }
 
 #[test]

@@ -2,14 +2,15 @@
 //!
 //! An existing file of exactly that name wins, so that `scan[1].obj` can be read without escapes.
 //! Everything is made sure here that can be before a file is opened: it exists and is a regular
-//! file (opening a pipe would wait for ever).
+//! file (a pipe would make us wait, and can be read once only).
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glob::{MatchOptions, Pattern};
 
 use crate::error::{Error, Reason};
+use crate::file::Found;
 use crate::natural;
 
 /// Patterns as shells read them: `*` does not match a leading dot, nor does it cross a folder.
@@ -20,11 +21,13 @@ const AS_IN_SHELLS: MatchOptions = MatchOptions {
 };
 
 /// The files that `argument` names, in natural order; at least one.
-pub(crate) fn files(argument: &str) -> Result<Vec<PathBuf>, Error> {
+pub(crate) fn files(argument: &str) -> Result<Vec<Found>, Error> {
     let error = |reason: Reason| Error::new(argument, reason);
     let path = Path::new(argument);
     match path.metadata() {
-        Ok(metadata) if metadata.is_file() => return Ok(vec![path.to_owned()]),
+        Ok(metadata) if metadata.is_file() => {
+            return Ok(vec![Found::new(path.to_owned(), &metadata)]);
+        }
         Ok(metadata) if metadata.is_dir() => return Err(error(Reason::Directory)),
         Ok(_) => return Err(error(Reason::NotAFile)),
         Err(_) if is_pattern(argument) => {}
@@ -44,7 +47,7 @@ pub(crate) fn files(argument: &str) -> Result<Vec<PathBuf>, Error> {
         match path.metadata() {
             // A pattern for files may well match folders beside them.
             Ok(metadata) if metadata.is_dir() => {}
-            Ok(metadata) if metadata.is_file() => files.push(path),
+            Ok(metadata) if metadata.is_file() => files.push(Found::new(path, &metadata)),
             Ok(_) => return Err(Error::new(path, Reason::NotAFile)),
             Err(other) => return Err(Error::new(path, Reason::Io(other))),
         }
@@ -52,7 +55,7 @@ pub(crate) fn files(argument: &str) -> Result<Vec<PathBuf>, Error> {
     if files.is_empty() {
         return Err(error(Reason::NoMatch));
     }
-    files.sort_by(|a, b| natural::compare(a, b));
+    files.sort_by(|a, b| natural::compare(a.path(), b.path()));
     Ok(files)
 }
 

@@ -2,14 +2,15 @@
 //! one.
 
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::arguments;
 use crate::error::{Error, Fault, Place, Reason};
+use crate::file::Found;
 use crate::format::{Format, FrameSource};
 use crate::frame::Frame;
 use crate::positions::{Positions, Precision};
-use crate::weld::{self, Welding};
+use crate::weld::Welding;
 
 /// How to read a body.
 ///
@@ -22,10 +23,14 @@ pub struct OpenOptions {
     /// Weld vertices where boundary edges coincide bit for bit in the first frame. Default: true;
     /// without, every seam of a file that splits vertices is a hit.
     pub weld: bool,
-    /// The most bytes that the positions of a frame may take, and that the connectivity may take
-    /// (12 per triangle, 4 more where there are polygons). Default: 4 GiB. A frame that announces
-    /// more is refused before it is read. Finding seams takes up to 36 bytes per triangle more, for
-    /// a moment; seams found take a second copy of the triangles.
+    /// The most bytes that a frame may take. Default: 4 GiB.
+    ///
+    /// Counted is all that is held at once: 12 or 24 per vertex, 12 per triangle, 4 more where there
+    /// are polygons of more corners, and, unless [`weld`](Self::weld) is off, 24 per triangle and 8 per
+    /// vertex while seams are found, of which at most 12 and 8 stay. A frame that announces more is
+    /// refused before it is read; an OBJ file announces nothing, and is refused when so much of it has
+    /// been read. Not counted: buffers, and the one line or polygon in hand (many MB only where a file
+    /// has a line or polygon so long).
     pub max_memory: u64,
 }
 
@@ -56,7 +61,7 @@ pub struct Body {
 /// A file and the number of the body's frame that follows its last.
 #[derive(Debug)]
 struct FrameFile {
-    path: PathBuf,
+    found: Found,
     format: Format,
     end: usize,
 }
@@ -64,12 +69,16 @@ struct FrameFile {
 impl FrameFile {
     /// Opens the file, which had so many `frames` when the body was opened.
     fn open(&self, frames: usize) -> Result<Box<dyn FrameSource>, Error> {
-        let source = self.format.open(&self.path);
-        let source = source.map_err(|fault| Error::new(&self.path, fault))?;
+        let source = self.format.open(&self.found);
+        let source = source.map_err(|fault| Error::new(self.path(), fault))?;
         if source.frame_count() != frames {
-            return Err(Error::new(&self.path, Reason::Changed));
+            return Err(Error::new(self.path(), Reason::Changed));
         }
         Ok(source)
+    }
+
+    fn path(&self) -> &Path {
+        self.found.path()
     }
 }
 
@@ -83,37 +92,32 @@ impl FrameFile {
 pub fn open(argument: &str, options: &OpenOptions) -> Result<Body, Error> {
     let mut files = Vec::new();
     let mut end = 0_usize;
-    for path in arguments::files(argument)? {
-        let format = Format::of(&path).map_err(|reason| Error::new(&path, reason))?;
+    for found in arguments::files(argument)? {
+        let format = Format::of(found.path()).map_err(|reason| Error::new(found.path(), reason))?;
         let frames = format
-            .frame_count(&path)
-            .map_err(|fault| Error::new(&path, fault))?;
+            .frame_count(&found)
+            .map_err(|fault| Error::new(found.path(), fault))?;
         end = end.saturating_add(frames);
-        files.push(FrameFile { path, format, end });
+        files.push(FrameFile { found, format, end });
     }
     let first = files
         .first()
         .ok_or_else(|| Error::new(argument, Reason::NoMatch))?;
-    let path = first.path.clone();
+    let path = first.path().to_owned();
     let in_first = |fault: Fault| Error::new(&path, fault);
 
     let mut source = first.open(first.end)?;
-    let mut frame = Frame::new(options.max_memory);
+    let mut frame = Frame::new(options.max_memory, options.weld);
     let _complete = source.read(&mut frame).map_err(in_first)?;
     frame.becomes_first(path);
-
-    let positions = frame.positions();
-    let same = |vertex| weld::position_bits(positions, vertex);
-    let welding = options
-        .weld
-        .then(|| weld::weld(frame.polygons().triangles(), positions.len(), same));
+    let welding = frame.weld();
     Ok(Body {
         name: argument.to_owned(),
         files,
         source,
         file: 0,
         frame,
-        welding: welding.flatten(),
+        welding,
         read: 1,
         handed_out: 0,
         failed: false,
@@ -165,7 +169,7 @@ impl Body {
     /// The file that a frame comes from; None if there is no such frame.
     pub fn frame_file(&self, frame: usize) -> Option<&Path> {
         let at = self.files.partition_point(|file| file.end <= frame);
-        self.files.get(at).map(|file| file.path.as_path())
+        self.files.get(at).map(FrameFile::path)
     }
 
     /// The positions of the next frame, from frame 0 on; None after the last.
@@ -178,7 +182,7 @@ impl Body {
     /// frame follows: every later call is an error too.
     pub fn next_frame(&mut self) -> Result<Option<Positions<'_>>, Error> {
         if self.failed {
-            let path = self.files[self.file].path.as_path();
+            let path = self.files[self.file].path();
             return Err(Error::new(path, Reason::AfterError));
         }
         if self.handed_out == self.frame_count() {
@@ -201,7 +205,7 @@ impl Body {
             let file = &self.files[self.file];
             self.source = file.open(file.end - self.read)?;
         }
-        let path = &self.files[self.file].path;
+        let path = self.files[self.file].path();
         let _complete = self
             .source
             .read(&mut self.frame)

@@ -8,6 +8,8 @@ use std::fmt::{self, Write as _};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::memory::Size;
+
 /// Why a body could not be read. Its message is one line, whatever the file or its name holds.
 #[derive(Debug)]
 pub struct Error {
@@ -83,11 +85,17 @@ pub enum Reason {
     #[error("holds more than 4294967295 {what}, more than can be numbered")]
     TooMany { what: &'static str },
     #[error(
-        "{what} need more than the {limit} bytes allowed; allow more memory, or split the mesh"
+        "a frame needs at least {} of memory, {} are allowed; allow more with `--max-memory`, or split the mesh", Size(*needed), Size(*limit)
     )]
-    TooLarge { what: &'static str, limit: u64 },
-    #[error("{what} do not fit in memory")]
-    OutOfMemory { what: &'static str },
+    TooLarge { needed: u64, limit: u64 },
+    #[error(
+        "a frame needs at least {} of memory while its seams are found, {} are allowed; allow more with `--max-memory`, or use `--no-weld`", Size(*needed), Size(*limit)
+    )]
+    SeamsTooLarge { needed: u64, limit: u64 },
+    #[error("a polygon of more than {most} corners")]
+    ManyCorners { most: usize },
+    #[error("does not fit in memory")]
+    OutOfMemory,
     #[error("face {face} is not that of {}; the frames of a body need the same faces", than.display())]
     FacesDiffer { face: u64, than: PathBuf },
     #[error("has {faces} faces, {} has {expected}; the frames of a body need the same faces", than.display())]
@@ -108,7 +116,7 @@ pub enum Reason {
         "vertices {a} and {b} were welded, since edges of theirs coincide in the first frame, but are apart here; use `--no-weld`"
     )]
     SeamOpened { a: u32, b: u32 },
-    #[error("changed while it was being read")]
+    #[error("changed while it was being read; wait until it is written, or copy it first")]
     Changed,
     #[error("an earlier frame could not be read, so the frames after it are not handed out")]
     AfterError,

@@ -6,15 +6,27 @@
 use std::path::PathBuf;
 
 use crate::error::{Fault, Place, Reason};
+use crate::memory::{Account, Excess};
 use crate::polygons::Polygons;
 use crate::positions::{Positions, Precision, Vertices};
+use crate::weld::{self, Welding};
 
 /// One frame, reused for all frames of a body.
 #[derive(Debug)]
 pub(crate) struct Frame {
     vertices: Vertices,
     polygons: Polygons,
+    account: Account,
+    /// Whether seams will be looked for in the first frame.
+    weld: bool,
     first: Option<First>,
+}
+
+/// How much a file says that it holds; 0 where it does not say.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Announced {
+    pub(crate) vertices: u64,
+    pub(crate) faces: u64,
 }
 
 /// What later frames are held to.
@@ -31,18 +43,23 @@ struct First {
 pub(crate) struct Complete(());
 
 impl Frame {
-    /// `limit`: the bytes that the positions, and the connectivity, may take.
-    pub(crate) fn new(limit: u64) -> Self {
+    /// `limit`: the bytes that all may take, with what finding seams takes if they are to be welded.
+    pub(crate) fn new(limit: u64, weld: bool) -> Self {
         Self {
-            vertices: Vertices::new(limit),
-            polygons: Polygons::new(limit),
+            vertices: Vertices::new(),
+            polygons: Polygons::new(),
+            account: Account::new(limit),
+            weld,
             first: None,
         }
     }
 
-    /// Begins a frame whose file has coordinates of `precision` and announces `count` vertices (0:
-    /// it does not say).
-    pub(crate) fn begin(&mut self, precision: Precision, count: u64) -> Result<(), Reason> {
+    /// Begins a frame whose file has coordinates of `precision`; refuses one that announces more than may be held.
+    pub(crate) fn begin(
+        &mut self,
+        precision: Precision,
+        announced: Announced,
+    ) -> Result<(), Reason> {
         match &self.first {
             None => self.vertices.set_precision(precision),
             Some(first) if precision > self.vertices.precision() => {
@@ -52,12 +69,37 @@ impl Frame {
             Some(_) => {}
         }
         self.polygons.rewind();
-        self.vertices.clear(count)
+        self.vertices.clear(announced.vertices, &mut self.account);
+        let positions = announced
+            .vertices
+            .saturating_mul(self.vertices.precision().bytes());
+        if self.first.is_some() {
+            self.account.check(positions)?;
+            return Ok(());
+        }
+        // A face is one triangle or more.
+        let triangles = announced.faces.saturating_mul(size_of::<[u32; 3]>() as u64);
+        let frame = positions.saturating_add(triangles);
+        self.account.check(frame)?;
+        self.check_seams(announced.faces, announced.vertices, frame)
+    }
+
+    /// Refuses a first frame whose seams cannot be found with what may be held; `more` is what will be held by then and is not
+    /// now.
+    fn check_seams(&self, triangles: u64, vertices: u64, more: u64) -> Result<(), Reason> {
+        let finding = weld::memory(triangles, vertices);
+        let checked = self.account.check(more.saturating_add(finding));
+        match checked {
+            Err(Excess { needed, limit }) if self.weld => {
+                Err(Reason::SeamsTooLarge { needed, limit })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Takes the next vertex.
     pub(crate) fn vertex(&mut self, position: [f64; 3]) -> Result<(), Reason> {
-        self.vertices.push(position)
+        self.vertices.push(position, &mut self.account)
     }
 
     /// Takes the next polygon, corners counted from zero, their range checked when the frame is
@@ -68,7 +110,8 @@ impl Frame {
         place: impl FnOnce() -> Place,
     ) -> Result<(), Reason> {
         let face = self.polygons.next_face();
-        match (self.polygons.push(corners, place)?, &self.first) {
+        let equal = self.polygons.push(corners, place, &mut self.account)?;
+        match (equal, &self.first) {
             (false, Some(first)) => {
                 let than = first.file.clone();
                 Err(Reason::FacesDiffer { face, than })
@@ -119,6 +162,9 @@ impl Frame {
             }
         }
         self.polygons.check_range(vertices, first_index)?;
+        if self.first.is_none() {
+            self.check_seams(self.polygons.triangles().len() as u64, vertices as u64, 0)?;
+        }
         Ok(Complete(()))
     }
 
@@ -127,6 +173,20 @@ impl Frame {
         let vertices = self.vertices.len();
         self.first = Some(First { file, vertices });
         self.polygons.compare_from_now_on();
+    }
+
+    /// Welds the first frame, if it is to be welded; None where there is nothing to weld.
+    pub(crate) fn weld(&mut self) -> Option<Welding> {
+        let positions = self.vertices.positions();
+        let same = |vertex| weld::position_bits(positions, vertex);
+        let triangles = self.polygons.triangles();
+        let welding = self
+            .weld
+            .then(|| weld::weld(triangles, positions.len(), same));
+        let welding = welding.flatten()?;
+        // Less than finding took, which was allowed.
+        self.account.enter_allowed(welding.bytes());
+        Some(welding)
     }
 
     /// The number of the next vertex: how many there are so far.

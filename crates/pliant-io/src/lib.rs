@@ -55,7 +55,8 @@
 //! - **Files are not trusted.** Every coordinate is finite and at most `f32::MAX` in magnitude,
 //!   every index in range, or there is an [`Error`]: one line that says which file, where in it,
 //!   what is wrong and what to do. No count in a header reserves memory; memory grows with the data
-//!   that arrives, up to [`OpenOptions::max_memory`].
+//!   that arrives, up to [`OpenOptions::max_memory`]. A file that changes while it is read, or between
+//!   frames, is refused; pipes and devices are, and never waited for. Nothing is mapped into memory.
 //!
 //! # Map
 //!
@@ -64,16 +65,18 @@
 //! | `arguments.rs`, `natural.rs` | an argument is a file or a pattern; the order of its files |
 //! | `series.rs` | a pattern that the shell expanded |
 //! | `body.rs` | files in a row are one body: the streaming loop |
+//! | `file.rs` | a file must stay as it was found |
 //! | `format.rs` | which ending is which reader: the one place to add a format |
 //! | `frame.rs`, `positions.rs`, `polygons.rs` | what readers fill, checked: recorded once, then compared |
 //! | `obj.rs`, `ply/`, `npz/` | one format each |
 //! | `weld.rs` | boundary edges that coincide |
-//! | `memory.rs`, `text.rs` | nothing is allocated on a claim; lines and numbers of text formats |
+//! | `memory.rs`, `text.rs` | nothing is allocated on a claim, nor beyond the limit; lines and numbers of text formats |
 //! | `error.rs` | one type, one line |
 
 mod arguments;
 mod body;
 mod error;
+mod file;
 mod format;
 mod frame;
 mod memory;

@@ -1,73 +1,118 @@
 //! Memory grows with the data that has arrived, never on a claim, and never beyond a limit.
 //!
-//! A header may announce 2^60 vertices in a file of 100 bytes. So nothing is reserved by count:
-//! arrays double as they fill, and the doubling stops at the limit. Where a count is announced, it
-//! is used twice: to refuse a frame beyond the limit before it is read, and to stop the last
-//! doubling at the right size.
+//! A header may announce 2^60 vertices in a file of 100 bytes. So nothing is reserved by count: arrays double as they fill. Where
+//! a count is announced, it is used twice: to refuse a frame beyond the limit before it is read, and to stop the last doubling at
+//! the right size.
+//!
+//! One account for all that a body holds: positions, triangles, polygons, what was welded. It counts what is in the arrays; room
+//! that a doubling leaves unused is never touched, and so takes none.
+
+use std::fmt;
 
 use crate::error::Reason;
 
-/// The first reservation, in items: large enough that small meshes grow once, small enough to mean
-/// nothing (under 2 MiB).
+/// The first reservation, in items: large enough that small meshes grow once, small enough to mean nothing (under 2 MiB).
 const FIRST: usize = 1 << 16;
 
-/// What one array may take.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Allowance {
-    /// What is stored, for the message: "the vertices of a frame".
-    pub(crate) what: &'static str,
-    /// In bytes.
-    pub(crate) limit: u64,
+/// What a body holds, in bytes, and the most that it may.
+#[derive(Debug)]
+pub(crate) struct Account {
+    held: u64,
+    limit: u64,
 }
 
-impl Allowance {
-    /// Refuses `count` announced items of type `T` that the limit does not allow.
-    pub(crate) fn check<T>(self, count: u64) -> Result<(), Reason> {
-        if count > self.items::<T>() {
-            return Err(self.refusal());
+impl Account {
+    pub(crate) fn new(limit: u64) -> Self {
+        Self { held: 0, limit }
+    }
+
+    /// What is held and `more`; an error where that is not allowed.
+    pub(crate) fn check(&self, more: u64) -> Result<u64, Excess> {
+        let needed = self.held.saturating_add(more);
+        let Self { limit, .. } = *self;
+        if needed > limit {
+            return Err(Excess { needed, limit });
         }
+        Ok(needed)
+    }
+
+    /// Enters `more` bytes.
+    pub(crate) fn enter(&mut self, more: u64) -> Result<(), Excess> {
+        self.held = self.check(more)?;
         Ok(())
     }
 
-    /// Appends, growing as described above; `announced` is the size at which doubling stops, if it
-    /// is reached.
+    /// Enters what [`check`](Self::check) has allowed.
+    pub(crate) fn enter_allowed(&mut self, more: u64) {
+        self.held = self.held.saturating_add(more);
+    }
+
+    /// Takes `less` bytes off: they are free again.
+    pub(crate) fn take_off(&mut self, less: u64) {
+        self.held = self.held.saturating_sub(less);
+    }
+
+    /// Appends and enters, growing as described above; `announced` is the size at which doubling stops, if it is reached.
     pub(crate) fn push<T>(
-        self,
+        &mut self,
         items: &mut Vec<T>,
         item: T,
         announced: usize,
     ) -> Result<(), Reason> {
+        self.enter(size_of::<T>() as u64)?;
         if items.len() == items.capacity() {
-            self.grow(items, announced)?;
+            grow(items, announced)?;
         }
         items.push(item);
         Ok(())
     }
+}
 
-    #[cold]
-    fn grow<T>(self, items: &mut Vec<T>, announced: usize) -> Result<(), Reason> {
-        let len = items.len();
-        let allowed = usize::try_from(self.items::<T>()).unwrap_or(usize::MAX);
-        if len >= allowed {
-            return Err(self.refusal());
-        }
-        let mut capacity = len.saturating_mul(2).max(FIRST).min(allowed);
-        if announced > len {
-            capacity = capacity.min(announced);
-        }
-        let Self { what, .. } = self;
-        items
-            .try_reserve_exact(capacity - len)
-            .map_err(|_| Reason::OutOfMemory { what })
+#[cold]
+fn grow<T>(items: &mut Vec<T>, announced: usize) -> Result<(), Reason> {
+    let len = items.len();
+    let mut capacity = len.saturating_mul(2).max(FIRST);
+    if announced > len {
+        capacity = capacity.min(announced);
     }
+    items
+        .try_reserve_exact(capacity - len)
+        .map_err(|_| Reason::OutOfMemory)
+}
 
-    fn items<T>(self) -> u64 {
-        self.limit / (size_of::<T>() as u64)
+/// The bytes of items in an array.
+pub(crate) fn bytes_of<T>(items: &[T]) -> u64 {
+    size_of_val(items) as u64
+}
+
+/// More than the limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Excess {
+    pub(crate) needed: u64,
+    pub(crate) limit: u64,
+}
+
+impl From<Excess> for Reason {
+    fn from(Excess { needed, limit }: Excess) -> Self {
+        Reason::TooLarge { needed, limit }
     }
+}
 
-    fn refusal(self) -> Reason {
-        let Self { what, limit } = self;
-        Reason::TooLarge { what, limit }
+/// A number of bytes for people: `95 bytes`, `4 GiB`, `1.5 GiB`. Rounded up to a tenth.
+pub(crate) struct Size(pub(crate) u64);
+
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(bytes) = *self;
+        let units = [(40, "TiB"), (30, "GiB"), (20, "MiB"), (10, "KiB")];
+        let Some((shift, unit)) = units.into_iter().find(|(shift, _)| bytes >> shift > 0) else {
+            return write!(f, "{bytes} bytes");
+        };
+        let tenths = (u128::from(bytes) * 10).div_ceil(1 << shift);
+        match tenths % 10 {
+            0 => write!(f, "{} {unit}", tenths / 10),
+            tenth => write!(f, "{}.{tenth} {unit}", tenths / 10),
+        }
     }
 }
 
@@ -75,33 +120,53 @@ impl Allowance {
 mod tests {
     use super::*;
 
-    const BYTES: Allowance = Allowance {
-        what: "bytes",
-        limit: 100_000,
-    };
-
     #[test]
     fn a_claim_reserves_little() {
         let mut items = Vec::new();
-        BYTES.push(&mut items, 1_u8, usize::MAX).unwrap();
+        let mut account = Account::new(100_000);
+        account.push(&mut items, 1_u8, usize::MAX).unwrap();
         assert!(items.capacity() <= FIRST);
     }
 
     #[test]
     fn a_true_claim_is_met_exactly() {
         let mut items = Vec::new();
+        let mut account = Account::new(100_000);
         for _ in 0..70_000 {
-            BYTES.push(&mut items, 1_u8, 70_000).unwrap();
+            account.push(&mut items, 1_u8, 70_000).unwrap();
         }
         assert_eq!(items.capacity(), 70_000);
     }
 
     #[test]
-    fn the_limit_is_reached_and_not_passed() {
-        let mut items = Vec::new();
-        while BYTES.push(&mut items, 0_u64, 0).is_ok() {}
-        assert_eq!((items.len(), items.capacity()), (12_500, 12_500));
-        assert!(BYTES.check::<u64>(12_500).is_ok());
-        assert!(BYTES.check::<u64>(12_501).is_err());
+    fn the_limit_is_one_for_all_and_reached() {
+        let (mut wide, mut narrow) = (Vec::new(), Vec::new());
+        let mut account = Account::new(100_000);
+        for _ in 0..10_000 {
+            account.push(&mut narrow, 0_u8, 0).unwrap();
+        }
+        while account.push(&mut wide, 0_u64, 0).is_ok() {}
+        assert_eq!(wide.len(), 90_000 / 8);
+        account.take_off(bytes_of(&narrow));
+        let excess = account.check(10_001).unwrap_err();
+        assert_eq!((excess.needed, excess.limit), (100_001, 100_000));
+        assert!(account.check(10_000).is_ok());
+        assert!(account.check(u64::MAX).is_err());
+    }
+
+    #[test]
+    fn sizes_are_written_for_people() {
+        for (bytes, written) in [
+            (0, "0 bytes"),
+            (1023, "1023 bytes"),
+            (1024, "1 KiB"),
+            (4 << 30, "4 GiB"),
+            ((4 << 30) + 1, "4.1 GiB"),
+            (3 << 29, "1.5 GiB"),
+            ((1 << 40) - 1, "1024 GiB"),
+            (u64::MAX, "16777216 TiB"),
+        ] {
+            assert_eq!(Size(bytes).to_string(), written);
+        }
     }
 }

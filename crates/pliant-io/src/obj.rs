@@ -14,13 +14,13 @@
 use std::io::BufRead;
 
 use crate::error::{Fault, Place, Reason};
-use crate::frame::{Complete, Frame};
+use crate::frame::{Announced, Complete, Frame};
 use crate::positions::Precision;
 use crate::text::{LONGEST_LINE, Lines, expected, number, quoted, words};
 
 /// Reads one file, one frame.
 pub(crate) fn read(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> {
-    frame.begin(Precision::F64, 0)?;
+    frame.begin(Precision::F64, Announced::default())?;
     let mut statements = Statements {
         lines: Lines::new(input),
         text: Vec::new(),
@@ -131,7 +131,7 @@ mod tests {
     use crate::positions::Positions;
 
     fn read_text(text: impl AsRef<[u8]>) -> Result<Frame, Fault> {
-        let mut frame = Frame::new(1 << 30);
+        let mut frame = Frame::new(1 << 30, true);
         let _complete = read(text.as_ref(), &mut frame)?;
         Ok(frame)
     }

@@ -5,7 +5,7 @@
 //! no other copy of the connectivity.
 
 use crate::error::{Fault, Place, Reason};
-use crate::memory::Allowance;
+use crate::memory::Account;
 
 /// The connectivity of a body as its files have it, before welding.
 #[derive(Debug)]
@@ -19,7 +19,6 @@ pub(crate) struct Polygons {
     met: u64,
     met_triangles: usize,
     largest: Option<Largest>,
-    allowance: Allowance,
 }
 
 /// The largest index used in this frame, with a face that uses it: faces may come before vertices,
@@ -32,8 +31,7 @@ struct Largest {
 }
 
 impl Polygons {
-    pub(crate) fn new(limit: u64) -> Self {
-        let what = "the faces of a body";
+    pub(crate) fn new() -> Self {
         Self {
             triangles: Vec::new(),
             faces: None,
@@ -42,7 +40,6 @@ impl Polygons {
             met: 0,
             met_triangles: 0,
             largest: None,
-            allowance: Allowance { what, limit },
         }
     }
 
@@ -72,6 +69,7 @@ impl Polygons {
         &mut self,
         corners: &[u32],
         place: impl FnOnce() -> Place,
+        account: &mut Account,
     ) -> Result<bool, Reason> {
         let &[apex, ref rim @ ..] = corners else {
             return Err(self.too_few(0));
@@ -94,7 +92,7 @@ impl Polygons {
         let equal = if self.comparing {
             self.compare(fan)
         } else {
-            self.record(fan).map(|()| true)?
+            self.record(fan, account).map(|()| true)?
         };
         self.met += 1;
         Ok(equal)
@@ -107,7 +105,11 @@ impl Polygons {
         }
     }
 
-    fn record(&mut self, fan: impl ExactSizeIterator<Item = [u32; 3]>) -> Result<(), Reason> {
+    fn record(
+        &mut self,
+        fan: impl ExactSizeIterator<Item = [u32; 3]>,
+        account: &mut Account,
+    ) -> Result<(), Reason> {
         let polygon = u32::try_from(self.count).map_err(|_| Reason::TooMany { what: "faces" })?;
         let size = fan.len();
         if self.triangles.len() + size > u32::MAX as usize {
@@ -117,16 +119,16 @@ impl Polygons {
             let mut faces = Vec::new();
             for triangle in 0..polygon {
                 // Until here every polygon was one triangle.
-                self.allowance.push(&mut faces, triangle, 0)?;
+                account.push(&mut faces, triangle, 0)?;
             }
             self.faces = Some(faces);
         }
         for triangle in fan {
-            self.allowance.push(&mut self.triangles, triangle, 0)?;
+            account.push(&mut self.triangles, triangle, 0)?;
         }
         if let Some(faces) = &mut self.faces {
             for _ in 0..size {
-                self.allowance.push(faces, polygon, 0)?;
+                account.push(faces, polygon, 0)?;
             }
         }
         self.count += 1;
@@ -192,10 +194,18 @@ impl Polygons {
 mod tests {
     use super::*;
 
+    fn account() -> Account {
+        Account::new(1 << 20)
+    }
+
     fn recorded(polygons: &[&[u32]]) -> Polygons {
-        let mut recorded = Polygons::new(1 << 20);
+        let mut recorded = Polygons::new();
         for corners in polygons {
-            assert!(recorded.push(corners, || Place::File).unwrap());
+            assert!(
+                recorded
+                    .push(corners, || Place::File, &mut account())
+                    .unwrap()
+            );
         }
         recorded
     }
@@ -206,7 +216,11 @@ mod tests {
         polygons.rewind();
         second
             .iter()
-            .map(|corners| polygons.push(corners, || Place::File).unwrap())
+            .map(|corners| {
+                polygons
+                    .push(corners, || Place::File, &mut account())
+                    .unwrap()
+            })
             .collect()
     }
 
@@ -237,7 +251,7 @@ mod tests {
     fn fewer_than_three_corners_are_refused() {
         let mut polygons = recorded(&[&[0, 1, 2]]);
         for corners in [&[][..], &[1], &[1, 2]] {
-            let refused = polygons.push(corners, || Place::File);
+            let refused = polygons.push(corners, || Place::File, &mut account());
             assert!(
                 matches!(refused, Err(Reason::FewCorners { face: 1, corners: n }) if n == corners.len())
             );
@@ -265,10 +279,16 @@ mod tests {
 
     #[test]
     fn the_largest_index_decides_the_range() {
-        let mut polygons = Polygons::new(1 << 20);
-        polygons.push(&[0, 1, 2], || Place::Line(1)).unwrap();
-        polygons.push(&[0, 9, 2], || Place::Line(2)).unwrap();
-        polygons.push(&[0, 9, 8], || Place::Line(3)).unwrap();
+        let mut polygons = Polygons::new();
+        polygons
+            .push(&[0, 1, 2], || Place::Line(1), &mut account())
+            .unwrap();
+        polygons
+            .push(&[0, 9, 2], || Place::Line(2), &mut account())
+            .unwrap();
+        polygons
+            .push(&[0, 9, 8], || Place::Line(3), &mut account())
+            .unwrap();
         assert!(polygons.check_range(10, 1).is_ok());
         let fault = polygons.check_range(9, 1).unwrap_err();
         assert_eq!(fault.place, Place::Line(2));

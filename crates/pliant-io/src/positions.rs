@@ -1,7 +1,7 @@
 //! The positions of one frame: f32 or f64, as the body began.
 
 use crate::error::Reason;
-use crate::memory::Allowance;
+use crate::memory::{Account, bytes_of};
 
 /// The type of a body's coordinates, fixed by its first frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -10,6 +10,16 @@ pub enum Precision {
     F32,
     /// 64-bit coordinates.
     F64,
+}
+
+impl Precision {
+    /// Of one position.
+    pub(crate) fn bytes(self) -> u64 {
+        match self {
+            Self::F32 => size_of::<[f32; 3]>() as u64,
+            Self::F64 => size_of::<[f64; 3]>() as u64,
+        }
+    }
 }
 
 /// The positions of one frame, one per vertex of the file, in the file's unit; finite and at most
@@ -54,7 +64,6 @@ impl Positions<'_> {
 pub(crate) struct Vertices {
     stored: Stored,
     announced: usize,
-    allowance: Allowance,
 }
 
 #[derive(Debug)]
@@ -64,12 +73,10 @@ enum Stored {
 }
 
 impl Vertices {
-    pub(crate) fn new(limit: u64) -> Self {
-        let what = "the vertices of a frame";
+    pub(crate) fn new() -> Self {
         Self {
             stored: Stored::F64(Vec::new()),
             announced: 0,
-            allowance: Allowance { what, limit },
         }
     }
 
@@ -82,23 +89,25 @@ impl Vertices {
     }
 
     /// Empties the buffer for a frame that announces `count` vertices, or 0 if it does not say.
-    pub(crate) fn clear(&mut self, count: u64) -> Result<(), Reason> {
+    pub(crate) fn clear(&mut self, count: u64, account: &mut Account) {
+        account.take_off(self.bytes());
         self.announced = usize::try_from(count).unwrap_or(usize::MAX);
         match &mut self.stored {
-            Stored::F32(stored) => {
-                stored.clear();
-                self.allowance.check::<[f32; 3]>(count)
-            }
-            Stored::F64(stored) => {
-                stored.clear();
-                self.allowance.check::<[f64; 3]>(count)
-            }
+            Stored::F32(stored) => stored.clear(),
+            Stored::F64(stored) => stored.clear(),
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        match &self.stored {
+            Stored::F32(stored) => bytes_of(stored),
+            Stored::F64(stored) => bytes_of(stored),
         }
     }
 
     /// Appends one vertex, checked. In a buffer of 32-bit coordinates, `position` is one that 32
     /// bits hold exactly.
-    pub(crate) fn push(&mut self, position: [f64; 3]) -> Result<(), Reason> {
+    pub(crate) fn push(&mut self, position: [f64; 3], account: &mut Account) -> Result<(), Reason> {
         let vertex = self.len() as u64;
         for (axis, value) in ['x', 'y', 'z'].into_iter().zip(position) {
             // Written so that NaN fails.
@@ -116,10 +125,9 @@ impl Vertices {
         }
         match &mut self.stored {
             Stored::F32(stored) => {
-                self.allowance
-                    .push(stored, position.map(|value| value as f32), self.announced)
+                account.push(stored, position.map(|value| value as f32), self.announced)
             }
-            Stored::F64(stored) => self.allowance.push(stored, position, self.announced),
+            Stored::F64(stored) => account.push(stored, position, self.announced),
         }
     }
 
@@ -150,9 +158,12 @@ mod tests {
     fn the_range_ends_at_the_largest_f32() {
         let largest = f64::from(f32::MAX);
         for precision in [Precision::F32, Precision::F64] {
-            let mut vertices = Vertices::new(1 << 20);
+            let mut vertices = Vertices::new();
+            let mut account = Account::new(1 << 20);
             vertices.set_precision(precision);
-            vertices.push([largest, -largest, -0.0]).unwrap();
+            vertices
+                .push([largest, -largest, -0.0], &mut account)
+                .unwrap();
             let bits = [largest, -largest, -0.0].map(f64::to_bits);
             assert_eq!(vertices.positions().get(0).map(f64::to_bits), bits);
             for (at, bad) in [
@@ -167,22 +178,12 @@ mod tests {
             {
                 let mut position = [0.0; 3];
                 position[at % 3] = bad;
-                let refused = vertices.push(position);
+                let refused = vertices.push(position, &mut account);
                 assert!(
                     matches!(refused, Err(Reason::Coordinate { vertex: 1, axis, .. }) if axis == ['x', 'y', 'z'][at % 3])
                 );
             }
             assert_eq!(vertices.len(), 1);
         }
-    }
-
-    #[test]
-    fn an_announced_count_beyond_the_limit_is_refused_at_once() {
-        let mut vertices = Vertices::new(2400);
-        vertices.set_precision(Precision::F32);
-        assert!(vertices.clear(200).is_ok());
-        assert!(vertices.clear(201).is_err());
-        vertices.set_precision(Precision::F64);
-        assert!(vertices.clear(101).is_err());
     }
 }

@@ -16,6 +16,7 @@
 //! must stay together, or the mesh welded is not the mesh that moves: [`Welding::check`].
 
 use crate::error::Reason;
+use crate::memory::bytes_of;
 use crate::positions::Positions;
 
 /// The triangles after welding, and what was welded.
@@ -29,44 +30,63 @@ pub(crate) struct Welding {
 /// An edge: its end points, the smaller first.
 type Edge = [u32; 2];
 
+/// The most bytes that [`weld`] takes, beside its arguments, and that its result takes: three edges a triangle, two numbers a
+/// vertex.
+pub(crate) fn memory(triangles: u64, vertices: u64) -> u64 {
+    let edges = triangles.saturating_mul(3 * size_of::<Edge>() as u64);
+    edges.saturating_add(vertices.saturating_mul(2 * size_of::<u32>() as u64))
+}
+
 /// Welds `triangles`; None where nothing is to be welded. `same(v)` is what must be equal for `v`
 /// to be welded to another vertex: its position, and whatever else moves it in a format that moves
 /// vertices by rule. Every index must be below `vertices`.
+///
+/// Lists are cut down and sorted where they are, and freed as soon as they are done with: [`memory`] is the limit.
 pub(crate) fn weld<K: Ord>(
     triangles: &[[u32; 3]],
     vertices: usize,
     same: impl Fn(u32) -> K,
 ) -> Option<Welding> {
-    let boundary = boundary_edges(triangles);
-    let place = places(&boundary, vertices, same);
-    let mut edges: Vec<(Edge, Edge)> = boundary
-        .into_iter()
-        .map(|[a, b]| ([a, b], [place[a as usize], place[b as usize]]))
-        .filter(|(_, [from, to])| from != to)
-        .map(|([a, b], [from, to])| {
-            if from < to {
-                ([from, to], [a, b])
-            } else {
-                ([to, from], [b, a])
-            }
-        })
-        .collect();
-    edges.sort_unstable();
+    let mut edges = boundary_edges(triangles);
+    let place = places(&edges, vertices, same);
+    // The places of the two ends, the smaller first, and the ends in that order.
+    let placed = |&[a, b]: &Edge| {
+        let [from, to] = [place[a as usize], place[b as usize]];
+        if from < to {
+            ([from, to], [a, b])
+        } else {
+            ([to, from], [b, a])
+        }
+    };
+    edges.retain(|edge| {
+        let ([from, to], _) = placed(edge);
+        from != to
+    });
+    edges.sort_unstable_by_key(placed);
 
     let mut classes = Classes::new(vertices);
-    for coinciding in edges.chunk_by(|(here, _), (there, _)| here == there) {
-        let (_, first) = coinciding[0];
-        for (_, other) in &coinciding[1..] {
+    for coinciding in edges.chunk_by(|one, other| placed(one).0 == placed(other).0) {
+        let (_, first) = placed(&coinciding[0]);
+        for other in &coinciding[1..] {
+            let (_, other) = placed(other);
             classes.join(first[0], other[0]);
             classes.join(first[1], other[1]);
         }
     }
-    let welded: Vec<(u32, u32)> = (0..vertices as u32)
-        .map(|vertex| (vertex, classes.leader(vertex)))
-        .filter(|(vertex, leader)| vertex != leader)
-        .collect();
-    if welded.is_empty() {
+    drop((edges, place));
+    let numbers = || 0..vertices as u32;
+    let count = numbers()
+        .filter(|&vertex| classes.leader(vertex) != vertex)
+        .count();
+    if count == 0 {
         return None;
+    }
+    let mut welded = Vec::with_capacity(count);
+    for vertex in numbers() {
+        let leader = classes.leader(vertex);
+        if leader != vertex {
+            welded.push((vertex, leader));
+        }
     }
     let triangles = triangles
         .iter()
@@ -78,7 +98,7 @@ pub(crate) fn weld<K: Ord>(
 /// The edges used by exactly one triangle. A degenerate triangle uses an edge once, however often
 /// it runs along it.
 fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
-    let mut edges = Vec::with_capacity(3 * triangles.len());
+    let mut edges: Vec<Edge> = Vec::with_capacity(3 * triangles.len());
     for &[a, b, c] in triangles {
         let mut three = [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]);
         three.sort_unstable();
@@ -89,21 +109,40 @@ fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
         );
     }
     edges.sort_unstable();
+    let (mut read, mut kept) = (0, 0);
+    while let Some(&edge) = edges.get(read) {
+        let uses = edges[read..]
+            .iter()
+            .take_while(|&&other| other == edge)
+            .count();
+        if uses == 1 {
+            edges[kept] = edge;
+            kept += 1;
+        }
+        read += uses;
+    }
+    edges.truncate(kept);
     edges
-        .chunk_by(PartialEq::eq)
-        .filter(|uses| uses.len() == 1)
-        .map(|uses| uses[0])
-        .collect()
 }
 
-/// For each end of an edge the first vertex at its place; vertices that no edge has keep their own
-/// number.
+/// For each end of an edge one vertex that stands for all at its place, no matter which; vertices that
+/// no edge has keep their own number.
 fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> Vec<u32> {
-    let mut ends: Vec<u32> = edges.as_flattened().to_vec();
-    ends.sort_unstable();
-    ends.dedup();
-    ends.sort_by_cached_key(|&vertex| same(vertex)); // stable: the first of a place is its smallest
-    let mut place: Vec<u32> = (0..vertices as u32).collect();
+    const UNUSED: u32 = u32::MAX; // the number of no vertex
+    let mut place = vec![UNUSED; vertices];
+    let mut count = 0;
+    for &end in edges.as_flattened() {
+        count += usize::from(place[end as usize] == UNUSED);
+        place[end as usize] = end;
+    }
+    let mut ends = Vec::with_capacity(count);
+    for (place, vertex) in place.iter_mut().zip(0..) {
+        if *place == vertex {
+            ends.push(vertex);
+        }
+        *place = vertex;
+    }
+    ends.sort_unstable_by_key(|&vertex| same(vertex));
     for together in ends.chunk_by(|&a, &b| same(a) == same(b)) {
         for &vertex in together {
             place[vertex as usize] = together[0];
@@ -142,6 +181,11 @@ pub(crate) fn position_bits(positions: Positions<'_>, vertex: u32) -> [u64; 3] {
 }
 
 impl Welding {
+    /// What it takes.
+    pub(crate) fn bytes(&self) -> u64 {
+        bytes_of(&self.triangles) + bytes_of(&self.welded)
+    }
+
     /// Refuses a later frame in which vertices that were welded are apart.
     pub(crate) fn check(&self, positions: Positions<'_>) -> Result<(), Reason> {
         for &(vertex, leader) in &self.welded {

@@ -453,7 +453,7 @@ fn a_bomb_is_refused_before_it_is_unpacked() {
         .to_string();
     assert!(
         message
-            .contains("frame 0: the vertices of a frame need more than the 1000000 bytes allowed"),
+            .contains("frame 0: a frame needs at least 45.8 MiB of memory, 976.6 KiB are allowed"),
         "{message}"
     );
 }

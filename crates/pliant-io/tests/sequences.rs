@@ -229,22 +229,47 @@ fn a_file_that_goes_away_is_an_error() {
 }
 
 #[test]
-fn memory_is_limited() {
+fn memory_is_limited_by_what_is_held() {
     let folder = Folder::new();
-    folder.write("t.obj", tetrahedron(1.0));
-    let open = |max_memory| {
-        let options = OpenOptions {
-            max_memory,
-            ..OpenOptions::default()
-        };
-        pliant_io::open(&folder.argument("t.obj"), &options)
+    // Four vertices of 24 bytes, four triangles of 12; in the second, one of 6 with what says which polygon it is of.
+    folder
+        .write("t.obj", tetrahedron(1.0))
+        .write("q.obj", tetrahedron(1.0) + "f 1 2 3 4\n");
+    let ascii = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
+        element face 4\nproperty list uchar int vertex_index\nend_header\n\
+        0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+    folder.write("t.ply", ascii);
+    let open = |name: &str, weld, max_memory| {
+        pliant_io::open(&folder.argument(name), &OpenOptions { weld, max_memory })
+            .and_then(|mut body| all_frames(&mut body))
+            .map_err(|error| match error.reason() {
+                Reason::TooLarge { needed, limit } => ("frame", *needed, *limit),
+                Reason::SeamsTooLarge { needed, limit } => ("seams", *needed, *limit),
+                _ => panic!("{error}"),
+            })
     };
-    assert!(open(4 * 24).is_ok());
-    let error = open(4 * 24 - 1).unwrap_err();
-    assert!(
-        matches!(error.reason(), Reason::TooLarge { limit: 95, .. }),
-        "{error}"
-    );
+    let frame = 4 * 24 + 4 * 12;
+    let seams = frame + 4 * 24 + 4 * 8;
+    for name in ["t.obj", "t.ply"] {
+        assert!(open(name, false, frame).is_ok());
+        assert!(open(name, true, seams).is_ok());
+        assert_eq!(
+            open(name, true, seams - 1).unwrap_err(),
+            ("seams", seams, seams - 1)
+        );
+        assert_eq!(
+            open(name, false, frame - 1).unwrap_err(),
+            ("frame", frame, frame - 1)
+        );
+    }
+    let polygons = frame + 2 * 12 + 6 * 4;
+    assert!(open("q.obj", false, polygons).is_ok());
+    assert!(open("q.obj", false, polygons - 1).is_err());
+    // Later frames take the place of the first, beside what was welded.
+    folder
+        .write("t2.obj", tetrahedron(2.0))
+        .write("t1.obj", tetrahedron(3.0));
+    assert_eq!(open("t*.obj", false, frame).unwrap().len(), 3);
 }
 
 #[test]

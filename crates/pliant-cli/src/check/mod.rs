@@ -1,11 +1,15 @@
 //! `pliant check`: somebody's meshes, frame by frame.
 
 mod output;
+mod pairs;
 mod sequence;
+mod size;
 
 use crate::Outcome;
+use anyhow::Context;
 use clap::{Args, ValueEnum};
 use output::Output;
+use pairs::Pairs;
 use pliant::{Scalar, World};
 use pliant_io::{OpenOptions, Precision};
 use sequence::Sequence;
@@ -32,13 +36,17 @@ pub(crate) struct Arguments {
     /// Keep vertices apart where boundary edges coincide; seams are then intersections
     #[arg(long)]
     no_weld: bool,
+    /// The most memory that a frame may take, seam finding included, and again that a list of pairs may (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
+    #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
+    max_memory: u64,
     /// A table by frame, or one JSON object
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
 }
 
 const EXIT_CODES: &str = "\
-Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.";
+Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
+Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed.";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
@@ -58,7 +66,7 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
         &arguments.bodies,
         &OpenOptions {
             weld: !arguments.no_weld,
-            ..OpenOptions::default()
+            max_memory: arguments.max_memory,
         },
     )?;
     match sequence.precision() {
@@ -73,52 +81,15 @@ fn check_frames<S: Scalar + sequence::FromFile>(
 ) -> anyhow::Result<Outcome> {
     let mut output = Output::begin(arguments, &sequence)?;
     let mut world = World::<S>::new();
-    let (mut buffer, mut pairs) = (Vec::new(), Vec::new());
+    let listed = arguments.format == Format::Json && !arguments.count;
+    let mut pairs = Pairs::new(listed, arguments.max_memory);
+    let mut buffer = Vec::new();
     let checked = (0..sequence.frame_count()).try_for_each(|frame| {
         sequence.load_frame(frame, &mut world, &mut buffer)?;
-        find_pairs(arguments, &mut world, &mut pairs)?;
+        pairs
+            .find(arguments, &mut world)
+            .with_context(|| format!("frame {frame}"))?;
         output.frame(frame, &pairs)
     });
     output.end(checked)
-}
-
-/// (body, triangle, body, triangle), sorted; at most one of them if only the first is asked for.
-fn find_pairs<S: Scalar>(
-    arguments: &Arguments,
-    world: &mut World<S>,
-    pairs: &mut Vec<[u32; 4]>,
-) -> anyhow::Result<()> {
-    let bodies: Vec<_> = world.bodies().collect();
-    let itself = arguments.itself || bodies.len() == 1;
-    pairs.clear();
-    if arguments.first {
-        pairs.extend(world.first_intersection().map(row));
-    } else {
-        pairs.extend(world.intersection_pairs().iter().copied().map(row));
-    }
-    for body in bodies.into_iter().filter(|_| itself) {
-        let of_body = |[a, b]: [u32; 2]| [body.0, a, body.0, b];
-        if !arguments.first {
-            pairs.extend(
-                world
-                    .self_intersection_pairs(body)?
-                    .iter()
-                    .copied()
-                    .map(of_body),
-            );
-        } else if pairs.is_empty() {
-            pairs.extend(world.first_self_intersection(body)?.map(of_body));
-        }
-    }
-    pairs.sort_unstable();
-    Ok(())
-}
-
-fn row(pair: pliant::Pair) -> [u32; 4] {
-    [
-        pair.body_a.0,
-        pair.triangle_a,
-        pair.body_b.0,
-        pair.triangle_b,
-    ]
 }

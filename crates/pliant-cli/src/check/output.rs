@@ -10,6 +10,7 @@
 //! `--count` there are no `pairs`; with `--first`, `count` is 0 or 1 and `"complete": false` says that the list was not meant
 //! to be complete. If a frame cannot be checked, the object ends with `"error"`.
 
+use super::pairs::Pairs;
 use super::sequence::Sequence;
 use super::{Arguments, Format};
 use crate::Outcome;
@@ -84,11 +85,9 @@ impl Output {
         let out = &mut self.out;
         if self.format == Format::Json {
             let entries: Vec<_> = bodies.iter().map(entry).collect();
-            return write!(
-                out,
-                r#"{{"format":1,"bodies":{},"frames":["#,
-                serde_json::to_string(&entries)?
-            );
+            write!(out, r#"{{"format":1,"bodies":"#)?;
+            serde_json::to_writer(&mut *out, &entries)?;
+            return write!(out, r#","frames":["#);
         }
         for (number, body) in bodies.iter().enumerate() {
             let [vertices, triangles] = [
@@ -121,9 +120,9 @@ impl Output {
     }
 
     /// Prints one frame.
-    pub(super) fn frame(&mut self, frame: usize, pairs: &[[u32; 4]]) -> anyhow::Result<()> {
+    pub(super) fn frame(&mut self, frame: usize, pairs: &Pairs) -> anyhow::Result<()> {
         self.print_frame(frame, pairs).context(WRITING)?;
-        let count = pairs.len();
+        let count = pairs.count;
         self.frames += 1;
         self.intersecting += usize::from(count > 0);
         if count > self.worst.map_or(0, |(_, most)| most) {
@@ -132,8 +131,8 @@ impl Output {
         Ok(())
     }
 
-    fn print_frame(&mut self, frame: usize, pairs: &[[u32; 4]]) -> io::Result<()> {
-        let count = pairs.len();
+    fn print_frame(&mut self, frame: usize, pairs: &Pairs) -> io::Result<()> {
+        let count = pairs.count;
         let out = &mut self.out;
         if self.format == Format::Json {
             let complete = self.first_only.then_some(false);
@@ -141,13 +140,14 @@ impl Output {
                 frame,
                 count,
                 complete,
-                pairs: (!self.count_only).then_some(pairs),
+                pairs: (!self.count_only).then_some(&pairs.list),
             };
             let separator = if self.frames > 0 { "," } else { "" };
-            write!(out, "{separator}\n{}", serde_json::to_string(&entry)?)?;
+            writeln!(out, "{separator}")?;
+            serde_json::to_writer(&mut *out, &entry)?;
         } else {
             write!(out, "{frame:>8}{count:>10}")?;
-            if let Some([body_a, a, body_b, b]) = pairs.first().filter(|_| !self.count_only) {
+            if let Some([body_a, a, body_b, b]) = pairs.smallest.filter(|_| !self.count_only) {
                 write!(
                     out,
                     "  triangle {a} of body {body_a}, triangle {b} of body {body_b}"

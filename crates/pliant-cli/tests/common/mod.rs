@@ -2,9 +2,13 @@
 
 #![allow(dead_code, reason = "each test uses its part")]
 
+pub(crate) mod npz;
+
 use serde_json::Value;
+use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 /// What a run of the program left behind.
 pub(crate) struct Said {
@@ -53,6 +57,57 @@ pub(crate) fn pliant(folder: &Path, arguments: &[&str]) -> Said {
         out: String::from_utf8(output.stdout).unwrap(),
         err: String::from_utf8(output.stderr).unwrap(),
     }
+}
+
+/// The longest that the program may take where a test measures it: far more than it needs on a busy machine.
+const LIMIT: Duration = Duration::from_secs(60);
+
+/// A run of the program, and the most memory it took, in bytes, where the system tells.
+pub(crate) struct Measured {
+    pub(crate) said: Said,
+    pub(crate) peak: Option<u64>,
+}
+
+/// Runs `pliant` in a folder; fails if it does not come to an end.
+pub(crate) fn measured(folder: &Path, arguments: &[&str]) -> Measured {
+    // Files, not pipes: a pipe that is full would hold the program up.
+    let kept = tempfile::tempdir().unwrap();
+    let [out, err] = ["out", "err"].map(|name| kept.path().join(name));
+    let mut child = Command::new(env!("CARGO_BIN_EXE_pliant"))
+        .current_dir(folder)
+        .args(arguments)
+        .stdin(Stdio::null())
+        .stdout(File::create(&out).unwrap())
+        .stderr(File::create(&err).unwrap())
+        .spawn()
+        .unwrap();
+    let begin = Instant::now();
+    let mut peak = None;
+    let status = loop {
+        peak = peak_so_far(child.id()).or(peak);
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        if begin.elapsed() > LIMIT {
+            child.kill().unwrap();
+            panic!("{arguments:?} did not come to an end");
+        }
+        std::thread::sleep(Duration::from_micros(500));
+    };
+    let said = Said {
+        code: status.code().expect("the program was not killed"),
+        out: fs::read_to_string(out).unwrap(),
+        err: fs::read_to_string(err).unwrap(),
+    };
+    Measured { said, peak }
+}
+
+/// The most memory that a process has taken so far, in bytes: Linux remembers it while the process lives.
+fn peak_so_far(process: u32) -> Option<u64> {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kilobytes << 10)
 }
 
 /// Runs `pliant` with standard output, and perhaps standard error, closed or full; returns the exit code and what it said on

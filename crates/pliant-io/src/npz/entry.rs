@@ -1,21 +1,16 @@
 //! One array of an archive as a stream, with its checksum.
 //!
-//! The `zip` crate reads the directory; its stream borrows the archive, so a reader that keeps its
-//! place from frame to frame takes over from where the data begins. The sizes in the directory are
-//! claims like any other: what is read ends where the data ends.
+//! A reader keeps its place from frame to frame. The sizes in the directory are claims like any other: what is read ends where
+//! the data ends.
 
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Take};
-use std::path::Path;
 
 use flate2::Crc;
 use flate2::bufread::DeflateDecoder;
-use zip::{CompressionMethod, ZipArchive};
 
+use super::directory::{self, Method};
 use crate::error::Reason;
-
-/// At most so many names are listed where an array is missing.
-const NAMES_LISTED: usize = 8;
+use crate::file::{Found, Opened};
 
 /// The data of one array, `Read` up to its announced size.
 pub(super) struct Entry {
@@ -28,56 +23,36 @@ pub(super) struct Entry {
 }
 
 enum Data {
-    Stored(Take<BufReader<File>>),
-    Deflated(DeflateDecoder<Take<BufReader<File>>>),
+    Stored(Take<BufReader<Opened>>),
+    Deflated(DeflateDecoder<Take<BufReader<Opened>>>),
 }
 
 impl Entry {
-    /// Opens the array `name` of the archive at `path`.
-    pub(super) fn open(path: &Path, name: &'static str) -> Result<Self, Reason> {
-        let mut archive = ZipArchive::new(BufReader::new(File::open(path)?)).map_err(|error| {
-            Reason::Malformed(format!(
-                "not an NPZ file (a zip archive of arrays): {error}"
-            ))
-        })?;
-        let index = archive
-            .index_for_name(&format!("{name}.npy"))
-            .ok_or_else(|| missing(&archive, name))?;
-        let damaged =
-            |error| Reason::Malformed(format!("the entry of `{name}` cannot be found: {error}"));
-        let entry = archive.by_index_raw(index).map_err(damaged)?;
-        if entry.encrypted() {
-            return Err(Reason::Unsupported(format!(
-                "`{name}` is encrypted; save it without"
-            )));
-        }
-        let (method, start) = (entry.compression(), entry.data_start());
-        let (left, compressed, checksum) = (entry.size(), entry.compressed_size(), entry.crc32());
-        drop(entry);
-
-        let start = start
-            .ok_or_else(|| Reason::Malformed(format!("the data of `{name}` cannot be found")))?;
-        let mut input = archive.into_inner();
-        input.seek(SeekFrom::Start(start))?;
-        let input = input.take(compressed);
-        let data = match method {
-            CompressionMethod::Stored => Data::Stored(input),
-            CompressionMethod::DEFLATE => Data::Deflated(DeflateDecoder::new(input)),
-            other => {
-                let advice = format!(
-                    "`{name}` is compressed as {other}; save it with numpy.savez or numpy.savez_compressed"
-                );
-                return Err(Reason::Unsupported(advice));
-            }
-        };
-        let read = Crc::new();
+    /// Opens the array `name` of the archive `file`.
+    pub(super) fn open(file: &Found, name: &'static str) -> Result<Self, Reason> {
+        let mut input = BufReader::new(file.open()?);
+        let record = directory::find(&mut input, name)?;
+        input.seek(SeekFrom::Start(record.start))?;
+        let input = input.take(record.compressed);
         Ok(Self {
             name,
-            data,
-            left,
-            checksum,
-            read,
+            data: match record.method {
+                Method::Stored => Data::Stored(input),
+                Method::Deflated => Data::Deflated(DeflateDecoder::new(input)),
+            },
+            left: record.size,
+            checksum: record.checksum,
+            read: Crc::new(),
         })
+    }
+
+    /// Refuses a file that is not as it was found.
+    pub(super) fn unchanged(&self) -> Result<(), Reason> {
+        let input = match &self.data {
+            Data::Stored(input) => input,
+            Data::Deflated(input) => input.get_ref(),
+        };
+        input.get_ref().get_ref().unchanged()
     }
 
     /// Bytes that, by the directory, are still to come.
@@ -128,17 +103,4 @@ impl Read for Entry {
         self.left -= read as u64;
         Ok(read)
     }
-}
-
-fn missing<R: Read + Seek>(archive: &ZipArchive<R>, name: &str) -> Reason {
-    let names = archive.file_names_raw().take(NAMES_LISTED);
-    let names: Vec<String> = names
-        .map(|name| {
-            String::from_utf8_lossy(name.strip_suffix(b".npy").unwrap_or(name)).into_owned()
-        })
-        .collect();
-    Reason::Malformed(format!(
-        "has no array `{name}`; save it as numpy.savez(file, vertices=..., faces=...); it holds: {}",
-        names.join(", ")
-    ))
 }

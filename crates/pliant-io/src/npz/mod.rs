@@ -5,21 +5,21 @@
 //! endian alike. The end of the data and its checksum are verified before the last frame is handed
 //! out: whoever stops earlier has read unverified data.
 
+mod directory;
 mod entry;
 mod header;
 
-use std::path::{Path, PathBuf};
-
 use crate::error::{Fault, Place, Reason};
+use crate::file::Found;
 use crate::format::FrameSource;
-use crate::frame::{Complete, Frame};
+use crate::frame::{Announced, Complete, Frame};
 use crate::positions::Precision;
 use entry::Entry;
 use header::{Dtype, Header};
 
 /// A reader of one NPZ file.
 pub(crate) struct Npz {
-    path: PathBuf,
+    file: Found,
     vertices: Entry,
     dtype: Dtype,
     frames: u64,
@@ -34,9 +34,9 @@ pub(crate) struct Npz {
 const ROWS: u64 = 4096;
 
 impl Npz {
-    pub(crate) fn open(path: &Path) -> Result<Self, Fault> {
+    pub(crate) fn open(file: &Found) -> Result<Self, Fault> {
         let in_array = |reason: Reason| reason.at(Place::Array("vertices"));
-        let mut vertices = Entry::open(path, "vertices")?;
+        let mut vertices = Entry::open(file, "vertices")?;
         let header = Header::read(&mut vertices).map_err(in_array)?;
         let (frames, count) = match header.shape[..] {
             [frames, count, 3] => (frames, count),
@@ -66,7 +66,7 @@ impl Npz {
         }
         check_size(frames, count, header.dtype.size as u64, vertices.left())?;
         Ok(Self {
-            path: path.to_owned(),
+            file: file.clone(),
             vertices,
             dtype: header.dtype,
             frames,
@@ -93,27 +93,26 @@ impl Npz {
         .map_err(|reason| reason.at(place))
     }
 
-    fn read_faces(&mut self, frame: &mut Frame) -> Result<(), Reason> {
-        let mut faces = Entry::open(&self.path, "faces")?;
-        let Header {
-            dtype,
-            fortran_order,
-            shape,
-            ..
-        } = Header::read(&mut faces)?;
-        let &[count, 3] = &shape[..] else {
-            return Err(wrong_shape(&shape, "(triangles, 3)"));
+    /// Begins the first frame, once it is known how large it is, and reads its faces.
+    fn begin_with_faces(&mut self, frame: &mut Frame) -> Result<(), Fault> {
+        let in_array = |reason: Reason| reason.at(Place::Array("faces"));
+        let mut faces = Entry::open(&self.file, "faces").map_err(in_array)?;
+        let header = Header::read(&mut faces).map_err(in_array)?;
+        let &[count, 3] = &header.shape[..] else {
+            return Err(in_array(wrong_shape(&header.shape, "(triangles, 3)")));
         };
+        let dtype = header.dtype;
         if !matches!((dtype.kind, dtype.size), ('i' | 'u', 1 | 2 | 4 | 8)) {
             let written = &dtype.written;
-            return Err(Reason::Unsupported(format!(
+            return Err(in_array(Reason::Unsupported(format!(
                 "type {written} cannot be read; save faces.astype(np.uint32)"
-            )));
+            ))));
         }
-        if fortran_order {
-            return Err(column_by_column("faces"));
+        if header.fortran_order {
+            return Err(in_array(column_by_column("faces")));
         }
-        rows(
+        self.begin(frame, count)?;
+        let read = rows(
             &mut faces,
             &mut self.chunk,
             count,
@@ -133,8 +132,39 @@ impl Npz {
                 }
                 frame.face(&corners, || Place::Array("faces"))
             },
-        )?;
-        faces.finish()
+        );
+        read.and_then(|()| faces.finish()).map_err(in_array)
+    }
+
+    /// Begins the next frame; `faces` is how many the first announces.
+    fn begin(&self, frame: &mut Frame, faces: u64) -> Result<(), Fault> {
+        let precision = if self.dtype.size == 4 {
+            Precision::F32
+        } else {
+            Precision::F64
+        };
+        let announced = Announced {
+            vertices: self.count,
+            faces,
+        };
+        let begun = frame.begin(precision, announced);
+        begun.map_err(|reason| reason.at(Place::Frame(self.next)))
+    }
+
+    fn read_frame(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
+        let place = Place::Frame(self.next);
+        if self.next == 0 {
+            self.begin_with_faces(frame)?;
+        } else {
+            self.begin(frame, 0)?;
+            frame.same_faces();
+        }
+        self.read_vertices(frame)?;
+        self.next += 1;
+        if self.next == self.frames {
+            self.vertices.finish()?;
+        }
+        frame.complete(0).map_err(|fault| fault.or_at(place))
     }
 }
 
@@ -144,27 +174,10 @@ impl FrameSource for Npz {
     }
 
     fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
-        let place = Place::Frame(self.next);
-        let precision = if self.dtype.size == 4 {
-            Precision::F32
-        } else {
-            Precision::F64
-        };
-        frame
-            .begin(precision, self.count)
-            .map_err(|reason| reason.at(place.clone()))?;
-        if self.next == 0 {
-            self.read_faces(frame)
-                .map_err(|reason| reason.at(Place::Array("faces")))?;
-        } else {
-            frame.same_faces();
-        }
-        self.read_vertices(frame)?;
-        self.next += 1;
-        if self.next == self.frames {
-            self.vertices.finish()?;
-        }
-        frame.complete(0).map_err(|fault| fault.or_at(place))
+        let read = self.read_frame(frame);
+        // First: what looks wrong may be half of a change.
+        self.vertices.unchanged()?;
+        read
     }
 }
 

@@ -17,19 +17,14 @@ mod values;
 use std::io::BufRead;
 
 use crate::error::{Fault, Reason};
-use crate::frame::{Complete, Frame};
-use crate::memory::Allowance;
+use crate::frame::{Announced, Complete, Frame};
 use crate::positions::Precision;
 use crate::text::Lines;
 use header::{Element, Encoding, Header, Kind, Scalar};
 use values::{Ascii, BigEndian, Binary, LittleEndian, Values};
 
-/// The most corners of a polygon, in bytes of their indices: as many as an ASCII line of the
-/// greatest length could hold, and more.
-const CORNERS: Allowance = Allowance {
-    what: "the corners of a polygon",
-    limit: 64 << 20,
-};
+/// The most corners of a polygon: more than an ASCII line of the greatest length could hold.
+const MOST_CORNERS: usize = 16 << 20;
 
 /// Reads one file, one frame.
 pub(crate) fn read(mut input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> {
@@ -53,7 +48,11 @@ fn read_elements(
     let face = header.element("face").ok_or(Reason::NoFaces)?;
     let axes = axes(vertex)?;
     let corners = corners_of(face)?;
-    frame.begin(precision(vertex, axes), vertex.count)?;
+    let announced = Announced {
+        vertices: vertex.count,
+        faces: face.count,
+    };
+    frame.begin(precision(vertex, axes), announced)?;
 
     let mut polygon = Vec::new();
     let (mut vertices_read, mut faces_read) = (false, false);
@@ -180,13 +179,21 @@ fn read_face(
                             first,
                             last,
                         })
-                        .and_then(|corner| CORNERS.push(polygon, corner, 0))
+                        .and_then(|corner| add(polygon, corner))
                         .map_err(|reason| reason.at(values.place()))?;
                 }
             }
             kind => skip(kind, values)?,
         }
     }
+    Ok(())
+}
+
+fn add(polygon: &mut Vec<u32>, corner: u32) -> Result<(), Reason> {
+    if polygon.len() == MOST_CORNERS {
+        return Err(Reason::ManyCorners { most: MOST_CORNERS });
+    }
+    polygon.push(corner);
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use crate::error::Place;
 use crate::positions::Positions;
 
 fn read_bytes(bytes: impl AsRef<[u8]>) -> Result<Frame, Fault> {
-    let mut frame = Frame::new(1 << 30);
+    let mut frame = Frame::new(1 << 30, true);
     let _complete = read(bytes.as_ref(), &mut frame)?;
     Ok(frame)
 }

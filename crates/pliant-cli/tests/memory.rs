@@ -1,0 +1,139 @@
+//! The memory that `pliant check` takes: a multiple of two frames, however many there are.
+//!
+//! A frame is its positions and triangles: 12 bytes a vertex in f32, 24 in f64, and 12 a triangle. Measured where the system
+//! tells the most memory that a process has taken (Linux); elsewhere the tests say that they are skipped.
+//!
+//! ```sh
+//! cargo test --release -p pliant-cli --test memory -- --ignored --nocapture   # the figures in docs/RELIABILITY.md
+//! ```
+
+mod common;
+
+use common::npz::Surface;
+use common::{Measured, measured};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// What checking takes at most, for each byte of two frames, beyond the program itself.
+const MULTIPLE: f64 = 3.5;
+
+/// What the program itself takes at most.
+const PROGRAM: u64 = 8 << 20;
+
+fn peak(folder: &Path, arguments: &[&str]) -> Option<u64> {
+    let arguments = [&["check", "--count"], arguments].concat();
+    let Measured { said, peak } = measured(folder, &arguments);
+    assert!(said.code < 2, "{}", said.err);
+    if peak.is_none() {
+        eprintln!("skipped: this system does not tell the memory of a process");
+    }
+    peak
+}
+
+/// A surface with so many vertices each way: joined or split, in f32 or f64.
+fn surfaces(side: u32, frames: u32) -> [(&'static str, Surface); 3] {
+    let joined = Surface::new(side, frames);
+    [
+        ("f32", joined),
+        (
+            "f64",
+            Surface {
+                wide: true,
+                ..joined
+            },
+        ),
+        (
+            "f32, every triangle apart",
+            Surface {
+                split: true,
+                ..joined
+            },
+        ),
+    ]
+}
+
+fn multiple(peak: u64, program: u64, surface: Surface) -> f64 {
+    peak.saturating_sub(program) as f64 / (2 * surface.bytes_of_a_frame()) as f64
+}
+
+#[test]
+fn memory_does_not_grow_with_the_number_of_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let side = 60;
+    for frames in [3, 300] {
+        fs::write(
+            path.join(format!("one_{frames}.npz")),
+            Surface::new(side, frames).file(),
+        )
+        .unwrap();
+        let many = path.join(format!("many_{frames}"));
+        fs::create_dir(&many).unwrap();
+        for frame in 0..frames {
+            let mut text = String::new();
+            for i in 0..side * side {
+                let (x, y) = (i % side, i / side);
+                writeln!(text, "v {x} {y} {}", (x * 7 + y * 13 + frame) % 5).unwrap();
+            }
+            for y in 0..side - 1 {
+                for x in 0..side - 1 {
+                    let corner = y * side + x + 1;
+                    writeln!(text, "f {corner} {} {}", corner + 1, corner + side).unwrap();
+                }
+            }
+            fs::write(many.join(format!("{frame}.obj")), text).unwrap();
+        }
+    }
+    for [few, more] in [
+        ["one_3.npz", "one_300.npz"],
+        ["many_3/*.obj", "many_300/*.obj"],
+    ] {
+        let [Some(few), Some(more)] = [few, more].map(|argument| peak(path, &[argument])) else {
+            return;
+        };
+        // One frame of positions, kept 297 times, would be 13 MB more.
+        println!("3 frames: {few} bytes, 300 frames: {more}");
+        assert!(more < few + (2 << 20), "{few} {more}");
+    }
+}
+
+#[test]
+fn memory_is_a_multiple_of_two_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    for (what, surface) in surfaces(400, 3) {
+        fs::write(folder.path().join("a.npz"), surface.file()).unwrap();
+        let Some(peak) = peak(folder.path(), &["a.npz"]) else {
+            return;
+        };
+        let multiple = multiple(peak, PROGRAM, surface);
+        assert!(multiple < MULTIPLE, "{what}: {multiple}");
+    }
+}
+
+#[test]
+#[ignore = "large: a gigabyte, minutes without --release"]
+fn figures() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    // Small frames, but enough of them that the program is there to be looked at.
+    fs::write(path.join("small.npz"), Surface::new(8, 3000).file()).unwrap();
+    let Some(program) = peak(path, &["small.npz"]) else {
+        return;
+    };
+    println!("the program itself: {:.1} MB", program as f64 / 1e6);
+    for (side, frames) in [(101, 1000), (1001, 3)] {
+        for (what, surface) in surfaces(side, frames) {
+            fs::write(path.join("a.npz"), surface.file()).unwrap();
+            let peak = peak(path, &["a.npz"]).unwrap_or(0);
+            let multiple = multiple(peak, program, surface);
+            println!(
+                "{frames} frames of {} triangles, {what}: {:.1} MB, {multiple:.2} times two frames of {:.1} MB",
+                surface.triangles(),
+                peak as f64 / 1e6,
+                surface.bytes_of_a_frame() as f64 / 1e6
+            );
+            assert!(multiple < MULTIPLE, "{what}");
+        }
+    }
+}

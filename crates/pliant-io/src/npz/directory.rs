@@ -1,0 +1,358 @@
+//! The directory of a zip archive: where the data of an entry begins, how long it is, how it is compressed.
+//!
+//! ```text
+//! entries, each with a local header    PK\3\4 ...
+//! directory, one record an entry       PK\1\2 ...
+//! for counts beyond 16 or 32 bits      PK\6\6 end of the directory, PK\6\7 where that is
+//! end                                  PK\5\6 how many records, where they begin, comment
+//! ```
+//!
+//! Own reader. The library at hand, zip 9.4.1, keeps every record and makes room for as many as the end claims, bounded by the
+//! length of the file alone: 8 kB on disk (a file of 8 GiB that is a hole but for its ends) asked for 26 GB and ended the
+//! program. Here the records are passed over one by one, and nothing is kept but the one looked for.
+
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+
+use crate::error::Reason;
+use crate::text::quoted;
+
+/// At most so many names are listed where an array is missing.
+const NAMES_LISTED: usize = 8;
+
+/// The end without its comment, and the longest comment.
+const END: u64 = 22;
+const LONGEST_COMMENT: u64 = u16::MAX as u64;
+
+const ENCRYPTED: u16 = 1;
+
+/// Where an entry is and how it is written. The numbers are claims.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Record {
+    /// Where its data begins.
+    pub(super) start: u64,
+    /// In bytes, as written and unpacked.
+    pub(super) compressed: u64,
+    pub(super) size: u64,
+    pub(super) checksum: u32,
+    pub(super) method: Method,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Method {
+    Stored,
+    Deflated,
+}
+
+/// Finds the array `name` in an archive.
+pub(super) fn find<R: Read + Seek>(
+    archive: &mut BufReader<R>,
+    name: &str,
+) -> Result<Record, Reason> {
+    let (records, directory) = end(archive)?;
+    archive.seek(SeekFrom::Start(directory))?;
+    let wanted = format!("{name}.npy").into_bytes();
+    let (mut found, mut names) = (None, Vec::new());
+    let mut words = Vec::new();
+    for _ in 0..records {
+        let fixed: [u8; 46] = bytes(archive)?;
+        if !fixed.starts_with(b"PK\x01\x02") {
+            return Err(damaged("a record of its directory is none"));
+        }
+        let [name_length, extra_length, comment] =
+            [28, 30, 32].map(|at| usize::from(short(&fixed, at)));
+        words.resize(name_length + extra_length, 0);
+        archive.read_exact(&mut words).map_err(cut)?;
+        archive.seek_relative(comment as i64)?;
+        let (its_name, extra) = words.split_at(name_length);
+        if its_name == wanted {
+            if found.is_some() {
+                return Err(damaged(&format!("it holds `{name}` twice")));
+            }
+            found = Some((fixed, extra.to_vec()));
+        } else if names.len() < NAMES_LISTED {
+            let array = its_name.strip_suffix(b".npy").unwrap_or(its_name);
+            names.push(quoted(array).trim_matches('"').to_owned());
+        }
+    }
+    let (fixed, extra) = found.ok_or_else(|| missing(name, &names))?;
+    record(archive, name, &fixed, &extra)
+}
+
+/// How many records there are and where they begin.
+fn end<R: Read + Seek>(archive: &mut BufReader<R>) -> Result<(u64, u64), Reason> {
+    let length = archive.seek(SeekFrom::End(0))?;
+    let from = length.saturating_sub(END + LONGEST_COMMENT);
+    archive.seek(SeekFrom::Start(from))?;
+    let mut tail = Vec::new();
+    archive.take(length - from).read_to_end(&mut tail)?;
+    // The last that has room for what it says.
+    let places = 0..(tail.len() + 1).saturating_sub(END as usize);
+    let at = places.rev().find(|&at| {
+        let fixed = &tail[at..];
+        fixed.starts_with(b"PK\x05\x06")
+            && END as usize + usize::from(short(fixed, 20)) <= fixed.len()
+    });
+    let at = at.ok_or_else(|| damaged("it has no directory at its end; it may be cut short"))?;
+    let fixed = &tail[at..];
+    let (records, directory) = (short(fixed, 10), long(fixed, 16));
+    if records != u16::MAX && directory != u32::MAX {
+        return Ok((records.into(), directory.into()));
+    }
+    let Some(locator) = at.checked_sub(20).map(|at| &tail[at..]) else {
+        return Ok((records.into(), directory.into()));
+    };
+    if !locator.starts_with(b"PK\x06\x07") {
+        return Ok((records.into(), directory.into()));
+    }
+    archive.seek(SeekFrom::Start(longest(locator, 8)))?;
+    let fixed: [u8; 56] = bytes(archive)?;
+    if !fixed.starts_with(b"PK\x06\x06") {
+        return Err(damaged(
+            "the end of its directory is not where it should be",
+        ));
+    }
+    Ok((longest(&fixed, 32), longest(&fixed, 48)))
+}
+
+/// Reads a record of the directory, and the local header for where the data begins.
+fn record<R: Read + Seek>(
+    archive: &mut BufReader<R>,
+    name: &str,
+    fixed: &[u8; 46],
+    extra: &[u8],
+) -> Result<Record, Reason> {
+    if short(fixed, 8) & ENCRYPTED != 0 {
+        return Err(Reason::Unsupported(format!(
+            "`{name}` is encrypted; save it without"
+        )));
+    }
+    let method = match short(fixed, 10) {
+        0 => Method::Stored,
+        8 => Method::Deflated,
+        other => {
+            return Err(Reason::Unsupported(format!(
+                "`{name}` is compressed by method {other}; save it with numpy.savez or numpy.savez_compressed"
+            )));
+        }
+    };
+    // What does not fit into 32 bits follows, in this order, in the extra field of kind 1.
+    let mut wide = wide_numbers(extra).chunks_exact(8);
+    let [size, compressed, header] = [24, 20, 42].map(|at| match long(fixed, at) {
+        u32::MAX => wide
+            .next()
+            .map_or(u32::MAX.into(), |number| longest(number, 0)),
+        number => number.into(),
+    });
+    archive.seek(SeekFrom::Start(header))?;
+    let local: [u8; 30] = bytes(archive)?;
+    if !local.starts_with(b"PK\x03\x04") {
+        return Err(damaged(&format!("the data of `{name}` cannot be found")));
+    }
+    let start = header + 30 + u64::from(short(&local, 26)) + u64::from(short(&local, 28));
+    Ok(Record {
+        start,
+        compressed,
+        size,
+        checksum: long(fixed, 16),
+        method,
+    })
+}
+
+/// The extra field of kind 1; empty where there is none.
+fn wide_numbers(mut extra: &[u8]) -> &[u8] {
+    while extra.len() >= 4 {
+        let (kind, length) = (short(extra, 0), usize::from(short(extra, 2)));
+        let rest = &extra[4..];
+        let length = length.min(rest.len());
+        if kind == 1 {
+            return &rest[..length];
+        }
+        extra = &rest[length..];
+    }
+    &[]
+}
+
+fn bytes<const N: usize>(archive: &mut impl Read) -> Result<[u8; N], Reason> {
+    let mut bytes = [0; N];
+    archive.read_exact(&mut bytes).map_err(cut)?;
+    Ok(bytes)
+}
+
+fn cut(error: io::Error) -> Reason {
+    match error.kind() {
+        io::ErrorKind::UnexpectedEof => damaged("its directory goes beyond its end"),
+        _ => error.into(),
+    }
+}
+
+fn damaged(why: &str) -> Reason {
+    Reason::Malformed(format!("not an NPZ file (a zip archive of arrays): {why}"))
+}
+
+fn missing(name: &str, names: &[String]) -> Reason {
+    let names = names.join(", ");
+    Reason::Malformed(format!(
+        "has no array `{name}`; save it as numpy.savez(file, vertices=..., faces=...); it holds: {names}"
+    ))
+}
+
+/// The number of 16, 32 or 64 bits `at` a place of `bytes`, least significant first.
+fn short(bytes: &[u8], at: usize) -> u16 {
+    u16::from_le_bytes([bytes[at], bytes[at + 1]])
+}
+
+fn long(bytes: &[u8], at: usize) -> u32 {
+    u32::from(short(bytes, at)) | u32::from(short(bytes, at + 2)) << 16
+}
+
+fn longest(bytes: &[u8], at: usize) -> u64 {
+    u64::from(long(bytes, at)) | u64::from(long(bytes, at + 4)) << 32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::{Cursor, Write};
+    use zip::write::SimpleFileOptions;
+    use zip::{CompressionMethod, ZipWriter};
+
+    const DATA: &[u8] = b"seven words that hardly compress at all";
+
+    fn found(archive: &[u8], name: &str) -> Result<Record, Reason> {
+        find(&mut BufReader::new(Cursor::new(archive)), name)
+    }
+
+    /// `large`: as numpy writes it, with numbers of 64 bits.
+    fn archive(method: CompressionMethod, large: bool, names: &[&str]) -> Vec<u8> {
+        let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+        archive
+            .set_comment("PK\x05\x06 is not the end, whatever it says")
+            .unwrap();
+        for name in names {
+            let options = SimpleFileOptions::default()
+                .compression_method(method)
+                .large_file(large);
+            archive.start_file(format!("{name}.npy"), options).unwrap();
+            archive.write_all(DATA).unwrap();
+        }
+        archive.finish().unwrap().into_inner()
+    }
+
+    #[test]
+    fn entries_are_found_wherever_they_are() {
+        for large in [false, true] {
+            let file = archive(CompressionMethod::Stored, large, &["one", "two", "three"]);
+            for name in ["one", "two", "three"] {
+                let record = found(&file, name).unwrap();
+                assert_eq!(
+                    (record.method, record.size),
+                    (Method::Stored, DATA.len() as u64)
+                );
+                assert_eq!(
+                    &file[record.start as usize..][..record.compressed as usize],
+                    DATA
+                );
+            }
+        }
+        let file = archive(CompressionMethod::DEFLATE, false, &["one"]);
+        let record = found(&file, "one").unwrap();
+        assert_eq!(
+            (record.method, record.size),
+            (Method::Deflated, DATA.len() as u64)
+        );
+    }
+
+    /// An archive whose numbers are all in 64 bits, with `records` and a place of the directory that are claimed.
+    fn wide(records: u64, claimed: impl Fn(u64) -> u64) -> Vec<u8> {
+        let narrow = archive(CompressionMethod::Stored, false, &["one"]);
+        let directory = narrow.windows(4).rposition(|w| w == b"PK\x01\x02").unwrap();
+        let name = 46 + "one.npy".len();
+        let mut file = narrow[..directory + name].to_vec();
+        // Sizes and place move to an extra field, which follows another.
+        let extra = [
+            &[9, 9, 2, 0, 7, 7, 1, 0, 24, 0][..],
+            &(DATA.len() as u64).to_le_bytes(),
+            &(DATA.len() as u64).to_le_bytes(),
+            &0_u64.to_le_bytes(),
+        ]
+        .concat();
+        for at in [20, 24, 42] {
+            file[directory + at..][..4].fill(0xff);
+        }
+        file[directory + 30..][..2].copy_from_slice(&(extra.len() as u16).to_le_bytes());
+        file.extend(extra);
+        let end = file.len() as u64;
+        file.extend([&b"PK\x06\x06"[..], &44_u64.to_le_bytes(), &[0; 12]].concat());
+        for number in [
+            records,
+            records,
+            end - directory as u64,
+            claimed(directory as u64),
+        ] {
+            file.extend(number.to_le_bytes());
+        }
+        file.extend(
+            [
+                &b"PK\x06\x07\0\0\0\0"[..],
+                &end.to_le_bytes(),
+                &[1, 0, 0, 0],
+            ]
+            .concat(),
+        );
+        file.extend([&b"PK\x05\x06\0\0\0\0"[..], &[0xff; 12], &[0, 0]].concat());
+        file
+    }
+
+    #[test]
+    fn numbers_of_64_bits() {
+        let file = wide(1, |directory| directory);
+        let record = found(&file, "one").unwrap();
+        assert_eq!(
+            &file[record.start as usize..][..record.compressed as usize],
+            DATA
+        );
+    }
+
+    #[test]
+    fn claims_are_found_out() {
+        for file in [
+            wide(u64::MAX, |directory| directory),
+            wide(2, |directory| directory),
+            wide(1, |directory| directory + 1),
+            wide(1, |_| u64::MAX),
+            wide(1, |_| i64::MAX as u64),
+        ] {
+            assert!(found(&file, "one").is_err());
+        }
+        assert!(found(&wide(0, |directory| directory), "one").is_err());
+    }
+
+    #[test]
+    fn whatever_is_cut_or_changed_ends_in_an_answer() {
+        for file in [
+            archive(CompressionMethod::Stored, true, &["one", "two"]),
+            wide(1, |directory| directory),
+        ] {
+            for end in 0..file.len() {
+                assert!(found(&file[..end], "none").is_err());
+                for bits in [1, 0x80, 0xff] {
+                    let mut changed = file.clone();
+                    changed[end] ^= bits;
+                    let _ = found(&changed, "one");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn one_name_twice_is_refused() {
+        let mut file = archive(CompressionMethod::Stored, false, &["one", "two"]);
+        let at = file
+            .windows(7)
+            .rposition(|window| window == b"two.npy")
+            .unwrap();
+        file[at..at + 3].copy_from_slice(b"one");
+        let message = found(&file, "one").unwrap_err().to_string();
+        assert!(message.ends_with("it holds `one` twice"), "{message}");
+    }
+}

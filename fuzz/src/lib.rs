@@ -1,0 +1,92 @@
+//! What the targets that read files share.
+
+pub mod places;
+
+use std::cell::OnceCell;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use pliant_io::{OpenOptions, Positions};
+use tempfile::TempDir;
+
+thread_local! {
+    static FOLDER: OnceCell<TempDir> = const { OnceCell::new() };
+}
+
+/// Where the file is written: in memory, where the system has such a folder.
+fn path(ending: &str) -> PathBuf {
+    FOLDER.with(|folder| {
+        let memory = Path::new("/dev/shm");
+        let folder = folder.get_or_init(|| {
+            if memory.is_dir() {
+                TempDir::new_in(memory)
+            } else {
+                TempDir::new()
+            }
+            .expect("a folder can be made")
+        });
+        folder.path().join("fuzzed").with_extension(ending)
+    })
+}
+
+/// Reads `contents` as a file with this `ending`: frames whose parts agree, or an error of one line that names the file; welded
+/// or not, the same frames.
+pub fn read_as(ending: &str, contents: &[u8]) {
+    let path = path(ending);
+    fs::write(&path, contents).expect("a file can be written");
+    let argument = path.to_str().expect("the name is plain");
+    let [welded, apart] = [true, false].map(|weld| {
+        let options = OpenOptions {
+            weld,
+            max_memory: 16 << 20,
+        };
+        read(argument, &options)
+    });
+    match (welded, apart) {
+        (Ok(welded), Ok(apart)) => assert_eq!(welded, apart, "welding moves no vertex"),
+        // Only seams that open, and the memory that finding them takes, may make a difference.
+        (Ok(_), Err(error)) => panic!("read when welded, but not apart: {error}"),
+        (Err(_), _) => {}
+    }
+}
+
+/// The bits of all frames.
+fn read(argument: &str, options: &OpenOptions) -> Result<Vec<[u64; 3]>, String> {
+    let mut bits = Vec::new();
+    let mut go = || {
+        let mut body = pliant_io::open(argument, options)?;
+        let (vertices, triangles) = (body.vertex_count(), body.triangles().len());
+        let corners = body.triangles().as_flattened();
+        assert!(corners.iter().all(|&corner| (corner as usize) < vertices));
+        assert!(triangles > 0 && vertices > 0 && body.welded() < vertices);
+        if let Some(faces) = body.faces() {
+            assert_eq!(faces.len(), triangles);
+            assert!(faces[0] == 0 && faces.is_sorted_by(|a, b| b - a <= 1));
+        }
+        let frames = body.frame_count();
+        let mut read = 0;
+        // Few kilobytes can hold a great many frames.
+        while read < 100
+            && let Some(positions) = body.next_frame()?
+        {
+            read += 1;
+            assert_eq!(positions.len(), vertices);
+            for vertex in 0..vertices as u32 {
+                let position = positions.get(vertex);
+                assert!(position.iter().all(|x| x.abs() <= f64::from(f32::MAX)));
+                bits.push(position.map(f64::to_bits));
+            }
+            let narrow = matches!(positions, Positions::F32(_));
+            assert_eq!(narrow, body.precision() == pliant_io::Precision::F32);
+        }
+        assert_eq!(read, frames.min(100));
+        Ok(())
+    };
+    let result: Result<(), pliant_io::Error> = go();
+    result.map(|()| bits).map_err(|error| {
+        let message = error.to_string();
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert!(message.contains("fuzzed"), "{message}");
+        message
+    })
+}

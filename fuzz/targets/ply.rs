@@ -1,0 +1,4 @@
+//! Any bytes as a PLY file.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|contents: &[u8]| pliant_fuzz::read_as("ply", contents));

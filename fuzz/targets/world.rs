@@ -1,0 +1,519 @@
+//! A life of a world, call by call: every answer is that of `pliant::reference`, every refusal changes nothing.
+//!
+//! Bodies are few and small, since the reference decides every pair; coordinates are where exactness is hard.
+#![no_main]
+
+use std::ops::ControlFlow;
+
+use arbitrary::Arbitrary;
+use pliant::{
+    BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Update, World, reference,
+};
+use pliant_fuzz::places::Grid;
+
+/// The most bodies alive, triangles and vertices of one, and calls.
+const BODIES: usize = 4;
+const TRIANGLES: usize = 12;
+const VERTICES: usize = 16;
+const CALLS: usize = 32;
+
+#[derive(Arbitrary, Debug)]
+struct Life {
+    wide: bool,
+    degree: u8,
+    partition: u8,
+    leaf_size: u8,
+    update: u8,
+    level: Option<u8>,
+    levels_at_once: u8,
+    sweep: bool,
+    calls: Vec<Call>,
+}
+
+#[derive(Arbitrary, Clone, Debug)]
+struct Shape {
+    grid: Grid,
+    points: Vec<[i8; 3]>,
+}
+
+/// What is done; a number names a body alive, counted round.
+#[derive(Arbitrary, Debug)]
+enum Call {
+    Add {
+        vertices: u8,
+        triangles: Vec<[u8; 3]>,
+        shape: Shape,
+    },
+    Remove(u8),
+    Move(u8, Shape),
+    Write(u8, Shape),
+    Rebuild(u8),
+    Filter(u8, u8, u8),
+    Ignore(u8, u8),
+    Unignore(u8, u8),
+    Loose(u8, Option<([i8; 3], [i8; 3])>),
+    BadCoordinate {
+        body: u8,
+        vertex: u8,
+        axis: u8,
+        which: u8,
+        write: bool,
+    },
+    WrongLength(u8, i8),
+    Unwritten(u8, u8),
+    BadTriangle(u8),
+    Stranger(u32),
+    Update,
+    UpdateBody(u8),
+    All,
+    First,
+    Visit(u8),
+    Between(u8, u8),
+    Itself(u8),
+}
+
+libfuzzer_sys::fuzz_target!(|life: Life| {
+    if life.wide {
+        Lived::<f64>::begin(&life, |x| x).live(&life.calls);
+    } else {
+        Lived::<f32>::begin(&life, |x| x as f32).live(&life.calls);
+    }
+});
+
+fn options(life: &Life) -> Options {
+    let positive = |number: u8, most: u8| {
+        (u32::from(number % most) + 1)
+            .try_into()
+            .expect("at least 1")
+    };
+    let mut options = Options::default();
+    options.degree = [Degree::Two, Degree::Four, Degree::Eight][usize::from(life.degree % 3)];
+    options.partition = [
+        Partition::Centre,
+        Partition::Mean,
+        Partition::Balanced,
+        Partition::Connectivity,
+    ][usize::from(life.partition % 4)];
+    options.leaf_size = positive(life.leaf_size, 20);
+    options.update = match life.update % 3 {
+        0 => Update::BottomUp,
+        1 => Update::TopDown,
+        _ => Update::Hybrid {
+            level: life.level.map(|level| u32::from(level % 8)),
+            levels_at_once: positive(life.levels_at_once, 4),
+        },
+    };
+    options.broad_phase = if life.sweep {
+        BroadPhase::SweepAndPrune
+    } else {
+        BroadPhase::BruteForce
+    };
+    options
+}
+
+/// What is known of a body: enough to ask the reference.
+struct Known<S> {
+    id: BodyId,
+    triangles: Vec<[u32; 3]>,
+    positions: Vec<[S; 3]>,
+    membership: u32,
+    mask: u32,
+    loose: Option<([S; 3], [S; 3])>,
+}
+
+struct Lived<S> {
+    world: World<S>,
+    known: Vec<Known<S>>,
+    removed: Vec<BodyId>,
+    ignored: Vec<[BodyId; 2]>,
+    convert: fn(f64) -> S,
+    wide: bool,
+}
+
+impl<S: Scalar> Lived<S> {
+    fn begin(life: &Life, convert: fn(f64) -> S) -> Self {
+        Self {
+            world: World::with_options(options(life)),
+            known: Vec::new(),
+            removed: Vec::new(),
+            ignored: Vec::new(),
+            convert,
+            wide: life.wide,
+        }
+    }
+
+    fn live(mut self, calls: &[Call]) {
+        for call in calls.iter().take(CALLS) {
+            self.call(call);
+        }
+        self.all();
+        for body in 0..self.known.len() {
+            self.itself(body);
+        }
+        self.all();
+        self.world.validate().expect("the world is well");
+    }
+
+    fn body(&self, number: u8) -> Option<usize> {
+        usize::from(number).checked_rem(self.known.len())
+    }
+
+    /// `count` places; where the shape has fewer points, they repeat.
+    fn places(&self, shape: &Shape, count: usize) -> Vec<[S; 3]> {
+        let places = shape.grid.places(&shape.points, self.wide);
+        let points = places
+            .iter()
+            .cycle()
+            .copied()
+            .chain(std::iter::repeat([0.0; 3]));
+        points
+            .take(count)
+            .map(|place| place.map(self.convert))
+            .collect()
+    }
+
+    fn all_inside(corners: Option<([S; 3], [S; 3])>, positions: &[[S; 3]]) -> bool {
+        corners.is_none_or(|(lo, hi)| {
+            positions
+                .iter()
+                .all(|p| (0..3).all(|axis| lo[axis] <= p[axis] && p[axis] <= hi[axis]))
+        })
+    }
+
+    /// A shape for a body, by either call; refused if it leaves the loose box.
+    fn moved(&mut self, body: usize, positions: Vec<[S; 3]>, write: bool) {
+        let known = &mut self.known[body];
+        let moved = if write {
+            self.world
+                .write_positions(known.id, |there| there.copy_from_slice(&positions))
+        } else {
+            self.world.set_positions(known.id, &positions)
+        };
+        assert_eq!(
+            moved.is_ok(),
+            Self::all_inside(known.loose, &positions),
+            "{moved:?}"
+        );
+        if moved.is_ok() {
+            known.positions = positions;
+        }
+    }
+
+    #[allow(clippy::too_many_lines, reason = "one arm a call of the library")]
+    fn call(&mut self, call: &Call) {
+        match *call {
+            Call::Add {
+                vertices,
+                ref triangles,
+                ref shape,
+            } => {
+                if self.known.len() == BODIES {
+                    return;
+                }
+                let count = usize::from(vertices) % VERTICES + 1;
+                let corner = |corner: u8| u32::from(corner) % count as u32;
+                let triangles: Vec<_> = triangles
+                    .iter()
+                    .take(TRIANGLES)
+                    .map(|three| three.map(corner))
+                    .collect();
+                let positions = self.places(shape, count);
+                let added = self.world.add(&triangles, &positions);
+                assert_eq!(added.is_ok(), !triangles.is_empty());
+                let Ok(id) = added else { return };
+                let earlier = self
+                    .known
+                    .iter()
+                    .map(|body| body.id)
+                    .chain(self.removed.iter().copied());
+                assert!(
+                    earlier.into_iter().all(|earlier| earlier < id),
+                    "an id is never used again"
+                );
+                let (membership, mask, loose) = (u32::MAX, u32::MAX, None);
+                self.known.push(Known {
+                    id,
+                    triangles,
+                    positions,
+                    membership,
+                    mask,
+                    loose,
+                });
+            }
+            Call::Remove(number) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let id = self.known.remove(body).id;
+                self.world.remove(id).expect("the body is there");
+                self.removed.push(id);
+                self.ignored.retain(|pair| !pair.contains(&id));
+            }
+            Call::Move(number, ref shape) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let positions = self.places(shape, self.known[body].positions.len());
+                self.moved(body, positions, false);
+            }
+            Call::Write(number, ref shape) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let positions = self.places(shape, self.known[body].positions.len());
+                self.moved(body, positions, true);
+            }
+            Call::Rebuild(number) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                self.world
+                    .rebuild(self.known[body].id)
+                    .expect("the body is there");
+            }
+            Call::Filter(number, membership, mask) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let known = &mut self.known[body];
+                (known.membership, known.mask) = (u32::from(membership % 8), u32::from(mask % 8));
+                let set = self
+                    .world
+                    .set_filter(known.id, known.membership, known.mask);
+                set.expect("the body is there");
+            }
+            Call::Ignore(a, b) | Call::Unignore(a, b) => {
+                let (Some(a), Some(b)) = (self.body(a), self.body(b)) else {
+                    return;
+                };
+                let pair = [self.known[a].id, self.known[b].id];
+                let ignore = matches!(call, Call::Ignore(..));
+                let done = if ignore {
+                    self.world.ignore(pair[0], pair[1])
+                } else {
+                    self.world.unignore(pair[0], pair[1])
+                };
+                assert_eq!(done.is_ok(), a != b);
+                self.ignored
+                    .retain(|&[a, b]| [a, b] != pair && [b, a] != pair);
+                self.ignored.extend((ignore && a != b).then_some(pair));
+            }
+            Call::Loose(number, corners) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let corner = |corner: [i8; 3]| corner.map(|small| (self.convert)(f64::from(small)));
+                let corners = corners.map(|(lo, hi)| (corner(lo), corner(hi)));
+                let known = &mut self.known[body];
+                let set = self.world.set_loose_box(known.id, corners);
+                assert_eq!(
+                    set.is_ok(),
+                    Self::all_inside(corners, &known.positions),
+                    "{set:?}"
+                );
+                if set.is_ok() {
+                    known.loose = corners;
+                }
+            }
+            Call::BadCoordinate {
+                body,
+                vertex,
+                axis,
+                which,
+                write,
+            } => {
+                let Some(body) = self.body(body) else { return };
+                let known = &self.known[body];
+                let mut positions = known.positions.clone();
+                let vertex = usize::from(vertex) % positions.len();
+                let bad =
+                    [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX][usize::from(which % 4)];
+                positions[vertex][usize::from(axis % 3)] = (self.convert)(bad);
+                let refused = if write {
+                    self.world
+                        .write_positions(known.id, |there| there.copy_from_slice(&positions))
+                } else {
+                    self.world.set_positions(known.id, &positions)
+                };
+                assert!(refused.is_err());
+                assert!(self.world.add(&known.triangles, &positions).is_err());
+            }
+            Call::WrongLength(number, by) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let known = &self.known[body];
+                let length = known.positions.len().saturating_add_signed(by.into());
+                let mut positions = known.positions.clone();
+                positions.resize(length, [(self.convert)(0.0); 3]);
+                let set = self.world.set_positions(known.id, &positions);
+                assert_eq!(set.is_ok(), length == known.positions.len());
+            }
+            Call::Unwritten(number, vertex) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let known = &self.known[body];
+                let vertex = usize::from(vertex) % known.positions.len();
+                let refused = self.world.write_positions(known.id, |there| {
+                    there[..vertex].copy_from_slice(&known.positions[..vertex]);
+                    there[vertex + 1..].copy_from_slice(&known.positions[vertex + 1..]);
+                });
+                assert!(refused.is_err());
+            }
+            Call::BadTriangle(number) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let known = &self.known[body];
+                let beyond = known.positions.len() as u32;
+                assert!(self.world.add(&[[0, 0, beyond]], &known.positions).is_err());
+                assert!(
+                    self.world
+                        .add(&[[0, u32::MAX, 0]], &known.positions)
+                        .is_err()
+                );
+                assert!(self.world.add(&[], &known.positions).is_err());
+            }
+            Call::Stranger(number) => {
+                let strangers = self.removed.iter().copied().chain([BodyId(number)]);
+                for id in strangers.filter(|id| self.known.iter().all(|body| body.id != *id)) {
+                    assert!(self.world.set_positions(id, &[]).is_err());
+                    assert!(self.world.write_positions(id, |_| {}).is_err());
+                    assert!(self.world.remove(id).is_err());
+                    assert!(self.world.rebuild(id).is_err());
+                    assert!(self.world.set_filter(id, 1, 1).is_err());
+                    assert!(self.world.set_loose_box(id, None).is_err());
+                    assert!(self.world.update_body(id).is_err());
+                    assert!(self.world.self_intersection_pairs(id).is_err());
+                    assert!(self.world.first_self_intersection(id).is_err());
+                    for other in self.known.iter().map(|body| body.id).chain([id]) {
+                        assert!(self.world.ignore(id, other).is_err());
+                        assert!(self.world.unignore(other, id).is_err());
+                        assert!(self.world.intersection_pairs_between(other, id).is_err());
+                        assert!(self.world.first_intersection_between(id, other).is_err());
+                    }
+                }
+            }
+            Call::Update => self.world.update(),
+            Call::UpdateBody(number) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                self.world
+                    .update_body(self.known[body].id)
+                    .expect("the body is there");
+            }
+            Call::All => self.all(),
+            Call::First => {
+                let (first, expected) = (self.world.first_intersection(), self.expected());
+                assert_eq!(first.is_some(), !expected.is_empty());
+                assert!(first.is_none_or(|pair| expected.contains(&pair)));
+            }
+            Call::Visit(budget) => {
+                let (mut seen, budget, expected) =
+                    (Vec::new(), usize::from(budget) + 1, self.expected());
+                let flow = self.world.visit_intersections(|pair| {
+                    seen.push(pair);
+                    if seen.len() == budget {
+                        ControlFlow::Break(())
+                    } else {
+                        ControlFlow::Continue(())
+                    }
+                });
+                assert_eq!(flow.is_break(), expected.len() >= budget);
+                assert_eq!(seen.len(), expected.len().min(budget));
+                seen.sort_unstable();
+                seen.dedup();
+                assert_eq!(
+                    seen.len(),
+                    expected.len().min(budget),
+                    "each pair is shown once"
+                );
+                assert!(seen.iter().all(|pair| expected.contains(pair)));
+            }
+            Call::Between(a, b) => {
+                let (Some(a), Some(b)) = (self.body(a), self.body(b)) else {
+                    return;
+                };
+                self.between(a, b);
+            }
+            Call::Itself(number) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                self.itself(body);
+            }
+        }
+    }
+
+    fn all(&mut self) {
+        let expected = self.expected();
+        assert_eq!(self.world.intersection_pairs(), expected);
+        assert_eq!(self.world.statistics().pairs, expected.len() as u64);
+    }
+
+    fn between(&mut self, a: usize, b: usize) {
+        let (one, other) = (&self.known[a], &self.known[b]);
+        let answer = self.world.intersection_pairs_between(one.id, other.id);
+        if a == b {
+            assert!(answer.is_err());
+            return;
+        }
+        let expected = pairs(one, other);
+        assert_eq!(answer.expect("both are there"), expected);
+        let first = self
+            .world
+            .first_intersection_between(other.id, one.id)
+            .expect("both are there");
+        assert_eq!(first.is_some(), !expected.is_empty());
+        assert!(first.is_none_or(|[of_other, of_one]| expected.contains(&[of_one, of_other])));
+    }
+
+    fn itself(&mut self, body: usize) {
+        let known = &self.known[body];
+        let expected = reference::self_intersection_pairs(&known.triangles, &known.positions)
+            .expect("the body was taken");
+        let answer = self.world.self_intersection_pairs(known.id);
+        assert_eq!(answer.expect("the body is there"), expected);
+        let first = self
+            .world
+            .first_self_intersection(known.id)
+            .expect("the body is there");
+        assert_eq!(first.is_some(), !expected.is_empty());
+        assert!(first.is_none_or(|pair| expected.contains(&pair)));
+    }
+
+    /// The pairs of the whole world, by the reference.
+    fn expected(&self) -> Vec<Pair> {
+        let mut all = Vec::new();
+        for (place, a) in self.known.iter().enumerate() {
+            for b in &self.known[place + 1..] {
+                let filtered = a.membership & b.mask == 0 || b.membership & a.mask == 0;
+                let ignored = self
+                    .ignored
+                    .iter()
+                    .any(|pair| *pair == [a.id, b.id] || *pair == [b.id, a.id]);
+                if !filtered && !ignored {
+                    all.extend(
+                        pairs(a, b)
+                            .into_iter()
+                            .map(|[triangle_a, triangle_b]| Pair {
+                                body_a: a.id,
+                                triangle_a,
+                                body_b: b.id,
+                                triangle_b,
+                            }),
+                    );
+                }
+            }
+        }
+        all.sort_unstable();
+        all
+    }
+}
+
+fn pairs<S: Scalar>(a: &Known<S>, b: &Known<S>) -> Vec<[u32; 2]> {
+    reference::intersection_pairs(&a.triangles, &a.positions, &b.triangles, &b.positions)
+        .expect("the bodies were taken")
+}

@@ -2,11 +2,11 @@
 
 use clap::{Args, ValueEnum};
 use pliant::Options;
-use std::num::NonZeroU32;
+use std::num::{NonZeroU32, NonZeroUsize};
 
 /// How trees are built and updated, and bodies that may meet are found.
 #[derive(Args, Clone, Debug)]
-#[command(next_help_heading = "Trees (no choice changes an answer)")]
+#[command(next_help_heading = "Trees and threads (no choice changes an answer)")]
 pub(crate) struct TreeOptions {
     /// The most children of a node
     #[arg(long, value_name = "N", default_value = "8", value_parser = ["2", "4", "8"])]
@@ -26,6 +26,9 @@ pub(crate) struct TreeOptions {
     /// How bodies that may meet are found: every pair of boxes, sweep and prune, or by the number of bodies
     #[arg(long, value_enum, default_value_t = Broad::Auto)]
     broad: Broad,
+    /// How many threads share the work of a query
+    #[arg(long, value_name = "T", default_value = "1")]
+    threads: NonZeroUsize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -82,6 +85,7 @@ impl TreeOptions {
             Broad::Sweep => pliant::BroadPhase::SweepAndPrune,
             Broad::Auto => pliant::BroadPhase::Auto,
         };
+        options.threads = self.threads;
         Ok(options)
     }
 
@@ -94,6 +98,7 @@ impl TreeOptions {
             "update": value_name(self.update),
             "level": self.level,
             "broad": value_name(self.broad),
+            "threads": self.threads,
         }) else {
             unreachable!("an object was written");
         };
@@ -108,8 +113,12 @@ impl TreeOptions {
             (other, _) => value_name(other),
         };
         let (partition, leaf) = (value_name(self.partition), self.leaf_size);
+        let threads = match self.threads.get() {
+            1 => String::new(),
+            count => format!(", {count} threads"),
+        };
         format!(
-            "degree {}, partition {partition}, up to {leaf} triangles a leaf, update {update}",
+            "degree {}, partition {partition}, up to {leaf} triangles a leaf, update {update}{threads}",
             self.degree
         )
     }

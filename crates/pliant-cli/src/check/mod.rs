@@ -10,9 +10,10 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use output::Output;
 use pairs::Pairs;
-use pliant::{Scalar, World};
+use pliant::{Options, Scalar, World};
 use pliant_io::{OpenOptions, Precision};
 use sequence::Sequence;
+use std::num::NonZeroUsize;
 
 #[derive(Args, Debug)]
 #[command(after_help = EXIT_CODES)]
@@ -39,6 +40,9 @@ pub(crate) struct Arguments {
     /// The most memory that a frame may take, seam finding included, and again that a list of pairs may (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     max_memory: u64,
+    /// How many threads share the work; no number changes an answer
+    #[arg(long, value_name = "T", default_value = "1")]
+    threads: NonZeroUsize,
     /// A table by frame, or one JSON object
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
@@ -80,7 +84,9 @@ fn check_frames<S: Scalar + sequence::FromFile>(
     mut sequence: Sequence,
 ) -> anyhow::Result<Outcome> {
     let mut output = Output::begin(arguments, &sequence)?;
-    let mut world = World::<S>::new();
+    let mut options = Options::default();
+    options.threads = arguments.threads;
+    let mut world = World::<S>::with_options(options);
     let listed = arguments.format == Format::Json && !arguments.count;
     let mut pairs = Pairs::new(listed, arguments.max_memory);
     let mut buffer = Vec::new();

@@ -1,4 +1,8 @@
 //! What a world keeps for a triangle, with all that a step needs: counted by an allocator that counts, bounded here.
+//!
+//! ```sh
+//! cargo test --release -p pliant --test memory -- --include-ignored --nocapture    # prints the figures; a million triangles too
+//! ```
 
 use pliant::{Options, Scalar, World};
 use pliant_scenes::{Asks, Scene};
@@ -89,8 +93,8 @@ fn a_triangle_takes_at_most_200_bytes() {
     within_bounds("cloth", 79_202);
 }
 
-/// The same out of cache.
 #[test]
+#[ignore = "a million triangles: seconds, half a gigabyte"]
 fn a_triangle_of_a_million_takes_at_most_200_bytes() {
     within_bounds("spheres", 1_310_720);
 }

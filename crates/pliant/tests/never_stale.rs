@@ -368,7 +368,7 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
         check(&mut world, &known, "movement of one body only");
 
         world.set_positions(known[2].id, &on_edge(9.0)).unwrap();
-        known[2].positions = folded.clone();
+        known[2].positions.clone_from(&folded);
         world.set_positions(known[2].id, &folded).unwrap();
         check(&mut world, &known, "a body moved twice before a query");
 
@@ -417,7 +417,7 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
         world.remove(gone).unwrap();
         check(&mut world, &known, "queries after removal");
         assert!(world.self_intersection_pairs(gone).is_err());
-        known[2].positions = folded.clone();
+        known[2].positions.clone_from(&folded);
         world.set_positions(known[2].id, &folded).unwrap();
         check(&mut world, &known, "movement after removal");
         world.rebuild(known[2].id).unwrap();

@@ -330,14 +330,14 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
         let upright = |&[u, v, _]: &[f32; 3]| [x + v / 8.0, u, v - 0.4].map(convert);
         flat.iter().map(upright).collect()
     };
-    // Folded over, so that it meets itself.
+    // Folded over, so that it meets itself, and crosses the flat one.
     let folded: Vec<[S; 3]> = flat
         .iter()
         .map(|&[u, v, _]| {
             [
                 0.3 - (u - 0.5).abs() / 2.0,
                 v,
-                0.3 - u / 4.0 + (u - 0.5).abs() / 3.0,
+                0.1 - u / 4.0 + (u - 0.5).abs() / 3.0,
             ]
             .map(convert)
         })
@@ -399,18 +399,29 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
             .unwrap();
         check(&mut world, &known, "no loose box any more");
 
+        // Each of these takes pairs away, or gives them back: what was found before must not be kept.
+        let count = |world: &mut World<S>| world.intersection_pairs().len();
+        let all = count(&mut world);
         (known[2].membership, known[0].mask) = (2, 1);
         world.set_filter(known[2].id, 2, u32::MAX).unwrap();
         world.set_filter(known[0].id, u32::MAX, 1).unwrap();
         check(&mut world, &known, "filters");
+        assert!(count(&mut world) < all, "filters");
         known[0].mask = 2;
+        (known[1].membership, known[3].membership) = (2, 2);
+        for place in [1, 3] {
+            world.set_filter(known[place].id, 2, u32::MAX).unwrap();
+        }
         world.set_filter(known[0].id, u32::MAX, 2).unwrap();
         check(&mut world, &known, "filters that let through again");
-        let two = (known[3].id, known[1].id);
+        assert_eq!(count(&mut world), all, "filters that let through again");
+        let two = (known[2].id, known[0].id);
         world.ignore(two.0, two.1).unwrap();
-        assert_fresh(&mut world, &known, &[two], [1, 3], "ignored");
+        assert_fresh(&mut world, &known, &[two], [2, 0], "ignored");
+        assert!(count(&mut world) < all, "ignored");
         world.unignore(two.1, two.0).unwrap();
         check(&mut world, &known, "not ignored any more");
+        assert_eq!(count(&mut world), all, "not ignored any more");
 
         // The last body takes the place of one that goes.
         let gone = known.remove(0).id;

@@ -4,7 +4,7 @@
 //! ```text
 //! a step     bodies move: none, one, a few, all; some twice; some far away, some out of their loose boxes
 //!            one other call: add, remove, rebuild, filter, ignore, loose box, or something that must be refused
-//!            perhaps a query, or an update
+//!            perhaps a query before it, and one after
 //!            one step in ten: the comparison     (`fresh`)
 //! a parade   every body goes, always the same ones come and meet in one heap, all queries are asked
 //! ```
@@ -143,6 +143,8 @@ impl<S: Scalar> Soak<S> {
             self.add()?;
         }
         self.move_some()?;
+        // Asked before and after: what is true or found already must not outlive the call.
+        self.ask_something()?;
         self.call_something()?;
         self.ask_something()?;
         if self.random.one_in(10) {

@@ -46,6 +46,18 @@ fn bodies_that_cannot_be_made() {
     );
 }
 
+/// The limit is looked at before any triangle is.
+#[test]
+#[ignore = "3 GB of address space, untouched"]
+fn more_triangles_than_numbers() {
+    let (limit, count) = (1 << 28, (1 << 28) + 1);
+    let error = World::<f32>::new()
+        .add(&vec![[0; 3]; count], &[[0.0; 3]])
+        .unwrap_err();
+    let what = "triangles";
+    assert_eq!(error.kind, ErrorKind::TooLarge { what, count, limit });
+}
+
 #[test]
 fn shapes_that_are_not_taken_over() {
     let (mut world, body, positions) = world();

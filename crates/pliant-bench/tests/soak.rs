@@ -20,8 +20,9 @@ fn play<S: pliant::Scalar>(mut soak: Soak<S>) -> ([i64; 2], Tally) {
 
 fn check<S: pliant::Scalar>(soak: Soak<S>) {
     let ([early, late], tally) = play(soak);
+    // A list of the broad phase may double once more after so few steps; bodies that are kept by mistake are many times that.
     assert!(
-        late as f64 <= early as f64 * 1.01,
+        late as f64 <= early as f64 * 1.1,
         "the heap grew from {early} to {late} bytes"
     );
     // Everything happened, and not rarely.

@@ -174,9 +174,16 @@ impl<S: Scalar> Soak<S> {
             self.add_one(surface, place)?;
         }
         self.random = random;
-        for place in 0..PARADE {
-            let positions = self.known[place].positions.clone();
-            self.take_over(place, &positions, true)?;
+        // Together, apart, together again: the longest lists of bodies that begin and cease to overlap.
+        for apart in [0.0, 4.0, 0.0] {
+            for place in 0..PARADE {
+                let mut positions = self.known[place].positions.clone();
+                for position in &mut positions {
+                    position[0] = (self.convert)(position[0].to_f64() + apart * place as f64);
+                }
+                self.take_over(place, &positions, true)?;
+            }
+            self.world.intersection_pairs();
         }
         // The longest list that two bodies can make: the largest surface twice, in one point.
         let large = [0, self.surfaces.len()];

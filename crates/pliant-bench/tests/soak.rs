@@ -8,7 +8,7 @@ fn play<S: pliant::Scalar>(mut soak: Soak<S>) -> ([i64; 2], Tally) {
     let mut heap = Vec::new();
     for _ in 0..3 {
         let counted = allocation_counter::measure(|| {
-            for _ in 0..40 {
+            for _ in 0..25 {
                 soak.step().unwrap();
             }
             soak.parade().unwrap();
@@ -20,20 +20,19 @@ fn play<S: pliant::Scalar>(mut soak: Soak<S>) -> ([i64; 2], Tally) {
 
 fn check<S: pliant::Scalar>(soak: Soak<S>) {
     let ([early, late], tally) = play(soak);
-    // A list of the broad phase may double once more after so few steps; bodies that are kept by mistake are many times that.
     assert!(
-        late as f64 <= early as f64 * 1.1,
+        late as f64 <= early as f64 * 1.01,
         "the heap grew from {early} to {late} bytes"
     );
     // Everything happened, and not rarely.
-    assert_eq!(tally.steps, 120);
+    assert_eq!(tally.steps, 75);
     let least = [
         tally.added - 600,
         tally.removed - 400,
         tally.refused,
-        tally.compared,
+        tally.compared - 3,
     ];
-    assert!(least.iter().all(|&count| count >= 10), "{tally:?}");
+    assert!(least.iter().all(|&count| count >= 5), "{tally:?}");
     assert!(tally.moved > 1000 && tally.pairs > 10_000, "{tally:?}");
 }
 

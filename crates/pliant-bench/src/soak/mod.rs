@@ -170,20 +170,24 @@ impl<S: Scalar> Soak<S> {
         self.here = 0.0;
         for number in 0..PARADE {
             let surface = number % self.surfaces.len();
-            let place = [(); 3].map(|()| self.random.unit() * SIDE / 6.0);
+            let place = [(); 3].map(|()| self.random.unit() * SIDE / 4.0);
             self.add_one(surface, place)?;
         }
         self.random = random;
-        // Together, apart, together again: the longest lists of bodies that begin and cease to overlap.
-        for apart in [0.0, 4.0, 0.0] {
-            for place in 0..PARADE {
-                let mut positions = self.known[place].positions.clone();
-                for position in &mut positions {
-                    position[0] = (self.convert)(position[0].to_f64() + apart * place as f64);
-                }
-                self.take_over(place, &positions, true)?;
+        // All apart, all in one place, and back: the longest lists of bodies that may meet. To find these bodies is enough.
+        for (apart, together) in [(4.0, 0.0), (0.0, 1.0), (0.0, 0.0)] {
+            for number in 0..PARADE {
+                let Known {
+                    place, positions, ..
+                } = &self.known[number];
+                let shift = |axis: usize| apart * number as f64 - together * place[axis];
+                let moved = |p: &[S; 3]| {
+                    std::array::from_fn(|axis| (self.convert)(p[axis].to_f64() + shift(axis)))
+                };
+                let positions: Vec<[S; 3]> = positions.iter().map(moved).collect();
+                self.take_over(number, &positions, true)?;
             }
-            self.world.intersection_pairs();
+            self.world.update();
         }
         // The longest list that two bodies can make: the largest surface twice, in one point.
         let large = [0, self.surfaces.len()];

@@ -101,7 +101,7 @@ impl Soak<f32> {
 impl Soak<f64> {
     /// A world of 64-bit coordinates, whose origin has to follow the bodies.
     pub fn double(options: Options, seed: u64) -> Self {
-        Self::new(options, seed, [1e7, 1e4], |x| x)
+        Self::new(options, seed, [1e6, 1e4], |x| x)
     }
 }
 

@@ -9,6 +9,7 @@
 //! decision     triangle against triangle, the same for all: frozen, so that later gains can be measured against it
 //! contest      methods play a motion, turn by turn; answers are compared, then times
 //! experiments  the paper's, and ours: which motion, which methods, what is claimed
+//! soak         not a contest: a world of ours that lives long, compared with worlds built fresh
 //! ```
 
 pub mod contest;
@@ -19,3 +20,4 @@ pub mod method;
 pub mod methods;
 pub mod motion;
 pub mod record;
+pub mod soak;

@@ -15,12 +15,57 @@ struct Known<S> {
     mask: u32,
 }
 
-/// The pairs of a world that was never anything else, with the ids of the one that lives.
-fn fresh_pairs<S: Scalar>(
+/// All that a world can be asked.
+#[derive(Debug, PartialEq)]
+struct Answers {
+    between_all: Vec<Pair>,
+    /// Each body with itself.
+    within: Vec<(BodyId, Vec<[u32; 2]>)>,
+    /// Two bodies by name, in either order, whatever filters say.
+    of_two: Vec<[BodyId; 2]>,
+    pairs_of_two: Vec<Vec<[u32; 2]>>,
+}
+
+/// Asks everything about these bodies, and two of them by name; *first* must be one of *all*.
+fn ask<S: Scalar>(world: &mut World<S>, ids: &[BodyId], two: [usize; 2]) -> Answers {
+    let first = world.first_intersection();
+    let between_all = world.intersection_pairs().to_vec();
+    assert!(first.map_or(between_all.is_empty(), |pair| between_all.contains(&pair)));
+    let within = ids.iter().map(|&id| {
+        let first = world.first_self_intersection(id).unwrap();
+        let all = world.self_intersection_pairs(id).unwrap().to_vec();
+        assert!(first.map_or(all.is_empty(), |pair| all.contains(&pair)));
+        (id, all)
+    });
+    let within = within.collect();
+    let [a, b] = two.map(|place| ids[place]);
+    let of_two: Vec<_> = if a == b {
+        Vec::new()
+    } else {
+        vec![[a, b], [b, a]]
+    };
+    let pairs_of_two = of_two.iter().map(|&[a, b]| {
+        let first = world.first_intersection_between(a, b).unwrap();
+        let all = world.intersection_pairs_between(a, b).unwrap().to_vec();
+        assert!(first.map_or(all.is_empty(), |pair| all.contains(&pair)));
+        all
+    });
+    let pairs_of_two = pairs_of_two.collect();
+    Answers {
+        between_all,
+        within,
+        of_two,
+        pairs_of_two,
+    }
+}
+
+/// The answers of a world that was never anything else, with the ids of the one that lives.
+fn fresh_answers<S: Scalar>(
     options: Options,
     known: &[Known<S>],
     ignored: &[(BodyId, BodyId)],
-) -> Vec<Pair> {
+    two: [usize; 2],
+) -> Answers {
     let mut world = World::with_options(options);
     for body in known {
         let id = world.add(&body.triangles, &body.positions).unwrap();
@@ -37,15 +82,37 @@ fn fresh_pairs<S: Scalar>(
             world.ignore(a, b).unwrap();
         }
     }
-    let known_id = |id: BodyId| known[id.0 as usize].id;
-    let pairs = world.intersection_pairs().iter();
-    pairs
-        .map(|pair| Pair {
-            body_a: known_id(pair.body_a),
-            body_b: known_id(pair.body_b),
-            ..*pair
-        })
-        .collect()
+    let ids: Vec<_> = world.bodies().collect();
+    let mut answers = ask(&mut world, &ids, two);
+    let known_id = |id: &mut BodyId| *id = known[id.0 as usize].id;
+    for pair in &mut answers.between_all {
+        known_id(&mut pair.body_a);
+        known_id(&mut pair.body_b);
+    }
+    answers.within.iter_mut().for_each(|(id, _)| known_id(id));
+    answers
+        .of_two
+        .as_flattened_mut()
+        .iter_mut()
+        .for_each(known_id);
+    answers
+}
+
+/// Whether a world that lives answers as one that was made of what is known, twice without movement between.
+fn assert_fresh<S: Scalar>(
+    world: &mut World<S>,
+    known: &[Known<S>],
+    ignored: &[(BodyId, BodyId)],
+    two: [usize; 2],
+    when: &str,
+) {
+    let options = *world.options();
+    let expected = fresh_answers(options, known, ignored, two);
+    let ids: Vec<_> = known.iter().map(|body| body.id).collect();
+    for time in ["", ", again, without movement"] {
+        assert_eq!(ask(world, &ids, two), expected, "{when}{time}, {options:?}");
+    }
+    world.validate().unwrap();
 }
 
 /// A small crumpled sheet somewhere near the origin.
@@ -175,19 +242,9 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                 }
                 (_, Some(_)) => world.update(),
             }
-            if random.below(3) > 0 {
-                let expected = fresh_pairs(options, &known, &ignored);
-                assert_eq!(
-                    world.intersection_pairs(),
-                    expected,
-                    "seed {seed}, {options:?}"
-                );
-                assert_eq!(
-                    world.intersection_pairs(),
-                    expected,
-                    "again, without movement"
-                );
-                world.validate().unwrap();
+            if random.below(3) > 0 && !known.is_empty() {
+                let two = [(); 2].map(|()| random.below(known.len() as u32) as usize);
+                assert_fresh(&mut world, &known, &ignored, two, &format!("seed {seed}"));
             }
         }
     }
@@ -263,4 +320,133 @@ fn a_body_that_did_not_move_costs_nothing() {
         world.intersection_pairs();
         assert_eq!(*world.statistics(), one, "{options:?}");
     }
+}
+
+/// Every way to be stale that has a name, one after another.
+#[expect(clippy::too_many_lines, reason = "one paragraph a name")]
+fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
+    // Sheets that cross: one flat, the others on edge, at different places along it.
+    let (triangles, flat) = sheet(5);
+    let on_edge = |x: f32| -> Vec<[S; 3]> {
+        let upright = |&[u, v, _]: &[f32; 3]| [x + v / 8.0, u, v - 0.4].map(convert);
+        flat.iter().map(upright).collect()
+    };
+    // Folded over, so that it meets itself, and crosses the flat one.
+    let folded: Vec<[S; 3]> = flat
+        .iter()
+        .map(|&[u, v, _]| {
+            [
+                0.3 - (u - 0.5).abs() / 2.0,
+                v,
+                0.1 - u / 4.0 + (u - 0.5).abs() / 3.0,
+            ]
+            .map(convert)
+        })
+        .collect();
+    let flat: Vec<[S; 3]> = flat.iter().map(|p| p.map(convert)).collect();
+    // A step that has no factor in common with the number of choices meets every choice of every axis.
+    for options in every_configuration().into_iter().step_by(29) {
+        let mut world = World::with_options(options);
+        let mut known: Vec<Known<S>> = [flat.clone(), on_edge(0.2), on_edge(0.7), on_edge(5.0)]
+            .into_iter()
+            .map(|positions| Known {
+                id: world.add(&triangles, &positions).unwrap(),
+                triangles: triangles.clone(),
+                positions,
+                membership: u32::MAX,
+                mask: u32::MAX,
+            })
+            .collect();
+        let check = |world: &mut World<S>, known: &[Known<S>], when| {
+            assert_fresh(world, known, &[], [0, 1], when);
+        };
+        check(&mut world, &known, "two queries without movement between");
+
+        known[1].positions = on_edge(0.45);
+        world
+            .set_positions(known[1].id, &known[1].positions)
+            .unwrap();
+        check(&mut world, &known, "movement of one body only");
+
+        world.set_positions(known[2].id, &on_edge(9.0)).unwrap();
+        known[2].positions.clone_from(&folded);
+        world.set_positions(known[2].id, &folded).unwrap();
+        check(&mut world, &known, "a body moved twice before a query");
+
+        // There and back, with nothing asked or another body asked in between.
+        world.set_positions(known[0].id, &on_edge(9.0)).unwrap();
+        world.self_intersection_pairs(known[2].id).unwrap();
+        world.set_positions(known[0].id, &flat).unwrap();
+        check(&mut world, &known, "a body that came back");
+
+        let around = [-1.0, 2.0].map(|x| [convert(x); 3]);
+        for place in [0, 1] {
+            world
+                .set_loose_box(known[place].id, Some(around.into()))
+                .unwrap();
+        }
+        check(&mut world, &known, "loose boxes");
+        known[1].positions = on_edge(0.1);
+        world
+            .set_positions(known[1].id, &known[1].positions)
+            .unwrap();
+        check(&mut world, &known, "movement in a loose box");
+        assert!(world.set_positions(known[1].id, &on_edge(5.0)).is_err());
+        check(&mut world, &known, "movement out of a loose box, refused");
+        known[1].positions = on_edge(5.0);
+        world.set_loose_box(known[1].id, None).unwrap();
+        world
+            .set_positions(known[1].id, &known[1].positions)
+            .unwrap();
+        check(&mut world, &known, "no loose box any more");
+
+        // Each of these takes pairs away, or gives them back: what was found before must not be kept.
+        let count = |world: &mut World<S>| world.intersection_pairs().len();
+        let all = count(&mut world);
+        (known[2].membership, known[0].mask) = (2, 1);
+        world.set_filter(known[2].id, 2, u32::MAX).unwrap();
+        world.set_filter(known[0].id, u32::MAX, 1).unwrap();
+        check(&mut world, &known, "filters");
+        assert!(count(&mut world) < all, "filters");
+        known[0].mask = 2;
+        (known[1].membership, known[3].membership) = (2, 2);
+        for place in [1, 3] {
+            world.set_filter(known[place].id, 2, u32::MAX).unwrap();
+        }
+        world.set_filter(known[0].id, u32::MAX, 2).unwrap();
+        check(&mut world, &known, "filters that let through again");
+        assert_eq!(count(&mut world), all, "filters that let through again");
+        let two = (known[2].id, known[0].id);
+        world.ignore(two.0, two.1).unwrap();
+        assert_fresh(&mut world, &known, &[two], [2, 0], "ignored");
+        assert!(count(&mut world) < all, "ignored");
+        world.unignore(two.1, two.0).unwrap();
+        check(&mut world, &known, "not ignored any more");
+        assert_eq!(count(&mut world), all, "not ignored any more");
+
+        // The last body takes the place of one that goes.
+        let gone = known.remove(0).id;
+        world.remove(gone).unwrap();
+        check(&mut world, &known, "queries after removal");
+        assert!(world.self_intersection_pairs(gone).is_err());
+        known[2].positions.clone_from(&folded);
+        world.set_positions(known[2].id, &folded).unwrap();
+        check(&mut world, &known, "movement after removal");
+        world.rebuild(known[2].id).unwrap();
+        check(&mut world, &known, "rebuilt");
+        let id = world.add(&triangles, &flat).unwrap();
+        assert_ne!(id, gone);
+        known.push(Known {
+            id,
+            positions: flat.clone(),
+            ..known[2].clone()
+        });
+        check(&mut world, &known, "added after removal");
+    }
+}
+
+#[test]
+fn every_way_to_be_stale_that_has_a_name() {
+    check_by_name::<f32>(|x| x);
+    check_by_name::<f64>(f64::from);
 }

@@ -1,0 +1,91 @@
+//! Bytes a triangle: what a library keeps for bodies that move, with all that a step needs, beside what others keep.
+//!
+//! ```sh
+//! cargo run --release -p pliant-bench --example memory                       # 20,480 and 1,310,720 triangles a body
+//! cargo run --release -p pliant-bench --example memory -- cloth:79202        # any scene, any of its sizes
+//! ```
+//!
+//! Counted is the live heap of one thread, by an allocator that counts: built, then four steps of the scene, and at each of
+//! them every query: all pairs, the first, every body with itself. So everything that a step needs is there, at its largest:
+//! triangles, positions, trees, the lists of a query, and the pairs. *Building* is the most that is live while all bodies are
+//! built. The lists of pairs come twice for pliant, its own and that of this bench, which turns them into the bench's form.
+//! obvhs keeps trees alone: the triangles and positions that a query needs besides are its adaptor's, and counted.
+
+use pliant_bench::decision::exact;
+use pliant_bench::method::Method;
+use pliant_bench::methods::{Obvhs, Ours, Parry};
+use pliant_bench::motion::Motion;
+use pliant_scenes::Scene;
+
+const DEFAULT: [&str; 2] = ["spheres:20480", "spheres:1310720"];
+
+fn main() {
+    let mut wanted: Vec<String> = std::env::args().skip(1).collect();
+    if wanted.is_empty() {
+        wanted = DEFAULT.map(str::to_owned).to_vec();
+    }
+    println!(
+        "bytes a triangle: live after four steps with every query, and the most while building\n"
+    );
+    println!(
+        "{:<18} {:<22} {:>8} {:>10}",
+        "scene", "method", "live", "building"
+    );
+    for scene in wanted {
+        match motion_of(&scene) {
+            Ok(motion) => measure_all(&scene, &motion),
+            Err(what) => {
+                eprintln!("{scene}: {what}; say SCENE:TRIANGLES, as in cloth:79202");
+                std::process::exit(2);
+            }
+        }
+    }
+}
+
+/// Four steps of a scene, from far apart to deep in each other.
+fn motion_of(scene: &str) -> Result<Motion, String> {
+    let (name, triangles) = scene.split_once(':').ok_or("no size")?;
+    let triangles = triangles.parse().map_err(|_| "the size is not a number")?;
+    let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED)
+        .map_err(|error| error.to_string())?;
+    let steps = scene.steps();
+    Ok(Motion::of_scene(
+        &scene,
+        [steps / 4, steps / 2, steps, steps - 1],
+    ))
+}
+
+fn measure_all(scene: &str, motion: &Motion) {
+    let triangles: usize = motion.bodies.iter().map(|body| body.triangles.len()).sum();
+    let methods: [fn() -> Box<dyn Method>; 4] = [
+        || Box::new(Ours::new("pliant", pliant::Options::default())),
+        || Box::new(Parry::new(exact)),
+        || Box::new(Obvhs::new(1, exact)),
+        || Box::new(Obvhs::new(4, exact)),
+    ];
+    for make in methods {
+        let mut method = make();
+        let name = method.name();
+        let name = name.split(':').next().unwrap_or_default();
+        let [live, building] =
+            measure(&mut *method, motion).map(|bytes| bytes as f64 / triangles as f64);
+        println!("{scene:<18} {name:<22} {live:>8.1} {building:>10.1}");
+    }
+}
+
+/// Bytes live after the steps, and the most while building.
+fn measure(method: &mut dyn Method, motion: &Motion) -> [u64; 2] {
+    let meshes = motion.meshes();
+    let built = allocation_counter::measure(|| method.build(&meshes));
+    let stepped = allocation_counter::measure(|| {
+        for frame in &motion.frames {
+            let shapes: Vec<_> = frame.iter().map(|placed| placed.shape()).collect();
+            method.step(&shapes);
+            method.all_pairs();
+            method.first_pair();
+            method.self_pairs();
+        }
+    });
+    let live = built.bytes_current + stepped.bytes_current;
+    [u64::try_from(live).unwrap_or_default(), built.bytes_max]
+}

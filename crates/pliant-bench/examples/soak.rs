@@ -1,0 +1,177 @@
+//! A world that lives long, in memory that stays flat: see `pliant_bench::soak`.
+//!
+//! ```sh
+//! cargo run --release -p pliant-bench --example soak -- --steps 10000 --seconds 600
+//! ```
+//!
+//! Twice: with 32-bit and with 64-bit coordinates, each for half of the time at most. After every tenth of the steps there is
+//! a parade, where the world always holds the same bodies, and the live heap is counted there. The exit code is 1 if an answer
+//! was wrong, or if the heap or the resident set at the last parade is larger than at the second by more than is allowed below.
+
+use clap::Parser;
+use pliant::{Options, Scalar};
+use pliant_bench::soak::{Soak, Tally, Wrong};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// A world that lives long, compared with fresh worlds at random steps; memory counted.
+#[derive(Parser)]
+struct Arguments {
+    /// Steps for each type of coordinates.
+    #[arg(long, default_value_t = 10_000)]
+    steps: u64,
+    /// When to stop, whatever has been done by then.
+    #[arg(long, default_value_t = 600)]
+    seconds: u64,
+    /// What everything is drawn from.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+/// How often memory is looked at.
+const PARADES: u64 = 10;
+/// What the live heap may grow by, relative: nodes of the maps fall differently, and no list is longer than at a parade.
+const HEAP_SLACK: f64 = 0.01;
+/// What the resident set may grow by: what the allocator keeps is not ours to say.
+const RESIDENT_SLACK: f64 = 0.25;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let Arguments {
+        steps,
+        seconds,
+        seed,
+    } = arguments;
+    println!("seed {seed}, {steps} steps each, at most {seconds} seconds\n");
+    let begin = Instant::now();
+    let end = begin + Duration::from_secs(seconds);
+    let middle = begin + Duration::from_secs(seconds) / 2;
+    let played = play("f32", Soak::single(Options::default(), seed), steps, middle)
+        .and_then(|()| play("f64", Soak::double(Options::default(), seed), steps, end));
+    match played {
+        Ok(()) => {
+            println!(
+                "\nevery answer as of a fresh world, memory flat; {} seconds",
+                begin.elapsed().as_secs()
+            );
+            ExitCode::SUCCESS
+        }
+        Err(what) => {
+            eprintln!("seed {seed}, {what}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// What is looked at after a parade.
+struct Memory {
+    heap: i64,
+    blocks: i64,
+    /// Bytes, where the system says so.
+    resident: Option<u64>,
+}
+
+fn play<S: Scalar>(name: &str, mut soak: Soak<S>, steps: u64, until: Instant) -> Result<(), Wrong> {
+    println!(
+        "{name:<4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12}   {:>11} {:>7} {:>9}",
+        "steps",
+        "added",
+        "removed",
+        "moved",
+        "refused",
+        "compared",
+        "equal pairs",
+        "heap, bytes",
+        "blocks",
+        "resident"
+    );
+    let (mut heap, mut blocks) = (0, 0);
+    let mut seen = Vec::new();
+    for parade in 0..=PARADES {
+        let mut played = Ok(());
+        let goal = steps * parade / PARADES;
+        let counted = allocation_counter::measure(|| {
+            while played.is_ok() && soak.tally().steps < goal && Instant::now() < until {
+                played = soak.step();
+            }
+            played = std::mem::replace(&mut played, Ok(())).and_then(|()| soak.parade());
+        });
+        played?;
+        heap += counted.bytes_current;
+        blocks += counted.count_current;
+        let memory = Memory {
+            heap,
+            blocks,
+            resident: resident(),
+        };
+        line(&soak.tally(), &memory);
+        seen.push(memory);
+        if Instant::now() >= until {
+            println!("     stopped by the clock");
+            break;
+        }
+    }
+    let [bodies, triangles] = soak.size();
+    println!("     at a parade: {bodies} bodies, {triangles} triangles");
+    // The first parade comes before the first step: lists were never as long as they get in a heap that moves.
+    if let [_, early, .., late] = &seen[..] {
+        grown(
+            "the live heap",
+            early.heap as f64,
+            late.heap as f64,
+            HEAP_SLACK,
+        )?;
+        grown(
+            "the number of blocks",
+            early.blocks as f64,
+            late.blocks as f64,
+            HEAP_SLACK,
+        )?;
+        if let (Some(early), Some(late)) = (early.resident, late.resident) {
+            grown(
+                "the resident set",
+                early as f64,
+                late as f64,
+                RESIDENT_SLACK,
+            )?;
+        }
+    }
+    Ok(())
+}
+
+fn line(tally: &Tally, memory: &Memory) {
+    let resident = memory.resident.map_or_else(
+        || "unknown".to_owned(),
+        |bytes| format!("{:.1} MB", bytes as f64 / 1e6),
+    );
+    println!(
+        "{:>13} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12}   {:>11} {:>7} {:>9}",
+        tally.steps,
+        tally.added,
+        tally.removed,
+        tally.moved,
+        tally.refused,
+        tally.compared,
+        tally.pairs,
+        memory.heap,
+        memory.blocks,
+        resident
+    );
+}
+
+fn grown(what: &str, early: f64, late: f64, slack: f64) -> Result<(), Wrong> {
+    if late > early * (1.0 + slack) {
+        return Err(Wrong(format!("{what} grew from {early} to {late}")));
+    }
+    Ok(())
+}
+
+/// The resident set of this process, where there is a /proc.
+fn resident() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kilobytes * 1024)
+}

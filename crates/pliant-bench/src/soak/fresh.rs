@@ -1,0 +1,151 @@
+//! The comparison: every answer of the world that lives against that of a world that was never anything else, and a few of
+//! them against the reference, which has no tree.
+
+use super::{Soak, Wrong};
+use pliant::{BodyId, Degree, Options, Pair, Partition, Scalar, Update, World, reference};
+use std::num::NonZeroU32;
+
+impl<S: Scalar> Soak<S> {
+    pub(super) fn compare_with_a_fresh_world(&mut self) -> Result<(), Wrong> {
+        if let Err(what) = self.world.validate() {
+            return self.wrong(what);
+        }
+        let options = self.other_options();
+        let mut fresh = World::with_options(options);
+        for body in &self.known {
+            let added = fresh.add(&self.surfaces[body.surface].triangles, &body.positions);
+            let id = self.good("add to a fresh world", added)?;
+            let set = fresh.set_filter(id, body.membership, body.mask);
+            self.good("set_filter of a fresh world", set)?;
+        }
+        for &(a, b) in &self.ignored {
+            let ignored = fresh.ignore(self.fresh_id(a), self.fresh_id(b));
+            self.good("ignore of a fresh world", ignored)?;
+        }
+        self.compare_between(&mut fresh)?;
+        self.compare_within(&mut fresh)?;
+        self.compare_two_bodies(&mut fresh)?;
+        self.tally.compared += 1;
+        Ok(())
+    }
+
+    /// The world's own configuration, or another: no option changes an answer.
+    fn other_options(&mut self) -> Options {
+        let mut options = *self.world.options();
+        if self.random.one_in(2) {
+            options.degree = [Degree::Two, Degree::Four, Degree::Eight][self.random.index(3)];
+            options.partition = [
+                Partition::Centre,
+                Partition::Mean,
+                Partition::Balanced,
+                Partition::Connectivity,
+            ][self.random.index(4)];
+            options.leaf_size = NonZeroU32::MIN.saturating_add(self.random.below(12));
+            options.update =
+                [Update::BottomUp, Update::TopDown, Update::HYBRID][self.random.index(3)];
+        }
+        options
+    }
+
+    /// The id in a fresh world: there, bodies are numbered in order.
+    fn fresh_id(&self, id: BodyId) -> BodyId {
+        BodyId(self.known.partition_point(|body| body.id < id) as u32)
+    }
+
+    fn compare_between(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
+        let known_id = |id: BodyId| self.known[id.0 as usize].id;
+        let expected: Vec<Pair> = fresh
+            .intersection_pairs()
+            .iter()
+            .map(|pair| Pair {
+                body_a: known_id(pair.body_a),
+                body_b: known_id(pair.body_b),
+                ..*pair
+            })
+            .collect();
+        let first = self.world.first_intersection();
+        if !is_one_of(first, &expected) {
+            return self.wrong(format!("first pair {first:?} of {} pairs", expected.len()));
+        }
+        // Twice: a query changes nothing that the next one could notice.
+        for _ in 0..2 {
+            if self.world.intersection_pairs() != expected {
+                let found = self.world.intersection_pairs().len();
+                return self.wrong(format!(
+                    "{found} pairs, a fresh world has {}",
+                    expected.len()
+                ));
+            }
+        }
+        self.tally.pairs += expected.len() as u64;
+        Ok(())
+    }
+
+    fn compare_within(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
+        for place in 0..self.known.len() {
+            let id = self.known[place].id;
+            let expected = fresh.self_intersection_pairs(BodyId(place as u32));
+            let expected = self.good("self pairs of a fresh world", expected)?;
+            let first = self.world.first_self_intersection(id);
+            let first = self.good("first self pair", first)?;
+            if !is_one_of(first, expected) {
+                return self.wrong(format!(
+                    "first pair {first:?} of {id} with itself, which has {}",
+                    expected.len()
+                ));
+            }
+            if self.world.self_intersection_pairs(id).ok() != Some(expected) {
+                return self.wrong(format!(
+                    "{id} with itself: a fresh world has {} pairs",
+                    expected.len()
+                ));
+            }
+            self.tally.pairs += expected.len() as u64;
+        }
+        Ok(())
+    }
+
+    /// Two bodies that meet if any do, whatever filters say: also against the reference.
+    fn compare_two_bodies(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
+        let pairs = self.world.intersection_pairs();
+        let two = if pairs.is_empty() {
+            [0, 1].map(|place| self.known[place].id)
+        } else {
+            let Pair { body_a, body_b, .. } = pairs[self.random.index(pairs.len())];
+            // Either may be named first.
+            if self.random.one_in(2) {
+                [body_a, body_b]
+            } else {
+                [body_b, body_a]
+            }
+        };
+        let [a, b] = two.map(|id| self.fresh_id(id));
+        let bodies = [a, b].map(|id| &self.known[id.0 as usize]);
+        let [triangles_a, triangles_b] =
+            bodies.map(|body| &self.surfaces[body.surface].triangles[..]);
+        let [positions_a, positions_b] = bodies.map(|body| &body.positions[..]);
+        let truth =
+            reference::intersection_pairs(triangles_a, positions_a, triangles_b, positions_b);
+        let truth_itself = reference::self_intersection_pairs(triangles_a, positions_a);
+        let (truth, truth_itself) = (
+            self.good("reference", truth)?,
+            self.good("reference", truth_itself)?,
+        );
+        let [id_a, id_b] = two;
+        let ours = self.world.intersection_pairs_between(id_a, id_b).ok() == Some(&truth[..])
+            && self.world.self_intersection_pairs(id_a).ok() == Some(&truth_itself[..])
+            && fresh.intersection_pairs_between(a, b).ok() == Some(&truth[..]);
+        if !ours {
+            return self.wrong(format!(
+                "{id_a} and {id_b}: the reference has {} pairs, and {} within the first",
+                truth.len(),
+                truth_itself.len()
+            ));
+        }
+        Ok(())
+    }
+}
+
+fn is_one_of<T: PartialEq>(first: Option<T>, all: &[T]) -> bool {
+    first.map_or(all.is_empty(), |pair| all.contains(&pair))
+}

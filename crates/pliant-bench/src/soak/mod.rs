@@ -1,0 +1,513 @@
+//! A world that lives long: hundreds of bodies that are added, moved, teleported, filtered, rebuilt and removed at random, and
+//! at random steps every answer compared with that of a world built fresh.
+//!
+//! ```text
+//! a step     bodies move: none, one, a few, all; some twice; some far away, some out of their loose boxes
+//!            one other call: add, remove, rebuild, filter, ignore, loose box, or something that must be refused
+//!            perhaps a query before it, and one after
+//!            one step in eight: the comparison   (`fresh`)
+//! a parade   every body goes, always the same ones come and meet in one heap, all queries are asked
+//! ```
+//!
+//! After a parade the world holds the same bodies, and has seen at least the same work, as after every parade before. So
+//! whoever counts memory there (the example `soak` does) should find as much as the time before: a difference is a leak.
+//!
+//! Nothing here reads a clock or prints; the seed determines everything.
+
+mod fresh;
+mod random;
+mod shapes;
+
+use pliant::{BodyId, Error, ErrorKind, Options, Scalar, World};
+use random::Random;
+use shapes::Surface;
+use std::ops::ControlFlow;
+
+/// Bodies come when there are fewer, and go when there are more.
+const FEWEST: usize = 150;
+const MOST: usize = 250;
+/// Bodies of a parade.
+const PARADE: usize = 200;
+/// Bodies live in a cube of this side, in which each meets a few others.
+const SIDE: f64 = 12.0;
+
+/// What went wrong: the step, and what was expected.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wrong(pub String);
+
+impl std::fmt::Display for Wrong {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Wrong {}
+
+/// What has been done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Steps played.
+    pub steps: u64,
+    /// Bodies added, those of parades included.
+    pub added: u64,
+    /// Bodies removed.
+    pub removed: u64,
+    /// Shapes taken over.
+    pub moved: u64,
+    /// Calls that were refused, as they had to be.
+    pub refused: u64,
+    /// Comparisons with a fresh world.
+    pub compared: u64,
+    /// Pairs that were the same in both, between bodies and within them.
+    pub pairs: u64,
+}
+
+/// What is known of a body: enough to build it anew.
+struct Known<S> {
+    id: BodyId,
+    surface: usize,
+    place: [f64; 3],
+    positions: Vec<[S; 3]>,
+    membership: u32,
+    mask: u32,
+    loose: Option<([S; 3], [S; 3])>,
+}
+
+/// A world that lives, and what is known of it.
+pub struct Soak<S> {
+    world: World<S>,
+    /// In the order of ids.
+    known: Vec<Known<S>>,
+    ignored: Vec<(BodyId, BodyId)>,
+    /// Ids that were removed last.
+    gone: Vec<BodyId>,
+    surfaces: Vec<Surface>,
+    random: Random,
+    /// Where the cube is now.
+    here: f64,
+    /// How far away it is at other times, and how far a body is that is sent away alone.
+    far: [f64; 2],
+    convert: fn(f64) -> S,
+    tally: Tally,
+}
+
+impl Soak<f32> {
+    /// A world of 32-bit coordinates. Bodies that are sent away go a long way: boxes are exact everywhere.
+    pub fn single(options: Options, seed: u64) -> Self {
+        Self::new(options, seed, [1000.0, 1e30], |x| x as f32)
+    }
+}
+
+impl Soak<f64> {
+    /// A world of 64-bit coordinates, whose origin has to follow the bodies.
+    pub fn double(options: Options, seed: u64) -> Self {
+        Self::new(options, seed, [1e6, 1e4], |x| x)
+    }
+}
+
+impl<S: Scalar> Soak<S> {
+    fn new(options: Options, seed: u64, far: [f64; 2], convert: fn(f64) -> S) -> Self {
+        Self {
+            world: World::with_options(options),
+            known: Vec::new(),
+            ignored: Vec::new(),
+            gone: Vec::new(),
+            surfaces: shapes::surfaces(),
+            random: Random::new(seed),
+            here: 0.0,
+            far,
+            convert,
+            tally: Tally::default(),
+        }
+    }
+
+    /// What has been done so far.
+    pub fn tally(&self) -> Tally {
+        self.tally
+    }
+
+    /// The bodies there are now, and their triangles.
+    pub fn size(&self) -> [usize; 2] {
+        let triangles = |body: &Known<S>| self.surfaces[body.surface].triangles.len();
+        [self.known.len(), self.known.iter().map(triangles).sum()]
+    }
+
+    /// Plays one step.
+    ///
+    /// # Errors
+    ///
+    /// What the library did otherwise than it should have.
+    pub fn step(&mut self) -> Result<(), Wrong> {
+        self.tally.steps += 1;
+        while self.known.len() < FEWEST {
+            self.add()?;
+        }
+        let moved = self.tally.moved;
+        self.move_some()?;
+        let still = moved == self.tally.moved;
+        // Asked before and after: what is true or found already must not outlive the call.
+        self.ask_something()?;
+        self.call_something()?;
+        self.ask_something()?;
+        // Movement makes much be found anew; where there was none, more can be stale.
+        if self.random.one_in(if still { 3 } else { 12 }) {
+            self.compare_with_a_fresh_world()?;
+        }
+        Ok(())
+    }
+
+    /// Replaces all bodies by those of every parade, heaped up in one place, and asks everything.
+    ///
+    /// # Errors
+    ///
+    /// As [`step`](Self::step).
+    pub fn parade(&mut self) -> Result<(), Wrong> {
+        while !self.known.is_empty() {
+            self.remove(0)?;
+        }
+        self.gone.clear();
+        let random = std::mem::replace(&mut self.random, Random::new(0));
+        self.here = 0.0;
+        for number in 0..PARADE {
+            let surface = number % self.surfaces.len();
+            let place = [(); 3].map(|()| self.random.unit() * SIDE / 4.0);
+            self.add_one(surface, place)?;
+        }
+        self.random = random;
+        // All apart, all in one place, and back: the longest lists of bodies that may meet. To find these bodies is enough.
+        for (apart, together) in [(4.0, 0.0), (0.0, 1.0), (0.0, 0.0)] {
+            for number in 0..PARADE {
+                let Known {
+                    place, positions, ..
+                } = &self.known[number];
+                let shift = |axis: usize| apart * number as f64 - together * place[axis];
+                let moved = |p: &[S; 3]| {
+                    std::array::from_fn(|axis| (self.convert)(p[axis].to_f64() + shift(axis)))
+                };
+                let positions: Vec<[S; 3]> = positions.iter().map(moved).collect();
+                self.take_over(number, &positions, true)?;
+            }
+            self.world.update();
+        }
+        // The longest list that two bodies can make: the largest surface twice, in one point.
+        let large = [0, self.surfaces.len()];
+        let shapes = large.map(|place| self.known[place].positions.clone());
+        for place in large {
+            self.known[place].positions.fill([(self.convert)(1.0); 3]);
+            let positions = self.known[place].positions.clone();
+            self.take_over(place, &positions, false)?;
+        }
+        let [a, b] = large.map(|place| self.known[place].id);
+        let every = self.world.intersection_pairs_between(a, b).map(<[_]>::len);
+        let triangles = self.surfaces[0].triangles.len();
+        if self.good("a query", every)? != triangles * triangles {
+            return self.wrong("in one point every pair of triangles meets");
+        }
+        self.compare_with_a_fresh_world()?;
+        for (place, positions) in large.into_iter().zip(shapes) {
+            self.take_over(place, &positions, false)?;
+            self.known[place].positions = positions;
+        }
+        Ok(())
+    }
+
+    /// A place in the cube.
+    fn somewhere(&mut self) -> [f64; 3] {
+        [(); 3].map(|()| self.here + self.random.unit() * SIDE)
+    }
+
+    /// A shape for a body at a place, as the world takes it.
+    fn shape(&mut self, surface: usize, place: [f64; 3]) -> Vec<[S; 3]> {
+        self.surfaces[surface]
+            .somewhere(&mut self.random, place)
+            .into_iter()
+            .map(|position| position.map(self.convert))
+            .collect()
+    }
+
+    fn add(&mut self) -> Result<(), Wrong> {
+        let surface = self.random.index(self.surfaces.len());
+        let place = self.somewhere();
+        self.add_one(surface, place)
+    }
+
+    fn add_one(&mut self, surface: usize, place: [f64; 3]) -> Result<(), Wrong> {
+        let positions = self.shape(surface, place);
+        let added = self
+            .world
+            .add(&self.surfaces[surface].triangles, &positions);
+        let id = self.good("add", added)?;
+        if self.known.last().is_some_and(|last| last.id >= id) || self.gone.contains(&id) {
+            return self.wrong(format!("{id} was given away before"));
+        }
+        self.tally.added += 1;
+        self.known.push(Known {
+            id,
+            surface,
+            place,
+            positions,
+            membership: u32::MAX,
+            mask: u32::MAX,
+            loose: None,
+        });
+        Ok(())
+    }
+
+    fn remove(&mut self, place: usize) -> Result<(), Wrong> {
+        let id = self.known.remove(place).id;
+        let removed = self.world.remove(id);
+        self.good("remove", removed)?;
+        self.ignored.retain(|&(a, b)| a != id && b != id);
+        self.gone.push(id);
+        if self.gone.len() > 8 {
+            self.gone.remove(0);
+        }
+        self.tally.removed += 1;
+        Ok(())
+    }
+
+    fn move_some(&mut self) -> Result<(), Wrong> {
+        // Now and then everything is somewhere else.
+        if self.random.one_in(100) {
+            self.here = if self.here == 0.0 { self.far[0] } else { 0.0 };
+        }
+        let count = [0, 1, 1, 3, 10, self.known.len()][self.random.index(6)];
+        for number in 0..count {
+            // All, or some, which may be one twice.
+            let body = if count == self.known.len() {
+                number
+            } else {
+                self.random.index(self.known.len())
+            };
+            let place = match self.random.below(20) {
+                0..10 => self.known[body]
+                    .place
+                    .map(|x| x + (self.random.unit() - 0.5) / 4.0),
+                10..19 => self.somewhere(),
+                _ if self.random.one_in(10) => [self.far[1] * self.random.unit(); 3],
+                _ => self.known[body].place,
+            };
+            let positions = self.shape(self.known[body].surface, place);
+            let written = self.random.one_in(2);
+            if self.take_over(body, &positions, written)? {
+                self.known[body].place = place;
+                self.known[body].positions = positions;
+            }
+        }
+        Ok(())
+    }
+
+    /// Gives a body a new shape in one of the two ways; whether it was taken over, as it must be inside the loose box.
+    fn take_over(
+        &mut self,
+        place: usize,
+        positions: &[[S; 3]],
+        written: bool,
+    ) -> Result<bool, Wrong> {
+        let Known { id, loose, .. } = self.known[place];
+        let answer = if written {
+            self.world
+                .write_positions(id, |buffer| buffer.copy_from_slice(positions))
+        } else {
+            self.world.set_positions(id, positions)
+        };
+        let outside = loose.and_then(|corners| positions.iter().position(|&p| !inside(corners, p)));
+        if let Some(vertex) = outside {
+            return match answer {
+                Err(Error {
+                    body: Some(body),
+                    kind: ErrorKind::OutsideLooseBox { vertex: said, .. },
+                }) if (body, said) == (id, vertex) => {
+                    self.tally.refused += 1;
+                    Ok(false)
+                }
+                other => self.wrong(format!(
+                    "vertex {vertex} of {id} is outside its loose box, and was answered {other:?}"
+                )),
+            };
+        }
+        self.good("take over", answer)?;
+        self.tally.moved += 1;
+        Ok(true)
+    }
+
+    /// One call that is not a movement.
+    fn call_something(&mut self) -> Result<(), Wrong> {
+        let some = self.random.index(self.known.len());
+        let id = self.known[some].id;
+        match self.random.below(16) {
+            0..3 if self.known.len() < MOST => self.add(),
+            0..6 => self.remove(some),
+            6 => {
+                let rebuilt = self.world.rebuild(id);
+                self.good("rebuild", rebuilt)
+            }
+            7 => {
+                let mut bits = || match self.random.below(4) {
+                    0 => 0,
+                    1 => 1 << self.random.below(3) | 1 << self.random.below(3),
+                    _ => u32::MAX,
+                };
+                let (membership, mask) = (bits(), bits());
+                (self.known[some].membership, self.known[some].mask) = (membership, mask);
+                let set = self.world.set_filter(id, membership, mask);
+                self.good("set_filter", set)
+            }
+            8 => self.ignore_or_not(id),
+            9..11 => self.hold_or_let_go(some),
+            11..15 => self.ask_what_must_be_refused(some),
+            _ => {
+                self.world.update();
+                let updated = self.world.update_body(id);
+                self.good("update_body", updated)
+            }
+        }
+    }
+
+    fn ignore_or_not(&mut self, a: BodyId) -> Result<(), Wrong> {
+        let b = self.known[self.random.index(self.known.len())].id;
+        if a == b {
+            return Ok(());
+        }
+        // Half the time what is ignored is taken back, in either order.
+        match self.ignored.len() {
+            some @ 1.. if self.random.one_in(2) => {
+                let (a, b) = self.ignored.swap_remove(self.random.index(some));
+                self.ignored
+                    .retain(|&pair| pair != (a, b) && pair != (b, a));
+                let unignored = self.world.unignore(b, a);
+                self.good("unignore", unignored)
+            }
+            _ => {
+                self.ignored.push((a, b));
+                let ignored = self.world.ignore(a, b);
+                self.good("ignore", ignored)
+            }
+        }
+    }
+
+    /// Puts a body into a loose box, from which later shapes may stick out, or lets it go.
+    fn hold_or_let_go(&mut self, some: usize) -> Result<(), Wrong> {
+        let Known {
+            id, loose, place, ..
+        } = self.known[some];
+        let corners = loose.is_none().then(|| {
+            let room = 1.0 + self.random.unit();
+            let corner = |x: f64| (self.convert)(x);
+            (
+                place.map(|x| corner(x - room)),
+                place.map(|x| corner(x + 1.0 + room)),
+            )
+        });
+        let fits = corners.is_none_or(|corners| {
+            self.known[some]
+                .positions
+                .iter()
+                .all(|&p| inside(corners, p))
+        });
+        let answer = self.world.set_loose_box(id, corners);
+        if fits {
+            self.known[some].loose = corners;
+            return self.good("set_loose_box", answer);
+        }
+        self.tally.refused += 1;
+        match answer {
+            Err(Error {
+                kind: ErrorKind::OutsideLooseBox { .. },
+                ..
+            }) => Ok(()),
+            other => self.wrong(format!(
+                "{id} is not inside the loose box, and was answered {other:?}"
+            )),
+        }
+    }
+
+    /// Calls that are refused, and change nothing: the next comparison would see it.
+    fn ask_what_must_be_refused(&mut self, some: usize) -> Result<(), Wrong> {
+        let Known {
+            id, surface, place, ..
+        } = self.known[some];
+        let mut bad = self.shape(surface, place);
+        let vertex = self.random.index(bad.len());
+        bad[vertex][self.random.index(3)] = (self.convert)(
+            [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e39][self.random.index(4)],
+        );
+        let bad_position = |answer: Result<(), Error>| matches!(answer, Err(Error { body: Some(body), kind: ErrorKind::BadPosition { vertex: said, .. } }) if (body, said) == (id, vertex));
+        let nan = (self.convert)(f64::NAN);
+        let world = &mut self.world;
+        let mut refused = vec![
+            bad_position(world.set_positions(id, &bad)),
+            world
+                .write_positions(id, |buffer| buffer[1..].copy_from_slice(&bad[1..]))
+                .is_err(),
+            world.set_positions(id, &bad[1..]).is_err(),
+            world.set_loose_box(id, Some(([nan; 3], [nan; 3]))).is_err(),
+            world.add(&self.surfaces[surface].triangles, &bad).is_err(),
+            world.add(&[[0, 1, u32::MAX]], &bad).is_err(),
+            world.ignore(id, id).is_err(),
+            world.intersection_pairs_between(id, id).is_err(),
+        ];
+        for &gone in &self.gone {
+            refused.extend([
+                world.set_positions(gone, &bad).is_err(),
+                world.remove(gone).is_err(),
+                world.rebuild(gone).is_err(),
+                world.set_filter(gone, 0, 0).is_err(),
+                world.self_intersection_pairs(gone).is_err(),
+                world.first_intersection_between(id, gone).is_err(),
+            ]);
+        }
+        if let Some(place) = refused.iter().position(|&refused| !refused) {
+            return self.wrong(format!("bad call {place} about {id} was not refused"));
+        }
+        self.tally.refused += refused.len() as u64;
+        Ok(())
+    }
+
+    /// A query between comparisons, so that boxes are true in parts when the next step comes.
+    fn ask_something(&mut self) -> Result<(), Wrong> {
+        let [a, b] = [(); 2].map(|()| self.known[self.random.index(self.known.len())].id);
+        let answer = match self.random.below(8) {
+            0 => {
+                self.world.intersection_pairs();
+                Ok(())
+            }
+            1 => {
+                self.world.first_intersection();
+                Ok(())
+            }
+            2 => {
+                // A visitor that stops somewhere on the way leaves boxes made in part.
+                let mut left = self.random.below(50);
+                let _ = self
+                    .world
+                    .visit_intersections(|_| match left.checked_sub(1) {
+                        Some(fewer) => {
+                            left = fewer;
+                            ControlFlow::Continue(())
+                        }
+                        None => ControlFlow::Break(()),
+                    });
+                Ok(())
+            }
+            3 => self.world.self_intersection_pairs(a).map(drop),
+            4 => self.world.first_self_intersection(a).map(drop),
+            5 if a != b => self.world.intersection_pairs_between(a, b).map(drop),
+            _ => Ok(()),
+        };
+        self.good("a query", answer)
+    }
+
+    /// What a call on good input gives.
+    fn good<T>(&self, call: &str, answer: Result<T, Error>) -> Result<T, Wrong> {
+        answer.or_else(|error| self.wrong(format!("{call} was refused: {error}")))
+    }
+
+    fn wrong<T>(&self, what: impl std::fmt::Display) -> Result<T, Wrong> {
+        Err(Wrong(format!("step {}: {what}", self.tally.steps)))
+    }
+}
+
+fn inside<S: Scalar>((lo, hi): ([S; 3], [S; 3]), point: [S; 3]) -> bool {
+    (0..3).all(|axis| lo[axis] <= point[axis] && point[axis] <= hi[axis])
+}

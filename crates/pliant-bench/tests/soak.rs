@@ -1,0 +1,63 @@
+//! The soak in short; `cargo run --release -p pliant-bench --example soak` is the long one.
+
+use pliant::{BroadPhase, Options};
+use pliant_bench::soak::{Soak, Tally};
+
+/// The heap at the second parade and at the last, and what was done.
+fn play<S: pliant::Scalar>(mut soak: Soak<S>) -> ([i64; 2], Tally) {
+    let mut heap = Vec::new();
+    for _ in 0..3 {
+        let counted = allocation_counter::measure(|| {
+            for _ in 0..25 {
+                soak.step().unwrap();
+            }
+            soak.parade().unwrap();
+        });
+        heap.push(counted.bytes_current);
+    }
+    ([heap[0] + heap[1], heap.iter().sum()], soak.tally())
+}
+
+fn check<S: pliant::Scalar>(soak: Soak<S>) {
+    let ([early, late], tally) = play(soak);
+    assert!(
+        late as f64 <= early as f64 * 1.01,
+        "the heap grew from {early} to {late} bytes"
+    );
+    // Everything happened, and not rarely.
+    assert_eq!(tally.steps, 75);
+    let least = [
+        tally.added - 600,
+        tally.removed - 400,
+        tally.refused,
+        tally.compared - 3,
+    ];
+    assert!(least.iter().all(|&count| count >= 5), "{tally:?}");
+    assert!(tally.moved > 1000 && tally.pairs > 10_000, "{tally:?}");
+}
+
+#[test]
+fn a_world_that_lives_long_answers_like_a_fresh_one_in_memory_that_stays_flat() {
+    check(Soak::single(Options::default(), 1));
+    let mut options = Options::paper();
+    options.broad_phase = BroadPhase::BruteForce;
+    check(Soak::double(options, 2));
+}
+
+#[test]
+fn the_seed_determines_everything() {
+    let mut tallies = [3, 3, 4].map(|seed| {
+        let mut soak = Soak::single(Options::default(), seed);
+        for _ in 0..20 {
+            soak.step().unwrap();
+        }
+        (soak.tally(), soak.size())
+    });
+    assert_eq!(tallies[0], tallies[1]);
+    assert_ne!(tallies[1], tallies[2]);
+    tallies[0].0.steps = 0;
+    assert_ne!(
+        tallies[0], tallies[1],
+        "tallies are compared field by field"
+    );
+}

@@ -131,7 +131,7 @@ impl fmt::Display for ErrorKind {
             }
             Self::BadLooseBox => write!(
                 f,
-                "a loose box needs finite corners of at most {:e} in magnitude, the lower one below the upper one",
+                "a loose box needs finite corners of at most {:e} in magnitude, the lower one not above the upper one",
                 f32::MAX
             ),
             Self::NoSuchBody => write!(

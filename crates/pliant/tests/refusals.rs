@@ -652,7 +652,6 @@ fn a_caller_that_panics() {
 }
 
 #[test]
-#[ignore = "a known fault: the list of bodies that may meet is lost with the visitor, and not found anew"]
 fn a_visitor_of_the_whole_world_that_panics() {
     let (mut world, _) = crossing();
     let before = answers(&mut world);

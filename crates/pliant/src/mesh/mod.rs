@@ -156,5 +156,13 @@ mod tests {
             vertices: 3,
         };
         assert_eq!(validate(&[[0, 1, 2], [0, 3, 9]], 3), Err(error));
+        let too_many = validate(&[[0, 1, 2]], UNSEEN as usize + 1).unwrap_err();
+        assert!(matches!(
+            too_many,
+            ErrorKind::TooLarge {
+                what: "vertices",
+                ..
+            }
+        ));
     }
 }

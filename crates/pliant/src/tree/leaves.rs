@@ -63,6 +63,13 @@ impl Leaves {
         self.runs.len() as u32 - 1
     }
 
+    /// No more leaves come: gives back the memory that was for them.
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.runs.shrink_to_fit();
+        self.blocks.shrink_to_fit();
+        self.firsts.shrink_to_fit();
+    }
+
     /// The triangles of a leaf, in tree order.
     #[inline]
     pub(crate) fn triangles(&self, leaf: u32) -> Range<u32> {

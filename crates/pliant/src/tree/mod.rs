@@ -81,6 +81,8 @@ impl<const N: usize> Tree<N> {
             };
             lane += 1;
         }
+        groups.shrink_to_fit();
+        leaves.shrink_to_fit();
         let depth = plan.parts.last().map_or(0, |deepest| deepest.level);
         Self {
             groups,

@@ -149,8 +149,9 @@ impl<S: Scalar> World<S> {
     /// # Errors
     ///
     /// [`NoTriangles`](ErrorKind::NoTriangles), [`VertexOutOfRange`](ErrorKind::VertexOutOfRange),
-    /// [`BadPosition`](ErrorKind::BadPosition), and [`TooLarge`](ErrorKind::TooLarge) above 2^28 triangles or 2^32 - 1
-    /// vertices.
+    /// [`BadPosition`](ErrorKind::BadPosition), [`NeedsSubnormals`](ErrorKind::NeedsSubnormals),
+    /// [`TooLarge`](ErrorKind::TooLarge) above 2^28 triangles or 2^32 - 1 vertices, and
+    /// [`TooManyBodies`](ErrorKind::TooManyBodies) after 2^32 bodies.
     #[doc(alias = "insert")]
     pub fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error> {
         let refused = |kind| Error { body: None, kind };
@@ -209,8 +210,9 @@ impl<S: Scalar> World<S> {
     /// # Errors
     ///
     /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`WrongLength`](ErrorKind::WrongLength),
-    /// [`BadPosition`](ErrorKind::BadPosition) for the first coordinate that is NaN, infinite or above `f32::MAX` in
-    /// magnitude, [`OutsideLooseBox`](ErrorKind::OutsideLooseBox).
+    /// [`BadPosition`](ErrorKind::BadPosition) for the first coordinate of any vertex, used or not, that is NaN, infinite or above
+    /// `f32::MAX` in magnitude, [`OutsideLooseBox`](ErrorKind::OutsideLooseBox),
+    /// [`NeedsSubnormals`](ErrorKind::NeedsSubnormals) in a thread that flushes subnormal numbers.
     #[doc(alias = "update_vertices")]
     #[doc(alias = "refit")]
     pub fn set_positions(&mut self, body: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
@@ -231,7 +233,8 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// Those of [`set_positions`](Self::set_positions), and [`NotWritten`](ErrorKind::NotWritten).
+    /// Those of [`set_positions`](Self::set_positions); a coordinate that is NaN, which an unwritten one is, is
+    /// [`NotWritten`](ErrorKind::NotWritten). If `write` panics, the body keeps its shape.
     pub fn write_positions(
         &mut self,
         body: BodyId,
@@ -328,7 +331,8 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`BadLooseBox`](ErrorKind::BadLooseBox), and
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`BadLooseBox`](ErrorKind::BadLooseBox) if a corner is not finite, is above `f32::MAX`
+    /// in magnitude, or the lower one is above the upper one on some axis, and
     /// [`OutsideLooseBox`](ErrorKind::OutsideLooseBox) if the body is not inside now.
     pub fn set_loose_box(
         &mut self,
@@ -417,5 +421,25 @@ impl<S> fmt::Debug for World<S> {
             .field("options", &self.options)
             .field("bodies", &self.bodies.len())
             .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_bodies_run_out_with_an_error() {
+        let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0_f32]];
+        let mut world = World::new();
+        world.next_id = Some(u32::MAX);
+        let last = world.add(&[[0, 1, 2]], &triangle);
+        assert_eq!(last, Ok(BodyId(u32::MAX)));
+        let refused = world.add(&[[0, 1, 2]], &triangle).unwrap_err();
+        assert_eq!(
+            (refused.body, refused.kind),
+            (None, ErrorKind::TooManyBodies)
+        );
+        assert_eq!(world.triangle_count(BodyId(u32::MAX)), Ok(1));
     }
 }

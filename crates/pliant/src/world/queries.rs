@@ -95,6 +95,8 @@ impl<S: Scalar> World<S> {
         self.find_body_pairs();
         let mut answer = ControlFlow::Continue(());
         let body_pairs = std::mem::take(&mut self.body_pairs);
+        // A visitor that panics takes the list with it: it is then found anew.
+        self.body_pairs_hold = false;
         let (mut step, forest) = self.step();
         with_trees!(forest, trees => {
             for &places in &body_pairs {
@@ -108,6 +110,7 @@ impl<S: Scalar> World<S> {
             }
         });
         self.body_pairs = body_pairs;
+        self.body_pairs_hold = true;
         answer
     }
 }

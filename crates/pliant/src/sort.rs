@@ -39,7 +39,7 @@ pub(crate) fn sort_by_numbers<T: Copy, const K: usize>(
     let key = |item: &T| {
         let numbers = numbers(item);
         (0..K).fold(0, |key: u64, k| {
-            key.checked_shl(widths[k]).unwrap_or(0) | u64::from(numbers[k] - least[k])
+            key << widths[k] | u64::from(numbers[k] - least[k])
         })
     };
     let passes = bits.div_ceil(DIGIT);

@@ -27,8 +27,8 @@ impl<T: Copy + Default> Batch<T> {
         self.len = 0;
     }
 
-    #[cfg(test)]
-    fn as_slice(&self) -> &[T] {
+    #[inline]
+    pub(crate) fn as_slice(&self) -> &[T] {
         &self.items[..self.len]
     }
 

@@ -8,7 +8,7 @@ use crate::kernels::bits::Batch;
 use crate::pairs::{BlockPair, Candidate, LeafPair, NodePair};
 use crate::statistics::Statistics;
 use crate::tree::NodeId;
-use crate::update::Updates;
+use crate::update::{Reached, Updates};
 use fearless_simd::dispatch;
 use std::ops::ControlFlow;
 
@@ -37,7 +37,7 @@ pub(crate) trait Meeting<const N: usize> {
         &mut self,
         updates: Updates,
         batch: &[NodePair],
-        groups: &mut [Vec<u32>; 2],
+        reached: &mut Reached,
         statistics: &mut Statistics,
     );
     /// The caller's numbers of two triangles.
@@ -47,10 +47,12 @@ pub(crate) trait Meeting<const N: usize> {
 /// Buffers, kept from query to query.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    pub(crate) groups: [Vec<u32>; 2],
+    /// Of refreshing ahead.
+    pub(crate) groups: Vec<u32>,
+    reached: Reached,
     nodes: Batch<NodePair>,
     batch: Vec<NodePair>,
-    leaves: Vec<LeafPair>,
+    leaves: Batch<LeafPair>,
     blocks: Vec<BlockPair>,
     expanded: Vec<Expanded>,
     met: Vec<Meet>,
@@ -62,7 +64,8 @@ pub(crate) struct Scratch {
 #[derive(Debug, Default)]
 struct Expanded {
     nodes: Batch<NodePair>,
-    leaves: Vec<LeafPair>,
+    leaves: Batch<LeafPair>,
+    straight: u64,
 }
 
 /// Shows the visitor every intersecting pair, until it breaks. The order is deterministic, not sorted.
@@ -80,9 +83,9 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     loop {
         scratch.nodes.take_last(longest, &mut scratch.batch);
         longest = (longest * 2).min(LONGEST_BATCH);
-        statistics.node_pairs += scratch.batch.len() as u64;
-        meeting.reach(updates, &scratch.batch, &mut scratch.groups, statistics);
-        expand_batch(updates, meeting, scratch);
+        meeting.reach(updates, &scratch.batch, &mut scratch.reached, statistics);
+        statistics.node_pairs +=
+            scratch.batch.len() as u64 + expand_batch(updates, meeting, scratch);
 
         let last = scratch.nodes.is_empty();
         if last || scratch.leaves.len() >= most {
@@ -94,20 +97,20 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     }
 }
 
-/// Pairs of children onto the stack, pairs of leaves onto their list.
+/// Pairs of children onto the stack, pairs of leaves onto their list; returns how many of these went there straight.
 fn expand_batch<const N: usize, M: Meeting<N>>(
     updates: Updates,
     meeting: &M,
     scratch: &mut Scratch,
-) {
+) -> u64 {
     let trees = meeting.sides().map(|side| &*side.tree);
     let expand_some =
-        |batch: &[NodePair], nodes: &mut Batch<NodePair>, leaves: &mut Vec<LeafPair>| {
+        |batch: &[NodePair], nodes: &mut Batch<NodePair>, leaves: &mut Batch<LeafPair>| {
             dispatch!(updates.level, i => if M::ITSELF {
-                expand::<_, N, true>(i, trees, batch, nodes, leaves);
+                expand::<_, N, true>(i, trees, batch, nodes, leaves)
             } else {
-                expand::<_, N, false>(i, trees, batch, nodes, leaves);
-            });
+                expand::<_, N, false>(i, trees, batch, nodes, leaves)
+            })
         };
     let Scratch {
         nodes,
@@ -117,23 +120,23 @@ fn expand_batch<const N: usize, M: Meeting<N>>(
         ..
     } = scratch;
     if batch.len() <= EXPAND_JOB || !updates.threads.are_many() {
-        expand_some(batch, nodes, leaves);
-        return;
+        return expand_some(batch, nodes, leaves);
     }
     let jobs = in_use(expanded, batch.len().div_ceil(EXPAND_JOB));
     updates.threads.run(jobs, |number, job| {
         job.nodes.clear();
         job.leaves.clear();
-        expand_some(
+        job.straight = expand_some(
             part(batch, number, EXPAND_JOB),
             &mut job.nodes,
             &mut job.leaves,
         );
     });
-    for job in jobs {
+    for job in &*jobs {
         nodes.append(&job.nodes);
-        leaves.extend_from_slice(&job.leaves);
+        leaves.append(&job.leaves);
     }
+    jobs.iter().map(|job| job.straight).sum()
 }
 
 /// Decides all pairs of leaves on the list, and shows the visitor what intersects.
@@ -156,15 +159,22 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
     } = scratch;
     let mut place = Place::default();
     while place.pair < leaves.len() {
-        place = if M::ITSELF {
-            block_pairs::<true>(trees, leaves, place, *most, blocks)
+        let pairs = if trees.iter().all(|leaves| leaves.are_blocks()) {
+            let end = leaves.len().min(place.pair + *most);
+            &leaves.as_slice()[std::mem::replace(&mut place.pair, end)..end]
         } else {
-            block_pairs::<false>(trees, leaves, place, *most, blocks)
+            let pairs = leaves.as_slice();
+            place = if M::ITSELF {
+                block_pairs::<true>(trees, pairs, place, *most, blocks)
+            } else {
+                block_pairs::<false>(trees, pairs, place, *most, blocks)
+            };
+            &*blocks
         };
         *most = (*most * 2).min(MOST_BLOCKS);
-        let jobs = in_use(met, blocks.len().div_ceil(MEET_JOB));
+        let jobs = in_use(met, pairs.len().div_ceil(MEET_JOB));
         updates.threads.run(jobs, |number, job| {
-            let pairs = part(blocks, number, MEET_JOB);
+            let pairs = part(pairs, number, MEET_JOB);
             if M::ITSELF {
                 job.meet::<N, M::Coordinate, true>(updates.level, sides, pairs);
             } else {

@@ -16,15 +16,16 @@ pub(super) const LATER_LANES: u64 = {
 };
 
 /// Pairs of children that overlap onto `nodes`, pairs of leaves onto `leaves`, for every pair of a batch. What is below the
-/// nodes is true.
+/// nodes is true. Returns how many pairs of leaves went straight onto their list, without being pairs of nodes on the stack.
 #[inline(always)]
 pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
     i: I,
     [a, b]: [&Tree<N>; 2],
     batch: &[NodePair],
     nodes: &mut Batch<NodePair>,
-    leaves: &mut Vec<LeafPair>,
-) {
+    leaves: &mut Batch<LeafPair>,
+) -> u64 {
+    let mut straight = 0;
     for &[node_a, node_b] in batch {
         match (a.child(node_a).below(), b.child(node_b).below()) {
             (Below::Leaf(leaf_a), Below::Leaf(leaf_b)) => leaves.push([leaf_a, leaf_b]),
@@ -42,6 +43,22 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
             }
             (Below::Group(below_a), Below::Group(below_b)) => {
                 let (group_a, group_b) = (&a.groups[below_a as usize], &b.groups[below_b as usize]);
+                if let (Some(first_a), Some(first_b)) = (group_a.first_leaf, group_b.first_leaf) {
+                    // Leaves side by side: their pairs need not go over the stack.
+                    let before = leaves.len();
+                    let mut wanted = u64::MAX;
+                    if ITSELF && node_a == node_b {
+                        for lane in 0..group_a.len() as u32 {
+                            leaves.push([first_a + lane; 2]);
+                        }
+                        wanted = LATER_LANES;
+                    }
+                    let room = leaves.room();
+                    let mask = overlap_mask(i, &group_a.boxes, &group_b.boxes) & wanted;
+                    room.push_bits(mask, |bit| [first_a + bit / 8, first_b + bit % 8]);
+                    straight += (leaves.len() - before) as u64;
+                    continue;
+                }
                 let mut wanted = u64::MAX;
                 if ITSELF && node_a == node_b {
                     // Every child with itself, whatever its box, and with each later one.
@@ -61,4 +78,5 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
             }
         }
     }
+    straight
 }

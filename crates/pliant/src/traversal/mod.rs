@@ -29,7 +29,7 @@ use crate::geometry::{Scalar, Shape};
 use crate::mesh::Mesh;
 use crate::statistics::Statistics;
 use crate::tree::{Below, NodeId, Tree};
-use crate::update::Updates;
+use crate::update::{Reached, Updates};
 pub(crate) use descent::{Scratch, descend};
 pub(crate) use one_tree::OneTree;
 pub(crate) use two_trees::TwoTrees;
@@ -46,19 +46,19 @@ fn reach<const N: usize, S: Scalar>(
     updates: Updates,
     side: &mut Side<'_, N, S>,
     nodes: impl Iterator<Item = NodeId>,
-    groups: &mut [Vec<u32>; 2],
+    reached: &mut Reached,
     statistics: &mut Statistics,
 ) {
-    let reached = &mut groups[0];
-    reached.clear();
+    let mut any = false;
     for node in nodes {
         if let Below::Group(below) = side.tree.child(node).below()
             && side.tree.groups[below as usize].epoch != side.shape.epoch
         {
-            reached.push(below);
+            reached.note(below);
+            any = true;
         }
     }
-    if !reached.is_empty() {
-        updates.reach(side.tree, &side.shape, groups, statistics);
+    if any {
+        updates.reach(side.tree, &side.shape, reached, statistics);
     }
 }

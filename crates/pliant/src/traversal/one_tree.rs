@@ -8,7 +8,7 @@ use super::{Side, reach};
 use crate::geometry::Scalar;
 use crate::pairs::{Candidate, NodePair};
 use crate::statistics::Statistics;
-use crate::update::Updates;
+use crate::update::{Reached, Updates};
 
 /// A tree whose root box is true.
 pub(crate) struct OneTree<'t, const N: usize, S> {
@@ -27,11 +27,11 @@ impl<const N: usize, S: Scalar> Meeting<N> for OneTree<'_, N, S> {
         &mut self,
         updates: Updates,
         batch: &[NodePair],
-        groups: &mut [Vec<u32>; 2],
+        reached: &mut Reached,
         statistics: &mut Statistics,
     ) {
         let nodes = batch.as_flattened().iter().copied();
-        reach(updates, &mut self.side, nodes, groups, statistics);
+        reach(updates, &mut self.side, nodes, reached, statistics);
     }
 
     fn name(&self, [a, b]: Candidate) -> [u32; 2] {

@@ -5,7 +5,7 @@ use super::{Side, reach};
 use crate::geometry::Scalar;
 use crate::pairs::{Candidate, NodePair};
 use crate::statistics::Statistics;
-use crate::update::Updates;
+use crate::update::{Reached, Updates};
 
 /// Two trees whose root boxes are true and overlap.
 pub(crate) struct TwoTrees<'t, const N: usize, S> {
@@ -25,13 +25,13 @@ impl<const N: usize, S: Scalar> Meeting<N> for TwoTrees<'_, N, S> {
         &mut self,
         updates: Updates,
         batch: &[NodePair],
-        groups: &mut [Vec<u32>; 2],
+        reached: &mut Reached,
         statistics: &mut Statistics,
     ) {
         let of_a = batch.iter().map(|pair| pair[0]);
-        reach(updates, &mut self.a, of_a, groups, statistics);
+        reach(updates, &mut self.a, of_a, reached, statistics);
         let of_b = batch.iter().map(|pair| pair[1]);
-        reach(updates, &mut self.b, of_b, groups, statistics);
+        reach(updates, &mut self.b, of_b, reached, statistics);
     }
 
     fn name(&self, [a, b]: Candidate) -> [u32; 2] {

@@ -83,6 +83,12 @@ impl Leaves {
         self.have_boxes
     }
 
+    /// Whether every leaf is one block, which then has its number.
+    #[inline]
+    pub(crate) fn are_blocks(&self) -> bool {
+        self.have_boxes && self.blocks.len() == self.runs.len()
+    }
+
     /// The numbers of the blocks of a leaf.
     #[inline]
     pub(crate) fn blocks_of(&self, leaf: u32) -> Range<u32> {

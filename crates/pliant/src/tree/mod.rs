@@ -81,6 +81,15 @@ impl<const N: usize> Tree<N> {
             };
             lane += 1;
         }
+        for group in &mut groups {
+            let below = |child: Child| match child.below() {
+                Below::Leaf(leaf) => Some(leaf),
+                Below::Group(_) => None,
+            };
+            if group.used_children().all(|child| below(child).is_some()) {
+                group.first_leaf = below(group.children[0]);
+            }
+        }
         groups.shrink_to_fit();
         leaves.shrink_to_fit();
         let depth = plan.parts.last().map_or(0, |deepest| deepest.level);

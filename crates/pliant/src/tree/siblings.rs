@@ -46,6 +46,8 @@ pub(crate) struct Siblings<const N: usize> {
     pub(crate) children: [Child; N],
     /// The number of the node in lane 0 when nodes are counted level by level: its place in `VertexSets`.
     pub(crate) first_node: u32,
+    /// The leaf in lane 0 if all lanes that are used are leaves, which then have consecutive numbers.
+    pub(crate) first_leaf: Option<u32>,
     /// The epoch of the body in which the boxes were made; 0 is before every epoch.
     pub(crate) epoch: u64,
 }
@@ -56,6 +58,7 @@ impl<const N: usize> Siblings<N> {
             boxes: BoxLanes::EMPTY,
             children: [Child::NONE; N],
             first_node,
+            first_leaf: None,
             epoch: 0,
         }
     }

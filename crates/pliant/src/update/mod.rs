@@ -24,6 +24,7 @@ use crate::options::Update;
 use crate::statistics::Statistics;
 use crate::tree::Tree;
 use make::Work;
+pub(crate) use top_down::Reached;
 
 /// What updates work with.
 #[derive(Clone, Copy)]
@@ -45,17 +46,17 @@ impl Updates<'_> {
         hybrid::refresh_ahead(self.work(shape), tree, self.update, groups, statistics);
     }
 
-    /// Makes groups true that a traversal has reached; they are not true. The others are scratch.
+    /// Makes groups true that a traversal has reached; they are not true.
     pub(crate) fn reach<const N: usize, S: Scalar>(
         &self,
         tree: &mut Tree<N>,
         shape: &Shape<S>,
-        [reached, groups]: &mut [Vec<u32>; 2],
+        reached: &mut Reached,
         statistics: &mut Statistics,
     ) {
         let levels = self.update.levels_at_once();
         let work = self.work(shape);
-        let boxes = top_down::reach_groups(work, tree, reached, levels, groups, statistics);
+        let boxes = top_down::reach_groups(work, tree, reached, levels, statistics);
         statistics.boxes_top_down += boxes;
     }
 

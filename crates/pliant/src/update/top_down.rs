@@ -9,26 +9,58 @@ use crate::geometry::Scalar;
 use crate::statistics::Statistics;
 use crate::tree::Tree;
 
-/// Makes groups true that are not, and with each of them `levels - 1` levels below. Returns how many boxes of nodes it made.
+/// Groups that were reached, in the order of memory and each once, however often they were noted.
+#[derive(Debug, Default)]
+pub(crate) struct Reached {
+    /// A bit for every group.
+    noted: Vec<u64>,
+    groups: Vec<u32>,
+    /// For making several levels at once.
+    below: Vec<u32>,
+}
+
+impl Reached {
+    /// Notes a group.
+    #[inline]
+    pub(crate) fn note(&mut self, group: u32) {
+        let word = group as usize / 64;
+        if word >= self.noted.len() {
+            self.noted.resize(word + 1, 0);
+        }
+        self.noted[word] |= 1 << (group % 64);
+    }
+
+    /// Lists what was noted, and forgets it.
+    fn list(&mut self) {
+        self.groups.clear();
+        for (word, bits) in self.noted.iter_mut().enumerate() {
+            let mut rest = std::mem::take(bits);
+            while rest != 0 {
+                self.groups.push(word as u32 * 64 + rest.trailing_zeros());
+                rest &= rest - 1;
+            }
+        }
+    }
+}
+
+/// Makes groups true that were reached and are not, and with each of them `levels - 1` levels below. Returns how many boxes of
+/// nodes it made.
 pub(super) fn reach_groups<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
     tree: &mut Tree<N>,
-    reached: &mut Vec<u32>,
+    reached: &mut Reached,
     levels: u32,
-    groups: &mut Vec<u32>,
     statistics: &mut Statistics,
 ) -> u64 {
-    // In the order of memory, and each once.
-    reached.sort_unstable();
-    reached.dedup();
+    reached.list();
     if levels == 1 {
-        return make_groups_true(work, tree, reached, statistics);
+        return make_groups_true(work, tree, &reached.groups, statistics);
     }
     let mut boxes = 0;
-    for &group in &*reached {
+    for &group in &reached.groups {
         // A group may have been made with one above it.
         if tree.groups[group as usize].epoch != work.shape.epoch {
-            boxes += make_levels_true(work, tree, group, levels, groups, statistics);
+            boxes += make_levels_true(work, tree, group, levels, &mut reached.below, statistics);
         }
     }
     boxes

@@ -40,7 +40,7 @@ impl<'w, S: Scalar> Step<'w, S> {
         self.bodies[body].bring_into_order();
         let updates = self.updates();
         let shape = self.bodies[body].shape(self.origin);
-        updates.refresh_ahead(tree, &shape, &mut self.scratch.groups[1], self.statistics);
+        updates.refresh_ahead(tree, &shape, &mut self.scratch.groups, self.statistics);
     }
 
     /// Two different bodies; the visitor sees (triangle of `a`, triangle of `b`).

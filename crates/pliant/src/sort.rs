@@ -9,11 +9,19 @@ const FEW: usize = 192;
 /// Digits of at most so many bits: counts of all its values stay in the nearest cache.
 const DIGIT: u32 = 11;
 
-/// Sorts by `K` numbers, the first the most significant. `spare` is scratch.
+/// Scratch.
+#[derive(Debug, Default)]
+pub(crate) struct Keys {
+    keys: Vec<u64>,
+    spare: Vec<u64>,
+}
+
+/// Sorts items that are `K` numbers, the first the most significant.
 pub(crate) fn sort_by_numbers<T: Copy, const K: usize>(
     items: &mut [T],
-    spare: &mut Vec<T>,
+    Keys { keys, spare }: &mut Keys,
     numbers: impl Fn(&T) -> [u32; K],
+    item: impl Fn([u32; K]) -> T,
 ) {
     if items.len() < FEW || items.len() > u32::MAX as usize {
         items.sort_unstable_by_key(numbers);
@@ -36,43 +44,48 @@ pub(crate) fn sort_by_numbers<T: Copy, const K: usize>(
         items.sort_unstable_by_key(numbers);
         return;
     }
-    let key = |item: &T| {
+    keys.clear();
+    keys.extend(items.iter().map(|item| {
         let numbers = numbers(item);
         (0..K).fold(0, |key: u64, k| {
             key << widths[k] | u64::from(numbers[k] - least[k])
         })
-    };
+    }));
+    spare.resize(keys.len(), 0);
     let passes = bits.div_ceil(DIGIT);
-    spare.clear();
-    spare.extend_from_slice(items);
     for pass in 0..passes {
         // Equal digits, or nearly, rather than full ones and a rest.
         let (low, high) = (bits * pass / passes, bits * (pass + 1) / passes);
-        let digit = |item: &T| (key(item) >> low) as usize & ((1 << (high - low)) - 1);
-        if pass % 2 == 0 {
-            distribute(items, spare, digit);
-        } else {
-            distribute(spare, items, digit);
-        }
+        distribute(keys, spare, low, high - low);
+        std::mem::swap(keys, spare);
     }
-    if passes % 2 == 1 {
-        items.copy_from_slice(spare);
+    for (place, &key) in items.iter_mut().zip(&*keys) {
+        let mut numbers = least;
+        let mut rest = key;
+        for k in (0..K).rev() {
+            numbers[k] += (rest & ((1 << widths[k]) - 1)) as u32;
+            rest >>= widths[k];
+        }
+        *place = item(numbers);
     }
 }
 
-/// Puts items in the order of a digit, equal ones in the order in which they are.
-fn distribute<T: Copy>(from: &[T], to: &mut [T], digit: impl Fn(&T) -> usize) {
+/// Puts keys in the order of a digit, equal ones in the order in which they are.
+fn distribute(from: &[u64], to: &mut [u64], low: u32, width: u32) {
     let mut places = [0_u32; 1 << DIGIT];
-    for item in from {
-        places[digit(item)] += 1;
+    let places = &mut places[..1 << width];
+    let mask = places.len() - 1;
+    let digit = |key: u64| (key >> (low % u64::BITS)) as usize & mask;
+    for &key in from {
+        places[digit(key)] += 1;
     }
     let mut before = 0;
-    for place in &mut places {
+    for place in &mut *places {
         before += std::mem::replace(place, before);
     }
-    for item in from {
-        let place = &mut places[digit(item)];
-        to[*place as usize] = *item;
+    for &key in from {
+        let place = &mut places[digit(key)];
+        to[*place as usize] = key;
         *place += 1;
     }
 }
@@ -90,7 +103,7 @@ mod tests {
                 .wrapping_add(1_442_695_040_888_963_407);
             ((state >> 32) as u32).checked_shr(32 - bits).unwrap_or(0)
         };
-        let mut spare = Vec::new();
+        let mut keys = Keys::default();
         for (count, first_bits, second_bits) in [
             (0, 9, 9),
             (5, 9, 9),
@@ -107,7 +120,7 @@ mod tests {
                 .collect();
             let mut expected = items.clone();
             expected.sort_unstable();
-            sort_by_numbers(&mut items, &mut spare, |&pair| pair);
+            sort_by_numbers(&mut items, &mut keys, |&pair| pair, |pair| pair);
             assert!(items == expected, "{count} {first_bits} {second_bits}");
         }
     }

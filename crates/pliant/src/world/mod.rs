@@ -18,6 +18,7 @@ use crate::geometry::{Aabb, Bounds, Origin, Scalar};
 use crate::kernels::{self, Level};
 use crate::options::Options;
 use crate::pairs::Pair;
+use crate::sort::Keys;
 use crate::statistics::Statistics;
 use crate::traversal::Scratch;
 use body::Body;
@@ -85,9 +86,7 @@ pub struct World<S> {
     body_pairs_hold: bool,
     pairs: Vec<Pair>,
     pairs_of_bodies: Vec<[u32; 2]>,
-    /// Scratch of the sorting of pairs.
-    spare_pairs: Vec<Pair>,
-    spare_pairs_of_bodies: Vec<[u32; 2]>,
+    keys: Keys,
     statistics: Statistics,
     /// Work done by `update` since the last query.
     done_early: Statistics,
@@ -121,8 +120,7 @@ impl<S: Scalar> World<S> {
             body_pairs_hold: false,
             pairs: Vec::new(),
             pairs_of_bodies: Vec::new(),
-            spare_pairs: Vec::new(),
-            spare_pairs_of_bodies: Vec::new(),
+            keys: Keys::default(),
             statistics: Statistics::default(),
             done_early: Statistics::default(),
         }

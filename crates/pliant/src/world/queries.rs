@@ -34,9 +34,18 @@ impl<S: Scalar> World<S> {
         });
         // The bodies on the left come in order already.
         for of_one_body in pairs.chunk_by_mut(|p, q| p.body_a == q.body_a) {
-            sort_by_numbers(of_one_body, &mut self.spare_pairs, |pair| {
-                [pair.triangle_a, pair.body_b.0, pair.triangle_b]
-            });
+            let body_a = of_one_body[0].body_a;
+            sort_by_numbers(
+                of_one_body,
+                &mut self.keys,
+                |pair| [pair.triangle_a, pair.body_b.0, pair.triangle_b],
+                |[triangle_a, body_b, triangle_b]| Pair {
+                    body_a,
+                    triangle_a,
+                    body_b: BodyId(body_b),
+                    triangle_b,
+                },
+            );
         }
         self.pairs = pairs;
         &self.pairs
@@ -448,7 +457,7 @@ impl<S: Scalar> World<S> {
             pairs.push(pair);
             ControlFlow::Continue(())
         });
-        sort_by_numbers(&mut pairs, &mut self.spare_pairs_of_bodies, |&pair| pair);
+        sort_by_numbers(&mut pairs, &mut self.keys, |&pair| pair, |pair| pair);
         self.pairs_of_bodies = pairs;
         visited.map(|_: ControlFlow<()>| &*self.pairs_of_bodies)
     }

@@ -28,13 +28,14 @@ enum Ask {
     Itself,
 }
 
-const WINDOWS: [Window; 8] = [
+const WINDOWS: [Window; 9] = [
     ("easy", "spheres", 20_480, 1..=50, Ask::All),
     ("hard", "spheres", 20_480, 150..=200, Ask::All),
     ("deepest", "spheres", 20_480, 200..=200, Ask::All),
     ("first", "spheres", 20_480, 60..=200, Ask::First),
     ("crowd", "crowd", 5_120, 150..=200, Ask::All),
     ("cloth", "cloth", 79_202, 35..=50, Ask::Itself),
+    ("small", "spheres", 1_280, 1..=200, Ask::First),
     ("large", "spheres", 327_680, 190..=200, Ask::All),
     ("largest", "spheres", 1_310_720, 196..=200, Ask::All),
 ];

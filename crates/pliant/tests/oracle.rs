@@ -100,6 +100,43 @@ fn thousands_of_pairs() {
     }
 }
 
+/// Pairs that once were decided wrongly, in bits: corner by corner, the first triangle first.
+const FOUND: [[u64; 18]; 1] = [
+    // n . t overflows in single precision, and its error bound does not.
+    [
+        0xc0d7_6000_0000_0000,
+        0xc0e6_c000_0000_0000,
+        0xc0da_d000_0000_0000,
+        0x3c78_0800_0000_0000,
+        0x3c64_f000_0000_0000,
+        0x3c61_c000_0000_0000,
+        0xb959_4000_0000_0000,
+        0x395a_b000_0000_0000,
+        0x395c_3800_0000_0000,
+        0x410b_1000_0000_0000,
+        0x40f3_e000_0000_0000,
+        0xc0b3_0000_0000_0000,
+        0x39eb_e000_0000_0000,
+        0x39da_9000_0000_0000,
+        0xb9c1_c000_0000_0000,
+        0xc5fa_2000_0000_0000,
+        0xc5f9_f800_0000_0000,
+        0x45d3_e000_0000_0000,
+    ],
+];
+
+#[test]
+fn pairs_that_once_were_wrong() {
+    let mut world = Moving::<f64>::new();
+    for bits in FOUND {
+        let points = bits.map(f64::from_bits);
+        let corners = points.as_chunks::<3>().0;
+        let pair = [0, 3].map(|first| [corners[first], corners[first + 1], corners[first + 2]]);
+        let expected = intersect(&pair[0], &pair[1]);
+        assert_eq!(world.answers(pair), [expected; 2], "{pair:?}");
+    }
+}
+
 /// 16 classes of 640,000 pairs, a tenth of a class at a time in either of two threads.
 #[test]
 #[ignore = "minutes; see the head of this file"]

@@ -1,4 +1,4 @@
-//! How a tree divides its body: for pictures, and to judge partitions.
+//! How a tree divides its body: for pictures, to judge partitions, and to store vertices in its order.
 
 use super::forest::with_trees;
 use super::{BodyId, World};
@@ -40,5 +40,41 @@ impl<S: Scalar> World<S> {
             }
         }
         Ok(parts)
+    }
+
+    /// The order in which queries read the vertices of a body, as the caller numbers them: at place i of memory is vertex
+    /// `order[i]`. Shape (n,).
+    ///
+    /// Queries are faster on a body whose vertices come in this order already, the more so the larger it is. A simulation that
+    /// can choose stores them so: vertex i of the new body is vertex `order[i]` of the old one, and triangles name the new
+    /// numbers. The tree of the new body is the same, and its order is 0, 1, 2, ...
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let mut triangles = vec![[9, 1, 2], [2, 1, 3], [4, 8, 6]];
+    /// let positions: Vec<[f32; 3]> = (0..10).map(|i| [i as f32, (i * i % 7) as f32, 0.0]).collect();
+    /// let body = world.add(&triangles, &positions)?;
+    ///
+    /// let order = world.vertex_order(body)?.to_vec();
+    /// let positions: Vec<_> = order.iter().map(|&old| positions[old as usize]).collect();
+    /// let mut new_number = vec![0; order.len()];
+    /// for (new, &old) in order.iter().enumerate() {
+    ///     new_number[old as usize] = new as u32;
+    /// }
+    /// for corner in triangles.as_flattened_mut() {
+    ///     *corner = new_number[*corner as usize];
+    /// }
+    /// let body = world.add(&triangles, &positions)?;
+    /// assert!(world.vertex_order(body)?.iter().copied().eq(0..10));
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn vertex_order(&self, body: BodyId) -> Result<&[u32], Error> {
+        Ok(self.bodies[self.place(body)?].mesh.vertex_ids())
     }
 }

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Counts the instructions of fixed steps, and fails if one takes 3 % more than benchmarks/instructions.txt says: a gate that no
+# noise of the machine can trip. Needs valgrind (which has no AVX-512; the kernels stop at AVX2 anyway).
+#
+#     benchmarks/count_instructions.sh            compare
+#     benchmarks/count_instructions.sh --record   write the file anew, after a change that is meant
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+command -v valgrind >/dev/null || { echo "valgrind is not installed (Debian: apt-get install valgrind)" >&2; exit 2; }
+cargo build --release -p pliant-bench --example windows
+program=${CARGO_TARGET_DIR:-target}/release/examples/windows
+recorded=benchmarks/instructions.txt
+found=$(mktemp)
+trap 'rm -f "$found"' EXIT
+
+for window in deepest cloth small; do
+    # Only what the library does between the call that brings positions and the answer.
+    count=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null \
+        --toggle-collect='*World*set_positions*' --toggle-collect='*World*intersection*' \
+        "$program" "$window" --rounds 1 2>&1 >/dev/null | sed -n 's/.*Collected : \([0-9]*\)$/\1/p')
+    printf '%-8s %12d\n' "$window" "$count"
+done | tee "$found"
+
+if [[ ${1:-} == --record ]]; then
+    cp "$found" "$recorded"
+    exit
+fi
+awk 'NR == FNR { was[$1] = $2; next }
+     { change = 100 * ($2 / was[$1] - 1); printf "%-8s %+.1f %%\n", $1, change; if (change > 3) failed = 1 }
+     END { if (failed) print "more than 3 % above benchmarks/instructions.txt"; exit failed }' "$recorded" "$found"

@@ -17,8 +17,9 @@ trap 'rm -f "$found"' EXIT
 for window in deepest cloth small; do
     # Only what the library does between the call that brings positions and the answer.
     count=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null \
-        --toggle-collect='*World*set_positions*' --toggle-collect='*World*intersection*' \
+        --toggle-collect='windows::one_step' \
         "$program" "$window" --rounds 1 2>&1 >/dev/null | sed -n 's/.*Collected : \([0-9]*\)$/\1/p')
+    [[ $count -gt 0 ]] || { echo "$window: nothing was counted; do the functions have other names?" >&2; exit 2; }
     printf '%-8s %12d\n' "$window" "$count"
 done | tee "$found"
 

@@ -9,6 +9,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._types import Body, Frame, Mesh, OpenMesh, Pair, Statistics, TreeShape
 
+__all__ = [
+    "Check",
+    "World",
+    "check",
+    "intersection_pairs",
+    "reference_intersection_pairs",
+    "reference_self_intersection_pairs",
+    "self_intersection_pairs",
+]
+
 _Pairs: TypeAlias = NDArray[np.uint32]
 _Corner: TypeAlias = Sequence[float] | NDArray[np.floating[Any]]
 _Partition: TypeAlias = Literal["centre", "mean", "balanced", "connectivity"]

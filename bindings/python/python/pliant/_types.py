@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -93,7 +94,8 @@ class Statistics(NamedTuple):
     """Pairs found."""
 
 
-class Body(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Body:
     """A body that was read from files."""
 
     name: str
@@ -106,7 +108,8 @@ class Body(NamedTuple):
     """Vertices welded away."""
 
 
-class Frame(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Frame:
     """A frame that was checked."""
 
     frame: int

@@ -49,7 +49,8 @@ def triangles_meet(a: Integers, b: Integers) -> NDArray[np.bool_]:
 def intersection_pairs(va: Integers, fa: Integers, vb: Integers, fb: Integers) -> Integers:
     """All pairs (triangle of a, triangle of b), sorted."""
     i, j = (index.ravel() for index in np.indices((len(fa), len(fb))))
-    return np.stack([i, j], axis=1)[triangles_meet(va[fa[i]], vb[fb[j]])]
+    found: Integers = np.stack([i, j], axis=1)[triangles_meet(va[fa[i]], vb[fb[j]])]
+    return found
 
 
 def self_intersection_pairs(vertices: Integers, faces: Integers) -> Integers:
@@ -57,4 +58,5 @@ def self_intersection_pairs(vertices: Integers, faces: Integers) -> Integers:
     i, j = np.triu_indices(len(faces), 1)
     apart = (faces[i][:, :, None] != faces[j][:, None, :]).all(axis=(1, 2))
     i, j = i[apart], j[apart]
-    return np.stack([i, j], axis=1)[triangles_meet(vertices[faces[i]], vertices[faces[j]])]
+    found: Integers = np.stack([i, j], axis=1)[triangles_meet(vertices[faces[i]], vertices[faces[j]])]
+    return found

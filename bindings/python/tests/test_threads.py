@@ -33,6 +33,8 @@ def lets_others_run(call: Callable[[], object], tries: int) -> bool:
     other.start()
     # From now on a thread runs until it lets go of the lock by itself.
     sys.setswitchinterval(60)
+    # The other thread may be waiting still, to ask for the lock as it was told before.
+    time.sleep(0.01)
     try:
         for _ in range(tries):
             before = turns

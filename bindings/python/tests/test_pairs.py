@@ -146,3 +146,36 @@ def test_a_folding_sheet_of_ten_thousand_triangles() -> None:
     part = np.union1d(pairs, others)
     expected = pliant.reference.self_intersection_pairs(shape, faces[part])
     np.testing.assert_array_equal(part[expected], pairs)
+
+
+def test_rebuild_and_updates_do_their_work() -> None:
+    """None changes an answer; trees and counters show that they were done."""
+    faces, flat = grid(16)
+    turned = flat[:, [1, 2, 0]] * [1.0, 1.0, 0.01]
+    world = pliant.World()
+    body = world.add(faces, flat)
+    fresh = pliant.World()
+    fresh.add(faces, turned)
+    before = world.tree_parts(body, 1).tolist()
+    world.set_positions(body, turned)
+    assert world.tree_parts(body, 1).tolist() == before != fresh.tree_parts(0, 1).tolist()
+    world.rebuild(body)
+    assert world.tree_parts(body, 1).tolist() == fresh.tree_parts(0, 1).tolist()
+
+    # A first pair that is still there is found without a box; those counted then were made by the update before.
+    world = pliant.World()
+    shape = fold(flat, 1.0)
+    bodies = [world.add(faces, shape), world.add(faces, shape)]
+    for update in (False, True):
+        assert world.first_intersection() and world.first_self_intersection(bodies[0])
+        for body in bodies:
+            world.set_positions(body, shape)
+        if update:
+            world.update()
+        assert world.first_intersection()
+        assert (world.statistics().boxes_bottom_up > 0) == update
+        world.set_positions(bodies[0], shape)
+        if update:
+            world.update_body(bodies[0])
+        assert world.first_self_intersection(bodies[0])
+        assert (world.statistics().boxes_bottom_up > 0) == update

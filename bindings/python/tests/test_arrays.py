@@ -183,6 +183,18 @@ def test_a_mesh_of_trimesh() -> None:
     assert len(pliant.self_intersection_pairs(a)) == 0
 
 
+def test_a_mesh_of_open3d() -> None:
+    open3d = pytest.importorskip("open3d", exc_type=ImportError)
+    a = open3d.geometry.TriangleMesh.create_sphere(1.0, 20)
+    b = open3d.geometry.TriangleMesh.create_sphere(1.0, 20).translate((0.5, 0.25, 0.125))
+    expected = pliant.reference.intersection_pairs(a, b).tolist()
+    assert pliant.intersection_pairs(a, b).tolist() == expected and expected
+    world = pliant.World()
+    bodies = [world.add(a), world.add(a)]
+    world.set_positions(bodies[1], b.vertices)
+    assert world.intersection_pairs_between(bodies[0], bodies[1]).tolist() == expected
+
+
 def test_answers_belong_to_the_caller() -> None:
     world = pliant.World()
     body = world.add(FACES, SHAPE)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+from itertools import chain, product
 from typing import Any
 
 import numpy as np
 import pliant
+import pytest
 from conftest import fold, grid
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 FACES, FLAT = grid(4)
 SHAPE = fold(FLAT, 1.0)
@@ -44,36 +45,45 @@ FUNCTIONS = [
     pliant.World,
 ]
 
-arguments = st.lists(st.sampled_from(ODD), max_size=4)
-keywords = st.dictionaries(
-    st.sampled_from(["threads", "frames", "weld", "first", "itself", "degree", "partition", "level", "leaf_size", "update"]),
-    st.sampled_from(ODD),
-    max_size=2,
-)
+KEYWORDS = ["threads", "frames", "weld", "first", "itself", "degree", "partition", "level", "leaf_size", "update", "broad"]
 
 
-@settings(max_examples=400, deadline=None)
-@given(st.lists(st.tuples(st.sampled_from(METHODS), arguments), min_size=1, max_size=6))
-def test_methods(calls: list[tuple[str, list[Any]]]) -> None:
-    world = pliant.World()
-    for shape in (FLAT, SHAPE, FLAT):
-        world.add(FACES, shape)
-    for name, given_arguments in calls:
-        try:
-            getattr(world, name)(*given_arguments)
-        except SAID as error:
-            assert str(error)
-            assert getattr(error, "kind", None) not in ("Broken", "Busy")
-    world.validate()
-    for body in world.bodies():
-        world.self_intersection_pairs(body)
-    world.intersection_pairs()
-
-
-@settings(max_examples=300, deadline=None)
-@given(st.sampled_from(FUNCTIONS), arguments, keywords)
-def test_functions(function: Any, given_arguments: list[Any], given_keywords: dict[str, Any]) -> None:
+def is_answered(call: Callable[..., Any], arguments: Iterable[Any], **keywords: Any) -> None:
     try:
-        function(*given_arguments, **given_keywords)
+        call(*arguments, **keywords)
     except SAID as error:
         assert str(error)
+        assert getattr(error, "kind", None) not in ("Broken", "Busy")
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_methods(name: str) -> None:
+    def three_bodies() -> pliant.World:
+        world = pliant.World()
+        for shape in (FLAT, SHAPE, FLAT):
+            world.add(FACES, shape)
+        return world
+
+    def is_in_order(world: pliant.World) -> None:
+        world.validate()
+        for body in world.bodies():
+            world.self_intersection_pairs(body)
+        world.intersection_pairs()
+
+    world = three_bodies()
+    for arguments in chain([()], product(ODD), product(ODD, ODD), product([0], [1], ODD), product([0], ODD, ODD)):
+        is_answered(getattr(world, name), arguments)
+        if world.bodies() != [0, 1, 2]:
+            is_in_order(world)
+            world = three_bodies()
+    is_in_order(world)
+
+
+@pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__name__)
+def test_functions(function: Callable[..., Any]) -> None:
+    for arguments in chain([()], product(ODD), product(ODD, ODD), product([SHAPE], [FACES], ODD, ODD)):
+        is_answered(function, arguments)
+    for keyword in KEYWORDS:
+        for odd in ODD:
+            is_answered(function, (), **{keyword: odd})
+            is_answered(function, (SHAPE, FACES), **{keyword: odd})

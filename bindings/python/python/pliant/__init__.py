@@ -1,0 +1,33 @@
+"""Which triangles of deforming meshes intersect: exactly, never stale, and touching only what the contact region needs.
+
+    world = pliant.World()
+    cloth = world.add(faces, vertices)                  # (m, 3) of any integer type, (n, 3) float32 or float64
+    for positions in frames:
+        world.set_positions(cloth, positions)           # checked and taken over in one pass
+        pairs = world.self_intersection_pairs(cloth)    # (k, 2) uint32, sorted
+
+Two triangles intersect as closed sets: touching in one point counts, coplanar overlap counts, a degenerate triangle is the
+segment or point that it is. The decision is that of exact arithmetic on the coordinates given. Within a body, pairs that
+share a vertex are left out. Surfaces only: a body wholly inside another meets no triangle of it.
+"""
+
+from . import reference
+from ._pliant import Check, World, check, intersection_pairs, self_intersection_pairs
+from ._types import Body, Error, Frame, Mesh, OpenMesh, Pair, Statistics, TreeShape
+
+__all__ = [
+    "Body",
+    "Check",
+    "Error",
+    "Frame",
+    "Mesh",
+    "OpenMesh",
+    "Pair",
+    "Statistics",
+    "TreeShape",
+    "World",
+    "check",
+    "intersection_pairs",
+    "reference",
+    "self_intersection_pairs",
+]

@@ -1,0 +1,144 @@
+"""What is easier said in Python than in Rust: the exception, and answers whose fields have names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+class Error(ValueError):
+    """A call that was refused; the world is as it was before. Facts that do not apply are None.
+
+    kind is a name of the Rust library's ErrorKind (NoTriangles, TooLarge, TooManyBodies, VertexOutOfRange, WrongLength,
+    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody), or:
+
+      BadArray     not an array of three columns, or not of a type that is taken
+      BadOption    an option has no such value
+      Precision    float64 positions in a float32 world
+      Busy         the world is answering another call
+      CannotRead   a file; file and place say which and where
+      Broken       a bug of pliant; please report it
+    """
+
+    #: What was wrong.
+    kind: str | None
+    #: The body the call was about; None for one that was to be added.
+    body: int | None = None
+    #: The triangle, and the vertex, counted from 0.
+    triangle: int | None = None
+    vertex: int | None = None
+    #: How many vertices the body has.
+    vertices: int | None = None
+    #: Where the vertex is.
+    position: tuple[float, float, float] | None = None
+    #: Vertices of the body, and positions given.
+    expected: int | None = None
+    found: int | None = None
+    #: "triangles" or "vertices", how many there were, and how many there may be.
+    what: str | None = None
+    count: int | None = None
+    limit: int | None = None
+    #: The file, where in it, and which frame of the sequence.
+    file: str | None = None
+    place: str | None = None
+    frame: int | None = None
+
+    def __init__(self, message: str = "", kind: str | None = None, **facts: Any) -> None:
+        super().__init__(message)
+        self.kind = kind
+        for name, fact in facts.items():
+            setattr(self, name, fact)
+
+
+class Pair(NamedTuple):
+    """Two triangles of two bodies that intersect; the smaller (body, triangle) is first."""
+
+    body_a: int
+    triangle_a: int
+    body_b: int
+    triangle_b: int
+
+
+class TreeShape(NamedTuple):
+    """The tree of a body in numbers; the structure only, which no movement changes."""
+
+    depth: int
+    """The level of the deepest leaf, where the root is level 0."""
+    nodes: int
+    """All nodes, leaves and root included: the boxes of a complete update."""
+    leaves: int
+    """Nodes that hold triangles."""
+
+
+class Statistics(NamedTuple):
+    """The work of one query, and of the calls of update and update_body before it."""
+
+    body_pairs: int
+    """Pairs of bodies whose trees were traversed."""
+    boxes_bottom_up: int
+    """Boxes made ahead of a traversal."""
+    boxes_top_down: int
+    """Boxes made when a traversal reached them."""
+    triangle_boxes: int
+    """Boxes of single triangles in leaves of several."""
+    node_pairs: int
+    """Pairs of nodes with overlapping boxes."""
+    candidate_pairs: int
+    """Pairs of triangles with overlapping boxes, which were therefore decided."""
+    exact_decisions: int
+    """Candidates that needed exact arithmetic."""
+    pairs: int
+    """Pairs found."""
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A body that was read from files."""
+
+    name: str
+    """The path as given."""
+    vertices: int
+    triangles: int
+    faces: NDArray[np.uint32] | None
+    """For each triangle the polygon it is part of; None where every polygon is a triangle."""
+    welded: int
+    """Vertices welded away."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """A frame that was checked."""
+
+    frame: int
+    """Its number, counted from 0."""
+    count: int
+    """How many pairs."""
+    pairs: NDArray[np.uint32]
+    """(count, 4): body, triangle, body, triangle, sorted."""
+    complete: bool
+    """Whether these are all pairs; not if only the first was asked for."""
+
+
+class Mesh(Protocol):
+    """A mesh as trimesh has it."""
+
+    @property
+    def vertices(self) -> ArrayLike: ...
+    @property
+    def faces(self) -> ArrayLike: ...
+
+
+class OpenMesh(Protocol):
+    """A mesh as Open3D has it."""
+
+    @property
+    def vertices(self) -> Any: ...
+    @property
+    def triangles(self) -> Any: ...
+
+
+for _public in (Error, Pair, TreeShape, Statistics, Body, Frame, Mesh, OpenMesh):
+    _public.__module__ = "pliant"

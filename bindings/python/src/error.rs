@@ -1,0 +1,219 @@
+//! Every refusal as a `pliant.Error`, with the facts that the Rust error has, as attributes.
+//!
+//! The class itself is Python's, in `_types.py`: there it is a few lines, and can be pickled.
+
+use pliant::{BodyId, ErrorKind};
+use pyo3::prelude::*;
+use pyo3::types::{IntoPyDict, PyDict, PyTuple};
+use std::fmt::{self, Debug, Display};
+use std::sync::{Mutex, TryLockError};
+
+/// A call that was refused, or an exception of Python's on its way through.
+#[derive(Debug)]
+pub(crate) enum Refused {
+    /// A `pliant.Error` to be.
+    Error {
+        kind: String,
+        message: String,
+        facts: Vec<(&'static str, Fact)>,
+    },
+    /// What a visitor, or an object that was to be an array, raised.
+    Python(PyErr),
+}
+
+/// A fact about a refusal.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Fact {
+    Number(i128),
+    Position([f64; 3]),
+    Text(String),
+}
+
+impl From<usize> for Fact {
+    fn from(number: usize) -> Self {
+        Self::Number(number as i128)
+    }
+}
+
+impl From<BodyId> for Fact {
+    fn from(body: BodyId) -> Self {
+        Self::Number(body.0.into())
+    }
+}
+
+impl Refused {
+    /// A refusal of these bindings' own; `kind` is one of those that `pliant.Error` describes.
+    pub(crate) fn new(kind: &str, message: impl Into<String>) -> Self {
+        Self::Error {
+            kind: kind.to_owned(),
+            message: message.into(),
+            facts: Vec::new(),
+        }
+    }
+
+    /// With a fact more.
+    pub(crate) fn with(mut self, name: &'static str, fact: impl Into<Fact>) -> Self {
+        if let Self::Error { facts, .. } = &mut self {
+            facts.push((name, fact.into()));
+        }
+        self
+    }
+
+    /// With what it is about before the message.
+    pub(crate) fn about(mut self, what: impl Display) -> Self {
+        if let Self::Error { message, .. } = &mut self {
+            *message = format!("{what}: {message}");
+        }
+        self
+    }
+
+    /// About an array that was given for a body, or for a new one.
+    pub(crate) fn of_body(self, body: Option<BodyId>) -> Self {
+        match body {
+            Some(body) => self.about(body).with("body", body),
+            None => self.about("new body"),
+        }
+    }
+}
+
+/// The name of a variant, which `Debug` prints first.
+fn variant(value: &impl Debug) -> String {
+    let text = format!("{value:?}");
+    let end = text.find(|c: char| !c.is_alphanumeric());
+    text[..end.unwrap_or(text.len())].to_owned()
+}
+
+impl From<pliant::Error> for Refused {
+    fn from(error: pliant::Error) -> Self {
+        let mut refused = Self::new(&variant(&error.kind), error.to_string());
+        if let Some(body) = error.body {
+            refused = refused.with("body", body);
+        }
+        match error.kind {
+            ErrorKind::TooLarge { what, count, limit } => refused
+                .with("what", Fact::Text(what.to_owned()))
+                .with("count", count)
+                .with("limit", limit),
+            ErrorKind::VertexOutOfRange {
+                triangle,
+                vertex,
+                vertices,
+            } => refused
+                .with("triangle", triangle)
+                .with("vertex", vertex as usize)
+                .with("vertices", vertices),
+            ErrorKind::WrongLength { expected, found } => {
+                refused.with("expected", expected).with("found", found)
+            }
+            ErrorKind::BadPosition { vertex, position }
+            | ErrorKind::OutsideLooseBox { vertex, position } => refused
+                .with("vertex", vertex)
+                .with("position", Fact::Position(position)),
+            ErrorKind::NeedsSubnormals { vertex } | ErrorKind::NotWritten { vertex } => {
+                refused.with("vertex", vertex)
+            }
+            // The kind, and the body, say it all.
+            _ => refused,
+        }
+    }
+}
+
+impl From<pliant_io::Error> for Refused {
+    fn from(error: pliant_io::Error) -> Self {
+        let refused = Self::new("CannotRead", error.to_string())
+            .with("file", Fact::Text(error.file().display().to_string()));
+        // Displayed behind a file's name, a place begins with a comma.
+        let place = error.place().to_string();
+        match place.trim_start_matches(", ") {
+            "" => refused,
+            place => refused.with("place", Fact::Text(place.to_owned())),
+        }
+    }
+}
+
+impl From<PyErr> for Refused {
+    fn from(error: PyErr) -> Self {
+        Self::Python(error)
+    }
+}
+
+impl From<pyo3::CastError<'_, '_>> for Refused {
+    fn from(error: pyo3::CastError<'_, '_>) -> Self {
+        Self::Python(error.into())
+    }
+}
+
+impl From<Refused> for PyErr {
+    fn from(refused: Refused) -> Self {
+        match refused {
+            Refused::Python(error) => error,
+            Refused::Error {
+                kind,
+                message,
+                facts,
+            } => Python::attach(|py| {
+                raised(py, &kind, &message, &facts).unwrap_or_else(|instead| instead)
+            }),
+        }
+    }
+}
+
+fn raised(
+    py: Python<'_>,
+    kind: &str,
+    message: &str,
+    facts: &[(&'static str, Fact)],
+) -> PyResult<PyErr> {
+    let named = PyDict::new(py);
+    for (name, fact) in facts {
+        match fact {
+            Fact::Number(number) => named.set_item(name, number)?,
+            Fact::Position(position) => named.set_item(name, PyTuple::new(py, position)?)?,
+            Fact::Text(text) => named.set_item(name, text)?,
+        }
+    }
+    let class = py.import("pliant._types")?.getattr("Error")?;
+    let error = class.call((message, kind), Some(&named))?;
+    Ok(PyErr::from_value(error))
+}
+
+/// A value of a class in `_types.py`, from its fields by name.
+pub(crate) fn named_tuple<'py>(
+    py: Python<'py>,
+    class: &str,
+    fields: impl IntoPyDict<'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let class = py.import("pliant._types")?.getattr(class)?;
+    class.call((), Some(&fields.into_py_dict(py)?))
+}
+
+/// Does `work` on what `mutex` holds, without the interpreter lock.
+///
+/// Another call that is under way, of another thread or of this one with a visitor, is not waited for.
+pub(crate) fn alone_with<S: Send, T: Send>(
+    py: Python<'_>,
+    mutex: &Mutex<S>,
+    work: impl FnOnce(&mut S) -> Result<T, Refused> + Send,
+) -> Result<T, Refused> {
+    py.detach(|| match mutex.try_lock() {
+        Ok(mut state) => work(&mut state),
+        Err(TryLockError::WouldBlock) => Err(Refused::new(
+            "Busy",
+            "in use by another thread, or by the visitor that asks; one call at a time: give each thread its own, and let a \
+             visitor keep what it is shown until the visit has ended",
+        )),
+        Err(TryLockError::Poisoned(_)) => Err(Refused::new(
+            "Broken",
+            "an earlier call ended in a panic, which is a bug of pliant; please report it, and go on with a new one",
+        )),
+    })
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Error { message, .. } => f.write_str(message),
+            Self::Python(error) => Display::fmt(error, f),
+        }
+    }
+}

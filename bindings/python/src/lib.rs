@@ -1,0 +1,37 @@
+//! The extension module of the Python package `pliant`: the Rust library under the same names, numpy in and out.
+//!
+//! | file | idea |
+//! |---|---|
+//! | `arrays.rs` | numpy arrays read where they lie, and made |
+//! | `state.rs` | a world whose precision the first body fixes |
+//! | `world.rs` | `World`, as Python sees it |
+//! | `options.rs` | its keyword arguments |
+//! | `one_liners.rs` | questions that need no world to be made, and `pliant.reference` |
+//! | `check.rs` | files, frame by frame |
+//! | `error.rs` | every refusal as a `pliant.Error` |
+//! | `../python/pliant/` | the package: what is easier said in Python (named tuples, the exception), and the types |
+//!
+//! What always holds: the interpreter lock is released while anything is computed; only the calls of a visitor take it back. A
+//! world or a check is in use by one call at a time, and another is refused, not left waiting, so that nothing here can wait
+//! for ever.
+
+mod arrays;
+mod check;
+mod error;
+mod one_liners;
+mod options;
+mod state;
+mod world;
+
+#[pyo3::pymodule]
+mod _pliant {
+    #[pymodule_export]
+    use crate::check::{Check, check};
+    #[pymodule_export]
+    use crate::one_liners::{
+        intersection_pairs, reference_intersection_pairs, reference_self_intersection_pairs,
+        self_intersection_pairs,
+    };
+    #[pymodule_export]
+    use crate::world::World;
+}

@@ -1,0 +1,160 @@
+//! Questions that need no world to be made: two meshes, or one; and the same of the slow and obviously right reference.
+
+use crate::arrays::{self, Coordinates, Faces};
+use crate::error::Refused;
+use crate::options::check_threads;
+use crate::state::{State, precision_of, widen, with_world};
+use numpy::PyArray2;
+use pliant::{Options, reference};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+/// What was given for one mesh.
+struct Mesh<'py> {
+    positions: Coordinates<'py>,
+    faces: Faces<'py>,
+}
+
+impl<'py> Mesh<'py> {
+    fn read(
+        positions: &Bound<'py, PyAny>,
+        faces: &Bound<'py, PyAny>,
+        name: &str,
+    ) -> Result<Self, Refused> {
+        let positions = Coordinates::read(positions).map_err(|refused| refused.about(name))?;
+        let vertices = positions.get()?.len();
+        let faces = Faces::read(faces, vertices).map_err(|refused| refused.about(name))?;
+        Ok(Self { positions, faces })
+    }
+
+    fn of_object(mesh: &Bound<'py, PyAny>, name: &str) -> Result<Self, Refused> {
+        let [faces, positions] =
+            arrays::parts_of_mesh(mesh).map_err(|refused| refused.about(name))?;
+        Self::read(&positions, &faces, name)
+    }
+
+    /// Two meshes: two objects, or positions, faces, positions, faces.
+    fn two(given: &Bound<'py, PyTuple>) -> Result<[Self; 2], Refused> {
+        let items: Vec<_> = given.iter().collect();
+        match items.as_slice() {
+            [a, b] => Ok([Self::of_object(a, "a")?, Self::of_object(b, "b")?]),
+            [va, fa, vb, fb] => Ok([Self::read(va, fa, "a")?, Self::read(vb, fb, "b")?]),
+            _ => Err(wrong_number(
+                "two meshes, or four arrays: vertices and faces of one, vertices and faces of the other",
+            )),
+        }
+    }
+
+    /// One mesh: an object, or positions and faces.
+    fn one(given: &Bound<'py, PyTuple>) -> Result<Self, Refused> {
+        let items: Vec<_> = given.iter().collect();
+        match items.as_slice() {
+            [mesh] => Self::of_object(mesh, "mesh"),
+            [vertices, faces] => Self::read(vertices, faces, "mesh"),
+            _ => Err(wrong_number("a mesh, or two arrays: vertices and faces")),
+        }
+    }
+}
+
+fn wrong_number(wanted: &str) -> Refused {
+    Refused::Python(PyTypeError::new_err(format!("give {wanted}")))
+}
+
+/// intersection_pairs(va, fa, vb, fb, *, threads=1), or intersection_pairs(mesh_a, mesh_b, *, threads=1)
+///
+/// All intersecting pairs of two meshes, sorted: (k, 2) uint32, triangle of a, triangle of b. Decided as in a world; if one is
+/// of float64, both are. threads is reserved, and for now changes nothing.
+#[pyfunction]
+#[pyo3(signature = (*meshes, threads=1))]
+pub(crate) fn intersection_pairs<'py>(
+    py: Python<'py>,
+    meshes: &Bound<'py, PyTuple>,
+    threads: i64,
+) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
+    check_threads(threads)?;
+    let [a, b] = Mesh::two(meshes)?;
+    let positions = [a.positions.get()?, b.positions.get()?];
+    let faces = [a.faces.get()?, b.faces.get()?];
+    let pairs = py.detach(|| {
+        let mut state = State::new(Options::default());
+        let [a, b] = positions.map(precision_of);
+        state.fix_precision(a.max(b));
+        let a = state
+            .add(faces[0], positions[0])
+            .map_err(|refused| refused.about("a"))?;
+        let b = state
+            .add(faces[1], positions[1])
+            .map_err(|refused| refused.about("b"))?;
+        Ok::<_, Refused>(
+            with_world!(&mut state.world, world => world.intersection_pairs_between(a, b))?
+                .to_vec(),
+        )
+    })?;
+    Ok(arrays::pairs(py, pairs)?)
+}
+
+/// self_intersection_pairs(vertices, faces, *, threads=1), or self_intersection_pairs(mesh, *, threads=1)
+///
+/// All intersecting pairs of a mesh with itself, sorted: (k, 2) uint32, smaller triangle, larger triangle; triangles that
+/// share a vertex are left out. threads is reserved, and for now changes nothing.
+#[pyfunction]
+#[pyo3(signature = (*mesh, threads=1))]
+pub(crate) fn self_intersection_pairs<'py>(
+    py: Python<'py>,
+    mesh: &Bound<'py, PyTuple>,
+    threads: i64,
+) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
+    check_threads(threads)?;
+    let mesh = Mesh::one(mesh)?;
+    let (positions, faces) = (mesh.positions.get()?, mesh.faces.get()?);
+    let pairs = py.detach(|| {
+        let mut state = State::new(Options::default());
+        let body = state.add(faces, positions)?;
+        Ok::<_, Refused>(
+            with_world!(&mut state.world, world => world.self_intersection_pairs(body))?.to_vec(),
+        )
+    })?;
+    Ok(arrays::pairs(py, pairs)?)
+}
+
+/// intersection_pairs(va, fa, vb, fb), or intersection_pairs(mesh_a, mesh_b)
+///
+/// What pliant.intersection_pairs must give: every pair of triangles decided, no tree, no box, exact signs. Slow.
+#[pyfunction]
+#[pyo3(signature = (*meshes))]
+pub(crate) fn reference_intersection_pairs<'py>(
+    py: Python<'py>,
+    meshes: &Bound<'py, PyTuple>,
+) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
+    let [a, b] = Mesh::two(meshes)?;
+    let positions = [a.positions.get()?, b.positions.get()?];
+    let faces = [a.faces.get()?, b.faces.get()?];
+    let pairs = py.detach(|| {
+        let mut wide = [Vec::new(), Vec::new()];
+        let [wide_a, wide_b] = &mut wide;
+        reference::intersection_pairs(
+            faces[0],
+            widen(positions[0], wide_a),
+            faces[1],
+            widen(positions[1], wide_b),
+        )
+    });
+    Ok(arrays::pairs(py, pairs.map_err(Refused::from)?)?)
+}
+
+/// self_intersection_pairs(vertices, faces), or self_intersection_pairs(mesh)
+///
+/// What pliant.self_intersection_pairs must give: every pair of triangles decided, no tree, no box, exact signs. Slow.
+#[pyfunction]
+#[pyo3(signature = (*mesh))]
+pub(crate) fn reference_self_intersection_pairs<'py>(
+    py: Python<'py>,
+    mesh: &Bound<'py, PyTuple>,
+) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
+    let mesh = Mesh::one(mesh)?;
+    let (positions, faces) = (mesh.positions.get()?, mesh.faces.get()?);
+    let pairs =
+        py.detach(|| reference::self_intersection_pairs(faces, widen(positions, &mut Vec::new())));
+    Ok(arrays::pairs(py, pairs.map_err(Refused::from)?)?)
+}

@@ -1,0 +1,112 @@
+//! The keyword arguments of a world, by the names and values of the program's flags.
+
+use crate::error::Refused;
+use pliant::{BroadPhase, Degree, Options, Partition, Update};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::num::NonZeroU32;
+
+/// Names and what they mean.
+type Names<T> = [(&'static str, T)];
+
+const PARTITIONS: &Names<Partition> = &[
+    ("centre", Partition::Centre),
+    ("mean", Partition::Mean),
+    ("balanced", Partition::Balanced),
+    ("connectivity", Partition::Connectivity),
+];
+
+const UPDATES: &Names<Update> = &[
+    ("bottom-up", Update::BottomUp),
+    ("top-down", Update::TopDown),
+    ("hybrid", Update::HYBRID),
+];
+
+const BROAD_PHASES: &Names<BroadPhase> = &[
+    ("brute", BroadPhase::BruteForce),
+    ("sweep", BroadPhase::SweepAndPrune),
+    ("auto", BroadPhase::Auto),
+];
+
+/// Options as they were given, and the library's.
+#[derive(Clone, Debug)]
+pub(crate) struct Keywords {
+    pub(crate) degree: i64,
+    pub(crate) partition: String,
+    pub(crate) leaf_size: i64,
+    pub(crate) update: String,
+    pub(crate) level: Option<i64>,
+    pub(crate) broad: String,
+    pub(crate) threads: i64,
+}
+
+impl Keywords {
+    /// The library's options; a value that is none is refused, with those that are.
+    pub(crate) fn to_options(&self) -> Result<Options, Refused> {
+        let mut options = Options::default();
+        options.degree = match self.degree {
+            2 => Degree::Two,
+            4 => Degree::Four,
+            8 => Degree::Eight,
+            other => return Err(bad(format!("degree is {other}; it can be 2, 4 or 8"))),
+        };
+        options.partition = named("partition", &self.partition, PARTITIONS)?;
+        options.leaf_size = at_least_one("leaf_size", self.leaf_size)?;
+        options.update = named("update", &self.update, UPDATES)?;
+        if let Some(given) = self.level {
+            let Update::Hybrid { level, .. } = &mut options.update else {
+                return Err(bad(
+                    "level is the hybrid update's; it goes with update=\"hybrid\"",
+                ));
+            };
+            let wanted = u32::try_from(given)
+                .map_err(|_| bad(format!("level is {given}; the root is 0, and below it 1")))?;
+            *level = Some(wanted);
+        }
+        options.broad_phase = named("broad", &self.broad, BROAD_PHASES)?;
+        at_least_one("threads", self.threads)?;
+        Ok(options)
+    }
+
+    /// As the keyword arguments that they were.
+    pub(crate) fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        dict.set_item("degree", self.degree)?;
+        dict.set_item("partition", &self.partition)?;
+        dict.set_item("leaf_size", self.leaf_size)?;
+        dict.set_item("update", &self.update)?;
+        dict.set_item("level", self.level)?;
+        dict.set_item("broad", &self.broad)?;
+        dict.set_item("threads", self.threads)?;
+        Ok(dict)
+    }
+}
+
+/// A number of threads that a call was given. Reserved: the library works on one as yet.
+pub(crate) fn check_threads(threads: i64) -> Result<(), Refused> {
+    at_least_one("threads", threads).map(|_| ())
+}
+
+fn at_least_one(name: &str, given: i64) -> Result<NonZeroU32, Refused> {
+    u32::try_from(given)
+        .ok()
+        .and_then(NonZeroU32::new)
+        .ok_or_else(|| {
+            bad(format!(
+                "{name} is {given}; it must be at least 1, and below 2^32"
+            ))
+        })
+}
+
+fn named<T: Copy>(option: &str, given: &str, names: &Names<T>) -> Result<T, Refused> {
+    let found = names.iter().find(|(name, _)| *name == given);
+    found.map(|&(_, value)| value).ok_or_else(|| {
+        let names: Vec<_> = names.iter().map(|(name, _)| format!("{name:?}")).collect();
+        let names = names.join(", ");
+        bad(format!("{option} is {given:?}; it can be one of {names}"))
+    })
+}
+
+fn bad(message: impl Into<String>) -> Refused {
+    Refused::new("BadOption", message)
+}

@@ -1,0 +1,528 @@
+//! `World` as Python sees it: the Rust library's, method by method.
+
+use crate::arrays::{self, Coordinates, Faces};
+use crate::error::{Refused, alone_with, named_tuple};
+use crate::options::Keywords;
+use crate::state::{State, with_world};
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pliant::{BodyId, Error, ErrorKind, Pair};
+use pliant_io::Precision;
+use pyo3::exceptions::PyOverflowError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+
+/// Bodies that change their shape, and the questions which of their triangles intersect.
+///
+/// The first body fixes the precision, float32 or float64. Moving a body is `set_positions`; there is nothing else to call:
+/// every query brings up to date what it touches, and none can answer for old positions. A call that is refused raises
+/// `pliant.Error` and leaves the world as it was.
+///
+/// No option changes an answer; the defaults measured best. The paper's trees are partition="centre", leaf_size=1.
+///
+///   degree      the most children of a node: 2, 4 or 8
+///   partition   how triangles are divided into a tree: at the "centre" of a node's box, at the "mean" of the triangles'
+///               midpoints, into parts of equal size ("balanced"), or along the mesh ("connectivity")
+///   leaf_size   the most triangles in a leaf
+///   update      which boxes are made when: "bottom-up", "top-down" or "hybrid"
+///   level       the level down to which the hybrid works bottom-up; None: half the depth of the tree
+///   broad       how bodies that may meet are found: "brute", "sweep", or by their number ("auto")
+///   threads     reserved: at least 1, and for now it changes nothing
+///
+/// The interpreter lock is released while a call computes. Meanwhile no other thread may write to an array that the call was
+/// given. A world is in use by one call at a time; a second is refused.
+#[pyclass(frozen, module = "pliant")]
+pub(crate) struct World {
+    state: Mutex<State>,
+    keywords: Keywords,
+}
+
+/// A body: its number. A number that no body can have is no body of any world.
+#[derive(Clone, Copy)]
+struct Body(BodyId);
+
+impl<'py> FromPyObject<'_, 'py> for Body {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        match given.extract() {
+            Ok(number) => Ok(Self(BodyId(number))),
+            Err(error) if error.is_instance_of::<PyOverflowError>(given.py()) => {
+                let kind = ErrorKind::NoSuchBody;
+                let message = format!("body {}: {kind}", given.str()?);
+                Err(Refused::new("NoSuchBody", message).into())
+            }
+            Err(error) => Err(error),
+        }
+    }
+}
+
+impl World {
+    /// Does `work` on the world, without the interpreter lock.
+    fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut State) -> Result<T, Refused> + Send,
+    ) -> Result<T, Refused> {
+        alone_with(py, &self.state, work)
+    }
+
+    /// Shows a visitor of Python's all pairs that `ask` finds.
+    fn visit<P: Send>(
+        &self,
+        py: Python<'_>,
+        ask: impl FnOnce(&mut State, &mut Visitor<'_, P>) -> Result<ControlFlow<PyResult<()>>, Error>
+        + Send,
+        show: impl Fn(Python<'_>, P) -> PyResult<bool> + Sync,
+    ) -> Result<bool, Refused> {
+        self.with(py, |state| {
+            let mut visitor = |pair| match Python::attach(|py| show(py, pair)) {
+                Ok(false) => ControlFlow::Continue(()),
+                Ok(true) => ControlFlow::Break(Ok(())),
+                Err(raised) => ControlFlow::Break(Err(raised)),
+            };
+            match ask(state, &mut visitor)? {
+                ControlFlow::Continue(()) => Ok(false),
+                ControlFlow::Break(stopped) => Ok(stopped.map(|()| true)?),
+            }
+        })
+    }
+}
+
+/// Is shown pairs until it breaks, or raises.
+type Visitor<'a, P> = dyn FnMut(P) -> ControlFlow<PyResult<()>> + 'a;
+
+#[pymethods]
+impl World {
+    #[new]
+    #[pyo3(signature = (*, degree=8, partition="balanced", leaf_size=8, update="hybrid", level=None, broad="auto", threads=1))]
+    fn new(
+        degree: i64,
+        partition: &str,
+        leaf_size: i64,
+        update: &str,
+        level: Option<i64>,
+        broad: &str,
+        threads: i64,
+    ) -> Result<Self, Refused> {
+        let keywords = Keywords {
+            degree,
+            partition: partition.to_owned(),
+            leaf_size,
+            update: update.to_owned(),
+            level,
+            broad: broad.to_owned(),
+            threads,
+        };
+        let state = State::new(keywords.to_options()?);
+        Ok(Self {
+            state: Mutex::new(state),
+            keywords,
+        })
+    }
+
+    /// The options of this world, as the keyword arguments that make another like it.
+    fn options<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.keywords.to_dict(py)
+    }
+
+    /// The type of all positions, float32 or float64; None as long as there was no body.
+    #[getter]
+    fn dtype<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> Result<Option<Bound<'py, numpy::PyArrayDescr>>, Refused> {
+        let precision = self.with(py, |state| Ok(state.precision()))?;
+        Ok(precision.map(|precision| match precision {
+            Precision::F32 => numpy::dtype::<f32>(py),
+            Precision::F64 => numpy::dtype::<f64>(py),
+        }))
+    }
+
+    /// Adds a body: faces (m, 3) of any integer type, and positions (n, 3) of float32 or float64; or one mesh object that has
+    /// .faces (or .triangles, as in Open3D) and .vertices. Returns its number, which this world will not use again.
+    ///
+    /// Builds its tree on these positions, which need not be special; a rest pose is best. Corners may repeat: a degenerate
+    /// triangle is the segment or point that it is. Nothing is welded.
+    #[pyo3(signature = (faces, positions=None, /))]
+    fn add(
+        &self,
+        py: Python<'_>,
+        faces: &Bound<'_, PyAny>,
+        positions: Option<&Bound<'_, PyAny>>,
+    ) -> Result<u32, Refused> {
+        let [faces, positions] = match positions {
+            Some(positions) => [faces.clone(), positions.clone()],
+            None => arrays::parts_of_mesh(faces)?,
+        };
+        let of_new = |refused: Refused| refused.of_body(None);
+        let positions = Coordinates::read(&positions).map_err(of_new)?;
+        let positions = positions.get()?;
+        let faces = Faces::read(&faces, positions.len()).map_err(of_new)?;
+        let faces = faces.get()?;
+        self.with(py, |state| Ok(state.add(faces, positions)?.0))
+    }
+
+    /// Removes a body. Its number will not be used again.
+    fn remove(&self, py: Python<'_>, body: Body) -> Result<(), Refused> {
+        self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.remove(body.0)?)),
+        )
+    }
+
+    /// The bodies of this world, in the order in which they were added.
+    fn bodies(&self, py: Python<'_>) -> Result<Vec<u32>, Refused> {
+        self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.bodies().map(|body| body.0).collect()))
+        })
+    }
+
+    /// Gives a body a new shape: one position for each of its vertices, (n, 3), in the order in which it was added.
+    ///
+    /// One pass over the positions: checked, copied, and taken over only if all are good. A C-contiguous array of the world's
+    /// type is read where it lies; float32 is widened in a float64 world; other layouts are copied once before.
+    fn set_positions(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        positions: &Bound<'_, PyAny>,
+    ) -> Result<(), Refused> {
+        let body = body.0;
+        let positions =
+            Coordinates::read(positions).map_err(|refused| refused.of_body(Some(body)))?;
+        let positions = positions.get()?;
+        self.with(py, |state| state.set_positions(body, positions))
+    }
+
+    /// Like set_positions, but write(positions) fills an array (n, 3) of the world's type, which comes filled with NaN: every
+    /// vertex must be written, or the shape is refused. Where speed matters, reuse an array of your own and set_positions:
+    /// unlike in Rust, this form costs a copy more.
+    fn write_positions(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        write: &Bound<'_, PyAny>,
+    ) -> Result<(), Refused> {
+        let body = body.0;
+        let (vertices, dtype) = (self.vertex_count(py, Body(body))?, self.dtype(py)?);
+        let array = py
+            .import("numpy")?
+            .call_method1("full", ((vertices, 3), f64::NAN, dtype))?;
+        write.call1((&array,))?;
+        let written = Coordinates::read(&array)?;
+        let written = written.get()?;
+        self.with(py, |state| state.write_positions(body, written))
+    }
+
+    /// Builds the tree of a body anew, on the shape it has now. Worth it when a shape has become very different from the one
+    /// it was built on; never needed for right answers.
+    fn rebuild(&self, py: Python<'_>, body: Body) -> Result<(), Refused> {
+        self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.rebuild(body.0)?)),
+        )
+    }
+
+    /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
+    /// common with the mask of the other. At first both are all ones, 0xFFFFFFFF.
+    fn set_filter(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        membership: u32,
+        mask: u32,
+    ) -> Result<(), Refused> {
+        self.with(py, |state| {
+            with_world!(&mut state.world, world => Ok(world.set_filter(body.0, membership, mask)?))
+        })
+    }
+
+    /// From now on two bodies do not meet in queries of the whole world.
+    fn ignore(&self, py: Python<'_>, a: Body, b: Body) -> Result<(), Refused> {
+        self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.ignore(a.0, b.0)?)),
+        )
+    }
+
+    /// Takes ignore back.
+    fn unignore(&self, py: Python<'_>, a: Body, b: Body) -> Result<(), Refused> {
+        self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.unignore(a.0, b.0)?)),
+        )
+    }
+
+    /// Gives a body a box, its lower and upper corner, that holds it in every pose to come; None takes it away. Corners are
+    /// rounded to the world's type. Until the box is taken away, a position outside it is refused.
+    fn set_loose_box(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        corners: Option<(Bound<'_, PyAny>, Bound<'_, PyAny>)>,
+    ) -> Result<(), Refused> {
+        let corners = match corners {
+            Some((lo, hi)) => Some((arrays::point(&lo)?, arrays::point(&hi)?)),
+            None => None,
+        };
+        self.with(py, |state| Ok(state.set_loose_box(body.0, corners)?))
+    }
+
+    /// How many triangles a body has.
+    fn triangle_count(&self, py: Python<'_>, body: Body) -> Result<usize, Refused> {
+        self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.triangle_count(body.0))?)
+        })
+    }
+
+    /// How many vertices a body has: the length that its positions must have.
+    fn vertex_count(&self, py: Python<'_>, body: Body) -> Result<usize, Refused> {
+        self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.vertex_count(body.0))?)
+        })
+    }
+
+    /// The tree of a body in numbers.
+    fn tree_shape<'py>(&self, py: Python<'py>, body: Body) -> Result<Bound<'py, PyAny>, Refused> {
+        let shape = self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.tree_shape(body.0))?)
+        })?;
+        let fields = [
+            ("depth", shape.depth as usize),
+            ("nodes", shape.nodes),
+            ("leaves", shape.leaves),
+        ];
+        Ok(named_tuple(py, "TreeShape", fields)?)
+    }
+
+    /// For each triangle of a body, the part it is in when its tree is cut at a level, the root being level 0: (m,) uint32.
+    fn tree_parts<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+        level: u32,
+    ) -> Result<Bound<'py, PyArray1<u32>>, Refused> {
+        let parts = self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.tree_parts(body.0, level))?)
+        })?;
+        Ok(parts.into_pyarray(py))
+    }
+
+    /// All intersecting pairs of triangles of different bodies, sorted: (k, 4) uint32, body, triangle, body, triangle.
+    fn intersection_pairs<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
+        let pairs = self.with(py, |state| {
+            Ok(with_world!(&mut state.world, world => {
+                world.intersection_pairs().iter().copied().map(row).collect()
+            }))
+        })?;
+        Ok(arrays::pairs::<4>(py, pairs)?)
+    }
+
+    /// Some intersecting pair of triangles of different bodies, or None if there is none. Which one may depend on options and
+    /// history; whether there is one never does.
+    fn first_intersection<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> Result<Option<Bound<'py, PyAny>>, Refused> {
+        let pair = self.with(py, |state| {
+            Ok(with_world!(&mut state.world, world => world.first_intersection()))
+        })?;
+        Ok(pair.map(|pair| pair_of_python(py, pair)).transpose()?)
+    }
+
+    /// Calls visit(pair) for every intersecting pair of triangles of different bodies once, until it returns True (or
+    /// anything true). Returns whether it did. The order is deterministic, not sorted; visit may not ask this world.
+    fn visit_intersections(
+        &self,
+        py: Python<'_>,
+        visit: &Bound<'_, PyAny>,
+    ) -> Result<bool, Refused> {
+        let visit = visit.as_unbound();
+        self.visit(
+            py,
+            |state, visitor| {
+                Ok(with_world!(&mut state.world, world => world.visit_intersections(visitor)))
+            },
+            |py, pair| {
+                visit
+                    .bind(py)
+                    .call1((pair_of_python(py, pair)?,))?
+                    .is_truthy()
+            },
+        )
+    }
+
+    /// All intersecting pairs of two bodies, whatever filters say, sorted: (k, 2) uint32, triangle of a, triangle of b.
+    fn intersection_pairs_between<'py>(
+        &self,
+        py: Python<'py>,
+        a: Body,
+        b: Body,
+    ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
+        let pairs = self.with(py, |state| {
+            Ok(
+                with_world!(&mut state.world, world => world.intersection_pairs_between(a.0, b.0))?
+                    .to_vec(),
+            )
+        })?;
+        Ok(arrays::pairs(py, pairs)?)
+    }
+
+    /// Some intersecting pair (triangle of a, triangle of b), or None if there is none.
+    fn first_intersection_between(
+        &self,
+        py: Python<'_>,
+        a: Body,
+        b: Body,
+    ) -> Result<Option<(u32, u32)>, Refused> {
+        self.with(py, |state| {
+            Ok(
+                with_world!(&mut state.world, world => world.first_intersection_between(a.0, b.0))?
+                    .map(Into::into),
+            )
+        })
+    }
+
+    /// Calls visit((triangle of a, triangle of b)) for every intersecting pair once, until it returns True. Returns whether
+    /// it did.
+    fn visit_intersections_between(
+        &self,
+        py: Python<'_>,
+        a: Body,
+        b: Body,
+        visit: &Bound<'_, PyAny>,
+    ) -> Result<bool, Refused> {
+        let visit = visit.as_unbound();
+        self.visit(
+            py,
+            |state, visitor| with_world!(&mut state.world, world => world.visit_intersections_between(a.0, b.0, visitor)),
+            |py, [a, b]: [u32; 2]| visit.bind(py).call1(((a, b),))?.is_truthy(),
+        )
+    }
+
+    /// All intersecting pairs of a body with itself, sorted: (k, 2) uint32, smaller triangle, larger triangle. Triangles that
+    /// share a vertex are left out: they always touch.
+    fn self_intersection_pairs<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+    ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
+        let pairs = self.with(py, |state| {
+            Ok(
+                with_world!(&mut state.world, world => world.self_intersection_pairs(body.0))?
+                    .to_vec(),
+            )
+        })?;
+        Ok(arrays::pairs(py, pairs)?)
+    }
+
+    /// Some intersecting pair of a body with itself, or None if there is none.
+    fn first_self_intersection(
+        &self,
+        py: Python<'_>,
+        body: Body,
+    ) -> Result<Option<(u32, u32)>, Refused> {
+        self.with(py, |state| {
+            Ok(
+                with_world!(&mut state.world, world => world.first_self_intersection(body.0))?
+                    .map(Into::into),
+            )
+        })
+    }
+
+    /// Calls visit((triangle, triangle)) for every intersecting pair of a body with itself once, until it returns True.
+    /// Returns whether it did.
+    fn visit_self_intersections(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        visit: &Bound<'_, PyAny>,
+    ) -> Result<bool, Refused> {
+        let visit = visit.as_unbound();
+        self.visit(
+            py,
+            |state, visitor| with_world!(&mut state.world, world => world.visit_self_intersections(body.0, visitor)),
+            |py, [a, b]: [u32; 2]| visit.bind(py).call1(((a, b),))?.is_truthy(),
+        )
+    }
+
+    /// Does early what a query of the whole world would do first. Never needed for right answers.
+    fn update(&self, py: Python<'_>) -> Result<(), Refused> {
+        self.with(py, |state| {
+            with_world!(&mut state.world, world => world.update());
+            Ok(())
+        })
+    }
+
+    /// Does early what a query that names a body would do first. Never needed for right answers.
+    fn update_body(&self, py: Python<'_>, body: Body) -> Result<(), Refused> {
+        self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.update_body(body.0)?)),
+        )
+    }
+
+    /// What the last query did, and the calls of update and update_body before it.
+    fn statistics<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyAny>, Refused> {
+        let statistics = self.with(py, |state| {
+            Ok(with_world!(&state.world, world => *world.statistics()))
+        })?;
+        let fields = [
+            ("body_pairs", statistics.body_pairs),
+            ("boxes_bottom_up", statistics.boxes_bottom_up),
+            ("boxes_top_down", statistics.boxes_top_down),
+            ("triangle_boxes", statistics.triangle_boxes),
+            ("node_pairs", statistics.node_pairs),
+            ("candidate_pairs", statistics.candidate_pairs),
+            ("exact_decisions", statistics.exact_decisions),
+            ("pairs", statistics.pairs),
+        ];
+        Ok(named_tuple(py, "Statistics", fields)?)
+    }
+
+    /// Checks every invariant of every tree, and raises pliant.Error if one does not hold. For tests and bug reports; no
+    /// sequence of calls should ever make it fail.
+    fn validate(&self, py: Python<'_>) -> Result<(), Refused> {
+        self.with(py, |state| {
+            let holds = with_world!(&state.world, world => world.validate());
+            holds.map_err(|what| Refused::new("Broken", what))
+        })
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> Result<String, Refused> {
+        self.with(py, |state| {
+            let bodies = with_world!(&state.world, world => world.bodies().len());
+            let bodies = format!("{bodies} {}", if bodies == 1 { "body" } else { "bodies" });
+            Ok(match state.precision() {
+                None => "<pliant.World, no body yet>".to_owned(),
+                Some(Precision::F32) => format!("<pliant.World of float32, {bodies}>"),
+                Some(Precision::F64) => format!("<pliant.World of float64, {bodies}>"),
+            })
+        })
+    }
+}
+
+/// A pair as a row of an array.
+pub(crate) fn row(pair: Pair) -> [u32; 4] {
+    [
+        pair.body_a.0,
+        pair.triangle_a,
+        pair.body_b.0,
+        pair.triangle_b,
+    ]
+}
+
+fn pair_of_python(py: Python<'_>, pair: Pair) -> PyResult<Bound<'_, PyAny>> {
+    let fields = [
+        ("body_a", pair.body_a.0),
+        ("triangle_a", pair.triangle_a),
+        ("body_b", pair.body_b.0),
+        ("triangle_b", pair.triangle_b),
+    ];
+    named_tuple(py, "Pair", fields)
+}

@@ -1,0 +1,234 @@
+"""What arrays are taken, which are read where they lie, and what is refused."""
+
+from __future__ import annotations
+
+import tracemalloc
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pliant
+import pytest
+from conftest import fold, grid
+from numpy.typing import NDArray
+
+FACES, FLAT = grid(12)
+SHAPE = fold(FLAT, 1.0)
+EXPECTED = {dtype: pliant.reference.self_intersection_pairs(SHAPE.astype(dtype), FACES).tolist() for dtype in ("f4", "f8")}
+
+
+def unaligned(array: NDArray[Any]) -> NDArray[Any]:
+    """The same values, one byte beside where they should lie."""
+    buffer = np.frombuffer(b"x" + array.tobytes(), np.uint8)[1:]
+    return buffer.view(array.dtype).reshape(array.shape)
+
+
+LAYOUTS: dict[str, Callable[[NDArray[Any]], Any]] = {
+    "contiguous": np.ascontiguousarray,
+    "Fortran": np.asfortranarray,
+    "every second row": lambda array: np.repeat(array, 2, axis=0)[::2],
+    "backwards": lambda array: array[::-1].copy()[::-1],
+    "three of four columns": lambda array: np.insert(array, 3, 7, axis=1)[:, :3],
+    "other byte order": lambda array: array.astype(array.dtype.newbyteorder()),
+    "unaligned": unaligned,
+    "read only": lambda array: np.frombuffer(array.tobytes(), array.dtype).reshape(array.shape),
+    "a subclass": lambda array: array.view(np.recarray),
+    "a list": lambda array: array.tolist(),
+    "an object that gives an array": lambda array: SimpleNamespace(__array_interface__=array.__array_interface__, keep=array),
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS.keys())
+@pytest.mark.parametrize("dtype", ["f4", "f8"])
+def test_every_layout_has_the_same_answer(layout: Callable[[NDArray[Any]], Any], dtype: str) -> None:
+    world = pliant.World()
+    body = world.add(layout(FACES), layout(FLAT))
+    assert world.dtype == np.float64
+    world.set_positions(body, layout(SHAPE.astype(dtype)))
+    assert world.self_intersection_pairs(body).tolist() == EXPECTED[dtype]
+    assert len(EXPECTED[dtype]) > 10
+
+
+@pytest.mark.parametrize("integer", [np.uint8, np.uint16, np.uint32, np.uint64, np.int8, np.int16, np.int32, np.int64])
+def test_faces_of_any_integer_type(integer: Any) -> None:
+    faces, positions = grid(7)  # 64 vertices: an int8 holds their numbers
+    shape = fold(positions, 1.0)
+    found = pliant.self_intersection_pairs(shape, faces.astype(integer))
+    np.testing.assert_array_equal(found, pliant.reference.self_intersection_pairs(shape, faces))
+    assert len(found) > 0
+
+
+@pytest.mark.parametrize(
+    ("dtype", "bad"),
+    [(np.int64, -1), (np.int8, -128), (np.int64, 2**32), (np.uint64, 2**64 - 1), (np.uint32, 64), (np.int16, 64)],
+)
+def test_a_face_that_names_no_vertex_is_named(dtype: Any, bad: int) -> None:
+    faces, positions = grid(7)
+    faces = faces.astype(dtype)
+    faces[5, 1] = bad
+    with pytest.raises(pliant.Error, match=f"triangle 5 names vertex {bad}, but there are 64 vertices") as refused:
+        pliant.World().add(faces, positions)
+    facts = refused.value
+    assert (facts.kind, facts.body, facts.triangle, facts.vertex, facts.vertices) == ("VertexOutOfRange", None, 5, bad, 64)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_arrays_of_the_worlds_type_are_read_where_they_lie(dtype: Any) -> None:
+    faces, flat = grid(100)
+    flat = flat.astype(dtype)
+    world = pliant.World()
+    body = world.add(faces, flat)
+
+    def allocated(positions: NDArray[Any]) -> int:
+        """Bytes of numpy's for one call."""
+        tracemalloc.start()
+        world.set_positions(body, positions)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return peak
+
+    world.set_positions(body, flat)
+    assert allocated(flat) < 10_000
+    # The same measure sees a copy where there is one.
+    assert allocated(np.asfortranarray(flat)) > flat.nbytes
+
+
+def test_the_first_body_fixes_the_precision() -> None:
+    world = pliant.World()
+    assert world.dtype is None and repr(world) == "<pliant.World, no body yet>"
+    with pytest.raises(pliant.Error):
+        world.add(FACES, FLAT.astype(np.float32)[:3])
+    assert world.dtype is None, "a body that was refused fixes nothing"
+    body = world.add(FACES, FLAT.astype(np.float32))
+    assert world.dtype == np.float32 and repr(world) == "<pliant.World of float32, 1 body>"
+    for call, about in ((lambda: world.set_positions(body, SHAPE), body), (lambda: world.add(FACES, SHAPE), None)):
+        with pytest.raises(pliant.Error, match=r"astype\(numpy.float32\)") as refused:
+            call()
+        assert (refused.value.kind, refused.value.body) == ("Precision", about)
+    world.remove(body)
+    assert world.dtype == np.float32
+
+
+def test_float32_in_a_float64_world_changes_no_coordinate() -> None:
+    """A plane and points on it that no rounding but the exact widening keeps there."""
+    tenth = np.float32(0.1)
+    faces = [[0, 1, 2]]
+    plane = np.array([[0, 0, float(tenth)], [1, 0, float(tenth)], [0, 1, float(tenth)]])
+    point = np.full((3, 3), tenth, np.float32)
+    world = pliant.World()
+    a = world.add(faces, plane)
+    b = world.add(faces, point)
+    assert world.intersection_pairs_between(a, b).tolist() == [[0, 0]]
+    world.set_positions(b, np.full((3, 3), 0.1))
+    assert world.intersection_pairs_between(a, b).tolist() == []
+    assert pliant.intersection_pairs(plane, faces, point, faces).tolist() == [[0, 0]]
+    assert pliant.intersection_pairs(point, faces, plane, faces).tolist() == [[0, 0]]
+
+
+@pytest.mark.parametrize(
+    ("faces", "positions", "message"),
+    [
+        (FACES, FLAT[:, :2], r"positions have shape \(169, 2\); it must be \(n, 3\)"),
+        (FACES, FLAT.ravel(), r"positions have shape \(507,\)"),
+        (FACES, FLAT[None], r"positions have shape \(1, 169, 3\)"),
+        (FACES[:, [0, 1, 2, 2]], FLAT, r"faces have shape \(288, 4\); it must be \(m, 3\)"),
+        (FACES.astype(float), FLAT, "faces are of type float64; they must be integers"),
+        (FLAT, FACES, "positions are of type uint32.*exchanged"),
+        (FACES.astype(bool), FLAT, "faces are of type bool"),
+        (FACES, FLAT.astype(np.float16), r"positions are of type float16.*astype\(numpy.float64\)"),
+        (FACES, FLAT.astype(np.longdouble), "positions are of type float128|positions are of type longdouble"),
+        (FACES, FLAT.astype(complex), "positions are of type complex128"),
+        (FACES, FLAT.astype(str), "positions are of type <U"),
+        (FACES, None, "has no .faces"),
+        (FACES, "positions", r"positions have shape \(\)"),
+    ],
+    ids=range(13),
+)
+def test_what_is_no_mesh_is_refused(faces: Any, positions: Any, message: str) -> None:
+    world = pliant.World()
+    with pytest.raises(pliant.Error, match=message) as refused:
+        world.add(faces, positions) if positions is not None else world.add(faces)
+    assert refused.value.kind == "BadArray"
+    assert world.bodies() == []
+
+
+@pytest.mark.parametrize("names", [("vertices", "faces"), ("vertices", "triangles")])
+def test_anything_with_vertices_and_faces_is_a_mesh(names: tuple[str, str]) -> None:
+    def mesh(z: float) -> Any:
+        return SimpleNamespace(**dict(zip(names, (SHAPE + [0, 0, z], FACES.astype(np.int64)))))
+
+    a, b = mesh(0.0), mesh(0.05)
+    world = pliant.World()
+    assert world.add(a) == 0
+    assert world.self_intersection_pairs(0).tolist() == EXPECTED["f8"]
+    assert pliant.self_intersection_pairs(a).tolist() == EXPECTED["f8"]
+    assert pliant.reference.self_intersection_pairs(a).tolist() == EXPECTED["f8"]
+    between = pliant.intersection_pairs(a, b).tolist()
+    assert between == pliant.reference.intersection_pairs(a, b).tolist() and between
+    # In trimesh, .triangles are coordinates; .faces are what is meant.
+    if "faces" in names:
+        a.triangles = SHAPE[FACES]
+        assert pliant.self_intersection_pairs(a).tolist() == EXPECTED["f8"]
+
+
+def test_a_mesh_of_trimesh() -> None:
+    trimesh = pytest.importorskip("trimesh")
+    a = trimesh.creation.icosphere(subdivisions=3)
+    b = a.copy()
+    b.apply_translation([0.5, 0.25, 0.125])
+    pairs = pliant.intersection_pairs(a, b)
+    assert pairs.tolist() == pliant.reference.intersection_pairs(a.vertices, a.faces, b.vertices, b.faces).tolist()
+    assert len(pairs) > 50
+    assert len(pliant.self_intersection_pairs(a)) == 0
+
+
+def test_a_mesh_of_open3d() -> None:
+    open3d = pytest.importorskip("open3d", exc_type=ImportError)
+    a = open3d.geometry.TriangleMesh.create_sphere(1.0, 20)
+    b = open3d.geometry.TriangleMesh.create_sphere(1.0, 20).translate((0.5, 0.25, 0.125))
+    expected = pliant.reference.intersection_pairs(a, b).tolist()
+    assert pliant.intersection_pairs(a, b).tolist() == expected and expected
+    world = pliant.World()
+    bodies = [world.add(a), world.add(a)]
+    world.set_positions(bodies[1], b.vertices)
+    assert world.intersection_pairs_between(bodies[0], bodies[1]).tolist() == expected
+
+
+def test_answers_belong_to_the_caller() -> None:
+    world = pliant.World()
+    body = world.add(FACES, SHAPE)
+    pairs = world.self_intersection_pairs(body)
+    world.set_positions(body, FLAT)
+    assert world.self_intersection_pairs(body).shape == (0, 2)
+    assert world.intersection_pairs().shape == (0, 4)
+    del world
+    pairs[:] += 0
+    assert pairs.tolist() == EXPECTED["f8"]
+
+
+def test_an_iterable_that_raises_raises() -> None:
+    class Raises:
+        def __array__(self, *_: Any, **__: Any) -> Any:
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        pliant.World().add(FACES, Raises())
+
+
+@pytest.mark.parametrize("count", [0, 1, 3, 5])
+def test_the_one_liners_say_what_they_want(count: int) -> None:
+    with pytest.raises(TypeError, match="two meshes, or four arrays"):
+        pliant.intersection_pairs(*[FLAT] * count)
+    with pytest.raises(TypeError, match="a mesh, or two arrays"):
+        pliant.self_intersection_pairs(*[FLAT] * (count + 2 if count else 0))
+
+
+def test_the_one_liners_say_which_mesh_is_wrong() -> None:
+    with pytest.raises(pliant.Error, match="^b: positions have shape"):
+        pliant.intersection_pairs(FLAT, FACES, FLAT[0], FACES)
+    bad = FLAT.copy()
+    bad[3, 2] = np.nan
+    with pytest.raises(pliant.Error, match="^a: new body: vertex 3 is at") as refused:
+        pliant.intersection_pairs(bad, FACES, FLAT, FACES)
+    assert refused.value.kind == "BadPosition" and refused.value.vertex == 3

@@ -1,0 +1,172 @@
+"""pliant.check: what `pliant check --format json` says."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pliant
+import pytest
+from conftest import data, fold, grid
+
+FACES, FLAT = grid(20)
+FRAMES = np.stack([fold(FLAT, step / 5) for step in range(6)]).astype(np.float32)
+
+
+def obj(path: Path, positions: Any, faces: Any) -> None:
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in positions.tolist()]
+    lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in faces.tolist()]
+    path.write_text("\n".join(lines))
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A sequence in one file, the same as a file a frame, and a body that stands still."""
+    np.savez(tmp_path / "cloth.npz", vertices=FRAMES, faces=FACES)
+    for number, frame in enumerate(FRAMES):
+        obj(tmp_path / f"cloth_{number + 5}.obj", frame, FACES)
+    obj(tmp_path / "still.obj", FLAT, FACES)
+    return tmp_path
+
+
+def by_hand(frame: int, *, itself: bool, still: bool) -> list[list[int]]:
+    pairs = []
+    if itself:
+        pairs += [[0, i, 0, j] for i, j in pliant.reference.self_intersection_pairs(FRAMES[frame], FACES)]
+    if still:
+        pairs += [[0, i, 1, j] for i, j in pliant.reference.intersection_pairs(FRAMES[frame], FACES, FLAT, FACES)]
+    return sorted(pairs)
+
+
+def test_frames_are_those_of_the_reference(folder: Path) -> None:
+    checked = pliant.check(folder / "cloth.npz")
+    assert repr(checked) == "<pliant.Check of 1 body, 6 frames>" and checked.frame_count == 6
+    (body,) = checked.bodies
+    assert (body.name, body.vertices, body.triangles) == (str(folder / "cloth.npz"), 441, 800)
+    assert body.faces is None and body.welded == 0
+    frames = list(checked)
+    assert [frame.frame for frame in frames] == list(range(6))
+    for frame in frames:
+        assert frame.pairs.tolist() == by_hand(frame.frame, itself=True, still=False)
+        assert frame.count == len(frame.pairs) and frame.complete
+        assert frame.pairs.dtype == np.uint32 and frame.pairs.shape[1:] == (4,)
+    assert frames[0].count == 0 < frames[5].count
+    assert list(checked) == [], "an iterator is read once"
+
+    # A file a frame, and text of the same numbers, in natural order.
+    again = [frame.pairs.tolist() for frame in pliant.check(str(folder / "cloth_*.obj"))]
+    assert again == [frame.pairs.tolist() for frame in frames]
+
+
+def test_several_bodies_and_only_the_first_pair(folder: Path) -> None:
+    paths = (folder / "cloth.npz", folder / "still.obj")
+    for itself in (False, True):
+        frames = list(pliant.check(*paths, itself=itself))
+        expected = [by_hand(frame, itself=itself, still=True) for frame in range(6)]
+        for pairs in expected if itself else []:
+            # Body 1, the sheet that lies flat, does not meet itself.
+            assert all(pair[0] == 0 for pair in pairs)
+        assert [frame.pairs.tolist() for frame in frames] == expected
+        for frame, pairs in zip(pliant.check(*paths, itself=itself, first=True), expected):
+            assert not frame.complete and frame.count == min(1, len(pairs))
+            assert all(pair in pairs for pair in frame.pairs.tolist())
+
+
+@pytest.mark.parametrize("frames", [range(0), range(2), range(2, 5), range(1, 6, 2), range(5, 6), range(0, 6, 5)])
+def test_ranges_of_frames(folder: Path, frames: range) -> None:
+    paths = (folder / "cloth.npz", folder / "still.obj")
+    every = {frame.frame: frame.pairs.tolist() for frame in pliant.check(*paths, itself=True)}
+    some = {frame.frame: frame.pairs.tolist() for frame in pliant.check(*paths, itself=True, frames=frames)}
+    assert some == {number: every[number] for number in frames}
+
+
+@pytest.mark.parametrize("frames", [range(7), range(6, 7), range(-1, 2), range(5, 0, -1)])
+def test_frames_that_are_not_there(folder: Path, frames: range) -> None:
+    with pytest.raises(pliant.Error, match="frames") as refused:
+        pliant.check(folder / "cloth.npz", frames=frames)
+    assert refused.value.kind == "BadOption"
+
+
+def test_seams_are_welded_unless_told_otherwise(tmp_path: Path) -> None:
+    faces, positions = grid(4)
+    left, right = positions[faces[: len(faces) // 2].ravel()], positions[faces[len(faces) // 2 :].ravel()]
+    corners = np.concatenate([left, right])
+    obj(tmp_path / "split.obj", corners, np.arange(len(corners)).reshape(-1, 3))
+    welded = pliant.check(tmp_path / "split.obj")
+    assert welded.bodies[0].welded == len(corners) - len(positions)
+    assert next(welded).count == 0
+    apart = pliant.check(tmp_path / "split.obj", weld=False)
+    assert apart.bodies[0].welded == 0 and next(apart).count > 0
+
+
+def test_polygons_are_named(tmp_path: Path) -> None:
+    (tmp_path / "square.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+    faces = pliant.check(tmp_path / "square.obj").bodies[0].faces
+    assert faces is not None and faces.tolist() == [0, 0]
+
+
+def test_errors_name_file_place_and_frame(folder: Path) -> None:
+    with pytest.raises(pliant.Error, match="absent.obj: no such file") as refused:
+        pliant.check(folder / "absent.obj")
+    assert (refused.value.kind, refused.value.file, refused.value.place) == ("CannotRead", str(folder / "absent.obj"), None)
+
+    (folder / "cloth_7.obj").write_text("v 0 0 0\nv 1 0 zero\n")
+    checked = pliant.check(folder / "cloth_*.obj")
+    assert [next(checked).frame, next(checked).frame] == [0, 1], "the frames before can be checked"
+    for _ in range(2):
+        with pytest.raises(pliant.Error) as refused:
+            next(checked)
+    with pytest.raises(pliant.Error) as refused:
+        list(pliant.check(folder / "cloth_*.obj"))
+    assert (refused.value.file, refused.value.place) == (str(folder / "cloth_7.obj"), "line 2")
+
+    np.savez(folder / "three.npz", vertices=FRAMES[:3], faces=FACES)
+    with pytest.raises(pliant.Error, match="frame counts must be equal or 1: .*cloth.npz has 6 frames, .*three.npz has 3"):
+        pliant.check(folder / "cloth.npz", folder / "three.npz")
+    with pytest.raises(pliant.Error, match="no path was given"):
+        pliant.check()
+
+
+def test_a_pattern_that_was_expanded_too_early_is_a_warning(folder: Path) -> None:
+    paths = [folder / "cloth_5.obj", folder / "cloth_6.obj"]
+    with pytest.warns(UserWarning, match=r"give the pattern: .*cloth_\*.obj"):
+        pliant.check(*paths)
+
+
+def test_counts_of_real_meshes() -> None:
+    """Counted in rational arithmetic: shared/data/SOURCES.md."""
+    counts = {
+        "cloth-funnel/227.ply": 261,
+        "cloth-funnel/228.ply": 332,
+        "armadillo-rollers/327.ply": 0,
+        "ipc-toolkit/two-cubes-intersecting.ply": 96,
+    }
+    for name, count in counts.items():
+        assert [frame.count for frame in pliant.check(data(name))] == [count]
+
+
+def test_the_program_says_the_same(folder: Path) -> None:
+    """Where PLIANT names the program."""
+    program = os.environ.get("PLIANT")
+    if program is None:
+        pytest.skip("the environment variable PLIANT names no program `pliant` to compare with")
+    paths = [str(folder / "cloth_*.obj"), str(folder / "still.obj")]
+    for flags, options in (([], {}), (["--self"], {"itself": True}), (["--no-weld"], {"weld": False}), (["--first"], {"first": True})):
+        said = json.loads(subprocess.run([program, "check", "--format", "json", *flags, *paths], capture_output=True).stdout)
+        checked = pliant.check(*paths, **options)  # type: ignore[arg-type]
+        bodies = [
+            {"name": body.name, "vertices": body.vertices, "triangles": body.triangles}
+            | ({} if body.faces is None else {"faces": body.faces.tolist()})
+            | ({"welded": body.welded} if body.welded else {})
+            for body in checked.bodies
+        ]
+        frames = [
+            {"frame": frame.frame, "count": frame.count, "pairs": frame.pairs.tolist()}
+            | ({} if frame.complete else {"complete": False})
+            for frame in checked
+        ]
+        assert said == {"format": 1, "bodies": bodies, "frames": frames}

@@ -1,0 +1,148 @@
+"""The examples, run."""
+
+from __future__ import annotations
+
+import os
+import runpy
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pliant
+import pytest
+from conftest import HERE, data, fold, grid
+
+EXAMPLES = HERE.parent / "examples"
+
+
+@pytest.fixture(autouse=True)
+def examples(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Makes them modules."""
+    monkeypatch.syspath_prepend(EXAMPLES)
+
+
+def run(name: str, *arguments: object, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> str:
+    monkeypatch.setattr(sys, "argv", [name, *map(str, arguments)])
+    runpy.run_path(str(EXAMPLES / name), run_name="__main__")
+    return capsys.readouterr().out
+
+
+def test_human_morph(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """Frames 0, 30 and 59 were counted in rational arithmetic: shared/data/SOURCES.md."""
+    file = data("human-morph.npz")
+    said = run("human_morph.py", file, monkeypatch=monkeypatch, capsys=capsys).splitlines()
+    counts = [int(line.split()[1]) for line in said[:60]]
+    assert (counts[0], counts[30], counts[59]) == (88, 30, 88)
+    assert said[-1] == "59 of 60 frames intersect; most pairs: 536 in frame 50"
+    # Reading the file ourselves, or pliant.check: the same.
+    assert [frame.count for frame in pliant.check(file)] == counts
+
+
+def test_human_morph_on_a_sheet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    faces, flat = grid(20)
+    frames = np.stack([fold(flat, amount) for amount in (0, 1, 0.5)])
+    np.savez(tmp_path / "sheet.npz", vertices=frames, faces=faces)
+    said = run("human_morph.py", tmp_path / "sheet.npz", monkeypatch=monkeypatch, capsys=capsys)
+    expected = [len(pliant.reference.self_intersection_pairs(frame, faces)) for frame in frames]
+    assert expected[1] > 0
+    assert [int(line.split()[1]) for line in said.splitlines()[:3]] == expected
+
+
+class TestTrimeshManager:
+    """The manager beside trimesh's own."""
+
+    @pytest.fixture(autouse=True)
+    def needs(self) -> None:
+        pytest.importorskip("trimesh")
+
+    def test_it_falls(self, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+        said = run("trimesh_manager.py", monkeypatch=monkeypatch, capsys=capsys).splitlines()
+        assert said[0] == "step 0: 0 pairs of triangles"
+        assert said[-1].endswith("pairs of triangles ('falling', 'standing')")
+
+    def test_it_says_what_fcl_says(self) -> None:
+        pytest.importorskip("fcl")
+        pytest.importorskip("scipy")  # which trimesh's own asks for
+        import trimesh
+        from trimesh.collision import CollisionManager as OfTrimesh
+        from trimesh_manager import CollisionManager
+
+        random = np.random.default_rng(7)
+        meshes = [trimesh.creation.icosphere(subdivisions=2), trimesh.creation.box(), trimesh.creation.torus(1.0, 0.25)]
+        managers: list[Any] = [CollisionManager(), OfTrimesh()]
+
+        def somewhere() -> Any:
+            matrix = trimesh.transformations.random_rotation_matrix(random.random(3))
+            matrix[:3, 3] = random.uniform(-4, 4, 3)
+            return matrix
+
+        for number in range(24):
+            matrix = somewhere()
+            for manager in managers:
+                manager.add_object(f"object {number}", meshes[number % 3], matrix)
+        hits = 0
+        for _ in range(6):
+            answers = [manager.in_collision_internal(return_names=True) for manager in managers]
+            ours, theirs = ((hit, {tuple(sorted(pair)) for pair in names}) for hit, names in answers)
+            assert ours == theirs
+            hits += len(ours[1])
+            assert managers[0].in_collision_internal() == ours[0]
+            single = somewhere()
+            singles = [manager.in_collision_single(meshes[0], single, return_names=True) for manager in managers]
+            assert singles[0] == singles[1]
+            moved, matrix = f"object {random.integers(1, 24)}", somewhere()
+            for manager in managers:
+                manager.set_transform(moved, matrix)
+        for manager in managers:
+            manager.remove_object("object 0")
+        names = [manager.in_collision_internal(return_names=True)[1] for manager in managers]
+        assert {tuple(sorted(pair)) for pair in names[0]} == {tuple(sorted(pair)) for pair in names[1]}
+        assert hits > 50
+
+    def test_contacts_are_all_pairs_of_triangles(self) -> None:
+        import trimesh
+        from trimesh_manager import CollisionManager
+
+        ball = trimesh.creation.icosphere(subdivisions=2)
+        moved = ball.copy()
+        moved.vertices = ball.vertices * [1.0, 0.5, 1.5]
+        manager = CollisionManager()
+        manager.add_object("a", ball)
+        manager.add_object("b", ball, trimesh.transformations.translation_matrix([5, 0, 0]))
+        assert manager.in_collision_internal() is False
+        manager.set_transform("b", np.eye(4))
+        manager.set_vertices("b", moved.vertices)
+        hit, contacts = manager.in_collision_internal(return_data=True)
+        expected = pliant.reference.intersection_pairs(ball, moved).tolist()
+        assert hit and [[contact.index("a"), contact.index("b")] for contact in contacts] == expected
+        hit, names, contacts = manager.in_collision_single(moved, return_names=True, return_data=True)
+        assert hit and names == {"a", "b"}
+        of_a = [contact for contact in contacts if "a" in contact.names]
+        assert [[contact.index("a"), contact.index("__external")] for contact in of_a] == expected
+
+
+def test_folder_with_dask(tmp_path: Path) -> None:
+    pytest.importorskip("dask.distributed")
+    from dask.distributed import Client, LocalCluster
+    from folder_with_dask import check_folder, tasks
+
+    faces, flat = grid(16)
+    for name, count in (("a.npz", 7), ("b.npz", 3), ("c.npz", 1)):
+        shapes = [fold(flat, 0.2 + 0.1 * step).astype(np.float32) for step in range(count)]
+        np.savez(tmp_path / name, vertices=np.stack(shapes), faces=faces)
+    cut = tasks(tmp_path, 3)
+    assert [task.frames for task in cut] == [range(3), range(3, 6), range(6, 7), range(3), range(1)]
+
+    serial = {str(file): list(pliant.check(file)) for file in sorted(tmp_path.glob("*.npz"))}
+    assert sum(frame.count for frame in serial[str(tmp_path / "a.npz")]) > 0
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        workers = set(client.run(os.getpid).values())
+        assert len(workers) == 2 and os.getpid() not in workers
+        for frames_per_task in (3, 100):
+            checked = check_folder(client, tmp_path, frames_per_task)
+            assert list(checked) == list(serial)
+            for file, frames in checked.items():
+                assert [frame.frame for frame in frames] == [frame.frame for frame in serial[file]]
+                for frame, expected in zip(frames, serial[file]):
+                    np.testing.assert_array_equal(frame.pairs, expected.pairs)

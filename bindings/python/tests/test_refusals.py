@@ -1,0 +1,204 @@
+"""Every refusal is a pliant.Error with the facts of the Rust library's, and changes nothing."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pliant
+import pytest
+from conftest import grid
+
+FACES, FLAT = grid(3)
+MAX = float(np.finfo(np.float32).max)
+
+
+def changed(vertex: int, value: float) -> Any:
+    shape = FLAT.copy()
+    shape[vertex, 1] = value
+    return shape
+
+
+def two_sheets() -> pliant.World:
+    world = pliant.World()
+    world.add(FACES, FLAT)
+    world.add(FACES, FLAT)
+    world.set_loose_box(1, ([-1, -1, -1], [2, 2, 2]))
+    return world
+
+
+REFUSALS: list[tuple[Callable[[pliant.World], Any], dict[str, Any]]] = [
+    (lambda w: w.add(FACES[:0], FLAT), {"kind": "NoTriangles", "body": None}),
+    (lambda w: w.set_positions(0, FLAT[1:]), {"kind": "WrongLength", "body": 0, "expected": 16, "found": 15}),
+    (lambda w: w.set_positions(0, changed(7, np.inf)), {"kind": "BadPosition", "body": 0, "vertex": 7}),
+    (lambda w: w.set_positions(0, changed(7, 2 * MAX)), {"kind": "BadPosition", "vertex": 7}),
+    (lambda w: w.add(FACES, changed(2, np.nan)), {"kind": "BadPosition", "body": None, "vertex": 2}),
+    (lambda w: w.write_positions(0, lambda out: None), {"kind": "NotWritten", "body": 0, "vertex": 0}),
+    (lambda w: w.write_positions(0, lambda out: np.copyto(out[:9], FLAT[:9])), {"kind": "NotWritten", "vertex": 9}),
+    (lambda w: w.set_positions(1, FLAT + 5), {"kind": "OutsideLooseBox", "body": 1, "position": (5.0, 5.0, 5.0)}),
+    (lambda w: w.set_loose_box(0, ([1, 1, 1], [0, 0, 0])), {"kind": "BadLooseBox", "body": 0}),
+    (lambda w: w.set_loose_box(0, ([-np.inf] * 3, [1, 1, 1])), {"kind": "BadLooseBox", "body": 0}),
+    (lambda w: w.set_loose_box(0, ([0.5] * 3, [2] * 3)), {"kind": "OutsideLooseBox", "body": 0, "vertex": 0}),
+    (lambda w: w.remove(7), {"kind": "NoSuchBody", "body": 7}),
+    (lambda w: w.remove(-1), {"kind": "NoSuchBody", "body": None}),
+    (lambda w: w.triangle_count(2**32), {"kind": "NoSuchBody", "body": None}),
+    (lambda w: w.intersection_pairs_between(1, 1), {"kind": "SameBody", "body": 1}),
+    (lambda w: w.ignore(0, 0), {"kind": "SameBody", "body": 0}),
+]
+
+
+@pytest.mark.parametrize(("call", "facts"), REFUSALS, ids=range(len(REFUSALS)))
+def test_refusals_have_facts_and_change_nothing(call: Callable[[pliant.World], Any], facts: dict[str, Any]) -> None:
+    world = two_sheets()
+    before = world.intersection_pairs().tolist()
+    with pytest.raises(pliant.Error) as refused:
+        call(world)
+    error = refused.value
+    assert isinstance(error, ValueError)
+    assert {name: getattr(error, name) for name in facts} == facts
+    assert str(error)
+    assert world.bodies() == [0, 1]
+    assert world.intersection_pairs().tolist() == before
+    world.validate()
+    # Facts travel between processes.
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), str(again), repr(vars(again))) == (pliant.Error, str(error), repr(vars(error)))
+
+
+def test_every_method_that_names_a_body_refuses_one_that_is_not_there() -> None:
+    world = two_sheets()
+    world.remove(0)
+    calls: list[Callable[[], Any]] = [
+        lambda: world.remove(0),
+        lambda: world.set_positions(0, FLAT),
+        lambda: world.write_positions(0, lambda out: None),
+        lambda: world.rebuild(0),
+        lambda: world.set_filter(0, 1, 1),
+        lambda: world.ignore(0, 1),
+        lambda: world.unignore(1, 0),
+        lambda: world.set_loose_box(0, None),
+        lambda: world.triangle_count(0),
+        lambda: world.vertex_count(0),
+        lambda: world.tree_shape(0),
+        lambda: world.tree_parts(0, 0),
+        lambda: world.intersection_pairs_between(1, 0),
+        lambda: world.first_intersection_between(0, 1),
+        lambda: world.visit_intersections_between(0, 1, lambda pair: True),
+        lambda: world.self_intersection_pairs(0),
+        lambda: world.first_self_intersection(0),
+        lambda: world.visit_self_intersections(0, lambda pair: True),
+        lambda: world.update_body(0),
+    ]
+    for call in calls:
+        with pytest.raises(pliant.Error, match="body 0: not in this world") as refused:
+            call()
+        assert (refused.value.kind, refused.value.body) == ("NoSuchBody", 0)
+
+
+def test_the_message_names_the_vertex_and_where_it_is() -> None:
+    with pytest.raises(pliant.Error, match=r"^body 0: vertex 7 is at \[.*NaN.*\]; coordinates must be finite") as refused:
+        two_sheets().set_positions(0, changed(7, np.nan))
+    assert refused.value.position is not None and np.isnan(refused.value.position[1])
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"degree": 3}, "degree is 3; it can be 2, 4 or 8"),
+        ({"partition": "octree"}, 'partition is "octree"; it can be one of "centre", "mean", "balanced", "connectivity"'),
+        ({"update": "none"}, 'update is "none"; it can be one of "bottom-up", "top-down", "hybrid"'),
+        ({"broad": ""}, 'broad is ""; it can be one of "brute", "sweep", "auto"'),
+        ({"leaf_size": 0}, "leaf_size is 0; it must be at least 1"),
+        ({"leaf_size": 2**32}, "leaf_size is 4294967296; it must be at least 1, and below"),
+        ({"threads": 0}, "threads is 0; it must be at least 1"),
+        ({"level": -1}, "level is -1; the root is 0"),
+        ({"level": 1, "update": "top-down"}, "level is the hybrid update's"),
+    ],
+    ids=str,
+)
+def test_options_that_are_none(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(pliant.Error, match=message) as refused:
+        pliant.World(**options)
+    assert refused.value.kind == "BadOption"
+
+
+def test_options_make_another_world_like_it() -> None:
+    given: Any = dict(degree=4, partition="mean", leaf_size=3, update="hybrid", level=2, broad="sweep", threads=2)
+    world = pliant.World(**given)
+    assert world.options() == given
+    assert pliant.World(**world.options()).options() == given
+
+
+def test_options_reach_the_library() -> None:
+    """Depth, leaves and work of the trees are those that the options ask for."""
+    faces, flat = grid(16)  # 512 triangles
+    worlds = {degree: pliant.World(degree=degree, leaf_size=1) for degree in (2, 4, 8)}
+    shapes = [world.tree_shape(world.add(faces, flat)) for world in worlds.values()]
+    assert [shape.leaves for shape in shapes] == [512] * 3
+    assert shapes[0].nodes == 1023 and shapes[0].depth > shapes[1].depth > shapes[2].depth == 3
+    assert pliant.World().options()["leaf_size"] == 8
+
+    work = {}
+    every: list[dict[str, Any]] = [{"update": "bottom-up"}, {"update": "top-down"}, {}, {"level": 0}, {"level": 1}]
+    for options in every:
+        world = pliant.World(leaf_size=1, **options)
+        world.add(faces, flat)
+        world.update_body(0)
+        world.self_intersection_pairs(0)
+        statistics = world.statistics()
+        work[str(options)] = (statistics.boxes_bottom_up, statistics.boxes_top_down)
+    bottom_up, top_down, hybrid, level_0, level_1 = work.values()
+    assert bottom_up[1] == 0 and top_down[0] == 0 < top_down[1]
+    assert level_0[0] < level_1[0] < bottom_up[0] and level_1 == hybrid
+    centre, mean, connectivity = (pliant.World(partition=p, leaf_size=1) for p in ("centre", "mean", "connectivity"))
+    skewed = flat**3
+    parts = [w.tree_parts(w.add(faces, skewed), 1).tolist() for w in (centre, mean, connectivity, pliant.World())]
+    assert all(a != b for i, a in enumerate(parts) for b in parts[:i])
+
+
+def test_filters_boxes_and_small_questions() -> None:
+    world = two_sheets()
+    every = world.intersection_pairs()
+    assert every.shape == (len(every), 4) and len(every) > 0
+    assert (world.triangle_count(0), world.vertex_count(np.uint32(1))) == (18, 16)
+    world.ignore(0, 1)
+    assert len(world.intersection_pairs()) == 0 and world.first_intersection() is None
+    assert len(world.intersection_pairs_between(0, 1)) == len(every)
+    world.unignore(1, 0)
+    world.set_filter(0, 1, 0xFFFFFFFF)
+    world.set_filter(1, 2, 2)
+    assert len(world.intersection_pairs()) == 0
+    world.set_filter(1, 2, 1)
+    assert len(world.intersection_pairs()) == len(every)
+    world.set_loose_box(1, None)
+    world.set_positions(1, FLAT + 5)
+    assert len(world.intersection_pairs()) == 0
+    parts = world.tree_parts(0, 1)
+    assert parts.dtype == np.uint32 and parts.shape == (18,)
+    assert world.statistics()._fields[-1] == "pairs" and world.statistics().pairs == 0
+
+
+def test_corners_of_a_loose_box_are_rounded_like_positions() -> None:
+    world = pliant.World()
+    world.add([[0, 0, 0]], np.full((1, 3), 0.7, np.float32))
+    world.set_loose_box(0, ([0.7] * 3, [0.7] * 3))
+    with pytest.raises(pliant.Error) as refused:
+        world.set_loose_box(0, ([-1e300] * 3, [1] * 3))
+    assert refused.value.kind == "BadLooseBox"
+
+
+@pytest.mark.parametrize("call", [lambda w: w.remove("0"), lambda w: w.remove(0.0), lambda w: w.set_filter(0, -1, 1)])
+def test_arguments_of_a_wrong_type(call: Callable[[pliant.World], Any]) -> None:
+    with pytest.raises((TypeError, OverflowError)):
+        call(two_sheets())
+
+
+def test_questions_to_a_world_without_bodies() -> None:
+    world = pliant.World()
+    world.update()
+    world.validate()
+    assert world.bodies() == [] and world.first_intersection() is None
+    assert world.intersection_pairs().shape == (0, 4)
+    assert sum(world.statistics()) == 0

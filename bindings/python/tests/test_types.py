@@ -1,0 +1,100 @@
+"""The types: every public name has one, with the same arguments, and they say what they should."""
+
+from __future__ import annotations
+
+import ast
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pliant
+import pliant._pliant
+import pytest
+from conftest import HERE
+
+PACKAGE = Path(pliant.__file__).parent
+
+pytest.importorskip("mypy")
+
+
+def mypy(*arguments: str, cwd: Path = HERE.parent) -> str:
+    """What mypy says; nothing if all is well."""
+    said = subprocess.run([sys.executable, "-m", *arguments], cwd=cwd, capture_output=True, text=True)
+    return said.stdout + said.stderr if said.returncode else ""
+
+
+def names(members: list[ast.stmt]) -> set[str]:
+    return {member.name for member in members if isinstance(member, ast.FunctionDef | ast.ClassDef)}
+
+
+def test_stub_and_module_have_the_same_names() -> None:
+    stub = ast.parse((PACKAGE / "_pliant.pyi").read_text()).body
+    public = {name for name in dir(pliant._pliant) if not name.startswith("_")}
+    assert {name for name in names(stub) if not name.startswith("_")} == public
+    classes = {member.name: member.body for member in stub if isinstance(member, ast.ClassDef)}
+    for name in ("World", "Check"):
+        members = {member for member in vars(getattr(pliant, name)) if member in ("__iter__", "__next__") or member[0] != "_"}
+        assert names(classes[name]) - {"__new__"} == members
+
+
+def test_a_world_has_the_methods_of_the_rust_librarys() -> None:
+    source = HERE.parents[2] / "crates" / "pliant" / "src" / "world"
+    if not source.is_dir():
+        pytest.skip("these tests are not in a checkout of the whole project")
+    text = "".join(file.read_text() for file in source.glob("*.rs"))
+    visible = re.sub(r"#\[doc\(hidden\)\]\s+pub fn \w+", "", text)
+    methods = set(re.findall(r"^    pub fn (\w+)", visible, re.MULTILINE)) - {"new", "with_options"}
+    assert {"write_positions", "tree_parts", "visit_self_intersections", "validate"} < methods
+    assert methods - set(dir(pliant.World)) == set()
+    # What is here alone.
+    assert {name for name in vars(pliant.World) if name[0] != "_"} - methods == {"dtype"}
+
+
+def test_everything_public_is_in_the_package() -> None:
+    in_module = {name for name in dir(pliant._pliant) if name[0] != "_"} - {
+        "reference_intersection_pairs",
+        "reference_self_intersection_pairs",
+    }
+    assert in_module <= set(pliant.__all__)
+    for name in pliant.__all__:
+        thing = getattr(pliant, name)
+        assert thing.__doc__, name
+        if isinstance(thing, type):
+            assert thing.__module__ == "pliant", name
+
+
+def test_arguments_and_defaults_agree() -> None:
+    said = mypy("mypy.stubtest", "pliant")
+    assert said == "", said
+
+
+def test_tests_and_examples_have_the_right_types() -> None:
+    said = mypy("mypy", "tests", "examples")
+    assert said == "", said
+
+
+@pytest.mark.parametrize(
+    ("line", "wrong"),
+    [
+        ("world.add(faces, positions)", None),
+        ("world.add(faces, positions).bit_length()", None),
+        ("world.intersection_pairs().sum()", None),
+        ("pliant.self_intersection_pairs(positions, faces, threads=2)", None),
+        ("[frame.pairs[0] for frame in pliant.check('a.npz', frames=range(3))]", None),
+        ("pliant.World(degree=3)", "degree"),
+        ("pliant.World(partition='octree')", "partition"),
+        ("world.set_positions(positions)", "positions"),
+        ("world.add(faces)", "No overload"),
+        ("world.first_self_intersection(0)[0]", "not indexable"),
+        ("world.visit_intersections(lambda: True)", "visit_intersections"),
+        ("pliant.intersection_pairs(positions, faces)", "No overload"),
+        ("pliant.check('a.npz', frames=3)", "frames"),
+    ],
+)
+def test_the_types_find_mistakes(tmp_path: Path, line: str, wrong: str | None) -> None:
+    head = "import numpy as np\nimport pliant\nworld = pliant.World()\n"
+    head += "faces = np.zeros((1, 3), np.int64)\npositions = np.zeros((3, 3))\n"
+    (tmp_path / "snippet.py").write_text(head + line + "\n")
+    said = mypy("mypy", "--strict", "--cache-dir", str(HERE.parent / ".mypy_cache"), str(tmp_path / "snippet.py"))
+    assert (said == "") if wrong is None else (wrong in said and "snippet.py:6" in said), said

@@ -5,7 +5,7 @@
 use pliant::{BodyId, ErrorKind};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
-use std::fmt::{self, Debug, Display};
+use std::fmt::{Debug, Display};
 use std::sync::{Mutex, TryLockError};
 
 /// A call that was refused, or an exception of Python's on its way through.
@@ -137,12 +137,6 @@ impl From<PyErr> for Refused {
     }
 }
 
-impl From<pyo3::CastError<'_, '_>> for Refused {
-    fn from(error: pyo3::CastError<'_, '_>) -> Self {
-        Self::Python(error.into())
-    }
-}
-
 impl From<Refused> for PyErr {
     fn from(refused: Refused) -> Self {
         match refused {
@@ -207,13 +201,4 @@ pub(crate) fn alone_with<S: Send, T: Send>(
             "an earlier call ended in a panic, which is a bug of pliant; please report it, and go on with a new one",
         )),
     })
-}
-
-impl fmt::Display for Refused {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Error { message, .. } => f.write_str(message),
-            Self::Python(error) => Display::fmt(error, f),
-        }
-    }
 }

@@ -5,11 +5,11 @@
 
 use crate::arrays;
 use crate::error::{Fact, Refused, alone_with, named_tuple};
-use crate::options::check_threads;
+use crate::options::with_threads;
 use crate::state::{State, with_world};
 use crate::world::row;
 use numpy::IntoPyArray;
-use pliant::{BodyId, Options};
+use pliant::BodyId;
 use pliant_io::{Body, OpenOptions, Precision};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
@@ -65,7 +65,7 @@ struct Frame {
 ///   first     stop at the first pair of each frame
 ///   weld      weld vertices where boundary edges coincide in frame 0; else seams are intersections
 ///   frames    a range: only these frames; those before are read, not checked
-///   threads   reserved: at least 1, and for now it changes nothing
+///   threads   how many share the work of a frame; no number changes an answer
 #[pyfunction]
 #[pyo3(signature = (*paths, itself=false, first=false, weld=true, frames=None, threads=1))]
 pub(crate) fn check(
@@ -77,7 +77,7 @@ pub(crate) fn check(
     frames: Option<&Bound<'_, PyRange>>,
     threads: i64,
 ) -> Result<Check, Refused> {
-    check_threads(threads)?;
+    let options = with_threads(threads)?;
     let paths = paths.into_iter().map(|path| {
         let odd = |path: OsString| {
             Refused::new(
@@ -96,12 +96,12 @@ pub(crate) fn check(
         let text = CString::new(text).unwrap_or_default();
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
     }
-    let options = OpenOptions {
+    let reading = OpenOptions {
         weld,
         ..OpenOptions::default()
     };
     let bodies = py.detach(|| {
-        let opened = paths.iter().map(|path| pliant_io::open(path, &options));
+        let opened = paths.iter().map(|path| pliant_io::open(path, &reading));
         opened.collect::<Result<Vec<_>, _>>()
     })?;
     let frame_count = common_frame_count(&bodies)?;
@@ -110,7 +110,7 @@ pub(crate) fn check(
     let facts = bodies.iter().map(|body| facts_of(py, body));
     let facts = PyTuple::new(py, facts.collect::<PyResult<Vec<_>>>()?)?;
     let precision = bodies.iter().map(Body::precision).max();
-    let mut state = State::new(Options::default());
+    let mut state = State::new(options);
     state.fix_precision(precision.unwrap_or(Precision::F64));
     Ok(Check {
         running: Mutex::new(Running {

@@ -2,10 +2,10 @@
 
 use crate::arrays::{self, Coordinates, Faces};
 use crate::error::Refused;
-use crate::options::check_threads;
+use crate::options::with_threads;
 use crate::state::{State, precision_of, widen, with_world};
 use numpy::PyArray2;
-use pliant::{Options, reference};
+use pliant::reference;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -64,7 +64,7 @@ fn wrong_number(wanted: &str) -> Refused {
 /// intersection_pairs(va, fa, vb, fb, *, threads=1), or intersection_pairs(mesh_a, mesh_b, *, threads=1)
 ///
 /// All intersecting pairs of two meshes, sorted: (k, 2) uint32, triangle of a, triangle of b. Decided as in a world; if one is
-/// of float64, both are. threads is reserved, and for now changes nothing.
+/// of float64, both are. threads: how many share the work.
 #[pyfunction]
 #[pyo3(signature = (*meshes, threads=1))]
 pub(crate) fn intersection_pairs<'py>(
@@ -72,12 +72,12 @@ pub(crate) fn intersection_pairs<'py>(
     meshes: &Bound<'py, PyTuple>,
     threads: i64,
 ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
-    check_threads(threads)?;
+    let options = with_threads(threads)?;
     let [a, b] = Mesh::two(meshes)?;
     let positions = [a.positions.get()?, b.positions.get()?];
     let faces = [a.faces.get()?, b.faces.get()?];
     let pairs = py.detach(|| {
-        let mut state = State::new(Options::default());
+        let mut state = State::new(options);
         let [a, b] = positions.map(precision_of);
         state.fix_precision(a.max(b));
         let a = state
@@ -97,7 +97,7 @@ pub(crate) fn intersection_pairs<'py>(
 /// self_intersection_pairs(vertices, faces, *, threads=1), or self_intersection_pairs(mesh, *, threads=1)
 ///
 /// All intersecting pairs of a mesh with itself, sorted: (k, 2) uint32, smaller triangle, larger triangle; triangles that
-/// share a vertex are left out. threads is reserved, and for now changes nothing.
+/// share a vertex are left out. threads: how many share the work.
 #[pyfunction]
 #[pyo3(signature = (*mesh, threads=1))]
 pub(crate) fn self_intersection_pairs<'py>(
@@ -105,11 +105,11 @@ pub(crate) fn self_intersection_pairs<'py>(
     mesh: &Bound<'py, PyTuple>,
     threads: i64,
 ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
-    check_threads(threads)?;
+    let options = with_threads(threads)?;
     let mesh = Mesh::one(mesh)?;
     let (positions, faces) = (mesh.positions.get()?, mesh.faces.get()?);
     let pairs = py.detach(|| {
-        let mut state = State::new(Options::default());
+        let mut state = State::new(options);
         let body = state.add(faces, positions)?;
         Ok::<_, Refused>(
             with_world!(&mut state.world, world => world.self_intersection_pairs(body))?.to_vec(),

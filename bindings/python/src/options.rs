@@ -64,7 +64,7 @@ impl Keywords {
             *level = Some(wanted);
         }
         options.broad_phase = named("broad", &self.broad, BROAD_PHASES)?;
-        at_least_one("threads", self.threads)?;
+        options.threads = with_threads(self.threads)?.threads;
         Ok(options)
     }
 
@@ -82,9 +82,13 @@ impl Keywords {
     }
 }
 
-/// A number of threads that a call was given. Reserved: the library works on one as yet.
-pub(crate) fn check_threads(threads: i64) -> Result<(), Refused> {
-    at_least_one("threads", threads).map(|_| ())
+/// The default options with the number of threads that a call was given.
+pub(crate) fn with_threads(threads: i64) -> Result<Options, Refused> {
+    let mut options = Options::default();
+    options.threads = at_least_one("threads", threads)?
+        .try_into()
+        .map_err(|_| bad("threads is larger than this machine can count"))?;
+    Ok(options)
 }
 
 fn at_least_one(name: &str, given: i64) -> Result<NonZeroU32, Refused> {

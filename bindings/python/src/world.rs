@@ -28,7 +28,7 @@ use std::sync::Mutex;
 ///   update      which boxes are made when: "bottom-up", "top-down" or "hybrid"
 ///   level       the level down to which the hybrid works bottom-up; None: half the depth of the tree
 ///   broad       how bodies that may meet are found: "brute", "sweep", or by their number ("auto")
-///   threads     reserved: at least 1, and for now it changes nothing
+///   threads     how many share the work of a query; no number changes an answer
 ///
 /// The interpreter lock is released while a call computes. Meanwhile no other thread may write to an array that the call was
 /// given. A world is in use by one call at a time; a second is refused.

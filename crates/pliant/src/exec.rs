@@ -6,6 +6,9 @@
 use std::num::NonZeroUsize;
 use std::sync::{Mutex, PoisonError};
 
+/// More than there are jobs in the largest of batches.
+const MOST: usize = 256;
+
 /// The threads of a world.
 #[derive(Debug)]
 pub(crate) struct Threads {
@@ -14,11 +17,11 @@ pub(crate) struct Threads {
 }
 
 impl Threads {
-    /// `count` threads, the calling one included. Where the system gives none, the calling thread does all work.
+    /// `count` threads, the calling one included, but not more than [`MOST`]. Where the system gives none, the calling thread does all work.
     pub(crate) fn new(count: NonZeroUsize) -> Self {
         let others = (count.get() > 1).then(|| {
             rayon::ThreadPoolBuilder::new()
-                .num_threads(count.get() - 1)
+                .num_threads(count.get().min(MOST) - 1)
                 .thread_name(|thread| format!("pliant {}", thread + 1))
                 .build()
         });

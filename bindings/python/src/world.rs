@@ -310,6 +310,19 @@ impl World {
         Ok(parts.into_pyarray(py))
     }
 
+    /// The order in which queries read the vertices of a body, as they were numbered when it was added: (n,) uint32. A body whose
+    /// vertices come in this order, and whose faces name the new numbers, is faster.
+    fn vertex_order<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+    ) -> Result<Bound<'py, PyArray1<u32>>, Refused> {
+        let order = self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.vertex_order(body.0))?.to_vec())
+        })?;
+        Ok(order.into_pyarray(py))
+    }
+
     /// All intersecting pairs of triangles of different bodies, sorted: (k, 4) uint32, body, triangle, body, triangle.
     fn intersection_pairs<'py>(
         &self,

@@ -179,3 +179,14 @@ def test_rebuild_and_updates_do_their_work() -> None:
             world.update_body(bodies[0])
         assert world.first_self_intersection(bodies[0])
         assert (world.statistics().boxes_bottom_up > 0) == update
+
+
+def test_the_order_of_vertices_is_one_that_a_body_can_be_stored_in() -> None:
+    faces = np.array([[9, 1, 2], [2, 1, 3], [4, 8, 6]])
+    vertices = np.arange(30, dtype=np.float32).reshape(10, 3) % 7
+    world = pliant.World()
+    order = world.vertex_order(world.add(faces, vertices))
+    assert sorted(order) == list(range(10))
+    new_number = np.argsort(order)
+    stored = world.add(new_number[faces], vertices[order])
+    assert list(world.vertex_order(stored)) == list(range(10))

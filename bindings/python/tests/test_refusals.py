@@ -83,6 +83,7 @@ def test_every_method_that_names_a_body_refuses_one_that_is_not_there() -> None:
         lambda: world.vertex_count(0),
         lambda: world.tree_shape(0),
         lambda: world.tree_parts(0, 0),
+        lambda: world.vertex_order(0),
         lambda: world.intersection_pairs_between(1, 0),
         lambda: world.first_intersection_between(0, 1),
         lambda: world.visit_intersections_between(0, 1, lambda pair: True),

@@ -50,6 +50,11 @@ impl<S: Scalar> Bounds<S> {
         }
     }
 
+    /// Touching counts; nothing overlaps the bounds of nothing.
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        (0..3).all(|axis| self.lo[axis] <= other.hi[axis] && other.lo[axis] <= self.hi[axis])
+    }
+
     pub(crate) fn holds(&self, point: [S; 3]) -> bool {
         (0..3).all(|axis| self.lo[axis] <= point[axis] && point[axis] <= self.hi[axis])
     }

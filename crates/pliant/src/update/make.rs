@@ -33,6 +33,20 @@ struct Job<'t, const N: usize> {
     made: [u64; 2],
 }
 
+impl<'t, const N: usize> Job<'t, N> {
+    /// A run of groups, and all of the tree.
+    fn of_all(run: &'t [u32], groups: &'t mut [Siblings<N>], blocks: &'t mut [Block]) -> Self {
+        Self {
+            run,
+            first_group: 0,
+            groups,
+            first_block: 0,
+            blocks,
+            made: [0; 2],
+        }
+    }
+}
+
 /// Makes groups true from what is below them; they come in ascending order. Returns how many boxes of nodes it made.
 pub(super) fn make_groups_true<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
@@ -41,14 +55,7 @@ pub(super) fn make_groups_true<const N: usize, S: Scalar>(
     statistics: &mut Statistics,
 ) -> u64 {
     let (leaves, blocks) = tree.leaves.split();
-    let whole = Job {
-        run,
-        first_group: 0,
-        groups: &mut tree.groups,
-        first_block: 0,
-        blocks,
-        made: [0; 2],
-    };
+    let mut whole = Job::of_all(run, &mut tree.groups, blocks);
     let make = |job: &mut Job<'_, N>| {
         dispatch!(work.level, i => {
             for &group in job.run {
@@ -57,7 +64,6 @@ pub(super) fn make_groups_true<const N: usize, S: Scalar>(
         });
     };
     let [nodes, triangles] = if run.len() <= JOB || !work.threads.are_many() {
-        let mut whole = whole;
         make(&mut whole);
         whole.made
     } else {
@@ -80,14 +86,7 @@ pub(super) fn merge_groups<const N: usize, S: Scalar>(
     statistics: &mut Statistics,
 ) -> u64 {
     let (leaves, blocks) = tree.leaves.split();
-    let mut job = Job {
-        run,
-        first_group: 0,
-        groups: &mut tree.groups,
-        first_block: 0,
-        blocks,
-        made: [0; 2],
-    };
+    let mut job = Job::of_all(run, &mut tree.groups, blocks);
     dispatch!(work.level, i => {
         for &group in run.iter().rev() {
             make_group_true::<_, _, _, true>(i, &mut job, group as usize, leaves, &tree.vertices, work.shape);

@@ -7,7 +7,7 @@
 
 use super::BodyId;
 use super::body::Body;
-use crate::geometry::Scalar;
+use crate::geometry::{Bounds, Scalar};
 use crate::narrow_phase::{Triangle, intersect};
 use crate::pairs::Candidate;
 use crate::statistics::Statistics;
@@ -53,38 +53,14 @@ pub(super) fn near<S: Scalar>(
     })
 }
 
-/// A box in the coordinates of the caller; as they are, so no rounding is needed.
-#[derive(Clone, Copy)]
-struct Extent {
-    lo: [f64; 3],
-    hi: [f64; 3],
-}
-
-impl Extent {
-    fn of(points: &[[f64; 3]]) -> Self {
-        let fold = |axis: usize, of: fn(f64, f64) -> f64| {
-            let values = points.iter().map(|point| point[axis]);
-            values.reduce(of).unwrap_or(f64::NAN)
-        };
-        Self {
-            lo: [0, 1, 2].map(|axis| fold(axis, f64::min)),
-            hi: [0, 1, 2].map(|axis| fold(axis, f64::max)),
-        }
-    }
-
-    fn overlaps(&self, other: &Self) -> bool {
-        (0..3).all(|axis| self.lo[axis] <= other.hi[axis] && other.lo[axis] <= self.hi[axis])
-    }
-}
-
 /// Some triangles in a row.
 struct Row<'b, S> {
     body: &'b Body<S>,
     first: u32,
     count: usize,
     corners: [Triangle; NEIGHBOURS[2]],
-    boxes: [Extent; NEIGHBOURS[2]],
-    all: Extent,
+    boxes: [Bounds<f64>; NEIGHBOURS[2]],
+    all: Bounds<f64>,
 }
 
 impl<'b, S: Scalar> Row<'b, S> {
@@ -92,27 +68,27 @@ impl<'b, S: Scalar> Row<'b, S> {
         let first = triangle as usize / count * count;
         let count = count.min(body.triangle_count() - first);
         let mut corners = [[[0.0; 3]; 3]; NEIGHBOURS[2]];
-        let nothing = Extent {
-            lo: [f64::NAN; 3],
-            hi: [f64::NAN; 3],
-        };
-        let mut boxes = [nothing; NEIGHBOURS[2]];
+        let mut boxes = [Bounds::EMPTY; NEIGHBOURS[2]];
+        let mut all = Bounds::EMPTY;
         for place in 0..count {
             corners[place] = body.corners_now((first + place) as u32);
-            boxes[place] = Extent::of(&corners[place]);
+            for corner in corners[place] {
+                boxes[place].include(corner);
+                all.include(corner);
+            }
         }
         Self {
             body,
             first: first as u32,
             count,
-            all: Extent::of(corners[..count].as_flattened()),
+            all,
             corners,
             boxes,
         }
     }
 
     /// The places of triangles whose boxes overlap a box.
-    fn overlapping(&self, other: Extent) -> impl Iterator<Item = usize> {
+    fn overlapping(&self, other: Bounds<f64>) -> impl Iterator<Item = usize> {
         (0..self.count).filter(move |&place| self.boxes[place].overlaps(&other))
     }
 

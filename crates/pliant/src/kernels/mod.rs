@@ -9,6 +9,7 @@
 //! take_over   positions of the caller: checked, copied, bounded
 //! extent      boxes of points and of triangles
 //! boxes       boxes side by side, and which of them overlap
+//! find        where a number is among eight
 //! bits        the lanes set in a mask, written to a list without branches
 //! signs       orientation signs of eight candidates at once, where rounding cannot change them
 //! wide        points in registers, and points as lanes
@@ -17,6 +18,7 @@
 pub(crate) mod bits;
 mod boxes;
 pub(crate) mod extent;
+mod find;
 mod level;
 pub(crate) mod signs;
 pub(crate) mod take_over;
@@ -24,6 +26,7 @@ mod wide;
 
 pub(crate) use boxes::{BoxLanes, overlap_mask};
 pub(crate) use fearless_simd::Level;
+pub(crate) use find::find_lane;
 #[cfg(test)]
 pub(crate) use level::all as all_levels;
 pub(crate) use level::widest;

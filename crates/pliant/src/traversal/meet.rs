@@ -11,7 +11,7 @@ use crate::mesh::Mesh;
 use crate::narrow_phase::{self, Undecided};
 use crate::pairs::{BlockPair, Candidate, LeafPair};
 use crate::statistics::Statistics;
-use crate::tree::Leaves;
+use crate::tree::{Leaves, Neighbours};
 use fearless_simd::{Simd, dispatch};
 
 /// Pairs of blocks compared before their candidates are decided: at most 64 candidates each.
@@ -88,7 +88,12 @@ impl Meet {
             self.candidates.clear();
             if leaves[0].have_boxes() {
                 let found = &mut self.candidates;
-                dispatch!(level, i => candidates::<_, ITSELF>(i, leaves, side_a.mesh, pairs, found));
+                match side_a.tree.neighbours() {
+                    Some(neighbours) if ITSELF => {
+                        dispatch!(level, i => of_itself(i, leaves[0], side_a.mesh, neighbours, pairs, found));
+                    }
+                    _ => dispatch!(level, i => of_two(i, leaves, pairs, found)),
+                }
             } else {
                 // One triangle a leaf: its box is the leaf's, which overlaps. With itself it shares its vertices.
                 for &[a, b] in pairs {
@@ -109,33 +114,44 @@ impl Meet {
     }
 }
 
-/// The pairs of triangles of pairs of blocks whose boxes overlap; within one body those that share no vertex.
+/// The pairs of triangles of pairs of blocks of two bodies whose boxes overlap.
 #[inline(always)]
-fn candidates<I: Simd, const ITSELF: bool>(
-    i: I,
-    [a, b]: [&Leaves; 2],
-    mesh: &Mesh,
-    pairs: &[BlockPair],
-    found: &mut Batch<Candidate>,
-) {
+fn of_two<I: Simd>(i: I, [a, b]: [&Leaves; 2], pairs: &[BlockPair], found: &mut Batch<Candidate>) {
     let (blocks_a, blocks_b) = (a.blocks(), b.blocks());
     let (firsts_a, firsts_b) = (a.firsts(), b.firsts());
     for &[block_a, block_b] in pairs {
         let first_a = firsts_a[block_a as usize];
         let first_b = firsts_b[block_b as usize];
-        let pair = |bit: u32| [first_a + bit / 8, first_b + bit % 8];
         let room = found.room();
         let overlaps = overlap_mask(i, &blocks_a[block_a as usize], &blocks_b[block_b as usize]);
-        if ITSELF {
+        room.push_bits(overlaps, |bit| [first_a + bit / 8, first_b + bit % 8]);
+    }
+}
+
+/// The pairs of triangles of pairs of blocks of one body whose boxes overlap, and which share no vertex.
+#[inline(always)]
+fn of_itself<I: Simd>(
+    i: I,
+    leaves: &Leaves,
+    mesh: &Mesh,
+    neighbours: &Neighbours,
+    pairs: &[BlockPair],
+    found: &mut Batch<Candidate>,
+) {
+    let (blocks, firsts) = (leaves.blocks(), leaves.firsts());
+    for &[block_a, block_b] in pairs {
+        let first_a = firsts[block_a as usize];
+        let first_b = firsts[block_b as usize];
+        let pair = |bit: u32| [first_a + bit / 8, first_b + bit % 8];
+        let room = found.room();
+        let mut overlaps = overlap_mask(i, &blocks[block_a as usize], &blocks[block_b as usize]);
+        if block_a == block_b {
             // Within one block, each pair of triangles once, and none with itself.
-            let wanted = if block_a == block_b {
-                LATER_LANES
-            } else {
-                u64::MAX
-            };
-            room.push_bits_if(overlaps & wanted, pair, |[a, b]| !mesh.share_a_vertex(a, b));
-        } else {
-            room.push_bits(overlaps, pair);
+            overlaps &= LATER_LANES;
+        }
+        match neighbours.shared(i, block_a, block_b) {
+            Some(shared) => room.push_bits(overlaps & !shared, pair),
+            None => room.push_bits_if(overlaps, pair, |[a, b]| !mesh.share_a_vertex(a, b)),
         }
     }
 }

@@ -15,6 +15,7 @@
 
 pub(crate) mod build;
 mod leaves;
+mod neighbours;
 mod parts;
 mod siblings;
 mod validate;
@@ -24,6 +25,7 @@ use crate::geometry::Aabb;
 use crate::mesh::Mesh;
 use build::Plan;
 pub(crate) use leaves::{Block, LEAF_LANES, LeafRuns, Leaves};
+pub(crate) use neighbours::Neighbours;
 pub(crate) use siblings::{Below, Child, Siblings};
 pub(crate) use vertex_sets::VertexSets;
 
@@ -53,6 +55,8 @@ pub(crate) struct Tree<const N: usize> {
     pub(crate) vertices: VertexSets,
     /// The triangles in every leaf.
     pub(crate) leaves: Leaves,
+    /// Which triangles share a vertex; made when the body first meets itself.
+    neighbours: Option<Neighbours>,
     /// The level of the deepest leaf, where the root's is 0: the n of the paper's n / 2.
     pub(crate) depth: u32,
 }
@@ -97,6 +101,7 @@ impl<const N: usize> Tree<N> {
             groups,
             vertices: VertexSets::new(plan, mesh),
             leaves,
+            neighbours: None,
             depth,
         }
     }
@@ -104,6 +109,18 @@ impl<const N: usize> Tree<N> {
     /// How many nodes there are, leaves included: the boxes of a complete update.
     pub(crate) fn node_count(&self) -> usize {
         self.vertices.len()
+    }
+
+    /// Makes the table of neighbours, unless it is there, or there are no blocks that it could be of.
+    pub(crate) fn know_neighbours(&mut self, mesh: &Mesh) {
+        if self.leaves.have_boxes() && self.neighbours.is_none() {
+            self.neighbours = Some(Neighbours::new(&self.leaves, mesh));
+        }
+    }
+
+    /// Which triangles share a vertex, if that was asked for before.
+    pub(crate) fn neighbours(&self) -> Option<&Neighbours> {
+        self.neighbours.as_ref()
     }
 
     #[inline]

@@ -87,6 +87,7 @@ impl<'w, S: Scalar> Step<'w, S> {
         self.statistics.body_pairs += 1;
         self.refresh_ahead(tree, body);
         let body = &self.bodies[body];
+        tree.know_neighbours(&body.mesh);
         let updates = self.updates();
         let mut meeting = OneTree {
             side: Side {

@@ -58,7 +58,7 @@ fn motion_of(scene: &str) -> Result<Motion, String> {
 fn measure_all(scene: &str, motion: &Motion) {
     let triangles: usize = motion.bodies.iter().map(|body| body.triangles.len()).sum();
     let methods: [fn() -> Box<dyn Method>; 4] = [
-        || Box::new(Ours::new("pliant", pliant::Options::default())),
+        || Box::new(Ours::<f32>::new("pliant", pliant::Options::default())),
         || Box::new(Parry::new(exact)),
         || Box::new(Obvhs::new(1, exact)),
         || Box::new(Obvhs::new(4, exact)),

@@ -71,7 +71,12 @@ pub struct Contest {
     pub methods: Vec<Contender>,
     /// Parts of the steps.
     pub windows: Vec<Window>,
+    /// Whether methods find nothing in cache: every step, memory is read until nothing of the last one can be there.
+    pub cold: bool,
 }
+
+/// Bytes that are read before a step that is to begin cold: more than the caches of today's processors hold.
+const LARGER_THAN_CACHE: usize = 512 << 20;
 
 /// One round's times of one method: (update, query) in milliseconds at each step.
 type Round = Vec<(f64, f64)>;
@@ -171,8 +176,10 @@ impl Contest {
     ) -> Round {
         let method = &mut self.methods[place].method;
         let mut times = Vec::with_capacity(self.motion.frames.len());
+        let other = vec![1_u64; if self.cold { LARGER_THAN_CACHE / 8 } else { 0 }];
         for frame in &self.motion.frames {
             write(shapes, frame);
+            std::hint::black_box(other.iter().step_by(8).sum::<u64>());
             let shapes = views(shapes);
             let start = Instant::now();
             method.step(&shapes);

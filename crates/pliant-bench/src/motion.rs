@@ -156,6 +156,35 @@ impl Motion {
         }
     }
 
+    /// The same motion with the vertices of every body numbered anew: vertex i of body b is what was vertex `orders[b][i]`.
+    #[must_use]
+    pub fn renumbered(mut self, orders: &[Vec<u32>]) -> Self {
+        let renumber = |placed: &mut Placed, order: &[u32]| {
+            let in_order =
+                |points: &[[f32; 3]]| order.iter().map(|&old| points[old as usize]).collect();
+            placed.world = in_order(&placed.world);
+            if let Some((_, local)) = &mut placed.rigid {
+                *local = in_order(local);
+            }
+        };
+        for (body, order) in self.bodies.iter_mut().zip(orders) {
+            let mut new_number = vec![0; order.len()];
+            for (new, &old) in order.iter().enumerate() {
+                new_number[old as usize] = new as u32;
+            }
+            for corner in body.triangles.as_flattened_mut() {
+                *corner = new_number[*corner as usize];
+            }
+            renumber(&mut body.first, order);
+        }
+        for frame in &mut self.frames {
+            for (placed, order) in frame.iter_mut().zip(orders) {
+                renumber(placed, order);
+            }
+        }
+        self
+    }
+
     /// The bodies as [`Method::build`](crate::method::Method::build) is given them.
     pub fn meshes(&self) -> Vec<BodyMesh<'_>> {
         self.bodies

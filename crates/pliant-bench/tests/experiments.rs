@@ -191,10 +191,11 @@ fn a_wrong_method_is_found_out_and_not_timed() {
             truth: Box::new(Sweep::new(exact)),
             methods,
             windows,
+            cold: false,
         };
         contest.play(3, &mut |_| ())
     };
-    let ours = || Contender::new("ours", Ours::new("ours", pliant::Options::default()));
+    let ours = || Contender::new("ours", Ours::<f32>::new("ours", pliant::Options::default()));
     let record = play(
         Query::All,
         vec![ours(), liar(2, false), liar(3, true), liar(9, true)],

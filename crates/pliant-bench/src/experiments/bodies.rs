@@ -54,6 +54,7 @@ fn plan(form: Form) -> Vec<Planned> {
                     truth: truth(),
                     methods: methods(),
                     windows: vec![window("all", 1, 200)],
+                    cold: false,
                 }
             })
         })

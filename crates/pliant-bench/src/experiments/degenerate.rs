@@ -96,6 +96,7 @@ fn plan(form: Form) -> Vec<Planned> {
         truth: truth(),
         methods: methods(),
         windows: vec![window("all", 1, 200)],
+        cold: false,
     };
     let mut plan = vec![Planned::new(
         methods().len(),

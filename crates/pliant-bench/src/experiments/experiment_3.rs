@@ -48,6 +48,7 @@ fn plan(form: Form) -> Vec<Planned> {
                 truth: truth(),
                 methods: contenders(&METHODS),
                 windows: windows(),
+                cold: false,
             })
         })
         .collect()

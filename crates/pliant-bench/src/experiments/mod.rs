@@ -10,6 +10,7 @@ mod degrees;
 mod experiment_1;
 mod experiment_3;
 mod levels;
+mod peers;
 mod response;
 mod splits;
 mod table_1;
@@ -62,7 +63,7 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order in which `all` runs them.
-pub const EXPERIMENTS: [Experiment; 9] = [
+pub const EXPERIMENTS: [Experiment; 10] = [
     experiment_1::EXPERIMENT,
     table_1::EXPERIMENT,
     experiment_3::EXPERIMENT,
@@ -72,6 +73,7 @@ pub const EXPERIMENTS: [Experiment; 9] = [
     bodies::EXPERIMENT,
     cloth::EXPERIMENT,
     degenerate::EXPERIMENT,
+    peers::EXPERIMENT,
 ];
 
 impl Experiment {
@@ -137,7 +139,7 @@ fn ours(label: &str, change: impl FnOnce(&mut Options)) -> Contender {
         Options::paper()
     };
     change(&mut options);
-    Contender::new(label, Ours::new(label, options))
+    Contender::new(label, Ours::<f32>::new(label, options))
 }
 
 /// A method by its name in tables.
@@ -214,6 +216,7 @@ fn on_scene(
         truth: truth(),
         methods,
         windows: windows(),
+        cold: false,
     }
 }
 

@@ -4,6 +4,7 @@ mod answer;
 mod bodies;
 mod brute_force;
 mod bucket_tree;
+mod floor;
 mod obvhs;
 mod ours;
 mod parry;
@@ -15,6 +16,7 @@ mod van_den_bergen;
 
 pub use brute_force::BruteForce;
 pub use bucket_tree::BucketTree;
+pub use floor::Floor;
 pub use obvhs::Obvhs;
 pub use ours::Ours;
 pub use parry::Parry;

@@ -1,25 +1,48 @@
-//! pliant, in any configuration: what a user of the library would write.
+//! pliant, in any configuration and precision: what a user of the library would write.
 
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
-use pliant::{BodyId, Options, World};
+use pliant::{BodyId, Options, Scalar, World};
 
-/// A world of the library.
-pub struct Ours {
+/// A world of the library, of either precision.
+pub struct Ours<S: Scalar = f32> {
     name: String,
-    world: World<f32>,
+    world: World<S>,
     bodies: Vec<BodyId>,
+    /// Positions in the world's precision, if it is another.
+    positions: Vec<[S; 3]>,
     pairs: Vec<Pair>,
     counters: Counters,
 }
 
-impl Ours {
+/// How shapes come into a world of this precision.
+trait Precision: Scalar {
+    /// The positions themselves, or as they are in `buffer`, if they have to be widened.
+    fn of<'p>(positions: &'p [[f32; 3]], buffer: &'p mut Vec<[Self; 3]>) -> &'p [[Self; 3]];
+}
+
+impl Precision for f32 {
+    fn of<'p>(positions: &'p [[f32; 3]], _: &'p mut Vec<[f32; 3]>) -> &'p [[f32; 3]] {
+        positions
+    }
+}
+
+impl Precision for f64 {
+    fn of<'p>(positions: &'p [[f32; 3]], buffer: &'p mut Vec<[f64; 3]>) -> &'p [[f64; 3]] {
+        buffer.clear();
+        buffer.extend(positions.iter().map(|point| point.map(f64::from)));
+        buffer
+    }
+}
+
+impl<S: Scalar> Ours<S> {
     /// The library with these options, under this name.
     pub fn new(name: &str, options: Options) -> Self {
         Self {
             name: name.to_owned(),
             world: World::with_options(options),
             bodies: Vec::new(),
+            positions: Vec::new(),
             pairs: Vec::new(),
             counters: Counters::default(),
         }
@@ -42,7 +65,7 @@ fn row(pair: pliant::Pair) -> Pair {
     ]
 }
 
-impl Method for Ours {
+impl<S: Precision> Method for Ours<S> {
     fn name(&self) -> String {
         format!("{}: {:?}", self.name, self.world.options())
     }
@@ -51,7 +74,7 @@ impl Method for Ours {
         for body in bodies {
             self.bodies.push(
                 self.world
-                    .add(body.triangles, body.shape.world)
+                    .add(body.triangles, S::of(body.shape.world, &mut self.positions))
                     .expect("a scene's bodies are good"),
             );
         }
@@ -60,7 +83,7 @@ impl Method for Ours {
     fn step(&mut self, shapes: &[Shape<'_>]) {
         for (&body, shape) in self.bodies.iter().zip(shapes) {
             self.world
-                .set_positions(body, shape.world)
+                .set_positions(body, S::of(shape.world, &mut self.positions))
                 .expect("a scene's shapes are good");
         }
     }

@@ -60,11 +60,18 @@ fn main() {
     }
 }
 
-/// As many threads as the environment variable THREADS says.
+/// With the environment variables THREADS, and LEVEL of the hybrid update.
 fn options() -> pliant::Options {
     let mut options = pliant::Options::default();
     if let Ok(threads) = std::env::var("THREADS") {
         options.threads = threads.parse().expect("a number of threads");
+    }
+    if let Ok(level) = std::env::var("LEVEL") {
+        let level = level.parse().expect("a level of the tree");
+        options.update = pliant::Update::Hybrid {
+            level: Some(level),
+            levels_at_once: std::num::NonZeroU32::MIN,
+        };
     }
     options
 }

@@ -41,6 +41,12 @@ impl<S: Scalar> Points<S> {
 }
 
 impl<S> Points<S> {
+    /// A run of points, each with the number that means nothing.
+    #[inline(always)]
+    pub(crate) fn run(&self, run: std::ops::Range<usize>) -> &[[S; 4]] {
+        &self.points[run]
+    }
+
     /// A point and the number that means nothing.
     #[inline(always)]
     pub(crate) fn wide(&self, point: u32) -> &[S; 4] {

@@ -51,33 +51,41 @@ pub(crate) fn of_points<I: Simd, S: Scalar>(
     run: std::ops::Range<usize>,
     others: &[u32],
 ) -> Extent<I> {
-    let first = S::load(
-        i,
-        shape
-            .positions
-            .wide(others.first().copied().unwrap_or(run.start as u32)),
-    );
-    // Two of each, so that a minimum does not wait for the one before.
-    let (mut lo, mut hi) = ([first; 2], [first; 2]);
-    let last = run.end as u32 - 1;
-    for place in run.step_by(2) {
-        for (which, vertex) in [place as u32, last.min(place as u32 + 1)]
-            .into_iter()
-            .enumerate()
-        {
-            let point = S::load(i, shape.positions.wide(vertex));
+    let run = shape.positions.run(run);
+    let first = match others.first() {
+        Some(&other) => shape.positions.wide(other),
+        None => &run[0],
+    };
+    let first = S::load(i, first);
+    // Several of each, so that a minimum does not wait for the one before.
+    let (mut lo, mut hi) = ([first; 4], [first; 4]);
+    let (fours, rest) = run.as_chunks::<4>();
+    for four in fours {
+        for which in 0..4 {
+            let point = S::load(i, &four[which]);
             lo[which] = lo[which].min(point);
             hi[which] = hi[which].max(point);
         }
     }
-    for pair in others.chunks(2) {
-        for (which, vertex) in [pair[0], pair[pair.len() - 1]].into_iter().enumerate() {
-            let point = S::load(i, shape.positions.wide(vertex));
+    for point in rest {
+        let point = S::load(i, point);
+        (lo[0], hi[0]) = (lo[0].min(point), hi[0].max(point));
+    }
+    let (pairs, rest) = others.as_chunks::<2>();
+    for pair in pairs {
+        for which in 0..2 {
+            let point = S::load(i, shape.positions.wide(pair[which]));
             lo[which] = lo[which].min(point);
             hi[which] = hi[which].max(point);
         }
     }
-    S::outward(lo[0].min(lo[1]), hi[0].max(hi[1]), &shape.origin)
+    for &other in rest {
+        let point = S::load(i, shape.positions.wide(other));
+        (lo[1], hi[1]) = (lo[1].min(point), hi[1].max(point));
+    }
+    let lo = lo[0].min(lo[1]).min(lo[2].min(lo[3]));
+    let hi = hi[0].max(hi[1]).max(hi[2].max(hi[3]));
+    S::outward(lo, hi, &shape.origin)
 }
 
 /// The box of one triangle.
@@ -113,11 +121,17 @@ pub(crate) fn of_block<I: Simd, S: Scalar>(
     block: &mut BoxLanes<8>,
 ) -> Extent<I> {
     // What is missing to eight is the last again: nothing to a union.
-    let last = triangles.len() - 1;
+    let padded;
+    let eight = match triangles.try_into() {
+        Ok(eight) => eight,
+        Err(_) => {
+            padded = padded_to_eight(triangles);
+            &padded
+        }
+    };
     let mut boxes = [nothing(i); 8];
     for lane in 0..8 {
-        let corners = triangles[lane.min(last)];
-        boxes[lane] = of_corners(i, shape.positions, corners, &shape.origin);
+        boxes[lane] = of_corners(i, shape.positions, eight[lane], &shape.origin);
     }
     store(boxes, triangles.len(), block);
     let [a, b, c, d, e, f, g, h] = boxes;
@@ -125,6 +139,14 @@ pub(crate) fn of_block<I: Simd, S: Scalar>(
         union(union(a, b), union(c, d)),
         union(union(e, f), union(g, h)),
     )
+}
+
+/// One to seven triangles, and the last again.
+#[inline(never)]
+fn padded_to_eight(triangles: &[[u32; 3]]) -> [[u32; 3]; 8] {
+    let mut eight = [triangles[triangles.len() - 1]; 8];
+    eight[..triangles.len()].copy_from_slice(triangles);
+    eight
 }
 
 /// The box of two.

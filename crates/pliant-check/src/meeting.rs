@@ -131,8 +131,6 @@ impl<'a> Names<'a> {
                 let of_name = names.of_bodies(body);
                 members.extend(of_name.ok_or_else(|| names.unknown("body", body))?);
             }
-            members.sort_unstable();
-            members.dedup();
             names.groups.insert(name, members);
         }
         Ok(names)

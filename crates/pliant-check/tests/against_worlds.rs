@@ -16,19 +16,20 @@ struct SourceMade {
     /// The piece that each triangle is of, as they come in the file.
     order: Vec<usize>,
     /// For each frame, piece and corner the position.
-    frames: Vec<Vec<[[u8; 3]; 5]>>,
+    frames: Vec<Vec<[[u8; 3]; 7]>>,
 }
 
 const FRAMES: usize = 3;
 
 impl SourceMade {
-    /// Triangles of a piece go round its five corners, so that they all hang together.
+    /// Triangles of a piece go round its seven corners, each sharing two with the one before: they hang together, but the first
+    /// and the fourth share none.
     fn triangles(&self) -> Vec<[usize; 3]> {
         let mut next = BTreeMap::new();
         let triangle = |&piece: &usize| {
             let nth: &mut usize = next.entry(piece).or_insert(0);
             *nth += 1;
-            [0, *nth, *nth + 1].map(|corner| 5 * piece + corner % 5)
+            [*nth, *nth + 1, *nth + 2].map(|corner| 7 * piece + corner % 7)
         };
         self.order.iter().map(triangle).collect()
     }
@@ -109,9 +110,9 @@ fn all_frames(mut check: Check) -> Vec<Found> {
 
 fn source() -> impl Strategy<Value = SourceMade> {
     let corner = prop::array::uniform3(0..9_u8);
-    let piece = prop::array::uniform5(corner);
+    let piece = prop::array::uniform7(corner);
     let frames = prop::collection::vec(prop::collection::vec(piece, 4), FRAMES);
-    (prop::collection::vec(0..4_usize, 1..9), frames)
+    (prop::collection::vec(0..4_usize, 1..16), frames)
         .prop_map(|(order, frames)| SourceMade { order, frames })
 }
 

@@ -137,3 +137,29 @@ fn figures() {
         }
     }
 }
+
+#[test]
+fn memory_of_pieces_and_of_a_baseline() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    for (what, surface) in surfaces(300, 3) {
+        fs::write(path.join("a.npz"), surface.file()).unwrap();
+        let split = ["a.npz", "--split", "components"];
+        let baseline = ["a.npz", "--baseline", "2"];
+        // Every triangle a piece of its own: welding would join them.
+        let apart = ["a.npz", "--split", "components", "--no-weld", "--first"];
+        let ask = if surface.split {
+            &[&apart[..], &baseline[..1]][..1]
+        } else {
+            &[&split[..], &baseline[..]][..]
+        };
+        for arguments in ask {
+            let Some(peak) = peak(path, arguments) else {
+                return;
+            };
+            let multiple = multiple(peak, PROGRAM, surface);
+            println!("{what}, {arguments:?}: {multiple:.2} times two frames");
+            assert!(multiple < MULTIPLE, "{what}, {arguments:?}: {multiple}");
+        }
+    }
+}

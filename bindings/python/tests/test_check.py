@@ -218,9 +218,10 @@ def test_groups_and_pairs_that_are_ignored(pieces: Path) -> None:
     assert bodies_that_meet(ignore=[(str(paths[0]), paths[0])]) == {(0, 2), (1, 2)}
     assert bodies_that_meet(groups={"soft": [0, paths[1]]}, ignore=[("soft", 1)]) == {(0, 2)}
     assert bodies_that_meet(groups={"all": [0, 1, 2]}, ignore=[("all", "all")], itself=True) == set()
-    for options in ({"ignore": [("hat", 0)]}, {"groups": {"g": [9]}}, {"groups": {"0": [1]}}, {"groups": {"g": []}}):
+    bad: list[dict[str, Any]] = [{"ignore": [("hat", 0)]}, {"groups": {"g": [9]}}, {"groups": {"0": [1]}}, {"groups": {"g": []}}]
+    for options in bad:
         with pytest.raises(pliant.Error) as refused:
-            pliant.check(*paths, **options)  # type: ignore[arg-type]
+            pliant.check(*paths, **options)
         assert refused.value.kind == "BadOption"
     with pytest.raises(pliant.Error, match='no body or group is called "hat"; bodies: 0 = '):
         pliant.check(*paths, ignore=[("hat", 0)])

@@ -156,7 +156,7 @@ impl Mesh {
 
         writeln!(out, "<PointData>")?;
         let vertices = self.points.iter().map(|&(_, vertex)| vertex.to_le_bytes());
-        array(out, "UInt32", "vertex", 1, vertices)?;
+        array(out, "UInt32", "vertex", vertices)?;
         writeln!(out, "</PointData>")?;
 
         writeln!(out, r#"<CellData Scalars="partners">"#)?;
@@ -166,7 +166,7 @@ impl Mesh {
             ("partners", &self.partners),
         ] {
             let numbers = numbers.iter().map(|number| number.to_le_bytes());
-            array(out, "UInt32", name, 1, numbers)?;
+            array(out, "UInt32", name, numbers)?;
         }
         writeln!(out, "</CellData>")?;
 
@@ -178,26 +178,20 @@ impl Mesh {
             .flat_map(|&(source, vertex)| sources[source].positions().get(vertex));
         if sources.iter().all(|it| it.precision() == Precision::F32) {
             let coordinates = coordinates.map(|x| (x as f32).to_le_bytes());
-            array(out, "Float32", "Points", 3, coordinates)?;
+            array(out, "Float32", "Points", coordinates)?;
         } else {
-            array(
-                out,
-                "Float64",
-                "Points",
-                3,
-                coordinates.map(f64::to_le_bytes),
-            )?;
+            array(out, "Float64", "Points", coordinates.map(f64::to_le_bytes))?;
         }
         writeln!(out, "</Points>")?;
 
         writeln!(out, "<{cells_are}>")?;
         let corners = self.corners.iter().map(|corner| corner.to_le_bytes());
-        array(out, "Int64", "connectivity", 1, corners)?;
+        array(out, "Int64", "connectivity", corners)?;
         let ends = (1..=cells).map(|cell| (3 * cell as i64).to_le_bytes());
-        array(out, "Int64", "offsets", 1, ends)?;
+        array(out, "Int64", "offsets", ends)?;
         if let Kind::UnstructuredGrid = kind {
             const TRIANGLE: u8 = 5;
-            array(out, "UInt8", "types", 1, (0..cells).map(|_| [TRIANGLE]))?;
+            array(out, "UInt8", "types", (0..cells).map(|_| [TRIANGLE]))?;
         }
         writeln!(out, "</{cells_are}>\n</Piece>")?;
         end(out, kind.name())
@@ -222,16 +216,20 @@ fn array<const N: usize>(
     out: &mut dyn Write,
     kind: &str,
     name: &str,
-    components: usize,
     numbers: impl Iterator<Item = [u8; N]>,
 ) -> io::Result<()> {
+    let components = match name {
+        "Points" => r#" NumberOfComponents="3""#,
+        // One; where it is said, meshio makes a column of them.
+        _ => "",
+    };
     let mut bytes = vec![0; size_of::<u64>()];
     bytes.extend(numbers.flatten());
     let length = (bytes.len() - size_of::<u64>()) as u64;
     bytes[..size_of::<u64>()].copy_from_slice(&length.to_le_bytes());
     writeln!(
         out,
-        r#"<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="binary">{}</DataArray>"#,
+        r#"<DataArray type="{kind}" Name="{name}"{components} format="binary">{}</DataArray>"#,
         BASE64_STANDARD.encode(bytes)
     )
 }

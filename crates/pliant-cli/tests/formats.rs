@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Said, pliant};
+use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -96,10 +97,10 @@ fn github_says_why_it_could_not_be_checked() {
 fn a_line_for_each_pair() {
     let folder = folder("m");
     let said = check(folder.path(), &["m*.obj", "sheet.obj", "--format", "lines"]);
-    let expected: String = (0..15)
-        .filter(|&frame| frame != 2)
-        .map(|frame| format!("{frame} 0 0 1 0\n"))
-        .collect();
+    let mut expected = String::new();
+    for frame in (0..15).filter(|&frame| frame != 2) {
+        writeln!(expected, "{frame} 0 0 1 0").unwrap();
+    }
     assert_eq!((said.code, said.out, said.err.as_str()), (1, expected, ""));
     let count = check(
         folder.path(),
@@ -122,7 +123,7 @@ fn lines_are_the_pairs_of_the_json() {
     let folder = tempfile::tempdir().unwrap();
     let mut text = SHEET.to_owned();
     for x in 0..4 {
-        text += &format!("v {x} 0 -1\nv {x} 0 1\nv {x} 2 1\nf -1 -2 -3\n");
+        writeln!(text, "v {x} 0 -1\nv {x} 0 1\nv {x} 2 1\nf -1 -2 -3").unwrap();
     }
     fs::write(folder.path().join("a.obj"), text).unwrap();
     let pairs = |format| check(folder.path(), &["a.obj", "--format", format]);

@@ -7,6 +7,7 @@ mod common;
 use base64::prelude::{BASE64_STANDARD, Engine};
 use common::{Said, pliant};
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -118,10 +119,10 @@ fn folder() -> TempDir {
         let mut text = String::new();
         for i in 0..100 {
             let (x, y) = (f64::from(i % 10) / 3.0, f64::from(i / 10) / 7.0);
-            text += &format!("v {x} {y} {}\n", z(x, y));
+            writeln!(text, "v {x} {y} {}", z(x, y)).unwrap();
         }
         for i in (0..90).filter(|i| i % 10 < 9) {
-            text += &format!("f {} {} {} {}\n", i + 1, i + 2, i + 12, i + 11);
+            writeln!(text, "f {} {} {} {}", i + 1, i + 2, i + 12, i + 11).unwrap();
         }
         text
     };
@@ -155,7 +156,8 @@ fn assert_same(vtk: &Vtk, pairs: &serde_json::Value, kind: &str, files: &[&Path]
     assert_eq!(vtk.attributes["VTKFile type"], kind);
     let whole = |name: &str| -> Vec<u32> {
         let numbers = vtk.arrays[name].numbers();
-        numbers.iter().map(|&number| number as u32).collect()
+        let whole = numbers.iter().map(|number| number.to_string().parse());
+        whole.collect::<Result<_, _>>().unwrap()
     };
     let (bodies, triangles) = (whole("body"), whole("triangle"));
     let cells = if kind == "PolyData" {
@@ -202,12 +204,12 @@ fn assert_same(vtk: &Vtk, pairs: &serde_json::Value, kind: &str, files: &[&Path]
             })
             .collect();
         let quad = text.lines().filter_map(|line| line.strip_prefix("f "));
-        let quad = quad.map(|line| {
+        let mut quad = quad.map(|line| {
             line.split(' ')
                 .map(|word| word.parse::<u32>().unwrap() - 1)
                 .collect::<Vec<_>>()
         });
-        let quad = quad.skip(triangles[cell] as usize / 2).next().unwrap();
+        let quad = quad.nth(triangles[cell] as usize / 2).unwrap();
         let second = triangles[cell] as usize % 2;
         let expected = [quad[0], quad[1 + second], quad[2 + second]];
         let named: Vec<u32> = corners
@@ -232,7 +234,7 @@ fn one_frame_is_one_file() {
     let path = folder.path();
     let files = ["falls2.obj", "still.obj"];
     let from: Vec<_> = files.map(|name| path.join(name)).into();
-    let from: Vec<_> = from.iter().map(|file| file.as_path()).collect();
+    let from: Vec<_> = from.iter().map(std::path::PathBuf::as_path).collect();
     for (name, kind) in [("hits.vtp", "PolyData"), ("hits.VTU", "UnstructuredGrid")] {
         let said = check(path, &[&files[..], &["--hits", name]].concat());
         assert_eq!((said.code, said.err.as_str()), (1, ""));
@@ -305,20 +307,20 @@ fn pieces_and_what_is_left_out() {
         .each_ref()
         .map(|file| fs::read_to_string(file).unwrap());
     let shifted = still.lines().filter_map(|line| line.strip_prefix("f "));
-    let shifted: String = shifted
-        .map(|line| {
-            let corners = line
-                .split(' ')
-                .map(|word| (word.parse::<u32>().unwrap() + 100).to_string());
-            format!("f {}\n", corners.collect::<Vec<_>>().join(" "))
-        })
-        .collect();
+    let mut faces = String::new();
+    for line in shifted {
+        let corners = line
+            .split(' ')
+            .map(|word| word.parse::<u32>().unwrap() + 100);
+        let corners: Vec<_> = corners.map(|corner| corner.to_string()).collect();
+        writeln!(faces, "f {}", corners.join(" ")).unwrap();
+    }
     let vertices = still.lines().filter(|line| line.starts_with('v'));
     let one = falls
         + &vertices
             .map(|line| line.to_owned() + "\n")
             .collect::<String>()
-        + &shifted;
+        + &faces;
     fs::write(path.join("one.obj"), one).unwrap();
     let arguments = ["one.obj", "--split", "components", "--hits", "hits.vtp"];
     let said = check(path, &arguments);

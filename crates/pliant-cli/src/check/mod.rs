@@ -79,7 +79,7 @@ Examples:
   pliant check walk.npz --quiet && echo clean
 
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed or that --baseline leaves out, and 100 for each that --hits writes.";
+Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed, as many for one that --baseline leaves out, and with --hits 16 more and 300 for each triangle written.";
 
 /// `A,B`.
 type Names = [String; 2];

@@ -49,6 +49,11 @@ struct Vtk {
 fn unescaped(value: &str) -> String {
     assert!(!value.contains(['<', '"']), "{value}");
     let text = value.replace("&lt;", "<").replace("&quot;", "\"");
+    assert_eq!(
+        text.matches('&').count(),
+        text.matches("&amp;").count(),
+        "{text}"
+    );
     text.replace("&amp;", "&")
 }
 
@@ -85,6 +90,9 @@ fn read(path: &Path) -> Vtk {
             vtk.data_sets.push(attributes.clone());
         }
         if name == "DataArray" && attributes["format"] == "binary" {
+            let components = attributes.get("NumberOfComponents").map(String::as_str);
+            let expected = (attributes["Name"] == "Points").then_some("3");
+            assert_eq!(components, expected, "{tag}");
             let bytes = BASE64_STANDARD.decode(content).unwrap();
             let (length, bytes) = bytes.split_at(8);
             assert_eq!(

@@ -521,7 +521,7 @@ impl World {
 }
 
 /// A pair as a row of an array.
-pub(crate) fn row(pair: Pair) -> [u32; 4] {
+fn row(pair: Pair) -> [u32; 4] {
     [
         pair.body_a.0,
         pair.triangle_a,

@@ -170,3 +170,99 @@ def test_the_program_says_the_same(folder: Path) -> None:
             for frame in checked
         ]
         assert said == {"format": 1, "bodies": bodies, "frames": frames}
+
+
+@pytest.fixture
+def pieces(tmp_path: Path) -> Path:
+    """Two sheets that fold through each other as one file, their triangles mixed; three frames."""
+    faces = np.concatenate([FACES, FACES + len(FLAT)])
+    order = np.random.default_rng(7).permutation(len(faces))
+    both = [np.concatenate([fold(FLAT, step / 2), fold(FLAT, step / 3) + [0, 0, 0.01]]) for step in range(3)]
+    np.savez(tmp_path / "both.npz", vertices=np.stack(both), faces=faces[order])
+    np.savez(tmp_path / "still.npz", vertices=FLAT, faces=FACES)
+    return tmp_path
+
+
+def test_pieces_are_bodies(pieces: Path) -> None:
+    path = pieces / "both.npz"
+    whole = {frame.frame: frame.pairs.tolist() for frame in pliant.check(path)}
+    split = pliant.check(path, split="components", itself=True)
+    assert [body.name for body in split.bodies] == [f"{path}#1", f"{path}#2"]
+    assert [(body.source, body.vertices, body.triangles) for body in split.bodies] == [(0, 441, 800)] * 2
+    assert split.bodies[0].first_triangle == 0 < split.bodies[1].first_triangle
+    faces = np.load(path)["faces"]
+    first_has = set(np.unique(faces[0] // 441).tolist())
+    piece = [0 if {int(face[0]) // 441} == first_has else 1 for face in faces]
+    assert split.bodies[1].first_triangle == piece.index(1)
+    for frame in split:
+        # The same triangles meet, with the names of their pieces.
+        named = [sorted([[piece[i], i], [piece[j], j]]) for _, i, _, j in whole[frame.frame]]
+        assert frame.pairs.tolist() == sorted(a + b for a, b in named)
+    between = [frame.pairs.tolist() for frame in pliant.check(path, split="components")]
+    assert any(between) and all(pair[0] == 0 and pair[2] == 1 for pairs in between for pair in pairs)
+    with pytest.raises(pliant.Error, match="split is 'halves'|split is \"halves\"") as refused:
+        pliant.check(path, split="halves")  # type: ignore[arg-type]
+    assert refused.value.kind == "BadOption"
+
+
+def test_groups_and_pairs_that_are_ignored(pieces: Path) -> None:
+    paths = (pieces / "both.npz", pieces / "still.npz")
+
+    def bodies_that_meet(**options: Any) -> set[tuple[int, int]]:
+        checked = pliant.check(*paths, split="components", **options)
+        return {(pair[0], pair[2]) for frame in checked for pair in frame.pairs.tolist()}
+
+    assert bodies_that_meet() == {(0, 1), (0, 2), (1, 2)}
+    assert bodies_that_meet(ignore=[(0, 1)]) == {(0, 2), (1, 2)}
+    assert bodies_that_meet(ignore=[(paths[1], f"{paths[0]}#1")]) == {(0, 1), (1, 2)}
+    assert bodies_that_meet(ignore=[(str(paths[0]), paths[0])]) == {(0, 2), (1, 2)}
+    assert bodies_that_meet(groups={"soft": [0, paths[1]]}, ignore=[("soft", 1)]) == {(0, 2)}
+    assert bodies_that_meet(groups={"all": [0, 1, 2]}, ignore=[("all", "all")], itself=True) == set()
+    bad: list[dict[str, Any]] = [{"ignore": [("hat", 0)]}, {"groups": {"g": [9]}}, {"groups": {"0": [1]}}, {"groups": {"g": []}}]
+    for options in bad:
+        with pytest.raises(pliant.Error) as refused:
+            pliant.check(*paths, **options)
+        assert refused.value.kind == "BadOption"
+    with pytest.raises(pliant.Error, match='no body or group is called "hat"; bodies: 0 = '):
+        pliant.check(*paths, ignore=[("hat", 0)])
+
+
+@pytest.mark.parametrize("baseline", range(3))
+def test_only_what_is_new(pieces: Path, baseline: int) -> None:
+    path = pieces / "both.npz"
+    every = {frame.frame: frame.pairs.tolist() for frame in pliant.check(path)}
+    known = every[baseline]
+    assert known or baseline == 0
+    for frames in (None, range(1, 3), range(0, 3, 2)):
+        for frame in pliant.check(path, baseline=baseline, frames=frames):
+            new = [pair for pair in every[frame.frame] if pair not in known]
+            assert frame.pairs.tolist() == new and frame.count == len(new)
+            assert frame.left_out == len(every[frame.frame]) - len(new)
+    for frame in pliant.check(path, baseline=baseline, first=True):
+        new = [pair for pair in every[frame.frame] if pair not in known]
+        assert frame.count == min(1, len(new)) and all(pair in new for pair in frame.pairs.tolist())
+        assert (frame.left_out is None) == bool(new)
+    assert all(frame.left_out is None for frame in pliant.check(path))
+
+
+@pytest.mark.parametrize("baseline", [-1, 3])
+def test_baselines_that_are_not_there(pieces: Path, baseline: int) -> None:
+    with pytest.raises(pliant.Error, match="baseline") as refused:
+        pliant.check(pieces / "both.npz", baseline=baseline)
+    assert refused.value.kind == "BadOption"
+
+
+def test_the_program_says_the_same_of_pieces(pieces: Path) -> None:
+    """Where PLIANT names the program."""
+    program = os.environ.get("PLIANT")
+    if program is None:
+        pytest.skip("the environment variable PLIANT names no program `pliant` to compare with")
+    paths = [str(pieces / "both.npz"), str(pieces / "still.npz")]
+    flags = ["--split", "components", "--baseline", "1", "--group", "g=0,2", "--ignore", "g,g"]
+    said = json.loads(subprocess.run([program, "check", "--format", "json", *flags, *paths], capture_output=True).stdout)
+    checked = pliant.check(*paths, split="components", baseline=1, groups={"g": [0, 2]}, ignore=[("g", "g")])
+    fields = ("name", "vertices", "triangles", "source", "first_triangle")
+    assert said["bodies"] == [{field: getattr(body, field) for field in fields} for body in checked.bodies]
+    assert said["frames"] == [
+        {"frame": frame.frame, "count": frame.count, "left_out": frame.left_out, "pairs": frame.pairs.tolist()} for frame in checked
+    ]

@@ -45,7 +45,7 @@ FUNCTIONS = [
     pliant.World,
 ]
 
-KEYWORDS = ["threads", "frames", "weld", "first", "itself", "degree", "partition", "level", "leaf_size", "update", "broad"]
+KEYWORDS = ["threads", "frames", "split", "groups", "ignore", "baseline", "weld", "first", "itself", "degree", "partition", "level", "leaf_size", "update", "broad"]
 
 
 def is_answered(call: Callable[..., Any], arguments: Iterable[Any], **keywords: Any) -> None:

@@ -90,6 +90,10 @@ def test_tests_and_examples_have_the_right_types() -> None:
         ("world.visit_intersections(lambda: True)", "visit_intersections"),
         ("pliant.intersection_pairs(positions, faces)", "No overload"),
         ("pliant.check('a.npz', frames=3)", "frames"),
+        ("pliant.check('a.npz', split='components', groups={'g': ['a.npz', 1]}, ignore=[('g', 0)], baseline=0)", None),
+        ("[frame.left_out + 1 for frame in pliant.check('a.npz')]", "None"),
+        ("pliant.check('a.npz', split='halves')", "split"),
+        ("pliant.check('a.npz', ignore=['g'])", "tuple"),
     ],
 )
 def test_the_types_find_mistakes(tmp_path: Path, line: str, wrong: str | None) -> None:

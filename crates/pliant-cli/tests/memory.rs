@@ -1,4 +1,5 @@
-//! The memory that `pliant check` takes: a multiple of two frames, however many there are.
+//! The memory that `pliant check` takes: a multiple of two frames, however many there are; split into pieces or not, with a
+//! baseline or not.
 //!
 //! A frame is its positions and triangles: 12 bytes a vertex in f32, 24 in f64, and 12 a triangle. Measured where the system
 //! tells the most memory that a process has taken (Linux); elsewhere the tests say that they are skipped.
@@ -136,4 +137,56 @@ fn figures() {
             assert!(multiple < MULTIPLE, "{what}");
         }
     }
+}
+
+#[test]
+fn memory_of_pieces_and_of_a_baseline() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    for (what, surface) in surfaces(300, 3) {
+        fs::write(path.join("a.npz"), surface.file()).unwrap();
+        let split = ["a.npz", "--split", "components"];
+        let baseline = ["a.npz", "--baseline", "2"];
+        // Every triangle a piece of its own: welding would join them.
+        let apart = ["a.npz", "--split", "components", "--no-weld", "--first"];
+        let ask = if surface.split {
+            &[&apart[..]][..]
+        } else {
+            &[&split[..], &baseline[..]]
+        };
+        for arguments in ask {
+            let Some(peak) = peak(path, arguments) else {
+                return;
+            };
+            let multiple = multiple(peak, PROGRAM, surface);
+            println!("{what}, {arguments:?}: {multiple:.2} times two frames");
+            assert!(multiple < MULTIPLE, "{what}, {arguments:?}: {multiple}");
+        }
+    }
+}
+
+#[test]
+fn memory_of_hits() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    // Pairs of crossing triangles, each pair on its own: as much to write as there can be for so many pairs.
+    let pairs = 50_000_u32;
+    let mut text = String::new();
+    for pair in 0..pairs {
+        let x = 3 * pair;
+        writeln!(text, "v {x} 0 0\nv {x}.9 0 0\nv {x} 1 0\nf -1 -2 -3").unwrap();
+        writeln!(
+            text,
+            "v {x}.1 .1 -1\nv {x}.1 .1 1\nv {x}.1 .2 1\nf -1 -2 -3"
+        )
+        .unwrap();
+    }
+    fs::write(path.join("a.obj"), text).unwrap();
+    let Some(peak) = peak(path, &["a.obj", "--hits", "hits.vtp"]) else {
+        return;
+    };
+    let frame = f64::from(2 * pairs) * (3.0 * 24.0 + 12.0);
+    let hits = f64::from(pairs) * (2.0 * 16.0 + 2.0 * 300.0);
+    println!("{:.1} MB with hits", peak as f64 / 1e6);
+    assert!((peak as f64) < MULTIPLE * 2.0 * frame + hits + PROGRAM as f64);
 }

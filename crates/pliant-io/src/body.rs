@@ -198,6 +198,31 @@ impl Body {
         Ok(Some(self.frame.positions()))
     }
 
+    /// The positions of the frame handed out last, and of frame 0 before any was; after an error they mean nothing.
+    pub fn positions(&self) -> Positions<'_> {
+        self.frame.positions()
+    }
+
+    /// Begins again: the next frame is frame 0. The files are opened again, and must be those that were found.
+    ///
+    /// # Errors
+    ///
+    /// The first file cannot be opened or is another one now, or an earlier frame could not be read. No frame follows.
+    pub fn rewind(&mut self) -> Result<(), Error> {
+        if self.failed {
+            return Err(Error::new(self.files[self.file].path(), Reason::AfterError));
+        }
+        if self.read > 1 {
+            self.failed = true;
+            let first = &self.files[0];
+            self.source = first.open(first.end)?;
+            self.failed = false;
+            (self.file, self.read) = (0, 0);
+        }
+        self.handed_out = 0;
+        Ok(())
+    }
+
     /// Reads the next frame over the last.
     fn advance(&mut self) -> Result<(), Error> {
         if self.read == self.files[self.file].end {

@@ -1,6 +1,6 @@
 """Types of the extension module; what each call does is in its documentation: help(pliant.World)."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, SupportsIndex, TypeAlias, TypedDict, final, overload
 
@@ -23,6 +23,7 @@ _Pairs: TypeAlias = NDArray[np.uint32]
 _Corner: TypeAlias = Sequence[float] | NDArray[np.floating[Any]]
 _Partition: TypeAlias = Literal["centre", "mean", "balanced", "connectivity"]
 _Update: TypeAlias = Literal["bottom-up", "top-down", "hybrid"]
+_Name: TypeAlias = str | PathLike[str] | int
 _Broad: TypeAlias = Literal["brute", "sweep", "auto"]
 
 class _Options(TypedDict):
@@ -98,6 +99,10 @@ def check(
     itself: bool = False,
     first: bool = False,
     weld: bool = True,
+    split: Literal["components"] | None = None,
+    groups: Mapping[str, Sequence[_Name]] | None = None,
+    ignore: Sequence[tuple[_Name, _Name]] | None = None,
+    baseline: int | None = None,
     frames: range | None = None,
     threads: int = 1,
 ) -> Check: ...

@@ -37,7 +37,7 @@ class Error(ValueError):
     #: Vertices of the body, and positions given.
     expected: int | None = None
     found: int | None = None
-    #: "triangles" or "vertices", how many there were, and how many there may be.
+    #: "triangles", "vertices" or "pairs", how many there were, and how many there may be.
     what: str | None = None
     count: int | None = None
     limit: int | None = None
@@ -96,16 +96,20 @@ class Statistics(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A body that was read from files."""
+    """A body that was read from files, or a connected piece of one."""
 
     name: str
-    """The path as given."""
+    """The path as given, and where it is split, # and the number of the piece."""
     vertices: int
     triangles: int
     faces: NDArray[np.uint32] | None
-    """For each triangle the polygon it is part of; None where every polygon is a triangle."""
+    """For each triangle of the file the polygon it is part of; None where every polygon is a triangle."""
     welded: int
-    """Vertices welded away."""
+    """Vertices welded away in its file."""
+    source: int
+    """Which path it is of, counted from 0."""
+    first_triangle: int
+    """Its lowest triangle, as numbered in the file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,6 +124,9 @@ class Frame:
     """(count, 4): body, triangle, body, triangle, sorted."""
     complete: bool
     """Whether these are all pairs; not if only the first was asked for."""
+    left_out: int | None
+    """How many pairs were left out because the baseline frame has them; None where there is no baseline, and where the search
+    stopped at the first new pair."""
 
 
 class Mesh(Protocol):

@@ -1,22 +1,23 @@
 //! `pliant check`: somebody's meshes, frame by frame.
 
+mod hits;
+mod names;
 mod output;
-mod pairs;
-mod sequence;
 mod size;
 
 use crate::Outcome;
-use anyhow::Context;
+use anyhow::anyhow;
 use clap::{Args, ValueEnum};
+use hits::Hits;
 use output::Output;
-use pairs::Pairs;
-use pliant::{Options, Scalar, World};
-use pliant_io::{OpenOptions, Precision};
-use sequence::Sequence;
+use pliant::Options;
+use pliant_check::{Check, Error, Group, Settings};
+use pliant_io::OpenOptions;
 use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 #[derive(Args, Debug)]
-#[command(after_help = EXIT_CODES)]
+#[command(after_help = EXAMPLES)]
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each is a flag of the program"
@@ -34,6 +35,18 @@ pub(crate) struct Arguments {
     /// Stop at the first pair of each frame
     #[arg(long)]
     first: bool,
+    /// Make every connected piece of a file a body: FILE#1, FILE#2, ... in the order of their lowest triangle; triangles keep their numbers
+    #[arg(long, value_enum, value_name = "INTO")]
+    split: Option<Split>,
+    /// Give several bodies a name, for --ignore; each by its name, or by its number, from 0
+    #[arg(long = "group", value_name = "NAME=BODY,BODY", value_parser = names::group)]
+    groups: Vec<Group>,
+    /// Bodies, or groups, that do not meet; A,A means that those of A do not meet each other, nor themselves
+    #[arg(long, value_name = "A,B", value_parser = names::two)]
+    ignore: Vec<Names>,
+    /// Only what is new: leave out the pairs that intersect in this frame, from 0
+    #[arg(long, value_name = "FRAME")]
+    baseline: Option<usize>,
     /// Keep vertices apart where boundary edges coincide; seams are then intersections
     #[arg(long)]
     no_weld: bool,
@@ -43,19 +56,45 @@ pub(crate) struct Arguments {
     /// How many threads share the work; no number changes an answer
     #[arg(long, value_name = "T", default_value = "1")]
     threads: NonZeroUsize,
-    /// A table by frame, or one JSON object
+    /// A table by frame, one JSON object, annotations for GitHub Actions, or a line for each pair: FRAME BODY TRIANGLE BODY TRIANGLE
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
+    /// Write the triangles that intersect for ParaView, a .vtp or .vtu; of several frames a file each, and a .pvd that names them
+    #[arg(long, value_name = "FILE")]
+    hits: Option<PathBuf>,
+    /// Nothing on standard output: the exit code says it
+    #[arg(short, long)]
+    quiet: bool,
 }
 
-const EXIT_CODES: &str = "\
+const EXAMPLES: &str = "\
+Examples:
+  pliant check shirt.ply body.ply hair.ply --ignore hair.ply,body.ply
+  pliant check 'shirt_*.obj' body.ply hair.ply --group soft='shirt_*.obj',hair.ply --ignore soft,soft
+  pliant check a.ply b.ply c.ply --ignore 0,2              bodies by number; so are names with commas in them
+  pliant check teeth.ply --split components                which pieces of the file meet each other?
+  pliant check teeth.ply --split components --ignore 'teeth.ply#1,teeth.ply#2'
+  pliant check walk.npz --baseline 0                       what frame 0 does not have already
+  pliant check walk.npz --hits hits.vtp                    hits_00.vtp, hits_01.vtp, ..., hits.pvd for ParaView
+  pliant check walk.npz --quiet && echo clean
+
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed.";
+Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed, as many for one that --baseline leaves out, and with --hits 16 more and 300 for each triangle written.";
+
+/// `A,B`.
+type Names = [String; 2];
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Split {
+    Components,
+}
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
     Table,
     Json,
+    Github,
+    Lines,
 }
 
 /// Checks all frames and prints what intersects.
@@ -66,36 +105,61 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
             arguments.bodies.len()
         ));
     }
-    let sequence = Sequence::open(
-        &arguments.bodies,
-        &OpenOptions {
-            weld: !arguments.no_weld,
-            max_memory: arguments.max_memory,
-        },
-    )?;
-    match sequence.precision() {
-        Precision::F32 => check_frames::<f32>(arguments, sequence),
-        Precision::F64 => check_frames::<f64>(arguments, sequence),
-    }
+    let mut check = open(arguments).or_else(|error| output::annotate(arguments, error.into()))?;
+    let mut hits = arguments.hits.as_deref().map(Hits::new).transpose()?;
+    let mut output = Output::begin(arguments, &check)?;
+    let checked = frames(&mut check, hits.as_mut(), &mut output);
+    let checked = checked.and_then(|()| hits.map_or(Ok(()), Hits::end));
+    output.end(checked)
 }
 
-fn check_frames<S: Scalar + sequence::FromFile>(
-    arguments: &Arguments,
-    mut sequence: Sequence,
-) -> anyhow::Result<Outcome> {
-    let mut output = Output::begin(arguments, &sequence)?;
+fn open(arguments: &Arguments) -> Result<Check, Error> {
+    let reading = OpenOptions {
+        weld: !arguments.no_weld,
+        max_memory: arguments.max_memory,
+    };
+    let printed = !arguments.quiet && !arguments.count;
     let mut options = Options::default();
     options.threads = arguments.threads;
-    let mut world = World::<S>::with_options(options);
-    let listed = arguments.format == Format::Json && !arguments.count;
-    let mut pairs = Pairs::new(listed, arguments.max_memory);
-    let mut buffer = Vec::new();
-    let checked = (0..sequence.frame_count()).try_for_each(|frame| {
-        sequence.load_frame(frame, &mut world, &mut buffer)?;
-        pairs
-            .find(arguments, &mut world)
-            .with_context(|| format!("frame {frame}"))?;
-        output.frame(frame, &pairs)
-    });
-    output.end(checked)
+    let settings = Settings {
+        itself: arguments.itself,
+        // Where only the exit code is asked for, one pair says as much as all.
+        first: arguments.first || arguments.quiet && arguments.hits.is_none(),
+        listed: arguments.hits.is_some()
+            || printed && matches!(arguments.format, Format::Json | Format::Lines),
+        max_list: arguments.max_memory,
+        split: arguments.split.map(|split| match split {
+            Split::Components => pliant_check::Split::Components,
+        }),
+        groups: arguments.groups.clone(),
+        ignore: arguments.ignore.clone(),
+        baseline: arguments.baseline,
+        frames: None,
+        options,
+    };
+    Check::open(&arguments.bodies, &reading, &settings)
+}
+
+fn frames(
+    check: &mut Check,
+    mut hits: Option<&mut Hits>,
+    output: &mut Output,
+) -> anyhow::Result<()> {
+    while let Some(found) = check.next_frame().map_err(advise)? {
+        output.frame(check, &found)?;
+        if let Some(hits) = &mut hits {
+            hits.frame(check, &found)?;
+        }
+    }
+    Ok(())
+}
+
+/// With what to do, where flags of the program can help.
+fn advise(error: Error) -> anyhow::Error {
+    match error {
+        Error::TooManyPairs { .. } => anyhow!(
+            "{error}; allow more with `--max-memory`, or ask for less with `--count` or `--first`"
+        ),
+        other => other.into(),
+    }
 }

@@ -1,0 +1,295 @@
+//! The loop: frames of several sources, one after another, and the pairs of each.
+
+use crate::bodies::{Bodies, BodyFacts};
+use crate::error::Error;
+use crate::found::{Found, Row, Stop, Taker};
+use crate::meeting::Meeting;
+use crate::sequence::Sequence;
+use crate::settings::{Frames, Settings};
+use pliant::Pair;
+use pliant_io::{Body as Source, OpenOptions};
+use std::ops::{ControlFlow, Range};
+
+/// A check of sources, frame by frame: each frame is read and checked when it is asked for.
+pub struct Check {
+    sequence: Sequence,
+    bodies: Bodies,
+    meeting: Meeting,
+    asked: Settings,
+    /// Those that are left.
+    frames: Frames,
+    baseline: Option<Baseline>,
+    failed: bool,
+}
+
+/// Pairs that are left out.
+struct Baseline {
+    frame: usize,
+    /// Sorted; none before the frame was checked.
+    pairs: Option<Vec<Row>>,
+}
+
+impl Check {
+    /// Opens what `arguments` name, each a source, and prepares to check it.
+    ///
+    /// # Errors
+    ///
+    /// A file cannot be read, or [`new`](Self::new) refuses.
+    pub fn open(
+        arguments: &[String],
+        reading: &OpenOptions,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        let opened = arguments
+            .iter()
+            .map(|argument| pliant_io::open(argument, reading));
+        Self::new(opened.collect::<Result<_, _>>()?, settings)
+    }
+
+    /// Prepares to check sources that are open, none of whose frames was handed out.
+    ///
+    /// # Errors
+    ///
+    /// There is no source, their frame counts differ, or a frame or a name in the settings is none that there is.
+    pub fn new(sources: Vec<Source>, settings: &Settings) -> Result<Self, Error> {
+        let sequence = Sequence::new(sources, settings.options)?;
+        let bodies = Bodies::of(&sequence.sources, settings.split);
+        let meeting = Meeting::new(
+            &sequence.sources,
+            &bodies,
+            &settings.groups,
+            &settings.ignore,
+        )?;
+        let last = sequence.frame_count - 1;
+        let there = |what, frame| {
+            let no_such = Error::NoSuchFrame { what, frame, last };
+            (frame <= last).then_some(()).ok_or(no_such)
+        };
+        if let Some(frame) = settings.baseline {
+            there("the baseline", frame)?;
+        }
+        let all = Frames {
+            start: 0,
+            step: 1,
+            count: sequence.frame_count,
+        };
+        let frames = settings.frames.unwrap_or(all);
+        if let Some(more) = frames.count.checked_sub(1) {
+            let to_last = frames.step.saturating_mul(more);
+            there(
+                "the last to be checked",
+                frames.start.saturating_add(to_last),
+            )?;
+        }
+        let mut asked = settings.clone();
+        asked.itself |= bodies.count() == 1;
+        Ok(Self {
+            asked,
+            frames,
+            baseline: settings
+                .baseline
+                .map(|frame| Baseline { frame, pairs: None }),
+            failed: false,
+            sequence,
+            bodies,
+            meeting,
+        })
+    }
+
+    /// What is checked, one for each argument; the positions are those of the frame checked last.
+    pub fn sources(&self) -> &[Source] {
+        &self.sequence.sources
+    }
+
+    /// How many frames the sources have, checked or not.
+    pub fn frame_count(&self) -> usize {
+        self.sequence.frame_count
+    }
+
+    /// How many bodies there are in answers: the sources, or what they are split into.
+    pub fn body_count(&self) -> usize {
+        self.bodies.count() as usize
+    }
+
+    /// What is known of the bodies, in the order of their numbers.
+    pub fn bodies(&self) -> impl Iterator<Item = BodyFacts> {
+        (0..self.bodies.count()).map(|body| self.bodies.facts(&self.sequence.sources, body))
+    }
+
+    /// What is known of one body; `None` if there are not so many.
+    pub fn body(&self, body: u32) -> Option<BodyFacts> {
+        (body < self.bodies.count()).then(|| self.bodies.facts(&self.sequence.sources, body))
+    }
+
+    /// The number of the source that a body is of; `None` if there are not so many bodies.
+    pub fn source_of(&self, body: u32) -> Option<usize> {
+        (body < self.bodies.count()).then(|| self.bodies.source_of(body))
+    }
+
+    /// The numbers of the bodies of a source; none if there are not so many sources.
+    pub fn bodies_of(&self, source: usize) -> Range<u32> {
+        if source < self.sequence.sources.len() {
+            self.bodies.of_source(source)
+        } else {
+            0..0
+        }
+    }
+
+    /// Whether bodies are checked against themselves.
+    pub fn checks_itself(&self) -> bool {
+        self.asked.itself
+    }
+
+    /// Reads the next frame and checks it; `None` after the last.
+    ///
+    /// # Errors
+    ///
+    /// A file cannot be read, or there are more pairs than may be listed. No frame follows: every later call is an error too.
+    pub fn next_frame(&mut self) -> Result<Option<Found>, Error> {
+        if self.failed {
+            return Err(Error::AfterError);
+        }
+        if self.frames.count == 0 {
+            return Ok(None);
+        }
+        // Set first, so that an error on any way out leaves it set.
+        self.failed = true;
+        if let Some(Baseline { frame, pairs: None }) = self.baseline {
+            self.go_to(frame)?;
+            let found = self.find(frame, false, true)?;
+            self.baseline = Some(Baseline {
+                frame,
+                pairs: Some(found.pairs),
+            });
+        }
+        let frame = self.frames.start;
+        self.go_to(frame)?;
+        let found = self.find(frame, self.asked.first, self.asked.listed)?;
+        self.frames.start = frame.saturating_add(self.frames.step);
+        self.frames.count -= 1;
+        self.failed = false;
+        Ok(Some(found))
+    }
+
+    fn go_to(&mut self, frame: usize) -> Result<(), Error> {
+        let begins = self.sequence.ids.is_empty();
+        self.sequence.go_to(frame)?;
+        if begins {
+            self.part_sources()
+                .map_err(|error| self.refused(frame, error))?;
+        }
+        Ok(())
+    }
+
+    /// Sources none of whose bodies meet are kept apart in the world, so that no time is spent on them.
+    fn part_sources(&mut self) -> Result<(), pliant::Error> {
+        let Sequence { world, ids, .. } = &mut self.sequence;
+        for b in 0..ids.len() {
+            for a in 0..b {
+                let bodies = [a, b].map(|source| self.bodies.of_source(source));
+                let [of_a, of_b] = bodies;
+                if !self.meeting.any_meet(of_a, of_b) {
+                    world.ignore(ids[a], ids[b])?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The pairs of the frame that the world is in.
+    fn find(&mut self, frame: usize, first: bool, listed: bool) -> Result<Found, Error> {
+        let baseline = self.baseline.take();
+        let known = baseline.as_ref().and_then(|it| it.pairs.as_deref());
+        let most = self.asked.max_list / size_of::<Row>() as u64;
+        let most = usize::try_from(most).unwrap_or(usize::MAX);
+        let mut taker = Taker::new(frame, first, listed, most, known);
+        let visited = if first && known.is_none() && !self.bodies.are_pieces() {
+            self.take_first(&mut taker)
+        } else {
+            self.take_all(&mut taker)
+        };
+        let found = taker.end();
+        self.baseline = baseline;
+        match visited.map_err(|error| self.refused(frame, error))? {
+            ControlFlow::Break(Stop::Full) => Err(Error::TooManyPairs { frame, most }),
+            ControlFlow::Continue(()) | ControlFlow::Break(Stop::First) => Ok(found),
+        }
+    }
+
+    /// Any pair will do: the world knows a shorter way.
+    fn take_first(&mut self, taker: &mut Taker) -> Result<ControlFlow<Stop>, pliant::Error> {
+        let with_themselves = self.sources_with_themselves();
+        let Sequence { world, ids, .. } = &mut self.sequence;
+        let mut first = world.first().map(row);
+        for id in with_themselves.into_iter().map(|source| ids[source]) {
+            if first.is_none() {
+                first = world.first_of(id)?.map(|[a, b]| [id.0, a, id.0, b]);
+            }
+        }
+        Ok(first.map_or(ControlFlow::Continue(()), |row| taker.take(row)))
+    }
+
+    /// Shows `taker` all pairs of bodies that meet, until it has enough.
+    fn take_all(&mut self, taker: &mut Taker) -> Result<ControlFlow<Stop>, pliant::Error> {
+        let with_themselves = self.sources_with_themselves();
+        let Self {
+            sequence,
+            bodies,
+            meeting,
+            asked: Settings { itself, .. },
+            ..
+        } = self;
+        let Sequence { world, ids, .. } = sequence;
+        let mut stop = ControlFlow::Continue(());
+        let mut take = |row: Row| {
+            let row = bodies.row(row);
+            let [body_a, _, body_b, _] = row;
+            // The world knows sources only.
+            let is_asked = (body_a != body_b || *itself) && meeting.meet(body_a, body_b);
+            if is_asked {
+                stop = taker.take(row);
+            }
+            if stop.is_break() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let mut flow = world.visit(|pair| take(row(pair)));
+        for id in with_themselves.into_iter().map(|source| ids[source]) {
+            if flow.is_continue() {
+                flow = world.visit_of(id, |[a, b]| take([id.0, a, id.0, b]))?;
+            }
+        }
+        Ok(stop)
+    }
+
+    /// Sources that are to be asked for pairs with themselves: of one body, or of its pieces.
+    fn sources_with_themselves(&self) -> Vec<usize> {
+        let is_asked = |&source: &usize| {
+            let of_source = self.bodies.of_source(source);
+            (self.asked.itself || of_source.len() > 1)
+                && self.meeting.any_meet(of_source.clone(), of_source)
+        };
+        (0..self.sequence.sources.len()).filter(is_asked).collect()
+    }
+
+    fn refused(&self, frame: usize, error: pliant::Error) -> Error {
+        let sources = &self.sequence.sources;
+        let source = error.body.and_then(|body| sources.get(body.0 as usize));
+        Error::Refused {
+            source_name: source.map_or_else(String::new, |source| source.name().to_owned()),
+            frame,
+            error,
+        }
+    }
+}
+
+fn row(pair: Pair) -> Row {
+    [
+        pair.body_a.0,
+        pair.triangle_a,
+        pair.body_b.0,
+        pair.triangle_b,
+    ]
+}

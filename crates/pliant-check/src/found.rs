@@ -1,0 +1,102 @@
+//! What intersects in one frame: all that was asked for is kept, and no more.
+//!
+//! A small file can hold a great many intersecting pairs: their number is up to the square of the number of triangles. Where only
+//! their number is asked for, none is kept; where they are listed, the list has a limit.
+
+use std::ops::ControlFlow;
+
+/// Body, triangle, body, triangle; the smaller (body, triangle) first.
+pub type Row = [u32; 4];
+
+/// The pairs of a frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// The frame.
+    pub frame: usize,
+    /// How many pairs; at most one if only the first was asked for.
+    pub count: usize,
+    /// The smallest of them.
+    pub smallest: Option<Row>,
+    /// All of them, sorted; none where they are not listed.
+    pub pairs: Vec<Row>,
+    /// How many were left out because they intersect in the baseline frame. `None` where there is no such frame, and where the
+    /// search stopped at the first new pair.
+    pub left_out: Option<usize>,
+    /// Whether these are all; not if only the first was asked for.
+    pub complete: bool,
+}
+
+/// Why a search stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stop {
+    /// The first pair was found.
+    First,
+    /// The list would be longer than it may be.
+    Full,
+}
+
+/// Takes pairs as they are found.
+pub(crate) struct Taker<'a> {
+    found: Found,
+    listed: bool,
+    /// The most that are listed.
+    most: usize,
+    /// Sorted; pairs that are left out.
+    baseline: Option<&'a [Row]>,
+}
+
+impl<'a> Taker<'a> {
+    pub(crate) fn new(
+        frame: usize,
+        first: bool,
+        listed: bool,
+        most: usize,
+        baseline: Option<&'a [Row]>,
+    ) -> Self {
+        let found = Found {
+            frame,
+            count: 0,
+            smallest: None,
+            pairs: Vec::new(),
+            left_out: baseline.map(|_| 0),
+            complete: !first,
+        };
+        Self {
+            found,
+            listed,
+            most,
+            baseline,
+        }
+    }
+
+    /// Takes a pair, or leaves it out.
+    pub(crate) fn take(&mut self, row: Row) -> ControlFlow<Stop> {
+        let found = &mut self.found;
+        if let (Some(baseline), Some(left_out)) = (self.baseline, &mut found.left_out)
+            && baseline.binary_search(&row).is_ok()
+        {
+            *left_out += 1;
+            return ControlFlow::Continue(());
+        }
+        found.count += 1;
+        found.smallest = Some(found.smallest.map_or(row, |smallest| smallest.min(row)));
+        if self.listed {
+            if found.pairs.len() >= self.most || found.pairs.try_reserve(1).is_err() {
+                return ControlFlow::Break(Stop::Full);
+            }
+            found.pairs.push(row);
+        }
+        if found.complete {
+            return ControlFlow::Continue(());
+        }
+        // What else is left out is not known.
+        found.left_out = None;
+        ControlFlow::Break(Stop::First)
+    }
+
+    pub(crate) fn end(self) -> Found {
+        let mut found = self.found;
+        found.pairs.sort_unstable();
+        found
+    }
+}

@@ -1,0 +1,60 @@
+//! Sequences of meshes checked frame by frame: which triangles of which bodies intersect.
+//!
+//! A [`Check`] reads *sources*, files or patterns of files as `pliant_io` opens them, side by side, brings a world to each frame
+//! and says what intersects. The program `pliant check` and Python's `pliant.check` print and hand out what it finds.
+//!
+//! ```
+//! # let folder = format!("pliant-check-front-page-{}", std::process::id());
+//! # let folder = std::env::temp_dir().join(folder);
+//! # std::fs::create_dir_all(&folder)?;
+//! # for (name, z) in [("wing_1.obj", 5), ("wing_2.obj", 0)] {
+//! #     let corners = format!("v 0.5 0.25 {}\nv 0.5 0.25 {}\nv 0.5 0.75 {0}\n", z - 1, z + 1);
+//! #     std::fs::write(folder.join(name), corners + "f 1 2 3\n")?;
+//! # }
+//! # std::fs::write(folder.join("ground.obj"), "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n")?;
+//! # let arguments = ["wing_*.obj", "ground.obj"].map(|name| folder.join(name).display().to_string());
+//! use pliant_check::{Check, Settings};
+//! use pliant_io::OpenOptions;
+//!
+//! // "wing_*.obj", whose files are frames, and "ground.obj", which stands still.
+//! let mut check = Check::open(&arguments, &OpenOptions::default(), &Settings::default())?;
+//! let mut pairs = Vec::new();
+//! while let Some(found) = check.next_frame()? {
+//!     pairs.push(found.pairs);
+//! }
+//! // In the second frame triangle 0 of body 0 and triangle 0 of body 1.
+//! assert_eq!(pairs, [vec![], vec![[0, 0, 1, 0]]]);
+//! # std::fs::remove_dir_all(&folder)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! What always holds: only the frame being checked is in memory; no clock is read and nothing is printed; the same sources and
+//! settings give the same answers for any number of threads.
+//!
+//! # Map
+//!
+//! | file | idea |
+//! |---|---|
+//! | `settings.rs` | what is asked |
+//! | `check.rs` | the loop |
+//! | `sequence.rs`, `world.rs` | sources side by side; the world in a frame of theirs |
+//! | `bodies.rs`, `pieces.rs` | what an answer calls a body; connected pieces of a mesh |
+//! | `meeting.rs` | names and groups; who may meet whom |
+//! | `found.rs` | the pairs of one frame |
+//! | `error.rs` | one type, one line |
+
+mod bodies;
+mod check;
+mod error;
+mod found;
+mod meeting;
+mod pieces;
+mod sequence;
+mod settings;
+mod world;
+
+pub use bodies::BodyFacts;
+pub use check::Check;
+pub use error::Error;
+pub use found::{Found, Row};
+pub use settings::{Frames, Group, Settings, Split};

@@ -1,0 +1,99 @@
+//! Sources read side by side, and the world brought to a frame of theirs. In memory are the reader's frame and the world's (its
+//! shape and the one before it, whose memory the next is written into); where a source is widened to f64, that too.
+
+use crate::error::Error;
+use crate::world::World;
+use pliant::{BodyId, Options};
+use pliant_io::{Body as Source, Precision};
+
+/// The sources of a check and their world. Frame counts are equal, or 1: such a source stands still while others move.
+pub(crate) struct Sequence {
+    pub(crate) sources: Vec<Source>,
+    pub(crate) frame_count: usize,
+    pub(crate) world: World,
+    /// The body of the world that each source is; empty before the first frame.
+    pub(crate) ids: Vec<BodyId>,
+    /// How many frames were read since the beginning.
+    read: usize,
+    /// The frame that the world is in.
+    shown: Option<usize>,
+}
+
+impl Sequence {
+    /// Compares frame counts.
+    pub(crate) fn new(sources: Vec<Source>, options: Options) -> Result<Self, Error> {
+        let Some(frame_count) = sources.iter().map(Source::frame_count).max() else {
+            return Err(Error::NoSources);
+        };
+        let has_other_frames = |source: &&Source| ![1, frame_count].contains(&source.frame_count());
+        if let Some(other) = sources.iter().find(has_other_frames) {
+            let has_most = |source: &&Source| source.frame_count() == frame_count;
+            let longest = sources.iter().find(has_most);
+            return Err(Error::FrameCounts {
+                longest: longest.map_or_else(String::new, |source| source.name().to_owned()),
+                frames: frame_count,
+                other: other.name().to_owned(),
+                other_frames: other.frame_count(),
+            });
+        }
+        let precision = sources.iter().map(Source::precision).max();
+        Ok(Self {
+            sources,
+            frame_count,
+            world: World::new(precision.unwrap_or(Precision::F64), options),
+            ids: Vec::new(),
+            read: 0,
+            shown: None,
+        })
+    }
+
+    /// Brings the world to a frame: those before it are read on the way, from the beginning if the frame has gone by.
+    pub(crate) fn go_to(&mut self, frame: usize) -> Result<(), Error> {
+        if self.shown == Some(frame) {
+            return Ok(());
+        }
+        if frame < self.read {
+            for source in self.sources.iter_mut().filter(|it| it.frame_count() > 1) {
+                source.rewind()?;
+            }
+            self.read = 0;
+        }
+        self.shown = None;
+        while self.read <= frame {
+            self.read_next(frame)?;
+            self.read += 1;
+        }
+        self.shown = Some(frame);
+        Ok(())
+    }
+
+    /// Reads a frame of every source that moves, and gives it to the world if it is the one wanted. The first makes the bodies.
+    fn read_next(&mut self, wanted: usize) -> Result<(), Error> {
+        let frame = self.read;
+        for (place, source) in self.sources.iter_mut().enumerate() {
+            let makes = self.ids.len() == place;
+            if !makes && source.frame_count() == 1 {
+                continue;
+            }
+            if source.next_frame()?.is_none() {
+                let source_name = source.name().to_owned();
+                return Err(Error::Missing { source_name, frame });
+            }
+            let positions = source.positions();
+            let taken = if makes {
+                let added = self.world.add(source.triangles(), positions);
+                added.map(|id| self.ids.push(id))
+            } else if frame == wanted {
+                self.world.set_positions(self.ids[place], positions)
+            } else {
+                Ok(())
+            };
+            taken.map_err(|error| Error::Refused {
+                source_name: source.name().to_owned(),
+                frame,
+                error,
+            })?;
+        }
+        Ok(())
+    }
+}

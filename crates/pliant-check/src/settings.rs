@@ -1,0 +1,77 @@
+//! What is asked.
+
+use pliant::Options;
+
+/// What a check is asked; the default asks for all pairs of different bodies in all frames.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Each body against itself too. One body alone always is.
+    pub itself: bool,
+    /// No more than one pair in each frame.
+    pub first: bool,
+    /// Pairs are kept in a list; if not, they are only counted.
+    pub listed: bool,
+    /// The most bytes that a list of pairs may take, and again the list of those of [`baseline`](Self::baseline); a pair
+    /// takes 16.
+    pub max_list: u64,
+    /// What is a body, if not each source.
+    pub split: Option<Split>,
+    /// Names for several bodies, to be used in [`ignore`](Self::ignore).
+    pub groups: Vec<Group>,
+    /// Pairs of names that do not meet: no body of the one meets any of the other. Twice the same: none of these bodies meets
+    /// another of them, or itself.
+    ///
+    /// A name is that of a group, of a source (all bodies that it is split into), of a body, or a body's number.
+    pub ignore: Vec<[String; 2]>,
+    /// Pairs that intersect in this frame are left out in all.
+    pub baseline: Option<usize>,
+    /// Which frames are checked; all if `None`.
+    pub frames: Option<Frames>,
+    /// How the world works. No choice changes an answer.
+    pub options: Options,
+}
+
+/// What a source is split into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Split {
+    /// Connected pieces: triangles that share a vertex, after welding, are of one piece. Those of `shirt.ply` are
+    /// `shirt.ply#1`, `shirt.ply#2`, … in the order of their lowest triangle.
+    Components,
+}
+
+/// A name for several bodies.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// The name; not that of a body.
+    pub name: String,
+    /// Names of sources or bodies, or numbers of bodies.
+    pub bodies: Vec<String>,
+}
+
+/// So many frames, from one on, each so many-th.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frames {
+    /// The first.
+    pub start: usize,
+    /// From one to the next.
+    pub step: usize,
+    /// How many.
+    pub count: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            itself: false,
+            first: false,
+            listed: true,
+            max_list: u64::MAX,
+            split: None,
+            groups: Vec::new(),
+            ignore: Vec::new(),
+            baseline: None,
+            frames: None,
+            options: Options::default(),
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! Ranges of frames, names, and what is refused.
+
+use pliant_check::{Check, Error, Frames, Group, Settings, Split};
+use pliant_io::OpenOptions;
+use std::fs;
+use tempfile::TempDir;
+
+/// Three bodies that all meet in frame 0 and move apart: two sequences of six frames, and one that stands still.
+fn folder() -> (TempDir, Vec<String>) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    for frame in 0..6 {
+        for (name, x) in [("a", frame), ("b", 3 * frame)] {
+            let text = format!("v {x} 0 -1\nv {x} 0 1\nv {x} 2 1\nf 1 2 3\n");
+            fs::write(path.join(format!("{name}{frame}.obj")), text).unwrap();
+        }
+    }
+    fs::write(path.join("c.obj"), "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\n").unwrap();
+    let names = ["a*.obj", "b*.obj", "c.obj"];
+    let arguments = names.map(|name| path.join(name).display().to_string());
+    (folder, arguments.into())
+}
+
+fn counts(arguments: &[String], settings: &Settings) -> Result<Vec<(usize, usize)>, Error> {
+    let mut check = Check::open(arguments, &OpenOptions::default(), settings)?;
+    let mut counts = Vec::new();
+    while let Some(found) = check.next_frame()? {
+        counts.push((found.frame, found.count));
+    }
+    Ok(counts)
+}
+
+#[test]
+fn frames_are_those_of_the_range_whatever_the_baseline() {
+    let (_folder, arguments) = folder();
+    let all = counts(&arguments, &Settings::default()).unwrap();
+    assert_eq!(all, [(0, 3), (1, 2), (2, 1), (3, 1), (4, 1), (5, 0)]);
+    for start in 0..6 {
+        for step in 1..4 {
+            let frames: Vec<_> = (start..6).step_by(step).collect();
+            let settings = |baseline| Settings {
+                frames: Some(Frames {
+                    start,
+                    step,
+                    count: frames.len(),
+                }),
+                baseline,
+                ..Settings::default()
+            };
+            let some: Vec<_> = frames.iter().map(|&frame| all[frame]).collect();
+            assert_eq!(counts(&arguments, &settings(None)).unwrap(), some);
+            // In frame 1 all pairs are in which `c` is.
+            for baseline in [1, 5] {
+                let some = some.iter().map(|&(frame, count)| match baseline {
+                    1 if frame == 0 => (frame, 1),
+                    1 => (frame, 0),
+                    _ => (frame, count),
+                });
+                let some: Vec<_> = some.collect();
+                assert_eq!(counts(&arguments, &settings(Some(baseline))).unwrap(), some);
+            }
+        }
+    }
+    let none = Frames {
+        start: 9,
+        step: 1,
+        count: 0,
+    };
+    let settings = Settings {
+        frames: Some(none),
+        ..Settings::default()
+    };
+    assert_eq!(counts(&arguments, &settings).unwrap(), []);
+}
+
+#[test]
+fn positions_are_those_of_the_frame_checked_last() {
+    let (_folder, arguments) = folder();
+    let settings = Settings {
+        baseline: Some(4),
+        ..Settings::default()
+    };
+    let mut check = Check::open(&arguments, &OpenOptions::default(), &settings).unwrap();
+    while let Some(found) = check.next_frame().unwrap() {
+        let x = |source: usize| check.sources()[source].positions().get(0)[0];
+        let frame = found.frame as f64;
+        assert_eq!([x(0), x(1), x(2)], [frame, 3.0 * frame, 0.0]);
+    }
+}
+
+#[test]
+fn frames_that_there_are_not_are_refused() {
+    let (_folder, arguments) = folder();
+    let refused = |settings: &Settings| counts(&arguments, settings).unwrap_err().to_string();
+    let baseline = Settings {
+        baseline: Some(6),
+        ..Settings::default()
+    };
+    assert_eq!(
+        refused(&baseline),
+        "the baseline is frame 6, but the frames of these files are 0 to 5"
+    );
+    for (start, step, count) in [(6, 1, 1), (0, 1, 7), (1, 5, 2), (1, usize::MAX, 3)] {
+        let frames = Some(Frames { start, step, count });
+        let line = refused(&Settings {
+            frames,
+            ..Settings::default()
+        });
+        assert!(line.contains("are 0 to 5"), "{line}");
+    }
+    let nothing = counts(&[], &Settings::default()).unwrap_err();
+    assert!(matches!(nothing, Error::NoSources), "{nothing}");
+}
+
+fn with_names(groups: &[(&str, &[&str])], ignore: &[[&str; 2]], split: bool) -> Settings {
+    let group = |&(name, bodies): &(&str, &[&str])| Group {
+        name: name.to_owned(),
+        bodies: bodies.iter().map(|&body| body.to_owned()).collect(),
+    };
+    Settings {
+        groups: groups.iter().map(group).collect(),
+        ignore: ignore.iter().map(|two| two.map(str::to_owned)).collect(),
+        split: split.then_some(Split::Components),
+        ..Settings::default()
+    }
+}
+
+#[test]
+fn a_name_stands_for_every_body_it_can() {
+    let (_folder, arguments) = folder();
+    let [a, b, c] = [0, 1, 2].map(|place: usize| arguments[place].as_str());
+    let piece = format!("{a}#1");
+    let first_frame = |settings: &Settings| counts(&arguments, settings).unwrap()[0].1;
+    for (groups, ignore, split, left) in [
+        (&[][..], &[["0", "1"]][..], false, 2),
+        (&[], &[[b, a]], false, 2),
+        (&[], &[[a, b], ["2", b]], false, 1),
+        (&[], &[[a, a]], false, 3),
+        (&[("g", &[a, "1"][..])], &[["g", "g"]], false, 2),
+        (&[("g", &[a, "1"])], &[["g", c]], false, 1),
+        (&[("g", &["0", "1", "2", "0"])], &[["g", "g"]], false, 0),
+        (&[("g", &[a, b, c])], &[["g", "g"]], true, 0),
+        (&[], &[[&piece, b]], true, 2),
+        (&[], &[[a, "1"]], true, 2),
+        // The same path twice is the same name for two bodies.
+    ] {
+        let settings = with_names(groups, ignore, split);
+        assert_eq!(first_frame(&settings), left, "{groups:?} {ignore:?}");
+    }
+    let twice = [a, a, c].map(str::to_owned);
+    let left = counts(&twice, &with_names(&[], &[[a, c]], false)).unwrap();
+    assert_eq!(left[0], (0, 1));
+}
+
+#[test]
+fn names_of_nobody_are_refused_with_those_that_there_are() {
+    let (_folder, arguments) = folder();
+    let piece = format!("{}#1", arguments[0]);
+    let beyond = format!("{}#2", arguments[0]);
+    let group: &[&str] = &["1"];
+    for (groups, ignore, split, words) in [
+        (
+            &[][..],
+            &[["hat", "0"]][..],
+            false,
+            "no body or group is called \"hat\"; bodies: 0 = ",
+        ),
+        (&[], &[["0", "3"]], false, "\"3\""),
+        (&[], &[["0", "-1"]], false, "\"-1\""),
+        (&[], &[["0", ""]], false, "\"\""),
+        (&[], &[["0", &piece]], false, "#1"),
+        (&[], &[["0", &beyond]], true, "#2"),
+        (&[("g", group)], &[["0", "G"]], false, "; groups: \"g\""),
+        (&[("g", &["g"])], &[], false, "no body is called \"g\""),
+        (
+            &[("g", group), ("g", group)],
+            &[],
+            false,
+            "there is a group of this name",
+        ),
+        (&[("2", group)], &[], false, "name or number of a body"),
+        (&[("7", group)], &[], false, "name or number of a body"),
+        (
+            &[(&arguments[2], group)],
+            &[],
+            false,
+            "name or number of a body",
+        ),
+        (&[("", group)], &[], false, "needs a name"),
+        (&[("g", &[])], &[], false, "no bodies are named"),
+    ] {
+        let refused = counts(&arguments, &with_names(groups, ignore, split)).unwrap_err();
+        let line = refused.to_string();
+        assert!(
+            line.contains(words) && line.lines().count() == 1,
+            "{words}: {line}"
+        );
+    }
+}
+
+#[test]
+fn the_names_of_many_bodies_are_not_all_listed() {
+    let (_folder, arguments) = folder();
+    let many = vec![arguments[2].clone(); 50];
+    let line = counts(&many, &with_names(&[], &[["hat", "0"]], false)).unwrap_err();
+    assert!(line.to_string().ends_with("and 30 more"), "{line}");
+}
+
+#[test]
+fn after_an_error_nothing_follows() {
+    let (folder, arguments) = folder();
+    fs::write(folder.path().join("b2.obj"), "no mesh").unwrap();
+    for baseline in [None, Some(3)] {
+        let settings = Settings {
+            baseline,
+            ..Settings::default()
+        };
+        let mut check = Check::open(&arguments, &OpenOptions::default(), &settings).unwrap();
+        if baseline.is_none() {
+            assert_eq!(check.next_frame().unwrap().unwrap().count, 3);
+            assert_eq!(check.next_frame().unwrap().unwrap().count, 2);
+        }
+        let refused = check.next_frame().unwrap_err();
+        assert!(refused.to_string().contains("b2.obj"), "{refused}");
+        for _ in 0..2 {
+            assert!(matches!(check.next_frame(), Err(Error::AfterError)));
+        }
+    }
+}
+
+#[test]
+fn lists_have_a_limit_that_of_the_baseline_too() {
+    let (_folder, arguments) = folder();
+    for (baseline, listed) in [(None, true), (Some(0), false)] {
+        let settings = |max_list| Settings {
+            max_list,
+            listed,
+            baseline,
+            ..Settings::default()
+        };
+        assert!(counts(&arguments, &settings(48)).is_ok());
+        let full = counts(&arguments, &settings(47)).unwrap_err();
+        assert!(
+            matches!(full, Error::TooManyPairs { frame: 0, most: 2 }),
+            "{full}"
+        );
+    }
+    let counted = Settings {
+        max_list: 0,
+        listed: false,
+        ..Settings::default()
+    };
+    assert!(counts(&arguments, &counted).is_ok());
+}

@@ -1,0 +1,252 @@
+//! `--hits`: the triangles that intersect, as ParaView reads them.
+//!
+//! VTK's XML formats: `.vtp` (polygons) or `.vtu` (unstructured cells). A file holds the triangles of one frame that intersect
+//! others, with the numbers of their `body` and `triangle` and how many `partners` each has; its points have the numbers of
+//! their `vertex`. Of several frames each is a file, also one in which nothing intersects (else the last would stay on the
+//! screen), and a `.pvd` beside them names them all. Arrays are base64: every bit of a coordinate, and half the size of text.
+//! The format: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
+
+use anyhow::{Context, bail};
+use base64::prelude::{BASE64_STANDARD, Engine};
+use pliant_check::{Check, Found};
+use pliant_io::Precision;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// The files of one check.
+pub(super) struct Hits {
+    path: PathBuf,
+    kind: Kind,
+    /// Of each frame the number and the name of the file, where there are several.
+    written: Vec<(usize, String)>,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    PolyData,
+    UnstructuredGrid,
+}
+
+impl Kind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::PolyData => "PolyData",
+            Self::UnstructuredGrid => "UnstructuredGrid",
+        }
+    }
+}
+
+/// What is written of one frame.
+#[derive(Default)]
+struct Mesh {
+    /// Source and vertex of each point, sorted.
+    points: Vec<(usize, u32)>,
+    bodies: Vec<u32>,
+    triangles: Vec<u32>,
+    partners: Vec<u32>,
+    /// Points of the corners.
+    corners: Vec<i64>,
+}
+
+impl Hits {
+    pub(super) fn new(path: &Path) -> anyhow::Result<Self> {
+        let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+        let kind = match ending.to_str() {
+            Some("vtp") => Kind::PolyData,
+            Some("vtu") => Kind::UnstructuredGrid,
+            _ => bail!(
+                "--hits {}: the name must end in .vtp or .vtu",
+                path.display()
+            ),
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            kind,
+            written: Vec::new(),
+        })
+    }
+
+    /// Writes the frame that was checked last.
+    pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
+        let count = check.frame_count();
+        let path = if count == 1 {
+            self.path.clone()
+        } else {
+            let digits = (count - 1).to_string().len();
+            let [stem, ending] = [self.path.file_stem(), self.path.extension()]
+                .map(|part| part.unwrap_or_default().display());
+            let name = format!("{stem}_{:0digits$}.{ending}", found.frame);
+            self.written.push((found.frame, name.clone()));
+            self.path.with_file_name(name)
+        };
+        let mesh = Mesh::of(check, found);
+        write(&path, |out| mesh.write(out, check, self.kind, found.frame))
+    }
+
+    /// Writes the collection, if there are several files.
+    pub(super) fn end(self) -> anyhow::Result<()> {
+        if self.written.is_empty() {
+            return Ok(());
+        }
+        write(&self.path.with_extension("pvd"), |out| {
+            begin(out, "Collection")?;
+            for (frame, name) in &self.written {
+                let name = attribute(name);
+                writeln!(out, r#"<DataSet timestep="{frame}" file="{name}"/>"#)?;
+            }
+            end(out, "Collection")
+        })
+    }
+}
+
+impl Mesh {
+    fn of(check: &Check, found: &Found) -> Self {
+        let mut mesh = Self::default();
+        let ends = found
+            .pairs
+            .iter()
+            .flat_map(|&[body_a, a, body_b, b]| [[body_a, a], [body_b, b]]);
+        let mut ends: Vec<[u32; 2]> = ends.collect();
+        ends.sort_unstable();
+        // The place of a source is looked up once for a run of triangles.
+        let corners_of = |&[body, triangle]: &[u32; 2]| {
+            let source = check.source_of(body).unwrap_or_default();
+            let corners = check.sources()[source].triangles()[triangle as usize];
+            corners.map(|vertex| (source, vertex))
+        };
+        let hits: Vec<&[[u32; 2]]> = ends.chunk_by(|one, other| one == other).collect();
+        mesh.points = hits.iter().flat_map(|same| corners_of(&same[0])).collect();
+        mesh.points.sort_unstable();
+        mesh.points.dedup();
+        for same in hits {
+            let [body, triangle] = same[0];
+            mesh.bodies.push(body);
+            mesh.triangles.push(triangle);
+            mesh.partners.push(same.len() as u32);
+            for corner in corners_of(&same[0]) {
+                mesh.corners
+                    .push(mesh.points.partition_point(|&point| point < corner) as i64);
+            }
+        }
+        mesh
+    }
+
+    fn write(
+        &self,
+        out: &mut dyn Write,
+        check: &Check,
+        kind: Kind,
+        frame: usize,
+    ) -> io::Result<()> {
+        let (points, cells) = (self.points.len(), self.bodies.len());
+        begin(out, kind.name())?;
+        writeln!(
+            out,
+            r#"<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{frame}</DataArray></FieldData>"#
+        )?;
+        let (count_of_cells, cells_are) = match kind {
+            Kind::PolyData => ("NumberOfPolys", "Polys"),
+            Kind::UnstructuredGrid => ("NumberOfCells", "Cells"),
+        };
+        writeln!(
+            out,
+            r#"<Piece NumberOfPoints="{points}" {count_of_cells}="{cells}">"#
+        )?;
+
+        writeln!(out, "<PointData>")?;
+        let vertices = self.points.iter().map(|&(_, vertex)| vertex.to_le_bytes());
+        array(out, "UInt32", "vertex", vertices)?;
+        writeln!(out, "</PointData>")?;
+
+        writeln!(out, r#"<CellData Scalars="partners">"#)?;
+        for (name, numbers) in [
+            ("body", &self.bodies),
+            ("triangle", &self.triangles),
+            ("partners", &self.partners),
+        ] {
+            let numbers = numbers.iter().map(|number| number.to_le_bytes());
+            array(out, "UInt32", name, numbers)?;
+        }
+        writeln!(out, "</CellData>")?;
+
+        writeln!(out, "<Points>")?;
+        let sources = check.sources();
+        let coordinates = self
+            .points
+            .iter()
+            .flat_map(|&(source, vertex)| sources[source].positions().get(vertex));
+        if sources.iter().all(|it| it.precision() == Precision::F32) {
+            let coordinates = coordinates.map(|x| (x as f32).to_le_bytes());
+            array(out, "Float32", "Points", coordinates)?;
+        } else {
+            array(out, "Float64", "Points", coordinates.map(f64::to_le_bytes))?;
+        }
+        writeln!(out, "</Points>")?;
+
+        writeln!(out, "<{cells_are}>")?;
+        let corners = self.corners.iter().map(|corner| corner.to_le_bytes());
+        array(out, "Int64", "connectivity", corners)?;
+        let ends = (1..=cells).map(|cell| (3 * cell as i64).to_le_bytes());
+        array(out, "Int64", "offsets", ends)?;
+        if let Kind::UnstructuredGrid = kind {
+            const TRIANGLE: u8 = 5;
+            array(out, "UInt8", "types", (0..cells).map(|_| [TRIANGLE]))?;
+        }
+        writeln!(out, "</{cells_are}>\n</Piece>")?;
+        end(out, kind.name())
+    }
+}
+
+fn begin(out: &mut dyn Write, kind: &str) -> io::Result<()> {
+    writeln!(
+        out,
+        r#"<?xml version="1.0"?>
+<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+<{kind}>"#
+    )
+}
+
+fn end(out: &mut dyn Write, kind: &str) -> io::Result<()> {
+    writeln!(out, "</{kind}>\n</VTKFile>")
+}
+
+/// An array: its length in bytes and its bytes, together in base64.
+fn array<const N: usize>(
+    out: &mut dyn Write,
+    kind: &str,
+    name: &str,
+    numbers: impl Iterator<Item = [u8; N]>,
+) -> io::Result<()> {
+    let components = match name {
+        "Points" => r#" NumberOfComponents="3""#,
+        // One; where it is said, meshio makes a column of them.
+        _ => "",
+    };
+    let mut bytes = vec![0; size_of::<u64>()];
+    bytes.extend(numbers.flatten());
+    let length = (bytes.len() - size_of::<u64>()) as u64;
+    bytes[..size_of::<u64>()].copy_from_slice(&length.to_le_bytes());
+    writeln!(
+        out,
+        r#"<DataArray type="{kind}" Name="{name}"{components} format="binary">{}</DataArray>"#,
+        BASE64_STANDARD.encode(bytes)
+    )
+}
+
+/// A file whole, or an error that names it.
+fn write(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> anyhow::Result<()> {
+    let written = File::create(path).and_then(|file| {
+        let mut out = BufWriter::new(file);
+        write(&mut out)?;
+        out.flush()
+    });
+    written.with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// A name as the value of an attribute.
+fn attribute(name: &str) -> String {
+    name.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('"', "&quot;")
+}

@@ -1,0 +1,164 @@
+//! One JSON object.
+//!
+//! ```json
+//! {"format":1,"bodies":[{"name":"a.ply","vertices":8,"triangles":12}],
+//!  "frames":[{"frame":0,"count":1,"pairs":[[0,3,0,9]]}]}
+//! ```
+//!
+//! All numbers count from 0; a pair is body, triangle, body, triangle, the smaller (body, triangle) first, sorted. `faces` of a
+//! body (triangle to polygon) stands where its polygons were made into fans, `welded` where vertices were welded away. With
+//! `--count` there are no `pairs`; with `--first`, `count` is 0 or 1 and `"complete": false` says that the list was not meant
+//! to be complete. If a frame cannot be checked, the object ends with `"error"`.
+//!
+//! With `--split components` a body is a piece of a source: `"split": "components"` says so, `"triangle_numbers": "source"` that
+//! triangles of pairs are numbered as in the source, and `sources` has what bodies have otherwise. A body then has the number of
+//! its `source`, and its `first_triangle`; its `vertices` and `triangles` are those of the piece.
+//!
+//! `groups` (numbers of bodies by name) and `ignore` repeat what was asked. With `--baseline`, which is repeated too, a frame has
+//! `left_out`: how many pairs were, because they intersect in that frame; not where `--first` stopped at a new pair.
+
+use super::{Form, Tally};
+use crate::check::{Arguments, Names};
+use pliant_check::{Check, Found, Group};
+use serde::Serialize;
+use serde_json::json;
+use std::io::{self, Write};
+
+pub(super) struct Json {
+    count_only: bool,
+    split: bool,
+    groups: Vec<Group>,
+    ignore: Vec<Names>,
+    baseline: Option<usize>,
+    has_frames: bool,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    name: &'a str,
+    vertices: usize,
+    triangles: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    faces: Option<&'a [u32]>,
+    #[serde(skip_serializing_if = "is_zero")]
+    welded: usize,
+}
+
+#[derive(Serialize)]
+struct PieceEntry<'a> {
+    name: &'a str,
+    vertices: usize,
+    triangles: usize,
+    source: usize,
+    first_triangle: usize,
+}
+
+#[derive(Serialize)]
+struct FrameEntry<'a> {
+    frame: usize,
+    count: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    complete: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    left_out: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pairs: Option<&'a [[u32; 4]]>,
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "the signature is serde's"
+)]
+fn is_zero(number: &usize) -> bool {
+    *number == 0
+}
+
+impl Json {
+    pub(super) fn new(arguments: &Arguments) -> Self {
+        Self {
+            count_only: arguments.count,
+            split: arguments.split.is_some(),
+            groups: arguments.groups.clone(),
+            ignore: arguments.ignore.clone(),
+            baseline: arguments.baseline,
+            has_frames: false,
+        }
+    }
+}
+
+impl Form for Json {
+    fn head(&mut self, out: &mut dyn Write, check: &Check) -> io::Result<()> {
+        let sources: Vec<_> = check
+            .sources()
+            .iter()
+            .map(|source| Entry {
+                name: source.name(),
+                vertices: source.vertex_count(),
+                triangles: source.triangles().len(),
+                faces: source.faces(),
+                welded: source.welded(),
+            })
+            .collect();
+        write!(out, r#"{{"format":1,"bodies":"#)?;
+        if self.split {
+            for (number, body) in check.bodies().enumerate() {
+                write!(out, "{}", if number > 0 { "," } else { "[" })?;
+                let entry = PieceEntry {
+                    name: &body.name,
+                    vertices: body.vertices,
+                    triangles: body.triangles,
+                    source: body.source,
+                    first_triangle: body.first_triangle,
+                };
+                serde_json::to_writer(&mut *out, &entry)?;
+            }
+            write!(
+                out,
+                r#"],"split":"components","triangle_numbers":"source","sources":"#
+            )?;
+        }
+        serde_json::to_writer(&mut *out, &sources)?;
+        if !self.groups.is_empty() {
+            let groups = self.groups.iter();
+            let groups = groups.map(|group| (group.name.clone(), json!(group.bodies)));
+            let groups: serde_json::Map<_, _> = groups.collect();
+            write!(out, r#","groups":{}"#, json!(groups))?;
+        }
+        if !self.ignore.is_empty() {
+            write!(out, r#","ignore":{}"#, json!(self.ignore))?;
+        }
+        if let Some(frame) = self.baseline {
+            write!(out, r#","baseline":{frame}"#)?;
+        }
+        write!(out, r#","frames":["#)
+    }
+
+    fn frame(&mut self, out: &mut dyn Write, _: &Check, found: &Found) -> io::Result<()> {
+        let entry = FrameEntry {
+            frame: found.frame,
+            count: found.count,
+            complete: (!found.complete).then_some(false),
+            left_out: found.left_out,
+            pairs: (!self.count_only).then_some(&found.pairs),
+        };
+        let separator = if self.has_frames { "," } else { "" };
+        self.has_frames = true;
+        writeln!(out, "{separator}")?;
+        Ok(serde_json::to_writer(out, &entry)?)
+    }
+
+    fn end(
+        &mut self,
+        out: &mut dyn Write,
+        _: &Tally,
+        error: Option<&anyhow::Error>,
+    ) -> io::Result<()> {
+        match error {
+            None => writeln!(out, "\n]}}"),
+            Some(error) => {
+                let error = json!(format!("{error:#}"));
+                writeln!(out, "\n],\"error\":{error}}}")
+            }
+        }
+    }
+}

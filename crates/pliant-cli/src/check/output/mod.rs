@@ -1,0 +1,140 @@
+//! What `pliant check` prints, frame by frame as it goes. Each format is a file.
+
+mod github;
+mod json;
+mod lines;
+mod table;
+
+use super::{Arguments, Format};
+use crate::Outcome;
+use anyhow::Context;
+use pliant_check::{Check, Found};
+use std::io::{self, BufWriter, Stdout, Write};
+
+/// What a failing write is the failure of.
+const WRITING: &str = "cannot write to standard output";
+
+/// Where answers go.
+pub(super) struct Output {
+    out: BufWriter<Stdout>,
+    /// None where nothing is to be printed.
+    form: Option<Box<dyn Form>>,
+    tally: Tally,
+}
+
+/// How answers are written.
+trait Form {
+    /// What is known before the first frame.
+    fn head(&mut self, out: &mut dyn Write, check: &Check) -> io::Result<()>;
+    /// One frame.
+    fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()>;
+    /// The end, of a check that was completed or of one that could not be.
+    fn end(
+        &mut self,
+        out: &mut dyn Write,
+        tally: &Tally,
+        error: Option<&anyhow::Error>,
+    ) -> io::Result<()>;
+}
+
+/// What all frames so far come to.
+#[derive(Default)]
+struct Tally {
+    frames: usize,
+    intersecting: usize,
+    /// The frame with the most pairs, and their number; none where not all pairs are known.
+    worst: Option<(usize, usize)>,
+}
+
+impl Tally {
+    fn count(&mut self, found: &Found) {
+        self.frames += 1;
+        self.intersecting += usize::from(found.count > 0);
+        if found.complete && found.count > self.worst.map_or(0, |(_, most)| most) {
+            self.worst = Some((found.frame, found.count));
+        }
+    }
+
+    /// One line for people.
+    fn summary(&self) -> String {
+        let Self {
+            frames,
+            intersecting,
+            ..
+        } = self;
+        let worst = self.worst.map_or_else(String::new, |(frame, count)| {
+            format!("; most pairs: {count} in frame {frame}")
+        });
+        format!("{intersecting} of {frames} frames intersect{worst}")
+    }
+}
+
+impl Output {
+    /// Prints what is known before the first frame.
+    pub(super) fn begin(arguments: &Arguments, check: &Check) -> anyhow::Result<Self> {
+        let form: Box<dyn Form> = match arguments.format {
+            Format::Table => Box::new(table::Table::new(arguments)),
+            Format::Json => Box::new(json::Json::new(arguments)),
+            Format::Github => Box::new(github::Github::default()),
+            Format::Lines => Box::new(lines::Lines::new(arguments)),
+        };
+        let mut output = Self {
+            out: BufWriter::new(io::stdout()),
+            form: (!arguments.quiet).then_some(form),
+            tally: Tally::default(),
+        };
+        output.print(|form, out, _| form.head(out, check))?;
+        Ok(output)
+    }
+
+    /// Prints one frame.
+    pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
+        self.print(|form, out, _| {
+            form.frame(out, check, found)?;
+            // Someone is looking, or reading: each frame is shown when it is done.
+            out.flush()
+        })?;
+        self.tally.count(found);
+        Ok(())
+    }
+
+    /// Prints the end, of a check that was completed or of one that could not be.
+    pub(super) fn end(mut self, checked: anyhow::Result<()>) -> anyhow::Result<Outcome> {
+        let error = checked.as_ref().err();
+        let printed = self.print(|form, out, tally| {
+            form.end(out, tally, error)?;
+            out.flush()
+        });
+        // If both went wrong, what stopped the check comes first.
+        checked.and(printed)?;
+        Ok(if self.tally.intersecting > 0 {
+            Outcome::Intersects
+        } else {
+            Outcome::Clear
+        })
+    }
+
+    fn print(
+        &mut self,
+        write: impl FnOnce(&mut dyn Form, &mut dyn Write, &Tally) -> io::Result<()>,
+    ) -> anyhow::Result<()> {
+        match &mut self.form {
+            Some(form) => write(form.as_mut(), &mut self.out, &self.tally).context(WRITING),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Passes on why a check could not begin; where errors are annotations, prints that too.
+pub(super) fn annotate<T>(arguments: &Arguments, error: anyhow::Error) -> anyhow::Result<T> {
+    if arguments.format == Format::Github && !arguments.quiet {
+        // What stopped the check comes first, whether this can be printed or not.
+        let _ = crate::print_all(&github::failure(&error));
+    }
+    Err(error)
+}
+
+/// `1 vertex`, `2 vertices`.
+fn counted((number, one, many): (usize, &str, &str)) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
+}

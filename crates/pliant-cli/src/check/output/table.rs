@@ -1,0 +1,148 @@
+//! A table for people.
+
+use super::{Form, Tally, counted};
+use crate::check::{Arguments, Names};
+use pliant_check::{BodyFacts, Check, Found};
+use std::io::{self, Write};
+
+/// A file in more pieces than this is one line of the head.
+const MOST_PIECES: usize = 20;
+
+pub(super) struct Table {
+    count_only: bool,
+    split: bool,
+    itself: bool,
+    ignore: Vec<Names>,
+    baseline: Option<usize>,
+}
+
+impl Table {
+    pub(super) fn new(arguments: &Arguments) -> Self {
+        Self {
+            count_only: arguments.count,
+            split: arguments.split.is_some(),
+            itself: arguments.itself,
+            ignore: arguments.ignore.clone(),
+            baseline: arguments.baseline,
+        }
+    }
+
+    /// What was asked.
+    fn asked(&self, check: &Check) -> String {
+        let bodies = match (check.body_count(), self.itself) {
+            (1, _) => "the body with itself",
+            (_, true) => "the bodies with each other, and each with itself",
+            (_, false) => "the bodies with each other, not with themselves",
+        };
+        let two = |[a, b]: &Names| format!("{} with {}", printable(a), printable(b));
+        let ignored: Vec<_> = self.ignore.iter().map(two).collect();
+        let ignored = match ignored.join(", ") {
+            none if none.is_empty() => none,
+            some => format!("; ignored: {some}"),
+        };
+        let left_out = self.baseline.map_or_else(String::new, |frame| {
+            format!("; left out: pairs that frame {frame} has")
+        });
+        format!("{bodies}{ignored}{left_out}")
+    }
+}
+
+impl Form for Table {
+    fn head(&mut self, out: &mut dyn Write, check: &Check) -> io::Result<()> {
+        let mut bodies = check.bodies().enumerate();
+        for (place, source) in check.sources().iter().enumerate() {
+            let of_source = check.bodies_of(place);
+            let (first, count) = (of_source.start, of_source.len());
+            let each = bodies.by_ref().take(count);
+            let name = printable(source.name());
+            let [vertices, triangles] = sizes(source.vertex_count(), source.triangles().len());
+            if !self.split {
+                each.for_each(drop);
+                write!(out, "body {first}: {name}, {vertices}, {triangles}")?;
+            } else if count > MOST_PIECES {
+                each.for_each(drop);
+                let last = first as usize + count - 1;
+                write!(
+                    out,
+                    "bodies {first} to {last}: {name}#1 to #{count}, {vertices}, {triangles}"
+                )?;
+            } else {
+                for (number, body) in each {
+                    let BodyFacts { first_triangle, .. } = body;
+                    let name = printable(&body.name);
+                    let [vertices, triangles] = sizes(body.vertices, body.triangles);
+                    writeln!(
+                        out,
+                        "body {number}: {name}, {vertices}, {triangles}, from triangle {first_triangle} on"
+                    )?;
+                }
+                write!(out, "  of {name}, {vertices}, {triangles}")?;
+            }
+            if source.welded() > 0 {
+                let welded = counted((source.welded(), "vertex", "vertices"));
+                write!(out, ", {welded} welded where boundary edges coincide")?;
+            }
+            writeln!(out)?;
+        }
+        let left_out = self.baseline.map_or("", |_| "  left out");
+        let first_pair = if self.count_only { "" } else { "  first pair" };
+        writeln!(
+            out,
+            "checked: {}\n\n{:>8}{:>10}{left_out}{first_pair}",
+            self.asked(check),
+            "frame",
+            "pairs"
+        )
+    }
+
+    fn frame(&mut self, out: &mut dyn Write, _: &Check, found: &Found) -> io::Result<()> {
+        let Found { frame, count, .. } = found;
+        write!(out, "{frame:>8}{count:>10}")?;
+        if self.baseline.is_some() {
+            match found.left_out {
+                Some(left_out) => write!(out, "{left_out:>10}")?,
+                None => write!(out, "{:>10}", "-")?,
+            }
+        }
+        if let Some([body_a, a, body_b, b]) = found.smallest.filter(|_| !self.count_only) {
+            write!(
+                out,
+                "  triangle {a} of body {body_a}, triangle {b} of body {body_b}"
+            )?;
+        }
+        writeln!(out)
+    }
+
+    fn end(
+        &mut self,
+        out: &mut dyn Write,
+        tally: &Tally,
+        error: Option<&anyhow::Error>,
+    ) -> io::Result<()> {
+        match error {
+            None => writeln!(out, "\n{}", tally.summary()),
+            Some(_) => Ok(()),
+        }
+    }
+}
+
+fn sizes(vertices: usize, triangles: usize) -> [String; 2] {
+    [
+        (vertices, "vertex", "vertices"),
+        (triangles, "triangle", "triangles"),
+    ]
+    .map(counted)
+}
+
+/// A name without characters that would steer a terminal.
+fn printable(name: &str) -> String {
+    name.chars()
+        .flat_map(|c| {
+            if c.is_control() {
+                c.escape_default().collect::<Vec<_>>()
+            } else {
+                vec![c]
+            }
+        })
+        .collect()
+}

@@ -18,7 +18,7 @@ pub struct Statistics {
     /// Pairs of triangles with overlapping boxes, which were therefore decided. Within a body, without those that share a
     /// vertex.
     pub candidate_pairs: u64,
-    /// Candidates whose floating-point filter left a sign open, so that exact arithmetic was needed.
+    /// Candidates of which floating point left a sign open, so that exact arithmetic was needed.
     pub exact_decisions: u64,
     /// Pairs found.
     pub pairs: u64,

@@ -3,8 +3,8 @@
 //! and its wrong answers are counted.
 
 use super::{
-    DEFAULT, Experiment, Form, HYBRID, OBVHS_4, PARRY, Planned, contenders, every, scene, truth,
-    window,
+    DEFAULT, Experiment, Form, HYBRID, OBVHS_4, PARRY, Planned, contenders, every, factor_claim,
+    scene, truth, window,
 };
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::moller;
@@ -114,6 +114,7 @@ fn plan(form: Form) -> Vec<Planned> {
 
 fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
     let mut claims = Vec::new();
+    let mut costs = Vec::new();
     for contest in contests {
         let pairs: usize = contest.pairs.iter().sum();
         if let Some(ours) = contest
@@ -126,13 +127,12 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                 .iter()
                 .map(|counters| counters.decisions)
                 .sum();
+            let cost = time * 1e6 / decisions as f64;
+            costs.push(cost);
             claims.push(Claim {
                 claim: format!("{}: the cost of a candidate pair", contest.name),
                 verdict: Verdict::Measured,
-                figure: format!(
-                    "{:.0} ns of {decisions} candidates, {pairs} of them true",
-                    time * 1e6 / decisions as f64
-                ),
+                figure: format!("{cost:.0} ns of {decisions} candidates, {pairs} of them true"),
             });
         }
         let wrong = contest
@@ -158,6 +158,16 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                 },
             ),
         });
+    }
+    // The grids come first, then spheres that touch nowhere exactly.
+    if let [coplanar, generic, ..] = costs[..] {
+        claims.push(factor_claim(
+            "a candidate of the coplanar grids costs at most ten times one of the spheres",
+            generic / coplanar,
+            0.1,
+            0.0,
+            format!("{:.1} times", coplanar / generic),
+        ));
     }
     claims
 }

@@ -23,7 +23,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 
 const F64: &str = "pliant, f64";
 const TWO_THREADS: &str = "pliant, two threads";
-const COMPLETE: &str = "pliant, complete refit";
+const COMPLETE: &str = "pliant, every box every step";
 const PASS: &str = "floor: one pass";
 const FLOOR: &str = "floor: pass, true pairs, sort";
 
@@ -177,11 +177,6 @@ impl Line {
 
 /// A method of this experiment alone, or one by its name in tables.
 fn other(label: &'static str, steps: usize, query: Query) -> Contender {
-    let ours = |change: fn(&mut Options)| {
-        let mut options = Options::default();
-        change(&mut options);
-        Contender::new(label, Ours::<f32>::new(label, options))
-    };
     let floor = |decides| {
         let itself = query == Query::Itself;
         Contender::new(label, Floor::new(Sweep::new(exact), steps, itself, decides))
@@ -189,9 +184,15 @@ fn other(label: &'static str, steps: usize, query: Query) -> Contender {
     match label {
         F64 => Contender::new(label, Ours::<f64>::new(label, Options::default())),
         TWO_THREADS => {
-            ours(|options| options.threads = std::num::NonZeroUsize::MIN.saturating_add(1))
+            let mut options = Options::default();
+            options.threads = std::num::NonZeroUsize::MIN.saturating_add(1);
+            Contender::new(label, Ours::<f32>::new(label, options))
         }
-        COMPLETE => ours(|options| options.update = Update::BottomUp),
+        COMPLETE => {
+            let mut options = Options::default();
+            options.update = Update::BottomUp;
+            Contender::new(label, Ours::<f32>::new(label, options).always())
+        }
         PASS => floor(false),
         FLOOR => floor(true),
         _ => contender(label),

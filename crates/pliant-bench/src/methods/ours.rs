@@ -9,6 +9,8 @@ pub struct Ours<S: Scalar = f32> {
     name: String,
     world: World<S>,
     bodies: Vec<BodyId>,
+    /// Whether boxes are made at every step, also of bodies that meet nobody.
+    always: bool,
     /// Positions in the world's precision, if it is another.
     positions: Vec<[S; 3]>,
     pairs: Vec<Pair>,
@@ -42,9 +44,19 @@ impl<S: Scalar> Ours<S> {
             name: name.to_owned(),
             world: World::with_options(options),
             bodies: Vec::new(),
+            always: false,
             positions: Vec::new(),
             pairs: Vec::new(),
             counters: Counters::default(),
+        }
+    }
+
+    /// Does at every step what the options say is done ahead of a query, whether or not a body meets another.
+    #[must_use]
+    pub fn always(self) -> Self {
+        Self {
+            always: true,
+            ..self
         }
     }
 
@@ -85,6 +97,9 @@ impl<S: Precision> Method for Ours<S> {
             self.world
                 .set_positions(body, S::of(shape.world, &mut self.positions))
                 .expect("a scene's shapes are good");
+            if self.always {
+                self.world.update_body(body).expect("the body is there");
+            }
         }
     }
 

@@ -40,6 +40,12 @@ pub(crate) type Sign = i8;
 pub(crate) trait Orientation {
     /// The side of the plane through a, b, c on which d lies.
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign;
+
+    /// The side of the line through a, b on which c lies, in the plane of two coordinates; exact whatever the source is.
+    #[inline]
+    fn sign_in_plane(&mut self, a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+        orientation_2d(a, b, c)
+    }
 }
 
 /// Exact arithmetic at once: slow, and the reference.
@@ -67,7 +73,7 @@ const SMALLEST_2D: f64 = f64::from_bits((1023 - 459) << 52);
 /// Whether each coordinate is zero or at least `smallest` in magnitude. As integers: a thread that flushes subnormal numbers
 /// takes them for zero.
 #[inline]
-fn are_from<const N: usize>(smallest: f64, point: &[f64; N]) -> bool {
+pub(super) fn are_from<const N: usize>(smallest: f64, point: &[f64; N]) -> bool {
     // Zero, less one, is the largest of all. No early exit: comparisons without a branch.
     point.iter().fold(true, |all, x| {
         all & (x.abs().to_bits().wrapping_sub(1) >= smallest.to_bits() - 1)

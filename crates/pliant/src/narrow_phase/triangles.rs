@@ -17,7 +17,7 @@
 //! Guigue and Devillers (2003) need fewer determinants, but canonical rotations of the corners, and branches for the
 //! degenerate that this formulation does not have.
 
-use super::orientation::{Orientation, Point, Sign, orientation_2d};
+use super::orientation::{Orientation, Point, Sign};
 
 /// Three corners.
 pub(crate) type Triangle = [Point; 3];
@@ -38,7 +38,7 @@ pub(crate) fn triangles_intersect(
         return false;
     }
     if of_a == [0; 3] && of_b == [0; 3] {
-        return in_one_plane(a, b, orientation) && intersect_in_one_plane(a, b);
+        return in_one_plane(a, b, orientation) && intersect_in_one_plane(a, b, orientation);
     }
     // Edge signs are wanted twice, once for either triangle, and often not at all.
     let mut edge_signs = [[None; 3]; 3];
@@ -86,44 +86,52 @@ fn in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) 
     })
 }
 
-fn intersect_in_one_plane(a: &Triangle, b: &Triangle) -> bool {
+fn intersect_in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
     [(0, 1), (1, 2), (2, 0)].into_iter().all(|(x, y)| {
         let project = |triangle: &Triangle| triangle.map(|point| [point[x], point[y]]);
-        intersect_2d(&project(a), &project(b))
+        intersect_2d(&project(a), &project(b), orientation)
     })
 }
 
 type Point2 = [f64; 2];
 
 /// Closed triangles of the plane: an edge meets an edge, or one triangle holds a corner of the other.
-fn intersect_2d(a: &[Point2; 3], b: &[Point2; 3]) -> bool {
-    (0..3).any(|i| (0..3).any(|j| segments_meet([a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]])))
-        || holds(a, b[0])
-        || holds(b, a[0])
+fn intersect_2d(a: &[Point2; 3], b: &[Point2; 3], orientation: &mut impl Orientation) -> bool {
+    let edge = |triangle: &[Point2; 3], i: usize| [triangle[i], triangle[(i + 1) % 3]];
+    (0..3).any(|i| (0..3).any(|j| segments_meet(edge(a, i), edge(b, j), orientation)))
+        || holds(a, b[0], orientation)
+        || holds(b, a[0], orientation)
 }
 
 /// Closed segments, points included: their boxes overlap and neither lies on one side of the other's line.
-fn segments_meet([p0, p1]: [Point2; 2], [q0, q1]: [Point2; 2]) -> bool {
+fn segments_meet(
+    [p0, p1]: [Point2; 2],
+    [q0, q1]: [Point2; 2],
+    orientation: &mut impl Orientation,
+) -> bool {
     let boxes_overlap = (0..2).all(|axis| {
         p0[axis].min(p1[axis]) <= q0[axis].max(q1[axis])
             && q0[axis].min(q1[axis]) <= p0[axis].max(p1[axis])
     });
+    let mut sign = |a, b, c| orientation.sign_in_plane(a, b, c);
     boxes_overlap
-        && orientation_2d(p0, p1, q0) * orientation_2d(p0, p1, q1) <= 0
-        && orientation_2d(q0, q1, p0) * orientation_2d(q0, q1, p1) <= 0
+        && sign(p0, p1, q0) * sign(p0, p1, q1) <= 0
+        && sign(q0, q1, p0) * sign(q0, q1, p1) <= 0
 }
 
 /// Whether a closed triangle holds a point. The box is for the triangle that is a segment or a point.
-fn holds(triangle: &[Point2; 3], point: Point2) -> bool {
+fn holds(triangle: &[Point2; 3], point: Point2, orientation: &mut impl Orientation) -> bool {
     let in_box = (0..2).all(|axis| {
         let [a, b, c] = triangle.map(|corner| corner[axis]);
         a.min(b).min(c) <= point[axis] && point[axis] <= a.max(b).max(c)
     });
-    in_box && agree([0, 1, 2].map(|i| orientation_2d(triangle[i], triangle[(i + 1) % 3], point)))
+    let mut side = |i: usize| orientation.sign_in_plane(triangle[i], triangle[(i + 1) % 3], point);
+    in_box && agree([side(0), side(1), side(2)])
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::lattice::{Lattice as OnLattice, on_lattice};
     use super::super::orientation::{Exact, Filtered};
     use super::*;
 
@@ -219,6 +227,10 @@ mod tests {
                     expected,
                     "{p:?} {q:?}"
                 );
+                if let Some([p, q]) = on_lattice(&p, &q) {
+                    let found = triangles_intersect(&p, &q, &mut OnLattice);
+                    assert_eq!(found, expected, "{p:?} {q:?}");
+                }
             }
         }
         expected

@@ -75,10 +75,12 @@
 
 mod arguments;
 mod body;
+mod cache;
 mod error;
 mod file;
 mod format;
 mod frame;
+mod gltf;
 mod memory;
 mod natural;
 mod npz;
@@ -87,10 +89,11 @@ mod ply;
 mod polygons;
 mod positions;
 mod series;
+mod stl;
 mod text;
 mod weld;
 
-pub use body::{Body, OpenOptions, open};
+pub use body::{Body, OpenOptions, open, open_all};
 pub use error::{Error, Place, Reason};
 pub use positions::{Positions, Precision};
 pub use series::looks_like_a_series;

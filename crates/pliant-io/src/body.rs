@@ -354,7 +354,8 @@ impl Body {
 
     /// The number of the first frame of a file.
     fn begin_of(&self, file: usize) -> usize {
-        file.checked_sub(1).map_or(0, |before| self.files[before].end)
+        file.checked_sub(1)
+            .map_or(0, |before| self.files[before].end)
     }
 
     /// Where in its file the frame just read is.

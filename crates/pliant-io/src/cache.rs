@@ -100,7 +100,8 @@ pub(crate) fn open(
         }
         .into());
     }
-    input.seek_relative(i64::try_from(head).unwrap_or(i64::MAX) - if big_endian { 8 } else { 32 })?;
+    input
+        .seek_relative(i64::try_from(head).unwrap_or(i64::MAX) - if big_endian { 8 } else { 32 })?;
     Ok(Cache {
         mesh: Some((mesh.clone(), source)),
         input,
@@ -128,14 +129,12 @@ fn whole<const N: usize>(
 }
 
 fn fill(input: &mut impl Read, bytes: &mut [u8], length: u64) -> Result<(), Reason> {
-    input
-        .read_exact(bytes)
-        .map_err(|error| match error.kind() {
-            io::ErrorKind::UnexpectedEof => {
-                Reason::Truncated(format!("the header is longer than {length} bytes"))
-            }
-            _ => error.into(),
-        })
+    input.read_exact(bytes).map_err(|error| match error.kind() {
+        io::ErrorKind::UnexpectedEof => {
+            Reason::Truncated(format!("the header is longer than {length} bytes"))
+        }
+        _ => error.into(),
+    })
 }
 
 impl Cache {
@@ -154,7 +153,9 @@ impl Cache {
                 }
                 .into());
             }
-            frame.replace_vertices(Precision::F32, self.count).map_err(at)?;
+            frame
+                .replace_vertices(Precision::F32, self.count)
+                .map_err(at)?;
         } else {
             let announced = Announced {
                 vertices: self.count,
@@ -210,7 +211,8 @@ impl FrameSource for Cache {
     fn skip(&mut self, frames: usize) -> Result<(), Fault> {
         // At most what the file has: its length was compared.
         let bytes = (frames as u64).saturating_mul(self.count * POSITION as u64);
-        self.input.seek_relative(i64::try_from(bytes).unwrap_or(i64::MAX))?;
+        self.input
+            .seek_relative(i64::try_from(bytes).unwrap_or(i64::MAX))?;
         self.next += frames as u64;
         Ok(())
     }

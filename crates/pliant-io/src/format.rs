@@ -171,7 +171,10 @@ mod tests {
             ] {
                 std::fs::write(&path, text).unwrap();
                 let found = Found::new(path.clone(), &path.metadata().unwrap());
-                let mut source = Format::of(&path).unwrap().open(&found, &OpenOptions::default()).unwrap();
+                let mut source = Format::of(&path)
+                    .unwrap()
+                    .open(&found, &OpenOptions::default())
+                    .unwrap();
                 if refused {
                     std::fs::write(&path, change).unwrap();
                 }

@@ -92,8 +92,10 @@ mod series;
 mod stl;
 mod text;
 mod weld;
+mod write;
 
 pub use body::{Body, OpenOptions, open, open_all};
 pub use error::{Error, Place, Reason};
 pub use positions::{Positions, Precision};
 pub use series::looks_like_a_series;
+pub use write::{Shape, WriteOptions, Writer};

@@ -164,13 +164,14 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
     frame.complete(0)
 }
 
-fn triangle_of_the_last_three(
-    frame: &mut Frame,
-    place: impl Fn() -> Place,
-) -> Result<(), Fault> {
+fn triangle_of_the_last_three(frame: &mut Frame, place: impl Fn() -> Place) -> Result<(), Fault> {
     // Vertices are counted in u32.
     let last = frame.vertex_count() as u32;
-    let corners = [last.saturating_sub(3), last.saturating_sub(2), last.saturating_sub(1)];
+    let corners = [
+        last.saturating_sub(3),
+        last.saturating_sub(2),
+        last.saturating_sub(1),
+    ];
     let taken = frame.face(&corners, &place);
     taken.map_err(|reason| reason.at(place()))
 }
@@ -252,19 +253,40 @@ mod tests {
             with("endloop", "vertex 1 2 3\nendloop"),
             wanted(7, "\"endloop\": a face has three corners", "\"vertex\"")
         );
-        assert_eq!(with("facet normal", "face"), wanted(2, "\"facet\" or \"endsolid\"", "\"face\""));
-        assert_eq!(with("OUTER loop", ""), wanted(4, "\"outer loop\"", "\"vertex\""));
-        assert_eq!(with("endfacet", "outer loop"), wanted(8, "\"endfacet\"", "\"outer\""));
-        assert_eq!(with("\n\nsolid", "\nfacet"), wanted(10, "\"solid\"", "\"facet\""));
+        assert_eq!(
+            with("facet normal", "face"),
+            wanted(2, "\"facet\" or \"endsolid\"", "\"face\"")
+        );
+        assert_eq!(
+            with("OUTER loop", ""),
+            wanted(4, "\"outer loop\"", "\"vertex\"")
+        );
+        assert_eq!(
+            with("endfacet", "outer loop"),
+            wanted(8, "\"endfacet\"", "\"outer\"")
+        );
+        assert_eq!(
+            with("\n\nsolid", "\nfacet"),
+            wanted(10, "\"solid\"", "\"facet\"")
+        );
         let range = "coordinates must be finite and at most 3.4028235e38 in magnitude";
-        assert_eq!(with("1e0", "nan"), format!(", line 5: x of vertex 1 is NaN; {range}"));
-        assert_eq!(with("1e0", "1e39"), format!(", line 5: x of vertex 1 is inf; {range}"));
+        assert_eq!(
+            with("1e0", "nan"),
+            format!(", line 5: x of vertex 1 is NaN; {range}")
+        );
+        assert_eq!(
+            with("1e0", "1e39"),
+            format!(", line 5: x of vertex 1 is inf; {range}")
+        );
         let cut = TEXT.rsplit_once("endsolid").unwrap().0;
         assert_eq!(
             read_bytes(cut.as_bytes()).unwrap_err(),
             ", line 19: ends too early: \"endsolid\" is missing"
         );
-        assert_eq!(read_bytes(b"solid\nendsolid\n").unwrap_err(), ": holds no vertices");
+        assert_eq!(
+            read_bytes(b"solid\nendsolid\n").unwrap_err(),
+            ": holds no vertices"
+        );
     }
 
     #[test]
@@ -278,12 +300,25 @@ mod tests {
         for end in [84, 85, 183] {
             assert_eq!(
                 read_bytes(&whole[..end]).unwrap_err(),
-                format!(", byte 80: ends too early: 2 triangles need 184 bytes, the file has {end}")
+                format!(
+                    ", byte 80: ends too early: 2 triangles need 184 bytes, the file has {end}"
+                )
             );
         }
-        assert!(read_bytes(&[&whole[..], b"x"].concat()).unwrap_err().contains("nothing may follow"));
-        assert!(read_bytes(&[0; 30]).unwrap_err().contains("has 84 bytes before"));
-        assert_eq!(read_bytes(&binary("", &[])).unwrap_err(), ": holds no vertices");
+        assert!(
+            read_bytes(&[&whole[..], b"x"].concat())
+                .unwrap_err()
+                .contains("nothing may follow")
+        );
+        assert!(
+            read_bytes(&[0; 30])
+                .unwrap_err()
+                .contains("has 84 bytes before")
+        );
+        assert_eq!(
+            read_bytes(&binary("", &[])).unwrap_err(),
+            ": holds no vertices"
+        );
         assert_eq!(read_bytes(b"").unwrap_err(), ": is empty");
         // Announced and there at the beginning, but gone later.
         let mut frame = Frame::new(1 << 20, true);

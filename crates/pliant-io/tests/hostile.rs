@@ -18,6 +18,7 @@ fn survives(ending: &str, contents: &[u8]) {
         let options = OpenOptions {
             weld,
             max_memory: 1 << 20,
+            ..OpenOptions::default()
         };
         let result = pliant_io::open(&FOLDER.argument(&name), &options).and_then(|mut body| {
             let triangles = body.triangles().as_flattened();

@@ -3,10 +3,10 @@
 mod output;
 mod pairs;
 mod sequence;
-mod size;
+pub(crate) mod size;
 
 use crate::Outcome;
-use anyhow::Context;
+use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use output::Output;
 use pairs::Pairs;
@@ -22,7 +22,7 @@ use std::num::NonZeroUsize;
     reason = "each is a flag of the program"
 )]
 pub(crate) struct Arguments {
-    /// One body each: a mesh (.obj, .ply), a sequence (.npz), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj')
+    /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with its positions (mesh.obj+walk.pc2, .mdd), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj'); each body of a glTF file (.glb, .gltf), or one of them (scene.glb#arm)
     #[arg(value_name = "BODY", required = true)]
     bodies: Vec<String>,
     /// Check each body against itself too; one body alone always is
@@ -40,6 +40,12 @@ pub(crate) struct Arguments {
     /// The most memory that a frame may take, seam finding included, and again that a list of pairs may (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     max_memory: u64,
+    /// The animation of glTF files, by name; the first if none is named
+    #[arg(long, value_name = "NAME")]
+    clip: Option<String>,
+    /// Frames a second at which animations of glTF files are evaluated
+    #[arg(long, value_name = "N", default_value = "30", value_parser = crate::convert::rate)]
+    fps: f64,
     /// How many threads share the work; no number changes an answer
     #[arg(long, value_name = "T", default_value = "1")]
     threads: NonZeroUsize,
@@ -71,8 +77,13 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
         &OpenOptions {
             weld: !arguments.no_weld,
             max_memory: arguments.max_memory,
+            clip: arguments.clip.clone(),
+            fps: arguments.fps,
         },
     )?;
+    if arguments.clip.is_some() && sequence.bodies().iter().all(|body| body.clip().is_none()) {
+        bail!("no body has an animation, so `--clip` has no meaning here");
+    }
     match sequence.precision() {
         Precision::F32 => check_frames::<f32>(arguments, sequence),
         Precision::F64 => check_frames::<f64>(arguments, sequence),

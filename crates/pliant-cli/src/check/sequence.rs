@@ -49,8 +49,9 @@ impl Sequence {
     pub(super) fn open(arguments: &[String], options: &OpenOptions) -> anyhow::Result<Self> {
         let bodies = arguments
             .iter()
-            .map(|argument| pliant_io::open(argument, options))
+            .map(|argument| pliant_io::open_all(argument, options))
             .collect::<Result<Vec<_>, _>>()?;
+        let bodies: Vec<Body> = bodies.into_iter().flatten().collect();
         let frames = bodies.iter().map(Body::frame_count).max().unwrap_or(0);
         let counted = |body: &Body| format!("{} has {}", body.name(), body.frame_count());
         if let Some(odd) = bodies

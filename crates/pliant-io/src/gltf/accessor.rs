@@ -87,7 +87,12 @@ impl Wanted {
     };
     pub(super) const MORPHS: Self = Self {
         normalised: true,
-        ..Self::new("weights of morph targets", "SCALAR", 1, &[F32, I8, U8, I16, U16])
+        ..Self::new(
+            "weights of morph targets",
+            "SCALAR",
+            1,
+            &[F32, I8, U8, I16, U16],
+        )
     };
 }
 
@@ -171,18 +176,20 @@ impl Reader {
             if [Wanted::POSITIONS.what, Wanted::DELTAS.what].contains(&wanted.what)
                 && entry.shape == wanted.shape
             {
-                return Err(at(Reason::Unsupported(super::document::QUANTISED.into()).into()));
+                return Err(at(
+                    Reason::Unsupported(super::document::QUANTISED.into()).into()
+                ));
             }
             return Err(wrong(
                 accessor,
-                format!(
-                    "its type is not one that {} can have",
-                    wanted.what
-                ),
+                format!("its type is not one that {} can have", wanted.what),
             ));
         };
         if component != F32 && wanted.normalised && !entry.normalized {
-            return Err(wrong(accessor, format!("{} that are whole numbers must be normalised", wanted.what)));
+            return Err(wrong(
+                accessor,
+                format!("{} that are whole numbers must be normalised", wanted.what),
+            ));
         }
         let count = entry.count;
         let (view, offset) = (entry.buffer_view, entry.byte_offset);
@@ -197,7 +204,7 @@ impl Reader {
         };
         let replaced = match &entry.sparse {
             Some(sparse) => {
-                let places = self.places(accessor, sparse, rows(0)).map_err(at)?;
+                let places = Self::places(accessor, sparse, rows(0)).map_err(at)?;
                 self.replaced(places, count).map_err(at)?
             }
             None => Vec::new(),
@@ -220,12 +227,15 @@ impl Reader {
                 }
                 Ok(())
             }
-            None => Err(wrong(accessor, "has no data; only morph targets may be zero throughout")),
+            None => Err(wrong(
+                accessor,
+                "has no data; only morph targets may be zero throughout",
+            )),
         }
     }
 
     /// Where the places and the values of a sparse accessor are, which is of such `rows`.
-    fn places(&self, accessor: usize, sparse: &Sparse, rows: Rows) -> Result<[Rows; 2], Fault> {
+    fn places(accessor: usize, sparse: &Sparse, rows: Rows) -> Result<[Rows; 2], Fault> {
         let component = Component::of(sparse.indices.component_type)
             .filter(|component| [U8, U16, U32].contains(component))
             .ok_or_else(|| wrong(accessor, "sparse indices must be whole numbers from 0"))?;
@@ -252,13 +262,20 @@ impl Reader {
     }
 
     /// The rows that a sparse accessor of `count` replaces, and by what; their numbers rise.
-    fn replaced(&mut self, [places, values]: [Rows; 2], count: u64) -> Result<Vec<(u64, [f64; 4])>, Fault> {
+    fn replaced(
+        &mut self,
+        [places, values]: [Rows; 2],
+        count: u64,
+    ) -> Result<Vec<(u64, [f64; 4])>, Fault> {
         if values.width > 4 {
-            return Err(Reason::Unsupported("matrices in a sparse accessor are not evaluated".into()).into());
+            return Err(Reason::Unsupported(
+                "matrices in a sparse accessor are not evaluated".into(),
+            )
+            .into());
         }
         let mut replaced: Vec<(u64, [f64; 4])> = Vec::new();
         self.rows(places, |account, _, row| {
-            let place = row[0] as u64;
+            let place = whole(row[0]);
             let rises = replaced.last().is_none_or(|(last, _)| *last < place);
             if !rises || place >= count {
                 let reason = format!("sparse index {place} does not rise, or is not below {count}");
@@ -292,6 +309,19 @@ impl Reader {
             let reason = format!("there is no buffer view {}", rows.view);
             return Err(Reason::Malformed(reason).into());
         };
+        let end = view.byte_offset.saturating_add(view.byte_length);
+        let has = document
+            .buffers
+            .get(view.buffer)
+            .map(|buffer| buffer.byte_length);
+        if has.is_some_and(|has| end > has) {
+            return Err(Reason::Truncated(format!(
+                "buffer view {} ends at byte {end}, its buffer has {}",
+                rows.view,
+                has.unwrap_or(0)
+            ))
+            .into());
+        }
         let size = rows.component.size();
         let row = (size * rows.width) as u64;
         let stride = view.byte_stride.filter(|_| rows.gaps).unwrap_or(row);
@@ -302,7 +332,9 @@ impl Reader {
         if rows.count == 0 {
             return Ok(());
         }
-        let needed = (rows.count - 1).checked_mul(stride).and_then(|all| all.checked_add(row + rows.offset));
+        let needed = (rows.count - 1)
+            .checked_mul(stride)
+            .and_then(|all| all.checked_add(row.saturating_add(rows.offset)));
         if needed.is_none_or(|needed| needed > view.byte_length) {
             return Err(Reason::Truncated(format!(
                 "{} rows from byte {} on do not fit into buffer view {} of {} bytes",
@@ -330,6 +362,12 @@ impl Reader {
         }
         Ok(())
     }
+}
+
+/// A number that was read from an unsigned one.
+#[expect(clippy::cast_sign_loss, reason = "none is negative")]
+pub(super) fn whole(number: f64) -> u64 {
+    number as u64
 }
 
 fn wrong(accessor: usize, why: impl Into<String>) -> Fault {

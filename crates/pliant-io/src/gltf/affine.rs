@@ -163,10 +163,19 @@ mod tests {
     #[test]
     fn slerp_keeps_its_speed_and_goes_the_short_way() {
         let about_z = |angle: f64| [0.0, 0.0, (angle / 2.0).sin(), (angle / 2.0).cos()];
-        for (from, to) in [(0.0, 1.0), (0.3, -2.0), (0.0, 1e-7), (1.0, 1.0 + 1e-12), (0.0, 3.0)] {
+        for (from, to) in [
+            (0.0, 1.0),
+            (0.3, -2.0),
+            (0.0, 1e-7),
+            (1.0, 1.0 + 1e-12),
+            (0.0, 3.0),
+        ] {
             for t in [0.0, 0.25, 0.5, 1.0] {
                 let between = about_z(from + t * (to - from));
-                assert!(near(&slerp(about_z(from), about_z(to), t), &between), "{from} {to} {t}");
+                assert!(
+                    near(&slerp(about_z(from), about_z(to), t), &between),
+                    "{from} {to} {t}"
+                );
                 let other_way = slerp(about_z(from), about_z(to).map(|x: f64| -x), t);
                 assert!(near(&other_way, &between), "{from} {to} {t}");
             }

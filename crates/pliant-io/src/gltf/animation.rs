@@ -3,6 +3,8 @@
 //! Before the first key a channel has the value of the first, behind the last that of the last. Between two keys: the earlier one
 //! (STEP), the straight line or for rotations the arc (LINEAR), or Hermite's cubic through both with their tangents (CUBICSPLINE).
 
+use std::collections::BTreeMap;
+
 use super::accessor::{Reader, Wanted};
 use super::affine::{Trs, slerp};
 use crate::error::{Fault, Place, Reason};
@@ -71,12 +73,14 @@ impl Clip {
             channels: Vec::new(),
             samplers: Vec::new(),
         };
-        // The sampler of the file that each of ours is.
-        let mut known = std::collections::BTreeMap::new();
+        // Ours of each of the file.
+        let mut known = BTreeMap::new();
         let channels = std::mem::take(&mut reader.document.animations[animation].channels);
         for channel in &channels {
             // Of a node that an extension names, which would be required.
-            let Some(node) = channel.target.node else { continue };
+            let Some(node) = channel.target.node else {
+                continue;
+            };
             if node >= reader.document.nodes.len() {
                 let reason = format!("moves node {node}, which does not exist");
                 return Err(at(Reason::Malformed(reason).into()));
@@ -88,25 +92,36 @@ impl Clip {
                 "weights" => Path::Weights(targets(reader, node)),
                 other => {
                     let other: String = other.chars().take(40).collect();
-                    return Err(at(Reason::Unsupported(format!("moves {other:?}, which is not evaluated")).into()));
+                    return Err(at(Reason::Unsupported(format!(
+                        "moves {other:?}, which is not evaluated"
+                    ))
+                    .into()));
                 }
             };
             if path.width() == 0 {
                 continue; // weights of nothing
             }
             let key = (channel.sampler, path);
-            let sampler = match known.get(&key) {
-                Some(&sampler) => sampler,
-                None => {
-                    let sampler = Sampler::read(reader, animation, channel.sampler, path).map_err(at)?;
-                    let last = sampler.times.last().copied().unwrap_or(0.0);
-                    clip.end = clip.end.max(last.into());
-                    clip.samplers.push(sampler);
-                    known.insert(key, clip.samplers.len() - 1);
-                    clip.samplers.len() - 1
-                }
+            let sampler = if let Some(&sampler) = known.get(&key) {
+                sampler
+            } else {
+                let sampler =
+                    Sampler::read(reader, animation, channel.sampler, path).map_err(at)?;
+                let last = sampler.times.last().copied().unwrap_or(0.0);
+                clip.end = clip.end.max(last.into());
+                clip.samplers.push(sampler);
+                known.insert(key, clip.samplers.len() - 1);
+                clip.samplers.len() - 1
             };
-            reader.account.push(&mut clip.channels, Channel { node, path, sampler }, channels.len())?;
+            reader.account.push(
+                &mut clip.channels,
+                Channel {
+                    node,
+                    path,
+                    sampler,
+                },
+                channels.len(),
+            )?;
         }
         Ok(clip)
     }
@@ -130,8 +145,14 @@ impl Clip {
 }
 
 impl Sampler {
-    fn read(reader: &mut Reader, animation: usize, number: usize, path: Path) -> Result<Self, Fault> {
-        let malformed = |why: String| Fault::from(Reason::Malformed(format!("sampler {number}: {why}")));
+    fn read(
+        reader: &mut Reader,
+        animation: usize,
+        number: usize,
+        path: Path,
+    ) -> Result<Self, Fault> {
+        let malformed =
+            |why: String| Fault::from(Reason::Malformed(format!("sampler {number}: {why}")));
         let Some(entry) = reader.document.animations[animation].samplers.get(number) else {
             return Err(malformed("does not exist".into()));
         };
@@ -142,7 +163,9 @@ impl Sampler {
             "CUBICSPLINE" => Interpolation::CubicSpline,
             other => {
                 let other: String = other.chars().take(40).collect();
-                return Err(malformed(format!("interpolation {other:?} is none of the format")));
+                return Err(malformed(format!(
+                    "interpolation {other:?} is none of the format"
+                )));
             }
         };
         let mut sampler = Self {
@@ -175,7 +198,11 @@ impl Sampler {
             }
             Ok(())
         })?;
-        let groups = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+        let groups = if interpolation == Interpolation::CubicSpline {
+            3
+        } else {
+            1
+        };
         let needed = times.len().saturating_mul(groups * path.width());
         if values.len() != needed {
             return Err(malformed(format!(
@@ -207,7 +234,10 @@ impl Sampler {
         // The first key that is later.
         let next = self.times.partition_point(|&key| f64::from(key) <= time);
         let put = |value: &mut [f64], from: &mut dyn Iterator<Item = f64>| {
-            value.iter_mut().zip(from).for_each(|(value, from)| *value = from);
+            value
+                .iter_mut()
+                .zip(from)
+                .for_each(|(value, from)| *value = from);
         };
         let stays = self.interpolation == Interpolation::Step;
         if next == 0 || next == self.times.len() || stays {
@@ -238,7 +268,9 @@ impl Sampler {
         ];
         let a = self.key(last).zip(self.group(3 * last + 2));
         let b = self.key(next).zip(self.group(3 * next));
-        let sum = a.zip(b).map(|((a, out), (b, into))| of_a * a + of_out * out + of_b * b + of_in * into);
+        let sum = a
+            .zip(b)
+            .map(|((a, out), (b, into))| of_a * a + of_out * out + of_b * b + of_in * into);
         let mut sum = sum;
         put(value, &mut sum);
     }
@@ -277,7 +309,11 @@ mod tests {
             (4.0, 3.0, 3.0),
             (9.0, 3.0, 3.0),
         ] {
-            assert_eq!([at(&step, time), at(&linear, time)], [stepped, straight], "{time}");
+            assert_eq!(
+                [at(&step, time), at(&linear, time)],
+                [stepped, straight],
+                "{time}"
+            );
         }
         let one = sampler(Interpolation::CubicSpline, &[1.0], &[9.0, 5.0, 9.0]);
         assert_eq!([at(&one, 0.0), at(&one, 1.0), at(&one, 2.0)], [5.0; 3]);

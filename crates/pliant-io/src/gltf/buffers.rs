@@ -49,7 +49,9 @@ pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Bu
     account.check(json.1.saturating_mul(2))?;
     main.seek(SeekFrom::Start(json.0))?;
     let mut text = Vec::new();
-    Read::by_ref(&mut main).take(json.1).read_to_end(&mut text)?;
+    Read::by_ref(&mut main)
+        .take(json.1)
+        .read_to_end(&mut text)?;
     main.unchanged()?;
     account.enter(memory(&text))?;
     let document = Document::parse(&text)?;
@@ -69,9 +71,8 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
     let mut number = |what: &str, at: u64| -> Result<u64, Fault> {
         let mut bytes = [0; 4];
         main.seek(SeekFrom::Start(at))?;
-        main.read_exact(&mut bytes).map_err(|_| {
-            Reason::Truncated(format!("{what} is missing")).at(Place::Byte(at))
-        })?;
+        main.read_exact(&mut bytes)
+            .map_err(|_| Reason::Truncated(format!("{what} is missing")).at(Place::Byte(at)))?;
         Ok(u32::from_le_bytes(bytes).into())
     };
     let version = number("the version", 4)?;
@@ -120,19 +121,24 @@ impl Buffers {
         };
         let end = offset.saturating_add(bytes.len() as u64);
         let beyond = |has: u64| {
-            at(Reason::Truncated(format!("bytes {offset} to {end} are asked for, it has {has}")))
+            at(Reason::Truncated(format!(
+                "bytes {offset} to {end} are asked for, it has {has}"
+            )))
         };
         if end > entry.byte_length {
             return Err(beyond(entry.byte_length));
         }
         if self.opened[buffer].is_none() {
             let opened = self.find(entry.uri.as_deref(), buffer, account);
-            self.opened[buffer] = Some(opened.map_err(|fault| fault.or_at(Place::Part("buffer", buffer)))?);
+            self.opened[buffer] =
+                Some(opened.map_err(|fault| fault.or_at(Place::Part("buffer", buffer)))?);
         }
         match &mut self.opened[buffer] {
             Some(Bytes::Within(within)) => {
                 let range = offset as usize..end as usize;
-                let there = within.get(range).ok_or_else(|| beyond(within.len() as u64))?;
+                let there = within
+                    .get(range)
+                    .ok_or_else(|| beyond(within.len() as u64))?;
                 bytes.copy_from_slice(there);
             }
             Some(Bytes::Beside(path, file)) => {
@@ -154,12 +160,19 @@ impl Buffers {
     }
 
     /// Where the bytes of a buffer are.
-    fn find(&self, uri: Option<&str>, buffer: usize, account: &mut Account) -> Result<Bytes, Fault> {
+    fn find(
+        &self,
+        uri: Option<&str>,
+        buffer: usize,
+        account: &mut Account,
+    ) -> Result<Bytes, Fault> {
         let Some(uri) = uri else {
             if buffer == 0 && self.behind.is_some() {
                 return Ok(Bytes::Behind);
             }
-            return Err(Reason::Malformed("has neither a URI nor bytes behind the JSON".into()).into());
+            return Err(
+                Reason::Malformed("has neither a URI nor bytes behind the JSON".into()).into(),
+            );
         };
         if let Some(data) = uri.strip_prefix("data:") {
             let Some((kind, text)) = data.split_once(',') else {
@@ -195,7 +208,8 @@ impl Buffers {
         self.main.unchanged()?;
         for bytes in self.opened.iter().flatten() {
             if let Bytes::Beside(path, file) = bytes {
-                file.unchanged().map_err(|reason| Fault::from(reason).or_in(path))?;
+                file.unchanged()
+                    .map_err(|reason| Fault::from(reason).or_in(path))?;
             }
         }
         Ok(())
@@ -215,12 +229,18 @@ fn unescaped(uri: &str) -> String {
         let escaped = match (first, after) {
             (b'%', [high, low, ..]) => {
                 let digit = |c: u8| char::from(c).to_digit(16);
-                digit(*high).zip(digit(*low)).map(|(high, low)| (16 * high + low) as u8)
+                digit(*high)
+                    .zip(digit(*low))
+                    .map(|(high, low)| (16 * high + low) as u8)
             }
             _ => None,
         };
         bytes.push(escaped.unwrap_or(*first));
-        rest = if escaped.is_some() { &after[2..] } else { after };
+        rest = if escaped.is_some() {
+            &after[2..]
+        } else {
+            after
+        };
     }
     String::from_utf8_lossy(&bytes).into_owned()
 }

@@ -185,7 +185,11 @@ impl Document {
             // The message may quote a string of the file, however long.
             let mut message: String = error.to_string().chars().take(200).collect();
             if error.is_eof() {
-                message = format!("the JSON is cut short at line {} column {}", error.line(), error.column());
+                message = format!(
+                    "the JSON is cut short at line {} column {}",
+                    error.line(),
+                    error.column()
+                );
                 return Reason::Truncated(message);
             }
             Reason::Malformed(format!("the JSON is not that of a glTF file: {message}"))
@@ -226,7 +230,11 @@ impl Document {
                 }
             }
         }
-        if self.extensions_used.iter().any(|name| name == "EXT_mesh_gpu_instancing") {
+        if self
+            .extensions_used
+            .iter()
+            .any(|name| name == "EXT_mesh_gpu_instancing")
+        {
             return unsupported(
                 "uses EXT_mesh_gpu_instancing, which is not evaluated; export every instance as a node".to_owned(),
             );
@@ -236,7 +244,10 @@ impl Document {
 
     /// The name of an animation, or its number.
     pub(super) fn clip_name(&self, animation: usize) -> String {
-        let name = self.animations.get(animation).and_then(|it| it.name.clone());
+        let name = self
+            .animations
+            .get(animation)
+            .and_then(|it| it.name.clone());
         name.unwrap_or_else(|| animation.to_string())
     }
 }
@@ -245,8 +256,14 @@ pub(super) const QUANTISED: &str = "has quantised positions (KHR_mesh_quantizati
 
 /// Whether an extension is about how surfaces look, not where they are.
 fn is_of_looks(name: &str) -> bool {
-    ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "EXT_lights_"]
-        .iter()
-        .any(|begin| name.starts_with(begin))
+    [
+        "KHR_materials_",
+        "KHR_texture_",
+        "EXT_texture_",
+        "KHR_lights_",
+        "EXT_lights_",
+    ]
+    .iter()
+    .any(|begin| name.starts_with(begin))
         || matches!(name, "KHR_xmp_json_ld" | "KHR_xmp")
 }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::accessor::{Reader, Wanted};
+use super::accessor::{Reader, Wanted, whole};
 use crate::error::{Fault, Place, Reason};
 use crate::memory::{Account, bytes_of};
 
@@ -52,9 +52,15 @@ impl Mesh {
         };
         let weights = std::mem::take(&mut entry.weights);
         let primitives = std::mem::take(&mut entry.primitives);
-        let surfaces = || primitives.iter().filter(|primitive| (TRIANGLES..=FAN).contains(&primitive.mode));
+        let surfaces = || {
+            primitives
+                .iter()
+                .filter(|primitive| (TRIANGLES..=FAN).contains(&primitive.mode))
+        };
         if primitives.iter().any(|primitive| primitive.mode > FAN) {
-            return Err(malformed("a primitive has a mode that the format does not have"));
+            return Err(malformed(
+                "a primitive has a mode that the format does not have",
+            ));
         }
         let mut mesh = Self {
             rest: Vec::new(),
@@ -64,15 +70,20 @@ impl Mesh {
             starts: Vec::new(),
             influences: Vec::new(),
         };
-        let targets = surfaces().next().map_or(0, |primitive| primitive.targets.len());
+        let targets = surfaces()
+            .next()
+            .map_or(0, |primitive| primitive.targets.len());
         if surfaces().any(|primitive| primitive.targets.len() != targets) {
-            return Err(malformed("its primitives have different numbers of morph targets"));
+            return Err(malformed(
+                "its primitives have different numbers of morph targets",
+            ));
         }
         let held = surfaces().all(|primitive| primitive.attributes.contains_key(JOINTS[0]));
         mesh.targets.resize_with(targets, Vec::new);
         let mut triangles = Vec::new();
         for primitive in surfaces() {
-            mesh.read_primitive(reader, primitive, held, &mut triangles).map_err(at)?;
+            mesh.read_primitive(reader, primitive, held, &mut triangles)
+                .map_err(at)?;
         }
         if held && !mesh.rest.is_empty() {
             let end = mesh.influences.len() as u32;
@@ -102,7 +113,9 @@ impl Mesh {
             Ok(account.push(rest, [row[0], row[1], row[2]].map(|x| x as f32), 0)?)
         })?;
         for (target, attributes) in self.targets.iter_mut().zip(&primitive.targets) {
-            let Some(&deltas) = attributes.get("POSITION") else { continue };
+            let Some(&deltas) = attributes.get("POSITION") else {
+                continue;
+            };
             reader.same_count(deltas, count, "morph target")?;
             reader.each_row(deltas, Wanted::DELTAS, |account, vertex, row| {
                 let delta = [row[0], row[1], row[2]].map(|x| x as f32);
@@ -127,22 +140,32 @@ impl Mesh {
         count: u64,
     ) -> Result<(), Fault> {
         if attributes.contains_key("JOINTS_4") {
-            return Err(Reason::Unsupported("more than 16 joints a vertex are not evaluated".into()).into());
+            return Err(Reason::Unsupported(
+                "more than 16 joints a vertex are not evaluated".into(),
+            )
+            .into());
         }
         let mut of_vertices: Vec<[Influence; 4]> = Vec::new();
         let mut sets = 0;
         for (joints, weights) in JOINTS.iter().zip(WEIGHTS) {
-            let Some(&joints) = attributes.get(*joints) else { break };
+            let Some(&joints) = attributes.get(*joints) else {
+                break;
+            };
             let Some(&weights) = attributes.get(weights) else {
-                return Err(Reason::Malformed("a primitive has joints without weights".into()).into());
+                return Err(
+                    Reason::Malformed("a primitive has joints without weights".into()).into(),
+                );
             };
             reader.same_count(joints, count, "joints")?;
             reader.same_count(weights, count, "weights")?;
             let begin = of_vertices.len();
             reader.each_row(joints, Wanted::JOINTS, |account, _, row| {
-                let mut four = [Influence { joint: 0, weight: 0.0 }; 4];
+                let mut four = [Influence {
+                    joint: 0,
+                    weight: 0.0,
+                }; 4];
                 for (influence, joint) in four.iter_mut().zip(row) {
-                    influence.joint = *joint as u16;
+                    influence.joint = whole(*joint) as u16;
                 }
                 Ok(account.push(&mut of_vertices, four, 0)?)
             })?;
@@ -157,7 +180,10 @@ impl Mesh {
         }
         let count = count as usize;
         for vertex in 0..count {
-            let mut all = [Influence { joint: 0, weight: 0.0 }; 16];
+            let mut all = [Influence {
+                joint: 0,
+                weight: 0.0,
+            }; 16];
             let mut some = 0;
             for set in 0..sets {
                 for &influence in of_vertices.get(set * count + vertex).into_iter().flatten() {
@@ -175,8 +201,11 @@ impl Mesh {
                 };
                 some = 1;
             }
-            all[..some].sort_unstable_by_key(|influence| (influence.joint, influence.weight.to_bits()));
-            let start = u32::try_from(self.influences.len()).map_err(|_| Reason::TooMany { what: "joints of vertices" })?;
+            all[..some]
+                .sort_unstable_by_key(|influence| (influence.joint, influence.weight.to_bits()));
+            let start = u32::try_from(self.influences.len()).map_err(|_| Reason::TooMany {
+                what: "joints of vertices",
+            })?;
             reader.account.push(&mut self.starts, start, 0)?;
             for &influence in &all[..some] {
                 reader.account.push(&mut self.influences, influence, 0)?;
@@ -202,7 +231,11 @@ impl Mesh {
             ));
         }
         for vertex in 0..self.rest.len() {
-            if let Some(bad) = self.influences(vertex).iter().find(|it| usize::from(it.joint) >= joints) {
+            if let Some(bad) = self
+                .influences(vertex)
+                .iter()
+                .find(|it| usize::from(it.joint) >= joints)
+            {
                 return Err(Reason::Malformed(format!(
                     "vertex {vertex} is held by joint {}, the skin has {joints}",
                     bad.joint
@@ -222,12 +255,18 @@ impl Mesh {
     pub(super) fn alike(&self, skinned: bool) -> Vec<u64> {
         let bits = |place: [f32; 3]| place.map(|x| (x + 0.0).to_bits());
         let held = |vertex: usize| {
-            let influences = if skinned { self.influences(vertex) } else { &[] };
+            let influences = if skinned {
+                self.influences(vertex)
+            } else {
+                &[]
+            };
             influences.iter().map(|it| (it.joint, it.weight.to_bits()))
         };
         let order = |&a: &u32, &b: &u32| {
             let (a, b) = (a as usize, b as usize);
-            bits(self.rest[a]).cmp(&bits(self.rest[b])).then_with(|| held(a).cmp(held(b)))
+            bits(self.rest[a])
+                .cmp(&bits(self.rest[b]))
+                .then_with(|| held(a).cmp(held(b)))
         };
         let mut vertices: Vec<u32> = (0..self.rest.len() as u32).collect();
         vertices.sort_unstable_by(order);
@@ -242,8 +281,10 @@ impl Mesh {
         drop(vertices);
         // Those of a class that a target moves alike leave it together.
         for target in &self.targets {
-            let mut moved: Vec<(u64, [u32; 3], u32)> =
-                target.iter().map(|&(vertex, delta)| (class[vertex as usize], bits(delta), vertex)).collect();
+            let mut moved: Vec<(u64, [u32; 3], u32)> = target
+                .iter()
+                .map(|&(vertex, delta)| (class[vertex as usize], bits(delta), vertex))
+                .collect();
             moved.sort_unstable();
             for together in moved.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
                 for &(_, _, vertex) in together {
@@ -282,9 +323,15 @@ fn read_triangles(
         if index >= count as f64 {
             let last = count as i64 - 1;
             let (face, index) = (triangles.len() as u64, index as i64);
-            return Err(Reason::VertexIndex { face, index, first: 0, last }.into());
+            return Err(Reason::VertexIndex {
+                face,
+                index,
+                first: 0,
+                last,
+            }
+            .into());
         }
-        let corner = begin + index as u32;
+        let corner = begin + whole(index) as u32;
         match (mode, met) {
             (_, 0) => first = corner,
             (TRIANGLES, _) if met % 3 == 0 => first = corner,
@@ -293,7 +340,11 @@ fn read_triangles(
             _ => {
                 // Every other triangle of a strip is the other way round.
                 let turned = mode == STRIP && met % 2 == 1;
-                let triangle = if turned { [first, corner, last] } else { [first, last, corner] };
+                let triangle = if turned {
+                    [first, corner, last]
+                } else {
+                    [first, last, corner]
+                };
                 account.push(triangles, triangle, 0)?;
                 if mode == STRIP {
                     first = last;
@@ -317,7 +368,11 @@ fn read_triangles(
             }
         }
     }
-    let whole = if mode == TRIANGLES { met % 3 == 0 } else { met != 1 && met != 2 };
+    let whole = if mode == TRIANGLES {
+        met % 3 == 0
+    } else {
+        met != 1 && met != 2
+    };
     if !whole {
         return Err(Reason::Malformed(format!("{met} corners do not make whole triangles")).into());
     }

@@ -71,13 +71,21 @@ pub(crate) fn open_one(found: &Found, options: &OpenOptions) -> Result<GltfBody,
         }
         last => {
             let names = bodies.into_iter().chain(last).map(|(name, _)| name);
-            Err(many_bodies(&names.collect::<Vec<_>>(), &found.path().display().to_string()).into())
+            Err(many_bodies(
+                &names.collect::<Vec<_>>(),
+                &found.path().display().to_string(),
+            )
+            .into())
         }
     }
 }
 
 /// Opens a file: all its bodies, or the one that is called `name`.
-pub(crate) fn open(found: &Found, name: Option<&str>, options: &OpenOptions) -> Result<Bodies, Fault> {
+pub(crate) fn open(
+    found: &Found,
+    name: Option<&str>,
+    options: &OpenOptions,
+) -> Result<Bodies, Fault> {
     let fps = options.fps;
     if !(fps > 0.0 && fps.is_finite()) {
         let reason = format!("{fps} frames a second cannot be evaluated; `--fps` must be above 0");
@@ -102,7 +110,11 @@ pub(crate) fn open(found: &Found, name: Option<&str>, options: &OpenOptions) -> 
     })
 }
 
-fn read(reader: &mut Reader, name: Option<&str>, options: &OpenOptions) -> Result<Vec<(String, GltfBody)>, Fault> {
+fn read(
+    reader: &mut Reader,
+    name: Option<&str>,
+    options: &OpenOptions,
+) -> Result<Vec<(String, GltfBody)>, Fault> {
     let clip = read_clip(reader, options.clip.as_deref())?;
     let scene = Arc::new(Scene::read(reader, clip, options.fps)?);
     let nodes = nodes_with_meshes(reader)?;
@@ -113,20 +125,23 @@ fn read(reader: &mut Reader, name: Option<&str>, options: &OpenOptions) -> Resul
     let mut bodies = Vec::new();
     for at in (0..nodes.len()).filter(wanted) {
         let (node, number) = nodes[at];
-        let mesh = match meshes.get(&number) {
-            Some(mesh) => mesh.clone(),
-            None => {
-                let mesh = Mesh::read(reader, number)?.map(Arc::new);
-                meshes.entry(number).or_insert(mesh).clone()
-            }
+        let mesh = if let Some(mesh) = meshes.get(&number) {
+            mesh.clone()
+        } else {
+            let mesh = Mesh::read(reader, number)?.map(Arc::new);
+            meshes.entry(number).or_insert(mesh).clone()
         };
         let Some(mesh) = mesh else { continue };
         let entry = &reader.document.nodes[node];
         let skin = entry.skin;
-        let weights = entry.weights.clone().unwrap_or_else(|| mesh.weights.clone());
+        let weights = entry
+            .weights
+            .clone()
+            .unwrap_or_else(|| mesh.weights.clone());
         if let Some(skin) = skin {
             let joints = scene.skin_joints(skin);
-            let joints = joints.ok_or_else(|| Reason::Malformed(format!("skin {skin} does not exist")));
+            let joints =
+                joints.ok_or_else(|| Reason::Malformed(format!("skin {skin} does not exist")));
             let checked = joints.and_then(|joints| mesh.check_joints(joints));
             checked.map_err(|reason| reason.at(Place::Part("node", node)))?;
         }
@@ -134,7 +149,11 @@ fn read(reader: &mut Reader, name: Option<&str>, options: &OpenOptions) -> Resul
             Some(skin) => scene.moves_joints(skin, &moved),
             None => moved[node],
         };
-        let morphed = if mesh.targets.is_empty() { 0 } else { size_of::<[f64; 3]>() * mesh.rest.len() };
+        let morphed = if mesh.targets.is_empty() {
+            0
+        } else {
+            size_of::<[f64; 3]>() * mesh.rest.len()
+        };
         bodies.push((
             names[at].clone(),
             GltfBody {
@@ -183,8 +202,12 @@ fn read_clip(reader: &mut Reader, name: Option<&str>) -> Result<Option<Clip>, Fa
     }
     Clip::read(reader, clip, |reader, node| {
         let document = &reader.document;
-        let mesh = document.nodes.get(node).and_then(|node| document.meshes.get(node.mesh?));
-        mesh.and_then(|mesh| mesh.primitives.first()).map_or(0, |primitive| primitive.targets.len())
+        let mesh = document
+            .nodes
+            .get(node)
+            .and_then(|node| document.meshes.get(node.mesh?));
+        mesh.and_then(|mesh| mesh.primitives.first())
+            .map_or(0, |primitive| primitive.targets.len())
     })
     .map(Some)
 }
@@ -213,8 +236,14 @@ fn nodes_with_meshes(reader: &Reader) -> Result<Vec<(usize, usize)>, Fault> {
             open.extend(&entry.children);
         }
     }
-    let shown = document.nodes.iter().enumerate().filter(|&(node, _)| shown[node]);
-    Ok(shown.filter_map(|(node, entry)| Some((node, entry.mesh?))).collect())
+    let shown = document
+        .nodes
+        .iter()
+        .enumerate()
+        .filter(|&(node, _)| shown[node]);
+    Ok(shown
+        .filter_map(|(node, entry)| Some((node, entry.mesh?)))
+        .collect())
 }
 
 /// A name for each body, all different: of its node, or else of its mesh.
@@ -230,10 +259,13 @@ fn names(reader: &Reader, nodes: &[(usize, usize)]) -> Vec<String> {
     for name in &names {
         *times.entry(name).or_default() += 1;
     }
-    let different = names.iter().zip(nodes).map(|(name, (node, _))| match times[&name[..]] {
-        1 => name.clone(),
-        _ => format!("{name} (node {node})"),
-    });
+    let different = names
+        .iter()
+        .zip(nodes)
+        .map(|(name, (node, _))| match times[&name[..]] {
+            1 => name.clone(),
+            _ => format!("{name} (node {node})"),
+        });
     different.collect()
 }
 
@@ -253,10 +285,12 @@ fn listed(names: impl Iterator<Item = String> + Clone) -> String {
     if count == 0 {
         return "none".to_owned();
     }
-    let short = names.take(10).map(|name| name.chars().take(40).collect::<String>());
+    let short = names
+        .take(10)
+        .map(|name| name.chars().take(40).collect::<String>());
     let mut list = short.collect::<Vec<_>>().join(", ");
     if count > 10 {
-        list += &format!(" and {} more", count - 10);
+        list = format!("{list} and {} more", count - 10);
     }
     list
 }
@@ -264,12 +298,18 @@ fn listed(names: impl Iterator<Item = String> + Clone) -> String {
 impl GltfBody {
     fn read_frame(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
         let number = self.next;
-        let place = if self.moves { Place::Frame(number as u64) } else { Place::Part("node", self.node) };
+        let place = if self.moves {
+            Place::Frame(number as u64)
+        } else {
+            Place::Part("node", self.node)
+        };
         let at = |reason: Reason| reason.at(place.clone());
         let triangles = self.triangles.take();
         let announced = Announced {
             vertices: self.mesh.rest.len() as u64,
-            faces: triangles.as_ref().map_or(0, |triangles| triangles.len() as u64),
+            faces: triangles
+                .as_ref()
+                .map_or(0, |triangles| triangles.len() as u64),
         };
         frame.begin(Precision::F32, announced).map_err(at)?;
         match triangles {
@@ -281,20 +321,32 @@ impl GltfBody {
             None => frame.same_faces(),
         }
         let mut morphed = std::mem::take(&mut self.morphed);
-        self.scene.with_pose(number, |pose| self.place(pose, &mut morphed, frame)).map_err(at)?;
+        self.scene
+            .with_pose(number, |pose| self.place(pose, &mut morphed, frame))
+            .map_err(at)?;
         self.morphed = morphed;
         self.next += 1;
         frame.complete(0).map_err(|fault| fault.or_at(place))
     }
 
     /// The positions of a pose.
-    fn place(&self, pose: &Pose, morphed: &mut Vec<[f64; 3]>, frame: &mut Frame) -> Result<(), Reason> {
+    fn place(
+        &self,
+        pose: &Pose,
+        morphed: &mut Vec<[f64; 3]>,
+        frame: &mut Frame,
+    ) -> Result<(), Reason> {
         let Self { mesh, .. } = self;
         if !mesh.targets.is_empty() {
             morphed.clear();
             morphed.extend(mesh.rest.iter().map(|rest| rest.map(f64::from)));
             let weights = pose.weights.get(&self.node).unwrap_or(&self.weights);
-            for (target, &weight) in mesh.targets.iter().zip(weights).filter(|&(_, weight)| *weight != 0.0) {
+            for (target, &weight) in mesh
+                .targets
+                .iter()
+                .zip(weights)
+                .filter(|&(_, weight)| *weight != 0.0)
+            {
                 for &(vertex, delta) in target {
                     for (x, d) in morphed[vertex as usize].iter_mut().zip(delta) {
                         *x += weight * f64::from(d);
@@ -305,7 +357,10 @@ impl GltfBody {
         let joints = self.skin.and_then(|skin| pose.skins.get(skin));
         let node = &pose.nodes[self.node];
         for (vertex, rest) in mesh.rest.iter().enumerate() {
-            let shape = morphed.get(vertex).copied().unwrap_or_else(|| rest.map(f64::from));
+            let shape = morphed
+                .get(vertex)
+                .copied()
+                .unwrap_or_else(|| rest.map(f64::from));
             let position = match joints {
                 None => node.apply(shape),
                 Some(joints) => {
@@ -313,7 +368,9 @@ impl GltfBody {
                     for influence in mesh.influences(vertex) {
                         let weight = f64::from(influence.weight);
                         let moved = joints[usize::from(influence.joint)].apply(shape);
-                        sum.iter_mut().zip(moved).for_each(|(sum, x)| *sum += weight * x);
+                        sum.iter_mut()
+                            .zip(moved)
+                            .for_each(|(sum, x)| *sum += weight * x);
                         whole += weight;
                     }
                     sum.map(|x| x / whole)

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use super::accessor::{Reader, Wanted};
+use super::accessor::{Reader, Wanted, whole};
 use super::affine::{Affine, Trs};
 use super::animation::{Clip, Path};
 use super::document::Node;
@@ -111,7 +111,11 @@ impl Scene {
                 Ok(account.push(&mut inverse_bind, Affine::from_columns(&columns), 0)?)
             })?;
             if inverse_bind.len() < joints.len() {
-                let reason = format!("{} matrices for {} joints", inverse_bind.len(), joints.len());
+                let reason = format!(
+                    "{} matrices for {} joints",
+                    inverse_bind.len(),
+                    joints.len()
+                );
                 return Err(Reason::Malformed(reason).into());
             }
         }
@@ -211,7 +215,9 @@ impl Scene {
             maps.clear();
             maps.extend(skin.joints.iter().enumerate().map(|(at, &joint)| {
                 let joint = &pose.nodes[joint as usize];
-                skin.inverse_bind.get(at).map_or(*joint, |inverse| joint.after(inverse))
+                skin.inverse_bind
+                    .get(at)
+                    .map_or(*joint, |inverse| joint.after(inverse))
             }));
         }
     }
@@ -232,15 +238,24 @@ fn tree(nodes: &[Node]) -> Result<(Vec<Option<u32>>, Vec<u32>), Fault> {
         for &child in &node.children {
             match parents.get_mut(child) {
                 None => return Err(at(number, format!("its child {child} does not exist"))),
-                Some(Some(_)) => return Err(at(child, "is the child of more than one node".into())),
+                Some(Some(_)) => {
+                    return Err(at(child, "is the child of more than one node".into()));
+                }
                 Some(parent) => *parent = Some(number as u32),
             }
         }
     }
-    let mut order: Vec<u32> = (0..nodes.len() as u32).filter(|&node| parents[node as usize].is_none()).collect();
+    let mut order: Vec<u32> = (0..nodes.len() as u32)
+        .filter(|&node| parents[node as usize].is_none())
+        .collect();
     let mut next = 0;
     while let Some(&node) = order.get(next) {
-        order.extend(nodes[node as usize].children.iter().map(|&child| child as u32));
+        order.extend(
+            nodes[node as usize]
+                .children
+                .iter()
+                .map(|&child| child as u32),
+        );
         next += 1;
     }
     if order.len() < nodes.len() {
@@ -267,7 +282,9 @@ fn local(node: &Node) -> Result<Local, Reason> {
         trs.scale = **scale;
     }
     if trs.rotation == [0.0; 4] {
-        return Err(Reason::Malformed("its rotation is zero, which is none".into()));
+        return Err(Reason::Malformed(
+            "its rotation is zero, which is none".into(),
+        ));
     }
     Ok(Local::Trs(trs))
 }
@@ -281,7 +298,7 @@ fn steps(end: f64, fps: f64) -> Result<usize, Reason> {
             "its clip lasts {end:e} s, more than {MOST_STEPS} frames at {fps} a second; ask for fewer with `--fps`"
         )));
     }
-    Ok(steps as usize)
+    Ok(whole(steps) as usize)
 }
 
 #[cfg(test)]
@@ -297,7 +314,7 @@ mod tests {
             (0.99, 30.0, 30),
             // Seventeen frames of a 24th, in 32 bits.
             (f64::from(17.0_f32 / 24.0), 24.0, 17),
-            (f64::from(1.1583333_f32), 30.0, 35),
+            (f64::from(1.158_333_3_f32), 30.0, 35),
             (1e-9, 30.0, 0),
             (2.0, 0.25, 1),
         ] {
@@ -311,7 +328,11 @@ mod tests {
     fn no_tree_is_too_deep_and_none_goes_round() {
         let chain = |length: usize, last: Option<usize>| -> Vec<Node> {
             let node = |number| Node {
-                children: if number + 1 < length { vec![number + 1] } else { last.into_iter().collect() },
+                children: if number + 1 < length {
+                    vec![number + 1]
+                } else {
+                    last.into_iter().collect()
+                },
                 ..Node::default()
             };
             (0..length).map(node).collect()

@@ -57,17 +57,20 @@ struct Frame {
     complete: bool,
 }
 
-/// Checks files as the program `pliant check` does: each path is a body, a mesh (.obj, .ply), a sequence (.npz), or a pattern
-/// such as "cloth_*.obj" whose files are its frames. Returns an iterator of frames, each read and checked when it is asked
-/// for.
+/// Checks files as the program `pliant check` does: each path is a body, a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with
+/// its positions ("mesh.obj+walk.pc2", .mdd), or a pattern such as "cloth_*.obj" whose files are its frames; of a glTF file (.glb,
+/// .gltf) each body, or one ("scene.glb#arm"). Returns an iterator of frames, each read and checked when it is asked for.
 ///
 ///   itself    check each body against itself too; one body alone always is
 ///   first     stop at the first pair of each frame
 ///   weld      weld vertices where boundary edges coincide in frame 0; else seams are intersections
-///   frames    a range: only these frames; those before are read, not checked
+///   frames    a range: only these frames; others are passed over, and not read where the format allows it
+///   clip      the animation of glTF files, by name; the first if none is named
+///   fps       frames a second at which animations of glTF files are evaluated
 ///   threads   how many share the work of a frame; no number changes an answer
 #[pyfunction]
-#[pyo3(signature = (*paths, itself=false, first=false, weld=true, frames=None, threads=1))]
+#[expect(clippy::too_many_arguments, reason = "in Python they have names")]
+#[pyo3(signature = (*paths, itself=false, first=false, weld=true, frames=None, clip=None, fps=30.0, threads=1))]
 pub(crate) fn check(
     py: Python<'_>,
     paths: Vec<PathBuf>,
@@ -75,6 +78,8 @@ pub(crate) fn check(
     first: bool,
     weld: bool,
     frames: Option<&Bound<'_, PyRange>>,
+    clip: Option<String>,
+    fps: f64,
     threads: i64,
 ) -> Result<Check, Refused> {
     let options = with_threads(threads)?;
@@ -98,12 +103,19 @@ pub(crate) fn check(
     }
     let reading = OpenOptions {
         weld,
+        clip,
+        fps,
         ..OpenOptions::default()
     };
     let bodies = py.detach(|| {
-        let opened = paths.iter().map(|path| pliant_io::open(path, &reading));
+        let opened = paths.iter().map(|path| pliant_io::open_all(path, &reading));
         opened.collect::<Result<Vec<_>, _>>()
     })?;
+    let bodies: Vec<Body> = bodies.into_iter().flatten().collect();
+    if reading.clip.is_some() && bodies.iter().all(|body| body.clip().is_none()) {
+        let why = "no body has an animation, so clip has no meaning here";
+        return Err(Refused::new("BadOption", why));
+    }
     let frame_count = common_frame_count(&bodies)?;
     let wanted = Wanted::of(frames, frame_count)?;
 
@@ -155,31 +167,29 @@ impl Check {
 }
 
 impl Running {
-    /// Reads up to the next frame wanted, and checks it.
+    /// Reads the next frame wanted, and checks it.
     fn next_wanted(&mut self) -> Result<Option<Frame>, Refused> {
         if self.wanted.left == 0 {
             return Ok(None);
         }
-        loop {
-            let number = self.next;
-            let wanted = number == self.wanted.start;
-            self.read(number, wanted)?;
-            self.next += 1;
-            if wanted {
-                self.wanted.start += self.wanted.step;
-                self.wanted.left -= 1;
-                return self.find_pairs(number).map(Some);
-            }
-        }
+        let number = self.wanted.start;
+        self.read(number)?;
+        self.next = number + 1;
+        self.wanted.start += self.wanted.step;
+        self.wanted.left -= 1;
+        self.find_pairs(number).map(Some)
     }
 
-    /// Reads a frame of every body that moves, and gives it to the world if it is wanted there. Frame 0 makes the bodies.
-    fn read(&mut self, frame: usize, wanted: bool) -> Result<(), Refused> {
+    /// Reads a frame of every body that moves, passing over those before, and gives it to the world. The first makes the bodies.
+    fn read(&mut self, frame: usize) -> Result<(), Refused> {
         for place in 0..self.bodies.len() {
             let body = &mut self.bodies[place];
             let makes = self.ids.len() == place;
             if !makes && body.frame_count() == 1 {
                 continue;
+            }
+            if body.frame_count() > 1 {
+                body.skip(frame - self.next);
             }
             let name = body.name().to_owned();
             let triangles = if makes {
@@ -194,10 +204,8 @@ impl Running {
                 self.state
                     .add(&triangles, positions)
                     .map(|id| self.ids.push(id))
-            } else if wanted {
-                self.state.set_positions(self.ids[place], positions)
             } else {
-                Ok(())
+                self.state.set_positions(self.ids[place], positions)
             };
             taken.map_err(|refused| {
                 refused

@@ -99,6 +99,8 @@ def check(
     first: bool = False,
     weld: bool = True,
     frames: range | None = None,
+    clip: str | None = None,
+    fps: float = 30.0,
     threads: int = 1,
 ) -> Check: ...
 @overload

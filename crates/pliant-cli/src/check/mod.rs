@@ -56,7 +56,7 @@ pub(crate) struct Arguments {
 
 const EXIT_CODES: &str = "\
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed.";
+Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed, and what a glTF file says of shape and motion.";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {

@@ -7,6 +7,8 @@ mod common;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use common::{Folder, all_frames};
 use pliant_io::{Body, OpenOptions, Positions, Precision, open, open_all};
 use serde_json::{Value, json};
@@ -46,7 +48,7 @@ fn compare(file: &Path, record: &Path) -> usize {
             .iter_mut()
             .map(|body| all_frames(body).unwrap())
             .collect();
-        let size = ours.as_flattened_max();
+        let size = size_of(&ours);
         let mut moves = 0;
         for (number, frame) in expected.iter().enumerate() {
             let theirs: BTreeMap<u32, Frame> =
@@ -78,16 +80,10 @@ fn compare(file: &Path, record: &Path) -> usize {
     compared
 }
 
-trait Size {
-    /// The largest coordinate of anything.
-    fn as_flattened_max(&self) -> f64;
-}
-
-impl Size for Vec<Vec<Frame>> {
-    fn as_flattened_max(&self) -> f64 {
-        let all = self.iter().flatten().flatten().flatten();
-        all.fold(0.0, |size: f64, x| size.max(x.abs()))
-    }
+/// The largest coordinate of anything.
+fn size_of(bodies: &[Vec<Frame>]) -> f64 {
+    let all = bodies.iter().flatten().flatten().flatten();
+    all.fold(0.0, |size: f64, x| size.max(x.abs()))
 }
 
 #[test]
@@ -256,28 +252,8 @@ fn triangle() -> Value {
             {"bufferView": 0, "byteOffset": 104, "componentType": 5126, "count": 2, "type": "VEC3"}
         ],
         "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
-        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", base64_of(&bytes))}]
+        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
     })
-}
-
-fn base64_of(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::new();
-    for three in bytes.chunks(3) {
-        let all = three
-            .iter()
-            .fold(0, |all, &byte| all << 8 | u32::from(byte))
-            << (8 * (3 - three.len()));
-        for digit in 0..4 {
-            let bits = (all >> (18 - 6 * digit)) & 63;
-            text.push(if digit <= three.len() {
-                DIGITS[bits as usize].into()
-            } else {
-                '='
-            });
-        }
-    }
-    text
 }
 
 /// The file with the value at `pointer` replaced.
@@ -640,7 +616,7 @@ fn seams_are_welded_where_everything_moves_alike() {
                 "attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}, "targets": [{"POSITION": 3}]}]}],
             "accessors": [accessor(0, 5126, "VEC3"), accessor(72, 5121, "VEC4"), accessor(96, 5126, "VEC4"), accessor(192, 5126, "VEC3")],
             "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
-            "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", base64_of(&bytes))}]
+            "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
         }).to_string()
     };
     let welded = |text: String| {

@@ -655,14 +655,16 @@ fn small_files_of_large_bodies_are_refused() {
         };
         open_all(&folder.argument("many.gltf"), &options)
     };
-    // Ten thousand bodies of one mesh.
-    file["nodes"] = (0..10_000).map(|_| json!({"mesh": 0})).collect();
-    file["scenes"][0]["nodes"] = (0..10_000).collect();
+    // A thousand bodies of one mesh of a thousand triangles: the mesh is held once, 48 kB a body.
+    file["nodes"] = (0..1000).map(|_| json!({"mesh": 0})).collect();
+    file["scenes"][0]["nodes"] = (0..1000).collect();
     file["skins"] = json!([]);
     file["animations"] = json!([]);
+    let primitive = json!({"attributes": {"POSITION": 0}});
+    file["meshes"][0]["primitives"] = (0..1000).map(|_| primitive.clone()).collect();
     let text = file.to_string();
-    assert_eq!(limited(&text, 64).unwrap().len(), 10_000);
-    let error = limited(&text, 4).unwrap_err().to_string();
+    assert_eq!(limited(&text, 128).unwrap().len(), 1000);
+    let error = limited(&text, 16).unwrap_err().to_string();
     assert!(error.contains("--max-memory"), "{error}");
     // A mesh of as many primitives, all of the same bytes.
     let mut file = triangle();

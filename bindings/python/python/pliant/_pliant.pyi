@@ -104,6 +104,8 @@ def check(
     ignore: Sequence[tuple[_Name, _Name]] | None = None,
     baseline: int | None = None,
     frames: range | None = None,
+    clip: str | None = None,
+    fps: float = 30.0,
     threads: int = 1,
 ) -> Check: ...
 @overload

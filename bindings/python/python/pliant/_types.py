@@ -99,7 +99,8 @@ class Body:
     """A body that was read from files, or a connected piece of one."""
 
     name: str
-    """The path as given, and where it is split, # and the number of the piece."""
+    """The path as given; of a glTF file of several bodies, # and the name of the body; where it is split, # and the number of the
+    piece."""
     vertices: int
     triangles: int
     faces: NDArray[np.uint32] | None
@@ -107,7 +108,7 @@ class Body:
     welded: int
     """Vertices welded away in its file."""
     source: int
-    """Which path it is of, counted from 0."""
+    """Which path it is of, counted from 0; each body of a glTF file counts."""
     first_triangle: int
     """Its lowest triangle, as numbered in the file."""
 

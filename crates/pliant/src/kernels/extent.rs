@@ -122,12 +122,11 @@ pub(crate) fn of_block<I: Simd, S: Scalar>(
 ) -> Extent<I> {
     // What is missing to eight is the last again: nothing to a union.
     let padded;
-    let eight = match triangles.try_into() {
-        Ok(eight) => eight,
-        Err(_) => {
-            padded = padded_to_eight(triangles);
-            &padded
-        }
+    let eight = if let Ok(eight) = triangles.try_into() {
+        eight
+    } else {
+        padded = padded_to_eight(triangles);
+        &padded
     };
     let mut boxes = [nothing(i); 8];
     for lane in 0..8 {

@@ -141,7 +141,7 @@ impl Check {
         fields.set_item("frame", frame.number)?;
         fields.set_item("count", frame.pairs.len())?;
         fields.set_item("complete", frame.complete)?;
-        fields.set_item("pairs", arrays::pairs(py, frame.pairs)?)?;
+        fields.set_item("pairs", arrays::rows_of(py, frame.pairs)?)?;
         Ok(Some(named_tuple(py, "Frame", &fields)?))
     }
 

@@ -5,6 +5,7 @@
 
 mod bench;
 mod check;
+mod report;
 mod run;
 mod table;
 mod tree_options;

@@ -6,12 +6,14 @@ mod sequence;
 mod size;
 
 use crate::Outcome;
+use crate::report::{PictureOptions, Watcher, fact};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use output::Output;
 use pairs::Pairs;
 use pliant::{Options, Scalar, World};
-use pliant_io::{OpenOptions, Precision};
+use pliant_io::{Body, OpenOptions, Precision};
+use pliant_report::BodyLabel;
 use sequence::Sequence;
 use std::num::NonZeroUsize;
 
@@ -46,6 +48,8 @@ pub(crate) struct Arguments {
     /// A table by frame, or one JSON object
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
+    #[command(flatten)]
+    pictures: PictureOptions,
 }
 
 const EXIT_CODES: &str = "\
@@ -83,11 +87,13 @@ fn check_frames<S: Scalar + sequence::FromFile>(
     arguments: &Arguments,
     mut sequence: Sequence,
 ) -> anyhow::Result<Outcome> {
+    let numbers: Vec<u32> = (0..sequence.frame_count() as u32).collect();
+    let mut watcher = Watcher::new(&arguments.pictures, labels(&sequence), "frame", &numbers)?;
     let mut output = Output::begin(arguments, &sequence)?;
     let mut options = Options::default();
     options.threads = arguments.threads;
     let mut world = World::<S>::with_options(options);
-    let listed = arguments.format == Format::Json && !arguments.count;
+    let listed = watcher.is_looking() || (arguments.format == Format::Json && !arguments.count);
     let mut pairs = Pairs::new(listed, arguments.max_memory);
     let mut buffer = Vec::new();
     let checked = (0..sequence.frame_count()).try_for_each(|frame| {
@@ -95,7 +101,44 @@ fn check_frames<S: Scalar + sequence::FromFile>(
         pairs
             .find(arguments, &mut world)
             .with_context(|| format!("frame {frame}"))?;
+        if watcher.looks_at(frame as u32) {
+            watcher.frame(frame as u32, &world, &pairs.list)?;
+        }
         output.frame(frame, &pairs)
     });
-    output.end(checked)
+    let written = watcher.finish("check", "frame", |_, play| {
+        let precision = match sequence.precision() {
+            Precision::F32 => "f32",
+            Precision::F64 => "f64",
+        };
+        play.facts.extend([
+            fact("query", asked(arguments, &sequence)),
+            fact("precision", precision),
+        ]);
+        if let Err(error) = &checked {
+            play.notes
+                .push(format!("The check ended early: {error:#}."));
+        }
+    });
+    let outcome = output.end(checked)?;
+    written?;
+    Ok(outcome)
+}
+
+/// What the page calls the bodies.
+fn labels(sequence: &Sequence) -> Vec<BodyLabel> {
+    let label = |body: &Body| BodyLabel {
+        name: body.name().to_owned(),
+        faces: body.faces().map(<[u32]>::to_vec),
+    };
+    sequence.bodies().iter().map(label).collect()
+}
+
+fn asked(arguments: &Arguments, sequence: &Sequence) -> &'static str {
+    match (arguments.first, sequence.bodies().len(), arguments.itself) {
+        (true, ..) => "the first pair of each frame",
+        (_, 1, _) => "the body with itself",
+        (_, _, true) => "the bodies with each other, and each with itself",
+        _ => "the bodies with each other",
+    }
 }

@@ -1,0 +1,210 @@
+//! Watches a world frame by frame and keeps what a page can hold.
+//!
+//! However many frames come, and however many triangles meet, what is kept stays within [`BUDGET`]: when it is full, every
+//! second frame that is kept is let go, again and again. The first frame with a contact, the one with the most pairs and the
+//! last are kept whatever happens. Numbers (pairs in each frame) are kept for all frames.
+
+use crate::frames::{BodyRecord, Frame, Hits, Motion, Shape};
+use pliant::{BodyId, Scalar, World};
+
+/// The most bytes of frames that go into a page, before they are compressed: positions rounded to two bytes, pairs as eight.
+/// In memory a frame takes twice as much.
+const BUDGET: usize = 30 << 20;
+
+/// Above this number of pairs in a frame, only which triangles are red is kept, not with whom each meets.
+const MOST_PAIRS: usize = 100_000;
+
+/// Levels of a tree that can be shown.
+const MOST_LEVELS: u32 = 16;
+
+/// A body, drawn and named.
+#[derive(Clone, Debug, Default)]
+pub struct BodyLabel {
+    /// What people call it; its file, say. Anything may be in it.
+    pub name: String,
+    /// For each triangle the polygon of the file that it is a part of, where they differ.
+    pub faces: Option<Vec<u32>>,
+}
+
+/// Keeps the frames of one motion for a report.
+pub struct Recorder {
+    labels: Vec<BodyLabel>,
+    /// Bodies, vertices and triangles in all.
+    sizes: [usize; 3],
+    bodies: Vec<BodyRecord>,
+    /// Bytes of a page that the bodies take, whatever the frames are.
+    fixed: usize,
+    budget: usize,
+    numbers: Vec<u32>,
+    pairs: Vec<u64>,
+    kept: Vec<Frame>,
+    /// The sum of the costs of `kept`.
+    cost: usize,
+    /// Frames whose place is a multiple of this are kept.
+    stride: usize,
+    first_contact: Option<Frame>,
+    worst: Option<Frame>,
+    last: Option<Frame>,
+    too_large: bool,
+}
+
+impl Recorder {
+    /// Labels for the bodies, in their order; bodies without one have numbers only.
+    pub fn new(labels: Vec<BodyLabel>) -> Self {
+        Self::within(labels, BUDGET)
+    }
+
+    /// The same for one of several motions on a page, which share what a page can hold; at least a few frames of bodies of
+    /// 20,000 triangles each find room.
+    pub fn one_of(labels: Vec<BodyLabel>, motions: usize) -> Self {
+        Self::within(labels, (BUDGET / motions.max(1)).max(BUDGET / 8))
+    }
+
+    fn within(labels: Vec<BodyLabel>, budget: usize) -> Self {
+        Self {
+            labels,
+            sizes: [0; 3],
+            bodies: Vec::new(),
+            fixed: 0,
+            budget,
+            numbers: Vec::new(),
+            pairs: Vec::new(),
+            kept: Vec::new(),
+            cost: 0,
+            stride: 1,
+            first_contact: None,
+            worst: None,
+            last: None,
+            too_large: false,
+        }
+    }
+
+    /// Takes a frame: its number, the world in it, and the pairs found: body, triangle, body, triangle. The bodies are those of
+    /// the first frame. The world's boxes are as the queries left them.
+    pub fn frame<S: Scalar>(&mut self, number: u32, world: &World<S>, pairs: &[[u32; 4]]) {
+        let place = self.numbers.len();
+        self.numbers.push(number);
+        self.pairs.push(pairs.len() as u64);
+        if place == 0 {
+            self.meet_bodies(world);
+        }
+        if self.too_large {
+            return;
+        }
+        let frame = self.look(place, world, pairs);
+        let count = pairs.len();
+        if count > 0 && self.first_contact.is_none() {
+            self.first_contact = Some(frame.clone());
+        }
+        let most = |worst: &Frame| self.pairs[worst.place];
+        if count as u64 > self.worst.as_ref().map_or(0, most) {
+            self.worst = Some(frame.clone());
+        }
+        if place.is_multiple_of(self.stride) {
+            self.cost += frame.cost();
+            self.kept.push(frame.clone());
+        }
+        self.last = Some(frame);
+        while self.cost + self.fixed > self.budget && self.kept.len() > 1 {
+            self.stride *= 2;
+            let stride = self.stride;
+            self.kept.retain(|frame| frame.place.is_multiple_of(stride));
+            self.cost = self.kept.iter().map(Frame::cost).sum();
+        }
+    }
+
+    /// What was kept.
+    pub fn finish(self) -> Motion {
+        let mut frames = self.kept;
+        frames.extend(
+            [self.first_contact, self.worst, self.last]
+                .into_iter()
+                .flatten(),
+        );
+        frames.sort_by_key(|frame| frame.place);
+        frames.dedup_by_key(|frame| frame.place);
+        Motion {
+            sizes: self.sizes,
+            bodies: self.bodies,
+            numbers: self.numbers,
+            pairs: self.pairs,
+            frames,
+            too_large: self.too_large,
+        }
+    }
+
+    /// The bodies, their triangles and trees.
+    fn meet_bodies<S: Scalar>(&mut self, world: &World<S>) {
+        let ids: Vec<BodyId> = world.bodies().collect();
+        let sizes = ids
+            .iter()
+            .filter_map(|&id| Some((world.vertex_count(id).ok()?, world.triangle_count(id).ok()?)));
+        let (vertices, triangles) =
+            sizes.fold((0, 0), |sum, size| (sum.0 + size.0, sum.1 + size.1));
+        self.sizes = [ids.len(), vertices, triangles];
+        // Corners and the order of the tree; its levels together are about as long again.
+        self.fixed = triangles * 20;
+        // The frames that are kept whatever happens must fit.
+        self.too_large = self.fixed + 4 * 6 * vertices > self.budget;
+        if self.too_large {
+            return;
+        }
+        let mut labels = std::mem::take(&mut self.labels).into_iter();
+        for (number, id) in ids.into_iter().enumerate() {
+            let label = labels.next().unwrap_or_else(|| BodyLabel {
+                name: format!("body {number}"),
+                faces: None,
+            });
+            let triangles = world.triangles(id).unwrap_or_default();
+            let depth = world.tree_shape(id).map_or(0, |shape| shape.depth);
+            let levels: Vec<Vec<u32>> = (0..=depth.min(MOST_LEVELS - 1))
+                .map(|level| world.tree_parts(id, level).unwrap_or_default())
+                .collect();
+            self.bodies
+                .push(BodyRecord::new(id, label, triangles, &levels));
+        }
+    }
+
+    fn look<S: Scalar>(&self, place: usize, world: &World<S>, pairs: &[[u32; 4]]) -> Frame {
+        let mut firsts = Vec::with_capacity(self.bodies.len());
+        let mut first = 0;
+        for body in &self.bodies {
+            firsts.push(first);
+            first += body.triangles.len() as u32;
+        }
+        let global = |body: u32, triangle: u32| {
+            let place = self.bodies.iter().position(|known| known.id.0 == body);
+            firsts[place.unwrap_or_default()] + triangle
+        };
+        let mut rows: Vec<[u32; 2]> = pairs
+            .iter()
+            .map(|&[body_a, a, body_b, b]| [global(body_a, a), global(body_b, b)])
+            .collect();
+        rows.sort_unstable();
+        let hits = if rows.len() <= MOST_PAIRS {
+            Hits::Pairs(rows)
+        } else {
+            let mut red = rows.into_flattened();
+            red.sort_unstable();
+            red.dedup();
+            Hits::Triangles(red)
+        };
+        let mut made = Vec::new();
+        for body in &self.bodies {
+            for level in 0..body.starts.len() as u32 {
+                let boxes = world.tree_boxes(body.id, level).unwrap_or_default();
+                made.extend(boxes.iter().map(|node| node.made));
+            }
+        }
+        Frame {
+            place,
+            shapes: self
+                .bodies
+                .iter()
+                .map(|body| Shape::of(world.positions(body.id).unwrap_or_default()))
+                .collect(),
+            hits,
+            made,
+        }
+    }
+}

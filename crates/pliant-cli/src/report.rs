@@ -65,30 +65,27 @@ pub(crate) struct Watcher {
 }
 
 impl Watcher {
-    /// `numbers`: the frames there will be.
+    /// `numbers`: the frames there will be. `labels` are asked for if there is to be a page.
     pub(crate) fn new(
         options: &PictureOptions,
-        labels: Vec<BodyLabel>,
+        labels: impl FnOnce() -> Vec<BodyLabel>,
         along: &str,
-        numbers: &[u32],
+        numbers: impl Iterator<Item = u32> + Clone,
     ) -> anyhow::Result<Self> {
         if let Some(frame) = options.frame
-            && numbers.binary_search(&frame).is_err()
+            && numbers.clone().all(|number| number != frame)
         {
-            let there_are = match numbers {
-                [] => "none".to_owned(),
-                [only] => format!("{only} alone"),
-                [first, second, ..] => {
-                    format!("{first}, {second}, ... {}", numbers[numbers.len() - 1])
-                }
-            };
-            bail!("--frame {frame}: there is no such {along}; there are {there_are}");
+            let first = numbers.clone().next().unwrap_or_default();
+            let last = numbers.last().unwrap_or_default();
+            bail!(
+                "--frame {frame}: no such {along} is looked at; the first is {first}, the last {last}"
+            );
         }
         for path in options.report.iter().chain(&options.png) {
             prepare(path)?;
         }
         Ok(Self {
-            recorder: options.report.is_some().then(|| Recorder::new(labels)),
+            recorder: options.report.is_some().then(|| Recorder::new(labels())),
             options: options.clone(),
         })
     }
@@ -170,7 +167,10 @@ fn found(motion: &Motion, along: &str) -> String {
     let all = motion.pairs().len();
     match (motion.first_contact(), motion.worst()) {
         (Some(_), Some((worst, most))) if all == 1 => {
-            format!("{} in {along} {worst}.", counted(most, "intersecting pair", "intersecting pairs"))
+            format!(
+                "{} in {along} {worst}.",
+                counted(most, "intersecting pair", "intersecting pairs")
+            )
         }
         (Some(first), Some((worst, most))) => {
             let hit = grouped(motion.frames_with_hits() as u64);

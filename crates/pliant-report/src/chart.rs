@@ -36,7 +36,8 @@ const LEFT: f64 = 64.0;
 const TOP: f64 = 40.0;
 const RIGHT: f64 = 20.0;
 const BOTTOM: f64 = 48.0;
-/// A line of the legend.
+/// From there down, the legend; the height of a line of it.
+const LEGEND: f64 = HEIGHT + 10.0;
 const LEGEND_LINE: f64 = 18.0;
 
 impl Chart {
@@ -65,7 +66,7 @@ impl Chart {
     /// A picture for a paper: black on nothing, with a legend below.
     pub fn svg(&self) -> String {
         let rows = self.series.len().div_ceil(2) as f64;
-        let height = HEIGHT + rows * LEGEND_LINE;
+        let height = LEGEND + rows * LEGEND_LINE;
         let axes = Axes::of(self);
         let mut svg = format!(
             r#"<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="black">
@@ -92,7 +93,7 @@ impl Chart {
                 points.join(" ")
             );
             let x = LEFT + (number % 2) as f64 * (WIDTH - LEFT - RIGHT) / 2.0;
-            let y = HEIGHT + (number / 2) as f64 * LEGEND_LINE;
+            let y = LEGEND + (number / 2) as f64 * LEGEND_LINE;
             let _ = writeln!(
                 svg,
                 r#"<line x1="{x}" y1="{0}" x2="{1}" y2="{0}" stroke="{colour}" stroke-width="2"{dashes}/><text x="{2}" y="{y}">{3}</text>"#,

@@ -208,3 +208,65 @@ impl Recorder {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One triangle that moves, in frames of 18 bytes and 8 for each pair; the body alone takes 20.
+    fn record(budget: usize, counts: &[usize]) -> Motion {
+        let mut world = World::<f32>::new();
+        let body = world
+            .add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+            .unwrap();
+        let mut recorder = Recorder::within(Vec::new(), budget);
+        for (number, &count) in counts.iter().enumerate() {
+            let x = number as f32;
+            let shape = [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]];
+            world.set_positions(body, &shape).unwrap();
+            recorder.frame(number as u32, &world, &vec![[0, 0, 0, 0]; count]);
+            assert!(recorder.cost + recorder.fixed <= budget || recorder.kept.len() == 1);
+            let cost: usize = recorder.kept.iter().map(Frame::cost).sum();
+            assert_eq!(recorder.cost, cost);
+        }
+        recorder.finish()
+    }
+
+    #[test]
+    fn frames_are_thinned_evenly_and_those_that_matter_stay() {
+        let mut counts = [0; 100];
+        (counts[37], counts[38], counts[71]) = (1, 0, 2);
+        let all: Vec<u32> = record(20 + 18 * 100 + 24, &counts).shown().collect();
+        assert_eq!(all.len(), 100);
+        let motion = record(20 + 18 * 30, &counts);
+        let shown: Vec<u32> = motion.shown().collect();
+        let expected = (0..100).step_by(4).chain([37, 71, 99]);
+        let mut expected: Vec<u32> = expected.collect();
+        expected.sort_unstable();
+        assert_eq!(shown, expected);
+        // Figures are of all frames.
+        assert_eq!(motion.pairs().len(), 100);
+        assert_eq!(
+            (motion.first_contact(), motion.worst()),
+            (Some(37), Some((71, 2)))
+        );
+    }
+
+    #[test]
+    fn bodies_that_no_page_can_hold_are_not_drawn() {
+        let motion = record(20 + 4 * 18 - 1, &[0, 1, 0]);
+        assert!(motion.too_large && motion.shown().len() == 0);
+        assert_eq!(
+            (motion.first_contact(), motion.sizes()),
+            (Some(1), [1, 3, 1])
+        );
+        assert!(!record(20 + 4 * 18, &[0, 1, 0]).too_large);
+    }
+
+    #[test]
+    fn of_very_many_pairs_only_the_triangles_are_kept() {
+        let motion = record(BUDGET, &[MOST_PAIRS, MOST_PAIRS + 1]);
+        assert!(matches!(&motion.frames[0].hits, Hits::Pairs(pairs) if pairs.len() == MOST_PAIRS));
+        assert!(matches!(&motion.frames[1].hits, Hits::Triangles(red) if *red == [0]));
+    }
+}

@@ -87,8 +87,8 @@ fn check_frames<S: Scalar + sequence::FromFile>(
     arguments: &Arguments,
     mut sequence: Sequence,
 ) -> anyhow::Result<Outcome> {
-    let numbers: Vec<u32> = (0..sequence.frame_count() as u32).collect();
-    let mut watcher = Watcher::new(&arguments.pictures, labels(&sequence), "frame", &numbers)?;
+    let numbers = 0..sequence.frame_count() as u32;
+    let mut watcher = Watcher::new(&arguments.pictures, || labels(&sequence), "frame", numbers)?;
     let mut output = Output::begin(arguments, &sequence)?;
     let mut options = Options::default();
     options.threads = arguments.threads;

@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Asks::Itself => Query::Itself,
     });
 
-    let mut watcher = Watcher::new(&arguments.pictures, Vec::new(), "step", &steps)?;
+    let mut watcher = Watcher::new(&arguments.pictures, Vec::new, "step", steps.iter().copied())?;
     let played = match arguments.precision {
         Precision::F32 => play::<f32>(arguments, &scene, query, &steps, |x| x, &mut watcher)?,
         Precision::F64 => play::<f64>(arguments, &scene, query, &steps, f64::from, &mut watcher)?,

@@ -258,6 +258,6 @@ fn counted(number: u64, one: &str, many: &str) -> String {
 }
 
 /// A fact.
-pub(crate) fn fact(name: &str, value: impl ToString) -> (String, String) {
-    (name.to_owned(), value.to_string())
+pub(crate) fn fact(name: &str, value: impl Into<String>) -> (String, String) {
+    (name.to_owned(), value.into())
 }

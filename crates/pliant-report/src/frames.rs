@@ -24,6 +24,7 @@ pub struct Motion {
 pub(crate) struct BodyRecord {
     pub(crate) id: BodyId,
     pub(crate) label: BodyLabel,
+    pub(crate) vertices: usize,
     pub(crate) triangles: Vec<[u32; 3]>,
     /// Triangles in the order of the tree.
     pub(crate) order: Vec<u32>,
@@ -106,6 +107,7 @@ impl BodyRecord {
     pub(crate) fn new(
         id: BodyId,
         label: BodyLabel,
+        vertices: usize,
         triangles: Vec<[u32; 3]>,
         levels: &[Vec<u32>],
     ) -> Self {
@@ -127,6 +129,7 @@ impl BodyRecord {
         Self {
             id,
             label,
+            vertices,
             triangles,
             order,
             starts,
@@ -148,6 +151,13 @@ impl Frame {
 
 impl Shape {
     pub(crate) fn of<S: Scalar>(positions: &[[S; 3]]) -> Self {
+        if positions.is_empty() {
+            return Self {
+                lower: [0.0; 3],
+                side: 0.0,
+                inside: Vec::new(),
+            };
+        }
         let (mut lower, mut upper) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for position in positions {
             for axis in 0..3 {

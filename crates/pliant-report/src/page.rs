@@ -101,7 +101,7 @@ fn motion(motion: &Motion) -> Value {
             "name": body.label.name,
             "number": body.id.0,
             "colour": hex(of_body(number)),
-            "vertices": motion.frames.first().map_or(0, |frame| frame.shapes[number].inside.len()),
+            "vertices": body.vertices,
             "triangles": body.triangles.len(),
             "levels": body.starts.iter().map(Vec::len).collect::<Value>(),
             "faces": body.label.faces.is_some(),

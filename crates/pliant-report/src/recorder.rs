@@ -80,7 +80,7 @@ impl Recorder {
     }
 
     /// Takes a frame: its number, the world in it, and the pairs found: body, triangle, body, triangle. The bodies are those of
-    /// the first frame. The world's boxes are as the queries left them.
+    /// the first frame; pairs of others are counted and not drawn. The world's boxes are as the queries left them.
     pub fn frame<S: Scalar>(&mut self, number: u32, world: &World<S>, pairs: &[[u32; 4]]) {
         let place = self.numbers.len();
         self.numbers.push(number);
@@ -155,13 +155,14 @@ impl Recorder {
                 name: format!("body {number}"),
                 faces: None,
             });
+            let vertices = world.vertex_count(id).unwrap_or_default();
             let triangles = world.triangles(id).unwrap_or_default();
             let depth = world.tree_shape(id).map_or(0, |shape| shape.depth);
             let levels: Vec<Vec<u32>> = (0..=depth.min(MOST_LEVELS - 1))
                 .map(|level| world.tree_parts(id, level).unwrap_or_default())
                 .collect();
             self.bodies
-                .push(BodyRecord::new(id, label, triangles, &levels));
+                .push(BodyRecord::new(id, label, vertices, triangles, &levels));
         }
     }
 
@@ -173,36 +174,46 @@ impl Recorder {
             first += body.triangles.len() as u32;
         }
         let global = |body: u32, triangle: u32| {
-            let place = self.bodies.iter().position(|known| known.id.0 == body);
-            firsts[place.unwrap_or_default()] + triangle
+            let place = self
+                .bodies
+                .binary_search_by_key(&body, |known| known.id.0)
+                .ok()?;
+            let is_there = (triangle as usize) < self.bodies[place].triangles.len();
+            is_there.then(|| firsts[place] + triangle)
         };
-        let mut rows: Vec<[u32; 2]> = pairs
-            .iter()
-            .map(|&[body_a, a, body_b, b]| [global(body_a, a), global(body_b, b)])
-            .collect();
-        rows.sort_unstable();
-        let hits = if rows.len() <= MOST_PAIRS {
+        let global_pair =
+            |&[body_a, a, body_b, b]: &[u32; 4]| Some([global(body_a, a)?, global(body_b, b)?]);
+        let hits = if pairs.len() <= MOST_PAIRS {
+            let mut rows: Vec<[u32; 2]> = pairs.iter().filter_map(global_pair).collect();
+            rows.sort_unstable();
             Hits::Pairs(rows)
         } else {
-            let mut red = rows.into_flattened();
-            red.sort_unstable();
-            red.dedup();
-            Hits::Triangles(red)
+            let mut is_red = vec![false; first as usize];
+            for triangle in pairs.iter().filter_map(global_pair).flatten() {
+                is_red[triangle as usize] = true;
+            }
+            Hits::Triangles(
+                (0..first)
+                    .filter(|&triangle| is_red[triangle as usize])
+                    .collect(),
+            )
         };
-        let mut made = Vec::new();
+        let (mut shapes, mut made) = (Vec::with_capacity(self.bodies.len()), Vec::new());
         for body in &self.bodies {
-            for level in 0..body.starts.len() as u32 {
-                let boxes = world.tree_boxes(body.id, level).unwrap_or_default();
+            let mut shape = Shape::of(world.positions(body.id).unwrap_or_default());
+            // Whatever became of the body: as many as there were.
+            shape.inside.resize(body.vertices, [0.0; 3]);
+            shapes.push(shape);
+            for (level, starts) in body.starts.iter().enumerate() {
+                let boxes = world.tree_boxes(body.id, level as u32).unwrap_or_default();
+                let end = made.len() + starts.len();
                 made.extend(boxes.iter().map(|node| node.made));
+                made.resize(end, false);
             }
         }
         Frame {
             place,
-            shapes: self
-                .bodies
-                .iter()
-                .map(|body| Shape::of(world.positions(body.id).unwrap_or_default()))
-                .collect(),
+            shapes,
             hits,
             made,
         }
@@ -261,6 +272,37 @@ mod tests {
             (Some(1), [1, 3, 1])
         );
         assert!(!record(20 + 4 * 18, &[0, 1, 0]).too_large);
+    }
+
+    #[test]
+    fn nothing_that_becomes_of_a_world_stops_the_recorder() {
+        let mut world = World::<f32>::new();
+        let shape = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let [a, b] = [(); 2].map(|()| world.add(&[[0, 1, 2]], &shape).unwrap());
+        let mut recorder = Recorder::new(Vec::new());
+        let foreign = [
+            [9, 0, 8, 0],
+            [0, 7, 1, 0],
+            [0, 0, u32::MAX, u32::MAX],
+            [0, 0, 1, 0],
+        ];
+        recorder.frame(0, &world, &foreign);
+        world.remove(a).unwrap();
+        recorder.frame(1, &world, &vec![[0, 0, 9, 0]; MOST_PAIRS + 1]);
+        world.remove(b).unwrap();
+        world.add(&[[0, 1, 2]; 9], &shape).unwrap();
+        recorder.frame(2, &World::<f64>::new(), &[]);
+        recorder.frame(3, &world, &[[2, 0, 2, 1]]);
+        let motion = recorder.finish();
+        assert!(matches!(&motion.frames[0].hits, Hits::Pairs(pairs) if *pairs == [[0, 1]]));
+        assert_eq!(motion.pairs(), [4, MOST_PAIRS as u64 + 1, 0, 1]);
+        assert!(
+            motion
+                .frames
+                .iter()
+                .all(|frame| frame.made.len() == motion.frames[0].made.len())
+        );
+        assert!(!motion.pack().is_empty() && motion.view().radius > 0.0);
     }
 
     #[test]

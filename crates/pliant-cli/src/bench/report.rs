@@ -42,7 +42,7 @@ pub(super) fn write(
     let machine = &record.machine;
     report.facts = vec![
         fact("processor", &machine.processor),
-        fact("cores", machine.cores),
+        fact("cores", machine.cores.to_string()),
         fact("system", &machine.system),
         fact("build", &machine.profile),
     ];
@@ -114,9 +114,9 @@ fn file_name(text: &str) -> String {
 fn play(done: &ExperimentRecord, contest: &ContestRecord) -> Play {
     let mut play = Play::new(&format!("{}: {}", done.experiment, contest.name), "step");
     play.facts = vec![
-        fact("bodies", contest.bodies),
+        fact("bodies", contest.bodies.to_string()),
         fact("triangles of a body", grouped(contest.triangles as u64)),
-        fact("steps", contest.steps.len()),
+        fact("steps", contest.steps.len().to_string()),
         fact("query", &contest.query),
         fact(
             "most pairs",

@@ -115,7 +115,7 @@ impl Record<'_> {
             fact("query", self.asked()),
             fact("precision", &self.precision),
             fact("trees", self.trees.describe()),
-            fact("seed", self.seed),
+            fact("seed", self.seed.to_string()),
         ]);
         let steps: Vec<u32> = self.played.iter().map(|step| step.step).collect();
         let list =

@@ -8,7 +8,6 @@ mod raster;
 use crate::colours::{Colour, HIT, of_body};
 use pliant::{Scalar, World};
 use raster::Canvas;
-use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 /// Pixels across and down.
@@ -31,10 +30,6 @@ pub struct Picture {
 impl Picture {
     /// The bodies of a world as they are now; red are the triangles in `pairs`: body, triangle, body, triangle.
     pub fn of<S: Scalar>(world: &World<S>, pairs: &[[u32; 4]], size: [usize; 2]) -> Self {
-        let red: BTreeSet<[u32; 2]> = pairs
-            .iter()
-            .flat_map(|&[body_a, a, body_b, b]| [[body_a, a], [body_b, b]])
-            .collect();
         let (eye, right, up) = directions();
         let seen = |position: &[S; 3]| {
             let position = position.map(S::to_f64);
@@ -48,8 +43,16 @@ impl Picture {
                 continue;
             };
             let places: Vec<[f64; 3]> = positions.iter().map(seen).collect();
+            let mut is_red = vec![false; corners.len()];
+            for &[body_a, a, body_b, b] in pairs {
+                for (of, triangle) in [(body_a, a), (body_b, b)] {
+                    if of == body.0 && (triangle as usize) < is_red.len() {
+                        is_red[triangle as usize] = true;
+                    }
+                }
+            }
             triangles.extend(corners.into_iter().enumerate().map(|(triangle, corners)| {
-                let is_hit = red.contains(&[body.0, triangle as u32]);
+                let is_hit = is_red[triangle];
                 Seen {
                     corners: corners.map(|vertex| places[vertex as usize]),
                     colour: if is_hit { HIT } else { of_body(number) },

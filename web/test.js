@@ -57,34 +57,49 @@ async function open(name, options = {}) {
     const { number, pairs, red, made, boxes } = await page.locator('.stage').evaluate((stage) => ({ ...stage.dataset }));
     return { number: +number, pairs: +pairs, red: +red, made: +made, boxes: +boxes };
   };
-  /** Red pixels of the picture as it is on the screen. */
-  const redPixels = async () => {
+  /** The pixels of the picture as it is on the screen: how many are red, one in the middle of red, one on a body that is not. */
+  const pixels = async () => {
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    return countRed(await page.locator('canvas').first().screenshot());
+    return lookAt(await page.locator('canvas').first().screenshot());
   };
   const close = async () => {
     await page.close();
     assert.deepEqual(errors, []);
     assert.deepEqual(requests, [address], 'nothing is asked for but the page itself');
   };
-  return { page, state, redPixels, close };
+  return { page, state, pixels, close };
 }
 
-/** Counts the red pixels of a PNG; the browser decodes it, on a page of its own. */
-async function countRed(png) {
+/** What is on a PNG; the browser decodes it, on a page of its own. */
+async function lookAt(png) {
   const page = await browser.newPage();
-  const red = await page.evaluate(async (base64) => {
+  const seen = await page.evaluate(async (base64) => {
     const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
     const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
     const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
     context.drawImage(image, 0, 0);
     const { data } = context.getImageData(0, 0, image.width, image.height);
-    let count = 0;
-    for (let i = 0; i < data.length; i += 4) count += data[i] > 110 && data[i] > 2 * data[i + 1] && data[i] > 2 * data[i + 2];
-    return count;
+    const at = (x, y) => data.subarray(4 * (y * image.width + x), 4 * (y * image.width + x) + 3);
+    const kinds = {
+      red: ([r, g, b]) => r > 110 && r > 2 * g && r > 2 * b,
+      // Calm colours, neither paper nor ink.
+      plain: ([r, g, b]) => Math.max(r, g, b) < 235 && Math.min(r, g, b) > 70 && Math.max(r, g, b) < 1.7 * Math.min(r, g, b) && Math.abs(r - b) > 12,
+    };
+    const [found, count] = [{}, { red: 0, plain: 0 }];
+    for (let y = 3; y < image.height - 3; y++) {
+      for (let x = 3; x < image.width - 3; x++) {
+        for (const [kind, is] of Object.entries(kinds)) {
+          if (!is(at(x, y))) continue;
+          count[kind]++;
+          const around = [-3, 0, 3].flatMap((dx) => [-3, 0, 3].map((dy) => at(x + dx, y + dy)));
+          if (!found[kind] && around.every(is)) found[kind] = { x, y };
+        }
+      }
+    }
+    return { count, ...found };
   }, png.toString('base64'));
   await page.close();
-  return red;
+  return seen;
 }
 
 /** Sets the slider to a place, as a hand would. */
@@ -108,17 +123,22 @@ function hostile() {
 test('the red triangles are those of the JSON, scrubbed to', { skip }, async () => {
   // Two bodies, a query of all pairs; `run --format json` has counts, `check` has pairs.
   const json = JSON.parse(pliant('run', '--triangles', '1280', '--stride', '5', '--report', 'run.html', '--format', 'json'));
-  const { page, state, redPixels, close } = await open('run.html');
+  const { page, state, pixels, close } = await open('run.html');
   assert.equal((await state()).number, json.step[json.pairs.indexOf(Math.max(...json.pairs))], 'begins where most pairs are');
   for (const place of [0, 12, 25, 39]) {
     await scrub(page, place);
     const { number, pairs, red } = await state();
     assert.deepEqual([number, pairs], [json.step[place], json.pairs[place]]);
     assert.equal(red > 0, pairs > 0);
-    if (pairs === 0) assert.equal(await redPixels(), 0);
+    if (pairs === 0) assert.equal((await pixels()).count.red, 0);
   }
-  const pixels = await redPixels();
-  assert.ok(pixels > 500, `${pixels} red pixels where most triangles are red`);
+  const seen = await pixels();
+  assert.ok(seen.count.red > 500, `${seen.count.red} red pixels where most triangles are red`);
+  // What is red meets somebody, what is not meets nobody.
+  await page.locator('canvas').first().click({ position: seen.red });
+  assert.match(await page.locator('.selection').innerText(), /meets \d+ triangles?:/);
+  await page.locator('canvas').first().click({ position: seen.plain });
+  assert.match(await page.locator('.selection').innerText(), /meets nothing here/);
   await close();
 });
 
@@ -192,11 +212,24 @@ test('a triangle that is clicked is named as in its file, with those it meets', 
   assert.ok((await page.locator('.selection p').innerText()).startsWith(names[1]));
   await page.keyboard.press('Escape');
   assert.match(await page.locator('.selection').innerText(), /^Click a triangle/);
+  // The page scrolls under the pointer until the picture was clicked.
+  const eye = () => page.locator('.ring').evaluate((ring) => ring.style.left + ring.style.top);
+  await page.keyboard.press('t');
+  const before = await eye();
+  const canvas = page.locator('canvas').first();
+  await canvas.hover();
+  await page.mouse.wheel(0, 200);
+  await page.waitForTimeout(500);
+  assert.equal(await eye(), before);
+  assert.ok((await page.evaluate(() => scrollY)) > 0);
+  await page.evaluate(() => scrollTo(0, 0));
   // The middle of the picture is on a body; its far corner is on none.
-  const box = await page.locator('canvas').first().boundingBox();
-  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await canvas.click();
   assert.match(await page.locator('.selection').innerText(), /triangle \d+/);
-  await page.mouse.click(box.x + 3, box.y + box.height - 3);
+  await page.mouse.wheel(0, 200);
+  await page.waitForTimeout(100);
+  assert.notEqual(await eye(), before);
+  await canvas.click({ position: { x: 20, y: 60 } });
   assert.match(await page.locator('.selection').innerText(), /^Click a triangle/);
   await close();
 });

@@ -32,7 +32,7 @@ let current = null;
 
 const player = new Player('step', shown);
 const selection = new Selection((triangles) => stage?.mark(triangles));
-const canvas = element('canvas', { tabIndex: 0, 'aria-label': 'The bodies. Drag to turn, scroll to come nearer, click a triangle.' });
+const canvas = element('canvas', { tabIndex: 0, 'aria-label': 'The bodies. Drag to turn, click a triangle; then scroll to come nearer.' });
 const levels = element('select', { id: 'levels', onchange: showBoxes });
 const boxesSaid = element('span', { className: 'hint' });
 const seeThrough = element('button', { type: 'button', 'aria-pressed': 'false', onclick: toggleSeeThrough }, 'See through');

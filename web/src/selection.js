@@ -55,7 +55,7 @@ export class Selection {
 
   show() {
     if (!this.chosen || !this.frame) {
-      this.panel.replaceChildren(element('p', { className: 'hint' }, 'Click a triangle to see its body and number, and whom it meets.'));
+      this.panel.replaceChildren(element('p', { className: 'hint' }, 'Click a triangle to see its body and number, and whom it meets. Drag to turn; once clicked, scroll to come nearer.'));
       this.changed([]);
       return;
     }

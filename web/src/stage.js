@@ -30,6 +30,10 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.draw());
     this.controls.addEventListener('start', () => (this.follows = false));
+    // Scrolling is the page's until somebody has chosen the picture.
+    this.controls.enableZoom = false;
+    canvas.addEventListener('focus', () => (this.controls.enableZoom = true));
+    canvas.addEventListener('blur', () => (this.controls.enableZoom = false));
     this.made = lines(0.6);
     this.notMade = lines(0.28);
     this.outline = lines(1);
@@ -245,7 +249,10 @@ export class Stage {
 
   listen(picked) {
     let down = null;
-    this.canvas.addEventListener('pointerdown', (event) => (down = [event.clientX, event.clientY]));
+    this.canvas.addEventListener('pointerdown', (event) => {
+      down = [event.clientX, event.clientY];
+      this.canvas.focus({ preventScroll: true });
+    });
     this.canvas.addEventListener('pointerup', (event) => {
       // A click, not the end of a turn.
       if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;

@@ -246,15 +246,19 @@ mod tests {
     #[test]
     fn frames_are_thinned_evenly_and_those_that_matter_stay() {
         let mut counts = [0; 100];
-        (counts[37], counts[38], counts[71]) = (1, 0, 2);
-        let all: Vec<u32> = record(20 + 18 * 100 + 24, &counts).shown().collect();
-        assert_eq!(all.len(), 100);
+        // The first contact, the most pairs, and as many once more.
+        (counts[37], counts[71], counts[83]) = (1, 2, 2);
+        let all = 20 + 18 * 100 + 8 * 5;
+        assert_eq!(record(all, &counts).shown().len(), 100);
+        for (budget, stride) in [(all - 1, 2), (20 + 18 * 30, 4), (20 + 18 * 20, 8)] {
+            let mut expected: Vec<u32> = (0..100).step_by(stride).chain([37, 71, 99]).collect();
+            expected.sort_unstable();
+            assert!(
+                record(budget, &counts).shown().eq(expected),
+                "every {stride}th"
+            );
+        }
         let motion = record(20 + 18 * 30, &counts);
-        let shown: Vec<u32> = motion.shown().collect();
-        let expected = (0..100).step_by(4).chain([37, 71, 99]);
-        let mut expected: Vec<u32> = expected.collect();
-        expected.sort_unstable();
-        assert_eq!(shown, expected);
         // Figures are of all frames.
         assert_eq!(motion.pairs().len(), 100);
         assert_eq!(

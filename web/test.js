@@ -57,9 +57,11 @@ async function open(name, options = {}) {
     const { number, pairs, red, made, boxes } = await page.locator('.stage').evaluate((stage) => ({ ...stage.dataset }));
     return { number: +number, pairs: +pairs, red: +red, made: +made, boxes: +boxes };
   };
+  /** Waits for the picture to be drawn. */
+  const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   /** The pixels of the picture as it is on the screen: how many are red, one in the middle of red, one on a body that is not. */
   const pixels = async () => {
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await drawn();
     return lookAt(await page.locator('canvas').first().screenshot());
   };
   const close = async () => {
@@ -67,7 +69,7 @@ async function open(name, options = {}) {
     assert.deepEqual(errors, []);
     assert.deepEqual(requests, [address], 'nothing is asked for but the page itself');
   };
-  return { page, state, pixels, close };
+  return { page, state, drawn, pixels, close };
 }
 
 /** What is on a PNG; the browser decodes it, on a page of its own. */
@@ -202,7 +204,7 @@ test('keys: steps, ends, hits, first contact, most pairs, play', { skip }, async
 
 test('a triangle that is clicked is named as in its file, with those it meets', { skip }, async () => {
   const names = hostile();
-  const { page, state, close } = await open('hostile.html');
+  const { page, state, drawn, close } = await open('hostile.html');
   assert.deepEqual(await state().then(({ pairs, red }) => [pairs, red]), [1, 2]);
   await page.keyboard.press('t');
   const said = await page.locator('.selection').innerText();
@@ -213,22 +215,26 @@ test('a triangle that is clicked is named as in its file, with those it meets', 
   await page.keyboard.press('Escape');
   assert.match(await page.locator('.selection').innerText(), /^Click a triangle/);
   // The page scrolls under the pointer until the picture was clicked.
-  const eye = () => page.locator('.ring').evaluate((ring) => ring.style.left + ring.style.top);
+  const eye = async () => {
+    await drawn();
+    return page.locator('.ring').evaluate((ring) => ring.style.left + ring.style.top);
+  };
   await page.keyboard.press('t');
   const before = await eye();
   const canvas = page.locator('canvas').first();
   await canvas.hover();
   await page.mouse.wheel(0, 200);
-  await page.waitForTimeout(500);
+  await page.waitForFunction(() => scrollY > 0);
   assert.equal(await eye(), before);
-  assert.ok((await page.evaluate(() => scrollY)) > 0);
-  await page.evaluate(() => scrollTo(0, 0));
   // The middle of the picture is on a body; its far corner is on none.
   await canvas.click();
   assert.match(await page.locator('.selection').innerText(), /triangle \d+/);
+  const near = await eye();
   await page.mouse.wheel(0, 200);
-  await page.waitForTimeout(100);
-  assert.notEqual(await eye(), before);
+  await page.waitForFunction((near) => {
+    const { left, top } = document.querySelector('.ring').style;
+    return left + top !== near;
+  }, near);
   await canvas.click({ position: { x: 20, y: 60 } });
   assert.match(await page.locator('.selection').innerText(), /^Click a triangle/);
   await close();

@@ -6,7 +6,7 @@ use anyhow::Context;
 use pliant::World;
 use pliant_bench::experiments::{Experiment, Form};
 use pliant_bench::motion::Motion;
-use pliant_bench::record::{ContestRecord, ExperimentRecord, MethodRecord, Record, Verdict};
+use pliant_bench::record::{Claim, ContestRecord, ExperimentRecord, MethodRecord, Record, Verdict};
 use pliant_report::{Chart, Play, Recorder, Report};
 use std::path::Path;
 
@@ -69,9 +69,14 @@ pub(super) fn write(
     }
     let mut seen: Vec<Shows> = Vec::new();
     for (done, experiment) in record.experiments.iter().zip(chosen) {
-        for (contest, motion) in done.contests.iter().zip(experiment.motions(form)) {
-            let shows = shows(contest);
-            let place = seen
+        for (place, motion) in experiment
+            .motions(form)
+            .enumerate()
+            .take(done.contests.len())
+        {
+            let mut play = play(done, place);
+            let shows = shows(&done.contests[place]);
+            let shown = seen
                 .iter()
                 .position(|known| *known == shows)
                 .unwrap_or_else(|| {
@@ -79,8 +84,7 @@ pub(super) fn write(
                     seen.push(shows);
                     seen.len() - 1
                 });
-            let mut play = play(done, contest);
-            play.motion = Some(place);
+            play.motion = Some(shown);
             report.plays.push(play);
         }
     }
@@ -111,7 +115,9 @@ fn file_name(text: &str) -> String {
     words.collect::<Vec<_>>().join("-").to_ascii_lowercase()
 }
 
-fn play(done: &ExperimentRecord, contest: &ContestRecord) -> Play {
+/// One contest of an experiment.
+fn play(done: &ExperimentRecord, place: usize) -> Play {
+    let contest = &done.contests[place];
     let mut play = Play::new(&format!("{}: {}", done.experiment, contest.name), "step");
     play.facts = vec![
         fact("bodies", contest.bodies.to_string()),
@@ -132,8 +138,11 @@ fn play(done: &ExperimentRecord, contest: &ContestRecord) -> Play {
             ));
         }
     }
-    let of_this = |claim: &&pliant_bench::record::Claim| {
-        done.contests.len() == 1 || claim.claim.starts_with(&contest.name)
+    // A claim about one contest begins with its name; those about several stand with the first.
+    let names = |claim: &Claim, contest: &ContestRecord| claim.claim.starts_with(&contest.name);
+    let of_this = |claim: &&Claim| {
+        let of_one = done.contests.iter().any(|contest| names(claim, contest));
+        names(claim, contest) || (place == 0 && !of_one)
     };
     play.notes
         .extend(done.claims.iter().filter(of_this).map(|claim| {

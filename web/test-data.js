@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { bodyOf, unpack } from './src/data.js';
+import { bodyOf, boxAround, unpack } from './src/data.js';
 
 const program = process.env.PLIANT ?? fileURLToPath(new URL('../target/release/pliant', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'pliant-data-'));
@@ -90,9 +90,22 @@ test('a sequence of polygons and a body that stands still', async () => {
   const { a } = motion.frames[0].partners;
   for (const triangle of a) {
     const at = body.order.indexOf(triangle);
+    let sizeAbove;
     body.starts.forEach((starts, level) => {
       const part = starts.findLastIndex((start) => start <= at);
       assert.equal(bits(0)[0][level][part], 1, `triangle ${triangle}, level ${level}`);
+      // The box that the viewer draws is round the triangle, and no larger than that of the level above.
+      const positions = [...Array(body.vertices).keys()].flatMap((vertex) => place(0, 0, vertex));
+      const box = boxAround(body, positions, starts[part], starts[part + 1] ?? body.triangles);
+      for (const vertex of body.corners.subarray(3 * triangle, 3 * triangle + 3)) {
+        for (let axis = 0; axis < 3; axis++) {
+          const x = positions[3 * vertex + axis];
+          assert.ok(box[axis] <= x && x <= box[axis + 3]);
+        }
+      }
+      const size = box[3] - box[0] + box[4] - box[1];
+      assert.ok(level === 0 || size < sizeAbove, `level ${level}: ${size}`);
+      sizeAbove = size;
     });
   }
   assert.ok(bits(0)[0].at(-1).some((made) => !made));

@@ -87,7 +87,9 @@ async function lookAt(png) {
       // Calm colours, neither paper nor ink.
       plain: ([r, g, b]) => Math.max(r, g, b) < 235 && Math.min(r, g, b) > 70 && Math.max(r, g, b) < 1.7 * Math.min(r, g, b) && Math.abs(r - b) > 12,
     };
-    const [found, count] = [{}, { red: 0, plain: 0 }];
+    const [found, count] = [{}, { red: 0, plain: 0, edge: 0 }];
+    for (let x = 0; x < image.width; x++) count.edge += [2, image.height - 3].filter((y) => kinds.plain(at(x, y))).length;
+    for (let y = 0; y < image.height; y++) count.edge += [2, image.width - 3].filter((x) => kinds.plain(at(x, y))).length;
     for (let y = 3; y < image.height - 3; y++) {
       for (let x = 3; x < image.width - 3; x++) {
         for (const [kind, is] of Object.entries(kinds)) {
@@ -132,7 +134,9 @@ test('the red triangles are those of the JSON, scrubbed to', { skip }, async () 
     const { number, pairs, red } = await state();
     assert.deepEqual([number, pairs], [json.step[place], json.pairs[place]]);
     assert.equal(red > 0, pairs > 0);
-    if (pairs === 0) assert.equal((await pixels()).count.red, 0);
+    const { count } = await pixels();
+    if (pairs === 0) assert.equal(count.red, 0);
+    assert.ok(count.plain > 1000 && count.edge === 0, `all bodies are in the picture: ${JSON.stringify(count)}`);
   }
   const seen = await pixels();
   assert.ok(seen.count.red > 500, `${seen.count.red} red pixels where most triangles are red`);
@@ -141,6 +145,9 @@ test('the red triangles are those of the JSON, scrubbed to', { skip }, async () 
   assert.match(await page.locator('.selection').innerText(), /meets \d+ triangles?:/);
   await page.locator('canvas').first().click({ position: seen.plain });
   assert.match(await page.locator('.selection').innerText(), /meets nothing here/);
+  await page.keyboard.press('x');
+  await page.locator('canvas').first().click({ position: (await pixels()).red });
+  assert.match(await page.locator('.selection').innerText(), /meets \d+ triangles?:/);
   await close();
 });
 
@@ -190,6 +197,11 @@ test('keys: steps, ends, hits, first contact, most pairs, play', { skip }, async
   assert.equal(await page.locator('.play').textContent(), 'Pause');
   await page.keyboard.press('Space');
   assert.equal(await page.locator('.play').textContent(), 'Play');
+  // From the end it begins anew.
+  await page.keyboard.press('End');
+  await page.keyboard.press('Space');
+  await page.keyboard.press('Space');
+  assert.ok((await at()) < last);
   await page.locator('.play').focus();
   await page.keyboard.press('Space');
   await page.waitForFunction((number) => document.querySelector('.stage').dataset.number === String(number), json.step[last]);

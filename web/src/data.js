@@ -125,3 +125,19 @@ export function bodyOf(bodies, triangle) {
   while (bodies[body].first > triangle) body--;
   return { body, triangle: triangle - bodies[body].first };
 }
+
+/** The smallest and largest coordinates of some triangles in the order of the tree. */
+export function boxAround(body, positions, start, end) {
+  const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
+  for (let i = start; i < end; i++) {
+    for (let corner = 0; corner < 3; corner++) {
+      const vertex = 3 * body.corners[3 * body.order[i] + corner];
+      for (let axis = 0; axis < 3; axis++) {
+        const x = positions[vertex + axis];
+        if (x < box[axis]) box[axis] = x;
+        if (x > box[axis + 3]) box[axis + 3] = x;
+      }
+    }
+  }
+  return box;
+}

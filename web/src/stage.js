@@ -5,6 +5,7 @@ import {
   LineSegments, Mesh, MeshLambertMaterial, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { boxAround } from './data.js';
 import { colour, element } from './dom.js';
 
 // Where a picture of pliant's looks from, too.
@@ -186,8 +187,18 @@ export class Stage {
     this.follows = true;
     const radius = Math.max(box.getSize(new Vector3()).length() / 2, 1e-6);
     box.getCenter(this.controls.target);
-    const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
-    this.camera.position.copy(TOWARDS_EYE).multiplyScalar((0.92 * radius) / half).add(this.controls.target);
+    // As near as the corners of the box allow.
+    const up = Math.tan((this.camera.fov * Math.PI) / 360);
+    const across = up * this.camera.aspect;
+    const right = new Vector3(0, 1, 0).cross(TOWARDS_EYE).normalize();
+    const above = TOWARDS_EYE.clone().cross(right);
+    let distance = 0;
+    for (let corner = 0; corner < 8; corner++) {
+      const at = new Vector3(...[0, 1, 2].map((axis) => ((corner >> axis) & 1 ? box.max : box.min).getComponent(axis))).sub(this.controls.target);
+      const aside = Math.max(Math.abs(at.dot(right)) / across, Math.abs(at.dot(above)) / up);
+      distance = Math.max(distance, at.dot(TOWARDS_EYE) + aside);
+    }
+    this.camera.position.copy(TOWARDS_EYE).multiplyScalar(Math.max(distance, 1e-6)).add(this.controls.target);
     Object.assign(this.camera, { near: radius / 50, far: radius * 60 });
     this.camera.updateProjectionMatrix();
     this.controls.update();
@@ -218,11 +229,9 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
-    const narrow = Math.min(1, this.camera.aspect);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    // All of it stays in view on a narrow screen.
-    this.camera.position.sub(this.controls.target).multiplyScalar(narrow / Math.min(1, this.camera.aspect)).add(this.controls.target);
+    if (this.follows && this.view) this.look(this.view);
     this.render();
   }
 
@@ -304,20 +313,4 @@ function setBoxes(object, boxes) {
     }
   }
   setLines(object, points);
-}
-
-/** The smallest and largest coordinates of some triangles in the order of the tree. */
-function boxAround(body, positions, start, end) {
-  const box = [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
-  for (let i = start; i < end; i++) {
-    for (let corner = 0; corner < 3; corner++) {
-      const vertex = 3 * body.corners[3 * body.order[i] + corner];
-      for (let axis = 0; axis < 3; axis++) {
-        const x = positions[vertex + axis];
-        if (x < box[axis]) box[axis] = x;
-        if (x > box[axis + 3]) box[axis + 3] = x;
-      }
-    }
-  }
-  return box;
 }

@@ -67,7 +67,7 @@ fn corners_are_those_of_the_triangles_of_the_part() {
 #[test]
 fn made_are_the_boxes_that_the_statistics_count() {
     let (triangles, flat) = strip(0.0);
-    let needle = [[151.1, 0.1, -9.0], [151.1, 0.1, 9.0], [151.2, 0.1, 9.0]];
+    let thorn = [[151.1, 0.1, -9.0], [151.1, 0.1, 9.0], [151.2, 0.1, 9.0]];
     for update in [
         Update::BottomUp,
         Update::TopDown,
@@ -81,7 +81,7 @@ fn made_are_the_boxes_that_the_statistics_count() {
         (options.degree, options.update) = (Degree::Two, update);
         let mut world = World::<f32>::with_options(options);
         let body = world.add(&triangles, &flat).unwrap();
-        let needle = world.add(&[[0, 1, 2]], &needle).unwrap();
+        let needle = world.add(&[[0, 1, 2]], &thorn).unwrap();
         let nodes = world.tree_shape(body).unwrap().nodes;
         assert_eq!(nodes_and_made(&world, body), [nodes, 0]);
         for step in 1..4 {
@@ -90,9 +90,7 @@ fn made_are_the_boxes_that_the_statistics_count() {
                 .set_positions(body, &strip(0.01 * step as f32).1)
                 .unwrap();
             assert_eq!(nodes_and_made(&world, body), [nodes, 0]);
-            world
-                .set_positions(needle, &world.positions(needle).unwrap().to_vec())
-                .unwrap();
+            world.set_positions(needle, &thorn).unwrap();
             assert!(!world.intersection_pairs().is_empty());
             let statistics = *world.statistics();
             let made = [body, needle].map(|body| nodes_and_made(&world, body)[1] as u64);

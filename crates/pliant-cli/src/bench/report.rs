@@ -8,6 +8,7 @@ use pliant_bench::experiments::{Experiment, Form};
 use pliant_bench::motion::Motion;
 use pliant_bench::record::{Claim, ContestRecord, ExperimentRecord, MethodRecord, Record, Verdict};
 use pliant_report::{Chart, Play, Recorder, Report};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// What makes a picture: two contests with the same show the same.
@@ -46,13 +47,10 @@ pub(super) fn write(
         fact("system", &machine.system),
         fact("build", &machine.profile),
     ];
-    let contests = record
-        .experiments
-        .iter()
-        .map(|experiment| experiment.contests.len())
-        .sum::<usize>();
+    let contests = record.experiments.iter().flat_map(|done| &done.contests);
+    let motions = contests.map(shows).collect::<BTreeSet<_>>().len();
     report.found = format!(
-        "{} on {}, medians of {} rounds.",
+        "{} on {}, medians of {}.",
         record
             .experiments
             .iter()
@@ -60,7 +58,10 @@ pub(super) fn write(
             .collect::<Vec<_>>()
             .join(", "),
         machine.processor,
-        record.experiments.first().map_or(0, |done| done.rounds),
+        match record.experiments.first().map_or(0, |done| done.rounds) {
+            1 => "1 round".to_owned(),
+            rounds => format!("{rounds} rounds"),
+        },
     );
     if form == Form::Small {
         report
@@ -80,7 +81,7 @@ pub(super) fn write(
                 .iter()
                 .position(|known| *known == shows)
                 .unwrap_or_else(|| {
-                    report.motions.push(replay(&motion, shows.4, contests));
+                    report.motions.push(replay(&motion, shows.4, motions));
                     seen.push(shows);
                     seen.len() - 1
                 });

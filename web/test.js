@@ -333,10 +333,14 @@ test('a narrow screen, and both schemes', { skip }, async () => {
     'run-dark': { colorScheme: 'dark' },
     'run-phone': { colorScheme: 'light', viewport: { width: 375, height: 812 } },
   })) {
-    const { page, close } = await open('narrow.html', options);
+    const { page, pixels, close } = await open('narrow.html', options);
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(overflow <= 0, `${name}: ${overflow} pixels too wide`);
     await page.screenshot({ path: join(shots, `${name}.png`), fullPage: true });
+    // Far apart, and still in the picture.
+    await page.keyboard.press('Home');
+    const { count } = await pixels();
+    assert.ok(count.plain > 100 && count.edge === 0, `${name}: ${JSON.stringify(count)}`);
     await close();
   }
 });

@@ -153,7 +153,7 @@ impl Check {
         fields.set_item("count", count)?;
         fields.set_item("complete", complete)?;
         fields.set_item("left_out", left_out)?;
-        fields.set_item("pairs", arrays::pairs(py, pairs)?)?;
+        fields.set_item("pairs", arrays::rows_of(py, pairs)?)?;
         Ok(Some(named_tuple(py, "Frame", &fields)?))
     }
 

@@ -6,6 +6,7 @@ use crate::found::{Found, Row, Stop, Taker};
 use crate::meeting::Meeting;
 use crate::sequence::Sequence;
 use crate::settings::{Frames, Settings};
+use crate::world::WorldOf;
 use pliant::Pair;
 use pliant_io::{Body as Source, OpenOptions};
 use std::ops::{ControlFlow, Range};
@@ -104,6 +105,11 @@ impl Check {
     /// What is checked, in the order of the arguments and of the bodies of each; the positions are those of the frame checked last.
     pub fn sources(&self) -> &[Source] {
         &self.sequence.sources
+    }
+
+    /// The world in the frame checked last, as the queries left it; empty before the first.
+    pub fn world(&self) -> WorldOf<'_> {
+        self.sequence.world.get()
     }
 
     /// How many frames the sources have, checked or not.

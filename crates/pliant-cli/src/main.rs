@@ -6,6 +6,7 @@
 mod bench;
 mod check;
 mod convert;
+mod report;
 mod run;
 mod table;
 mod tree_options;

@@ -73,6 +73,17 @@ class TreeShape(NamedTuple):
     """Nodes that hold triangles."""
 
 
+class TreeBoxes(NamedTuple):
+    """The boxes of a level of a tree, one a part of tree_parts."""
+
+    lower: NDArray[Any]
+    """(k, 3): the smallest coordinates of the triangles below each node."""
+    upper: NDArray[Any]
+    """(k, 3): the largest."""
+    made: NDArray[np.bool_]
+    """(k,): whether the tree holds this box, made for the shape that the body has now."""
+
+
 class Statistics(NamedTuple):
     """The work of one query, and of the calls of update and update_body before it."""
 
@@ -148,5 +159,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, TreeShape, Statistics, Body, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, TreeBoxes, TreeShape, Statistics, Body, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

@@ -3,13 +3,16 @@
 mod hits;
 mod names;
 mod output;
+mod pictures;
 pub(crate) mod size;
 
 use crate::Outcome;
+use crate::report::PictureOptions;
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use hits::Hits;
 use output::Output;
+use pictures::Pictures;
 use pliant::Options;
 use pliant_check::{Check, Error, Group, Settings};
 use pliant_io::OpenOptions;
@@ -71,6 +74,8 @@ pub(crate) struct Arguments {
     /// Nothing on standard output: the exit code says it
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    pictures: PictureOptions,
 }
 
 const EXAMPLES: &str = "\
@@ -83,6 +88,7 @@ Examples:
   pliant check scene.glb --ignore 'scene.glb#arm,scene.glb#sleeve'
   pliant check fox.glb --clip Run --baseline 0             what frame 0 does not have already
   pliant check walk.npz --hits hits.vtp                    hits_00.vtp, hits_01.vtp, ..., hits.pvd for ParaView
+  pliant check walk.npz --report walk.html                 the bodies in motion, what intersects in red
   pliant check walk.npz --quiet && echo clean
 
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
@@ -114,10 +120,14 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     let mut check = open(arguments).or_else(|error| output::annotate(arguments, advise(error)))?;
     let mut hits = arguments.hits.as_deref().map(Hits::new).transpose()?;
+    let mut pictures = Pictures::new(arguments, &check)?;
     let mut output = Output::begin(arguments, &check)?;
-    let checked = frames(&mut check, hits.as_mut(), &mut output);
+    let checked = frames(&mut check, hits.as_mut(), &mut pictures, &mut output);
     let checked = checked.and_then(|()| hits.map_or(Ok(()), Hits::end));
-    output.end(checked)
+    let drawn = pictures.end(arguments, &check, &checked);
+    let outcome = output.end(checked)?;
+    drawn?;
+    Ok(outcome)
 }
 
 fn open(arguments: &Arguments) -> Result<Check, Error> {
@@ -127,15 +137,15 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         clip: arguments.clip.clone(),
         fps: arguments.fps,
     };
+    let kept = arguments.hits.is_some() || arguments.pictures.are_asked_for();
     let printed = !arguments.quiet && !arguments.count;
     let mut options = Options::default();
     options.threads = arguments.threads;
     let settings = Settings {
         itself: arguments.itself,
         // Where only the exit code is asked for, one pair says as much as all.
-        first: arguments.first || arguments.quiet && arguments.hits.is_none(),
-        listed: arguments.hits.is_some()
-            || printed && matches!(arguments.format, Format::Json | Format::Lines),
+        first: arguments.first || arguments.quiet && !kept,
+        listed: kept || printed && matches!(arguments.format, Format::Json | Format::Lines),
         max_list: arguments.max_memory,
         split: arguments.split.map(|split| match split {
             Split::Components => pliant_check::Split::Components,
@@ -152,6 +162,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
 fn frames(
     check: &mut Check,
     mut hits: Option<&mut Hits>,
+    pictures: &mut Pictures,
     output: &mut Output,
 ) -> anyhow::Result<()> {
     while let Some(found) = check.next_frame().map_err(advise)? {
@@ -159,6 +170,7 @@ fn frames(
         if let Some(hits) = &mut hits {
             hits.frame(check, &found)?;
         }
+        pictures.frame(check, &found)?;
     }
     Ok(())
 }

@@ -235,7 +235,7 @@ mod tests {
         // Each vertex in few triangles, each block with many neighbours.
         let mut random = pliant_oracle::Random::new(9);
         let tangle: Vec<[u32; 3]> = (0..2_000)
-            .map(|_| [0; 3].map(|_: u32| random.below(1_009) as u32))
+            .map(|_| [0; 3].map(|_: u32| random.below(1_009)))
             .collect();
         let crowded = check(&tangle, 1_009, &[8]);
         assert!((100..250).contains(&crowded), "{crowded} of 250");

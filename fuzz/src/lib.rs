@@ -6,7 +6,7 @@ use std::cell::OnceCell;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use pliant_io::{OpenOptions, Positions};
+use pliant_io::{Body, Error, OpenOptions, Positions};
 use tempfile::TempDir;
 
 thread_local! {
@@ -29,18 +29,27 @@ fn path(ending: &str) -> PathBuf {
     })
 }
 
-/// Reads `contents` as a file with this `ending`: frames whose parts agree, or an error of one line that names the file; welded
-/// or not, the same frames.
+/// The mesh beside positions.
+const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
+
+/// Reads `contents` as a file with this `ending` (beside a mesh, where it holds positions alone): frames whose parts agree, or an
+/// error of one line that names the file; welded or not, the same frames.
 pub fn read_as(ending: &str, contents: &[u8]) {
     let path = path(ending);
     fs::write(&path, contents).expect("a file can be written");
-    let argument = path.to_str().expect("the name is plain");
+    let mut argument = path.to_str().expect("the name is plain").to_owned();
+    if ["pc2", "mdd"].contains(&ending) {
+        let mesh = path.with_extension("obj");
+        fs::write(&mesh, MESH).expect("a file can be written");
+        argument = format!("{}+{argument}", mesh.display());
+    }
     let [welded, apart] = [true, false].map(|weld| {
         let options = OpenOptions {
             weld,
             max_memory: 16 << 20,
+            ..OpenOptions::default()
         };
-        read(argument, &options)
+        read(&argument, &options)
     });
     match (welded, apart) {
         (Ok(welded), Ok(apart)) => assert_eq!(welded, apart, "welding moves no vertex"),
@@ -53,40 +62,47 @@ pub fn read_as(ending: &str, contents: &[u8]) {
 /// The bits of all frames.
 fn read(argument: &str, options: &OpenOptions) -> Result<Vec<[u64; 3]>, String> {
     let mut bits = Vec::new();
-    let mut go = || {
-        let mut body = pliant_io::open(argument, options)?;
-        let (vertices, triangles) = (body.vertex_count(), body.triangles().len());
-        let corners = body.triangles().as_flattened();
-        assert!(corners.iter().all(|&corner| (corner as usize) < vertices));
-        assert!(triangles > 0 && vertices > 0 && body.welded() < vertices);
-        if let Some(faces) = body.faces() {
-            assert_eq!(faces.len(), triangles);
-            assert!(faces[0] == 0 && faces.is_sorted_by(|a, b| b - a <= 1));
-        }
-        let frames = body.frame_count();
-        let mut read = 0;
-        // Few kilobytes can hold a great many frames.
-        while read < 100
-            && let Some(positions) = body.next_frame()?
-        {
-            read += 1;
-            assert_eq!(positions.len(), vertices);
-            for vertex in 0..vertices as u32 {
-                let position = positions.get(vertex);
-                assert!(position.iter().all(|x| x.abs() <= f64::from(f32::MAX)));
-                bits.push(position.map(f64::to_bits));
-            }
-            let narrow = matches!(positions, Positions::F32(_));
-            assert_eq!(narrow, body.precision() == pliant_io::Precision::F32);
-        }
-        assert_eq!(read, frames.min(100));
-        Ok(())
-    };
-    let result: Result<(), pliant_io::Error> = go();
+    let result = pliant_io::open_all(argument, options).and_then(|bodies| {
+        assert!(!bodies.is_empty());
+        // A few kilobytes can hold a great many bodies, too.
+        let mut bodies = bodies.into_iter().take(20);
+        bodies.try_for_each(|body| read_body(body, &mut bits))
+    });
     result.map(|()| bits).map_err(|error| {
         let message = error.to_string();
         assert_eq!(message.lines().count(), 1, "{message}");
-        assert!(message.contains("fuzzed"), "{message}");
+        // The file, or one beside it that it says it needs.
+        let folder = path("").with_file_name("").display().to_string();
+        assert!(message.contains(&folder), "{message}");
         message
     })
+}
+
+fn read_body(mut body: Body, bits: &mut Vec<[u64; 3]>) -> Result<(), Error> {
+    let (vertices, triangles) = (body.vertex_count(), body.triangles().len());
+    let corners = body.triangles().as_flattened();
+    assert!(corners.iter().all(|&corner| (corner as usize) < vertices));
+    assert!(triangles > 0 && vertices > 0 && body.welded() < vertices);
+    if let Some(faces) = body.faces() {
+        assert_eq!(faces.len(), triangles);
+        assert!(faces[0] == 0 && faces.is_sorted_by(|a, b| b - a <= 1));
+    }
+    let frames = body.frame_count();
+    let mut read = 0;
+    // Few kilobytes can hold a great many frames.
+    while read < 100
+        && let Some(positions) = body.next_frame()?
+    {
+        read += 1;
+        assert_eq!(positions.len(), vertices);
+        for vertex in 0..vertices as u32 {
+            let position = positions.get(vertex);
+            assert!(position.iter().all(|x| x.abs() <= f64::from(f32::MAX)));
+            bits.push(position.map(f64::to_bits));
+        }
+        let narrow = matches!(positions, Positions::F32(_));
+        assert_eq!(narrow, body.precision() == pliant_io::Precision::F32);
+    }
+    assert_eq!(read, frames.min(100));
+    Ok(())
 }

@@ -121,13 +121,13 @@ pub(crate) fn point(given: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
     given.extract()
 }
 
-/// Pairs as a new (k, K) array, which takes the vector over.
-pub(crate) fn pairs<const K: usize>(
+/// Rows, pairs or positions, as a new (k, K) array, which takes the vector over.
+pub(crate) fn rows_of<T: Element, const K: usize>(
     py: Python<'_>,
-    pairs: Vec<[u32; K]>,
-) -> PyResult<Bound<'_, PyArray2<u32>>> {
-    let rows = pairs.len();
-    pairs.into_flattened().into_pyarray(py).reshape([rows, K])
+    rows: Vec<[T; K]>,
+) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let count = rows.len();
+    rows.into_flattened().into_pyarray(py).reshape([count, K])
 }
 
 /// An array of rows of three.

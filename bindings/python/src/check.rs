@@ -48,24 +48,26 @@ impl Name {
     }
 }
 
-/// Checks files as the program `pliant check` does: each path is a body, a mesh (.obj, .ply), a sequence (.npz), or a pattern
-/// such as "cloth_*.obj" whose files are its frames. Returns an iterator of frames, each read and checked when it is asked
-/// for.
+/// Checks files as the program `pliant check` does: each path is a body, a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with
+/// its positions ("mesh.obj+walk.pc2", .mdd), or a pattern such as "cloth_*.obj" whose files are its frames; of a glTF file (.glb,
+/// .gltf) each body, or one ("scene.glb#arm"). Returns an iterator of frames, each read and checked when it is asked for.
 ///
 ///   itself    check each body against itself too; one body alone always is
 ///   first     stop at the first pair of each frame
 ///   weld      weld vertices where boundary edges coincide in frame 0; else seams are intersections
 ///   split     "components": each connected piece of a file is a body, "cloth.ply#1", "cloth.ply#2", ... in the order of their
 ///             lowest triangle; triangles keep the numbers that they have in the file
-///   groups    names for several bodies, {"soft": ["shirt.ply", 2]}, to be used in ignore; a body has the name of its path, or
-///             its number
+///   groups    names for several bodies, {"soft": ["shirt.ply", 2]}, to be used in ignore; a body has the name of its path
+///             ("scene.glb#arm"; "scene.glb" stands for all bodies of it), or its number
 ///   ignore    pairs of bodies or groups that do not meet, [("soft", "hair.ply")]; twice the same: none of these bodies meets
 ///             another of them, or itself
 ///   baseline  a frame: the pairs that intersect in it are left out in all
-///   frames    a range: only these frames; those before are read, not checked
+///   frames    a range: only these frames; others are passed over, and not read where the format allows it
+///   clip      the animation of glTF files, by name; the first if none is named
+///   fps       frames a second at which animations of glTF files are evaluated
 ///   threads   how many share the work of a frame; no number changes an answer
 #[pyfunction]
-#[pyo3(signature = (*paths, itself=false, first=false, weld=true, split=None, groups=None, ignore=None, baseline=None, frames=None, threads=1))]
+#[pyo3(signature = (*paths, itself=false, first=false, weld=true, split=None, groups=None, ignore=None, baseline=None, frames=None, clip=None, fps=30.0, threads=1))]
 #[expect(
     clippy::too_many_arguments,
     reason = "each is a keyword with a default"
@@ -81,6 +83,8 @@ pub(crate) fn check(
     ignore: Option<Vec<(Name, Name)>>,
     baseline: Option<i64>,
     frames: Option<&Bound<'_, PyRange>>,
+    clip: Option<String>,
+    fps: f64,
     threads: i64,
 ) -> Result<Check, Refused> {
     let group = |(name, bodies): (String, Vec<Name>)| {
@@ -113,6 +117,8 @@ pub(crate) fn check(
     }
     let reading = OpenOptions {
         weld,
+        clip,
+        fps,
         ..OpenOptions::default()
     };
     let running = py.detach(|| pliant_check::Check::open(&paths, &reading, &settings))?;
@@ -147,7 +153,7 @@ impl Check {
         fields.set_item("count", count)?;
         fields.set_item("complete", complete)?;
         fields.set_item("left_out", left_out)?;
-        fields.set_item("pairs", arrays::pairs(py, pairs)?)?;
+        fields.set_item("pairs", arrays::rows_of(py, pairs)?)?;
         Ok(Some(named_tuple(py, "Frame", &fields)?))
     }
 

@@ -91,7 +91,7 @@ pub(crate) fn intersection_pairs<'py>(
                 .to_vec(),
         )
     })?;
-    Ok(arrays::pairs(py, pairs)?)
+    Ok(arrays::rows_of(py, pairs)?)
 }
 
 /// self_intersection_pairs(vertices, faces, *, threads=1), or self_intersection_pairs(mesh, *, threads=1)
@@ -115,7 +115,7 @@ pub(crate) fn self_intersection_pairs<'py>(
             with_world!(&mut state.world, world => world.self_intersection_pairs(body))?.to_vec(),
         )
     })?;
-    Ok(arrays::pairs(py, pairs)?)
+    Ok(arrays::rows_of(py, pairs)?)
 }
 
 /// intersection_pairs(va, fa, vb, fb), or intersection_pairs(mesh_a, mesh_b)
@@ -140,7 +140,7 @@ pub(crate) fn reference_intersection_pairs<'py>(
             widen(positions[1], wide_b),
         )
     });
-    Ok(arrays::pairs(py, pairs.map_err(Refused::from)?)?)
+    Ok(arrays::rows_of(py, pairs.map_err(Refused::from)?)?)
 }
 
 /// self_intersection_pairs(vertices, faces), or self_intersection_pairs(mesh)
@@ -156,5 +156,5 @@ pub(crate) fn reference_self_intersection_pairs<'py>(
     let (positions, faces) = (mesh.positions.get()?, mesh.faces.get()?);
     let pairs =
         py.detach(|| reference::self_intersection_pairs(faces, widen(positions, &mut Vec::new())));
-    Ok(arrays::pairs(py, pairs.map_err(Refused::from)?)?)
+    Ok(arrays::rows_of(py, pairs.map_err(Refused::from)?)?)
 }

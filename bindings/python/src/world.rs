@@ -3,9 +3,9 @@
 use crate::arrays::{self, Coordinates, Faces};
 use crate::error::{Refused, alone_with, named_tuple};
 use crate::options::Keywords;
-use crate::state::{State, with_world};
+use crate::state::{Either, State, with_world};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
-use pliant::{BodyId, Error, ErrorKind, Pair};
+use pliant::{BodyId, Error, ErrorKind, NodeBox, Pair};
 use pliant_io::Precision;
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
@@ -56,6 +56,25 @@ impl<'py> FromPyObject<'_, 'py> for Body {
             Err(error) => Err(error),
         }
     }
+}
+
+/// Positions on their way to numpy.
+enum Owned {
+    F32(Vec<[f32; 3]>),
+    F64(Vec<[f64; 3]>),
+}
+
+impl Owned {
+    fn into_array(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        Ok(match self {
+            Self::F32(rows) => arrays::rows_of(py, rows)?.into_any(),
+            Self::F64(rows) => arrays::rows_of(py, rows)?.into_any(),
+        })
+    }
+}
+
+fn made<S>(boxes: &[NodeBox<S>]) -> Vec<bool> {
+    boxes.iter().map(|node| node.made).collect()
 }
 
 impl World {
@@ -310,6 +329,71 @@ impl World {
         Ok(parts.into_pyarray(py))
     }
 
+    /// The faces of a body as they were added: (m, 3) uint32.
+    fn triangles<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+    ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
+        let triangles = self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.triangles(body.0))?)
+        })?;
+        Ok(arrays::rows_of(py, triangles)?)
+    }
+
+    /// The shape that a body has now, the positions that it was given last: a new array (n, 3) of the world's type.
+    fn positions<'py>(&self, py: Python<'py>, body: Body) -> Result<Bound<'py, PyAny>, Refused> {
+        let positions = self.with(py, |state| {
+            Ok(match &state.world {
+                Either::F32(world) => Owned::F32(world.positions(body.0)?.to_vec()),
+                Either::F64(world) => Owned::F64(world.positions(body.0)?.to_vec()),
+            })
+        })?;
+        Ok(positions.into_array(py)?)
+    }
+
+    /// The boxes of a level of a body's tree, the root being level 0, and which of them the tree holds for the shape that the
+    /// body has now: TreeBoxes(lower, upper, made), (k, 3), (k, 3) and (k,), one row a part of tree_parts. Makes no box.
+    fn tree_boxes<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+        level: u32,
+    ) -> Result<Bound<'py, PyAny>, Refused> {
+        let (lower, upper, made) = self.with(py, |state| {
+            Ok(match &state.world {
+                Either::F32(world) => {
+                    let boxes = world.tree_boxes(body.0, level)?;
+                    let corners = |corner: fn(&NodeBox<f32>) -> [f32; 3]| {
+                        Owned::F32(boxes.iter().map(corner).collect())
+                    };
+                    (
+                        corners(|node| node.lower),
+                        corners(|node| node.upper),
+                        made(&boxes),
+                    )
+                }
+                Either::F64(world) => {
+                    let boxes = world.tree_boxes(body.0, level)?;
+                    let corners = |corner: fn(&NodeBox<f64>) -> [f64; 3]| {
+                        Owned::F64(boxes.iter().map(corner).collect())
+                    };
+                    (
+                        corners(|node| node.lower),
+                        corners(|node| node.upper),
+                        made(&boxes),
+                    )
+                }
+            })
+        })?;
+        let fields = [
+            ("lower", lower.into_array(py)?),
+            ("upper", upper.into_array(py)?),
+            ("made", made.into_pyarray(py).into_any()),
+        ];
+        Ok(named_tuple(py, "TreeBoxes", fields)?)
+    }
+
     /// The order in which queries read the vertices of a body, as they were numbered when it was added: (n,) uint32. A body whose
     /// vertices come in this order, and whose faces name the new numbers, is faster.
     fn vertex_order<'py>(
@@ -333,7 +417,7 @@ impl World {
                 world.intersection_pairs().iter().copied().map(row).collect()
             }))
         })?;
-        Ok(arrays::pairs::<4>(py, pairs)?)
+        Ok(arrays::rows_of::<_, 4>(py, pairs)?)
     }
 
     /// Some intersecting pair of triangles of different bodies, or None if there is none. Which one may depend on options and
@@ -383,7 +467,7 @@ impl World {
                     .to_vec(),
             )
         })?;
-        Ok(arrays::pairs(py, pairs)?)
+        Ok(arrays::rows_of(py, pairs)?)
     }
 
     /// Some intersecting pair (triangle of a, triangle of b), or None if there is none.
@@ -431,7 +515,7 @@ impl World {
                     .to_vec(),
             )
         })?;
-        Ok(arrays::pairs(py, pairs)?)
+        Ok(arrays::rows_of(py, pairs)?)
     }
 
     /// Some intersecting pair of a body with itself, or None if there is none.

@@ -172,6 +172,40 @@ def test_the_program_says_the_same(folder: Path) -> None:
         assert said == {"format": 1, "bodies": bodies, "frames": frames}
 
 
+def test_frames_before_are_not_read(folder: Path) -> None:
+    (folder / "cloth_6.obj").write_text("nonsense")
+    some = pliant.check(folder / "cloth_*.obj", folder / "still.obj", itself=True, frames=range(3, 6, 2))
+    assert {frame.frame: frame.pairs.tolist() for frame in some} == {
+        number: by_hand(number, itself=True, still=True) + self_pairs_of_still() for number in (3, 5)
+    }
+    with pytest.raises(pliant.Error, match="cloth_6.obj"):
+        list(pliant.check(folder / "cloth_*.obj"))
+
+
+def self_pairs_of_still() -> list[list[int]]:
+    return [[1, i, 1, j] for i, j in pliant.reference.self_intersection_pairs(FLAT, FACES)]
+
+
+def test_gltf_is_evaluated() -> None:
+    fixtures = Path(__file__).parents[3] / "crates/pliant-io/tests/fixtures"
+    checked = pliant.check(fixtures / "hierarchy.gltf", clip="steps", fps=10)
+    names = [body.name.rpartition("#")[2] for body in checked.bodies]
+    assert names == ["mirrored", "arm (node 3)", "arm (node 4)", "ground"]
+    # 0.7 seconds at 10 a second, both ends.
+    assert [frame.frame for frame in checked] == list(range(8)) and checked.frame_count == 8
+    assert pliant.check(f"{fixtures / 'hierarchy.gltf'}#ground").bodies[0].vertices == 4
+    with pytest.raises(pliant.Error, match='there is no clip "fly"; there is: turn, steps'):
+        pliant.check(fixtures / "hierarchy.gltf", clip="fly")
+    with pytest.raises(pliant.Error, match="fps"):
+        pliant.check(fixtures / "hierarchy.gltf", fps=0)
+
+
+def test_a_clip_of_what_has_none(folder: Path) -> None:
+    with pytest.raises(pliant.Error, match="no body has an animation") as refused:
+        pliant.check(folder / "cloth.npz", clip="walk")
+    assert refused.value.kind == "BadOption"
+
+
 @pytest.fixture
 def pieces(tmp_path: Path) -> Path:
     """Two sheets that fold through each other as one file, their triangles mixed; three frames."""

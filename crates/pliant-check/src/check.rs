@@ -6,6 +6,7 @@ use crate::found::{Found, Row, Stop, Taker};
 use crate::meeting::Meeting;
 use crate::sequence::Sequence;
 use crate::settings::{Frames, Settings};
+use crate::world::WorldOf;
 use pliant::Pair;
 use pliant_io::{Body as Source, OpenOptions};
 use std::ops::{ControlFlow, Range};
@@ -30,11 +31,11 @@ struct Baseline {
 }
 
 impl Check {
-    /// Opens what `arguments` name, each a source, and prepares to check it.
+    /// Opens what `arguments` name, each a source or, of a glTF file, a source for each of its bodies, and prepares to check it.
     ///
     /// # Errors
     ///
-    /// A file cannot be read, or [`new`](Self::new) refuses.
+    /// A file cannot be read, a clip is asked for where nothing has any, or [`new`](Self::new) refuses.
     pub fn open(
         arguments: &[String],
         reading: &OpenOptions,
@@ -42,8 +43,13 @@ impl Check {
     ) -> Result<Self, Error> {
         let opened = arguments
             .iter()
-            .map(|argument| pliant_io::open(argument, reading));
-        Self::new(opened.collect::<Result<_, _>>()?, settings)
+            .map(|argument| pliant_io::open_all(argument, reading));
+        let opened = opened.collect::<Result<Vec<_>, _>>()?;
+        let sources: Vec<Source> = opened.into_iter().flatten().collect();
+        if reading.clip.is_some() && sources.iter().all(|source| source.clip().is_none()) {
+            return Err(Error::NoClip);
+        }
+        Self::new(sources, settings)
     }
 
     /// Prepares to check sources that are open, none of whose frames was handed out.
@@ -96,9 +102,14 @@ impl Check {
         })
     }
 
-    /// What is checked, one for each argument; the positions are those of the frame checked last.
+    /// What is checked, in the order of the arguments and of the bodies of each; the positions are those of the frame checked last.
     pub fn sources(&self) -> &[Source] {
         &self.sequence.sources
+    }
+
+    /// The world in the frame checked last, as the queries left it; empty before the first.
+    pub fn world(&self) -> WorldOf<'_> {
+        self.sequence.world.get()
     }
 
     /// How many frames the sources have, checked or not.

@@ -12,6 +12,9 @@ pub enum Error {
     /// There is nothing to check.
     #[error("no path was given; each is a body")]
     NoSources,
+    /// A clip was asked for, but no source has one.
+    #[error("no body has an animation, so none can be chosen")]
+    NoClip,
     /// Sources move, but not together.
     #[error(
         "frame counts must be equal or 1: {longest} has {frames} frames, {other} has {other_frames}"

@@ -58,3 +58,4 @@ pub use check::Check;
 pub use error::Error;
 pub use found::{Found, Row};
 pub use settings::{Frames, Group, Settings, Split};
+pub use world::WorldOf;

@@ -146,25 +146,28 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The bodies of the sources of this name, the piece of this name, or the body of this number.
+    /// The bodies of the sources or the file of this name, the piece of this name, or the body of this number.
     fn of_bodies(&self, name: &str) -> Option<Vec<u32>> {
-        let called = |name: &str| {
+        let with = |is: &dyn Fn(&Source) -> bool| -> Vec<usize> {
             let places = 0..self.sources.len();
-            let name = name.to_owned();
-            places.filter(move |&place| self.sources[place].name() == name)
+            places.filter(|&place| is(&self.sources[place])).collect()
         };
-        let whole: Vec<u32> = called(name)
-            .flat_map(|source| self.bodies.of_source(source))
-            .collect();
-        if !whole.is_empty() {
-            return Some(whole);
+        let called = |name: &str| with(&|source| source.name() == name);
+        for sources in [called(name), with(&|source| source.argument() == name)] {
+            let whole = sources
+                .into_iter()
+                .flat_map(|source| self.bodies.of_source(source));
+            let whole: Vec<u32> = whole.collect();
+            if !whole.is_empty() {
+                return Some(whole);
+            }
         }
         if let Some((source, piece)) = name.rsplit_once('#')
             && self.bodies.are_pieces()
             && let Ok(piece @ 1..) = piece.parse::<u32>()
         {
             let of_piece = |source| self.bodies.of_source(source).nth(piece as usize - 1);
-            let pieces: Vec<u32> = called(source).filter_map(of_piece).collect();
+            let pieces: Vec<u32> = called(source).into_iter().filter_map(of_piece).collect();
             return (!pieces.is_empty()).then_some(pieces);
         }
         let number = name.parse().ok()?;

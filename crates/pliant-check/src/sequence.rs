@@ -13,8 +13,8 @@ pub(crate) struct Sequence {
     pub(crate) world: World,
     /// The body of the world that each source is; empty before the first frame.
     pub(crate) ids: Vec<BodyId>,
-    /// How many frames were read since the beginning.
-    read: usize,
+    /// The frame behind the one read last.
+    next: usize,
     /// The frame that the world is in.
     shown: Option<usize>,
 }
@@ -42,39 +42,41 @@ impl Sequence {
             frame_count,
             world: World::new(precision.unwrap_or(Precision::F64), options),
             ids: Vec::new(),
-            read: 0,
+            next: 0,
             shown: None,
         })
     }
 
-    /// Brings the world to a frame: those before it are read on the way, from the beginning if the frame has gone by.
+    /// Brings the world to a frame: those before it are passed over, from the beginning if the frame has gone by.
     pub(crate) fn go_to(&mut self, frame: usize) -> Result<(), Error> {
         if self.shown == Some(frame) {
             return Ok(());
         }
-        if frame < self.read {
+        if frame < self.next {
             for source in self.sources.iter_mut().filter(|it| it.frame_count() > 1) {
                 source.rewind()?;
             }
-            self.read = 0;
+            self.next = 0;
         }
         self.shown = None;
-        while self.read <= frame {
-            self.read_next(frame)?;
-            self.read += 1;
+        for source in self.sources.iter_mut().filter(|it| it.frame_count() > 1) {
+            source.skip(frame - self.next);
         }
+        self.read(frame)?;
+        self.next = frame + 1;
         self.shown = Some(frame);
         Ok(())
     }
 
-    /// Reads a frame of every source that moves, and gives it to the world if it is the one wanted. The first makes the bodies.
-    fn read_next(&mut self, wanted: usize) -> Result<(), Error> {
-        let frame = self.read;
+    /// Reads a frame, the next one, of every source that moves, and gives it to the world. The first makes the bodies.
+    fn read(&mut self, frame: usize) -> Result<(), Error> {
         for (place, source) in self.sources.iter_mut().enumerate() {
             let makes = self.ids.len() == place;
-            if !makes && source.frame_count() == 1 {
+            let stands = source.frame_count() == 1;
+            if !makes && stands {
                 continue;
             }
+            let frame = if stands { 0 } else { frame };
             if source.next_frame()?.is_none() {
                 let source_name = source.name().to_owned();
                 return Err(Error::Missing { source_name, frame });
@@ -83,10 +85,8 @@ impl Sequence {
             let taken = if makes {
                 let added = self.world.add(source.triangles(), positions);
                 added.map(|id| self.ids.push(id))
-            } else if frame == wanted {
-                self.world.set_positions(self.ids[place], positions)
             } else {
-                Ok(())
+                self.world.set_positions(self.ids[place], positions)
             };
             taken.map_err(|error| Error::Refused {
                 source_name: source.name().to_owned(),

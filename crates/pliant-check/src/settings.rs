@@ -21,11 +21,12 @@ pub struct Settings {
     /// Pairs of names that do not meet: no body of the one meets any of the other. Twice the same: none of these bodies meets
     /// another of them, or itself.
     ///
-    /// A name is that of a group, of a source (all bodies that it is split into), of a body, or a body's number.
+    /// A name is that of a group, of a glTF file of several sources (all bodies of it), of a source (all bodies that it is split
+    /// into), of a body, or a body's number.
     pub ignore: Vec<[String; 2]>,
     /// Pairs that intersect in this frame are left out in all.
     pub baseline: Option<usize>,
-    /// Which frames are checked; all if `None`.
+    /// Which frames are checked; all if `None`. Others are passed over, and not read where the format allows it.
     pub frames: Option<Frames>,
     /// How the world works. No choice changes an answer.
     pub options: Options,
@@ -44,7 +45,7 @@ pub enum Split {
 pub struct Group {
     /// The name; not that of a body.
     pub name: String,
-    /// Names of sources or bodies, or numbers of bodies.
+    /// Names of files, sources or bodies, or numbers of bodies.
     pub bodies: Vec<String>,
 }
 

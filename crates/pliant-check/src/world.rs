@@ -6,6 +6,15 @@ use pliant::{BodyId, Error, Options, Pair};
 use pliant_io::{Positions, Precision};
 use std::ops::ControlFlow;
 
+/// The world of a check, whose bodies are the sources, in their order; of the precision that the sources have.
+#[derive(Clone, Copy)]
+pub enum WorldOf<'a> {
+    /// All sources are in single precision.
+    F32(&'a pliant::World<f32>),
+    /// At least one is in double precision.
+    F64(&'a pliant::World<f64>),
+}
+
 pub(crate) enum World {
     F32(pliant::World<f32>),
     F64 {
@@ -35,6 +44,13 @@ impl World {
                 world: pliant::World::with_options(options),
                 widened: Vec::new(),
             },
+        }
+    }
+
+    pub(crate) fn get(&self) -> WorldOf<'_> {
+        match self {
+            Self::F32(world) => WorldOf::F32(world),
+            Self::F64 { world, .. } => WorldOf::F64(world),
         }
     }
 

@@ -5,6 +5,8 @@
 
 mod bench;
 mod check;
+mod convert;
+mod report;
 mod run;
 mod table;
 mod tree_options;
@@ -28,6 +30,8 @@ enum Verb {
     Run(run::Arguments),
     /// Check your own meshes or mesh sequences for intersections
     Check(check::Arguments),
+    /// Write a mesh or a sequence in another format
+    Convert(convert::Arguments),
     /// Compare methods side by side: the paper's experiments and ours
     Bench(bench::Arguments),
 }
@@ -39,6 +43,8 @@ Examples:
   pliant check shirt.ply                      one body: does it intersect itself?
   pliant check 'shirt_*.obj' 'body_*.obj'     two sequences, frame by frame, against each other
   pliant check walk.npz --count               how many pairs in each frame
+  pliant check fox.glb --clip Run             an animation of a glTF file, evaluated
+  pliant convert fox.glb fox.npz              the same as a sequence of another format
   pliant bench experiment-1                   the paper's figure 3: ours, the older methods, other libraries";
 
 /// What the caller of the program learns from its exit code.
@@ -54,6 +60,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().verb {
         Verb::Run(arguments) => run::run(&arguments),
         Verb::Check(arguments) => check::check(&arguments),
+        Verb::Convert(arguments) => convert::convert(&arguments),
         Verb::Bench(arguments) => bench::bench(&arguments),
     };
     match outcome {

@@ -1,17 +1,35 @@
-//! An argument is a file, or a pattern whose files are the frames.
+//! An argument is a file, a pattern whose files are the frames, a body of a glTF file, or a mesh with a cache of its positions.
+//!
+//! ```text
+//! shirt.obj            a file
+//! shirt_*.obj          the files that match, in natural order
+//! scene.glb#arm        the body of this name in a file that holds several
+//! shirt.obj+walk.pc2   the mesh before the last `+`, the positions behind it
+//! ```
 //!
 //! An existing file of exactly that name wins, so that `scan[1].obj` can be read without escapes.
 //! Everything is made sure here that can be before a file is opened: it exists and is a regular
 //! file (a pipe would make us wait, and can be read once only).
 
-use std::io;
 use std::path::Path;
 
 use glob::{MatchOptions, Pattern};
 
 use crate::error::{Error, Reason};
 use crate::file::Found;
+use crate::format::Format;
 use crate::natural;
+
+/// What an argument names.
+#[derive(Debug)]
+pub(crate) enum Named {
+    /// The frames of a body, in order; at least one file.
+    Files(Vec<Found>),
+    /// A body in a file of several.
+    Part { file: Found, name: String },
+    /// A mesh, and the positions of its vertices.
+    Cache { mesh: Found, positions: Found },
+}
 
 /// Patterns as shells read them: `*` does not match a leading dot, nor does it cross a folder.
 const AS_IN_SHELLS: MatchOptions = MatchOptions {
@@ -20,21 +38,44 @@ const AS_IN_SHELLS: MatchOptions = MatchOptions {
     require_literal_leading_dot: true,
 };
 
+/// What `argument` names.
+pub(crate) fn named(argument: &str) -> Result<Named, Error> {
+    if !Path::new(argument).exists() {
+        if let Some((mesh, positions)) = mesh_and_positions(argument) {
+            return Ok(Named::Cache {
+                mesh: file(mesh)?,
+                positions: file(positions)?,
+            });
+        }
+        if let Some((path, name)) = argument.split_once('#')
+            && Format::of(Path::new(path)).is_ok_and(Format::holds_bodies)
+        {
+            return Ok(Named::Part {
+                file: file(path)?,
+                name: name.to_owned(),
+            });
+        }
+    }
+    files(argument).map(Named::Files)
+}
+
+/// The two names in `shirt.obj+walk.pc2`.
+pub(crate) fn mesh_and_positions(argument: &str) -> Option<(&str, &str)> {
+    let (mesh, positions) = argument.rsplit_once('+')?;
+    let is_cache = Format::of(Path::new(positions)).is_ok_and(Format::is_cache);
+    (is_cache && !mesh.is_empty()).then_some((mesh, positions))
+}
+
+/// One file of exactly this name.
+fn file(name: &str) -> Result<Found, Error> {
+    Found::find(name.into()).map_err(|reason| Error::new(name, reason))
+}
+
 /// The files that `argument` names, in natural order; at least one.
-pub(crate) fn files(argument: &str) -> Result<Vec<Found>, Error> {
+fn files(argument: &str) -> Result<Vec<Found>, Error> {
     let error = |reason: Reason| Error::new(argument, reason);
-    let path = Path::new(argument);
-    match path.metadata() {
-        Ok(metadata) if metadata.is_file() => {
-            return Ok(vec![Found::new(path.to_owned(), &metadata)]);
-        }
-        Ok(metadata) if metadata.is_dir() => return Err(error(Reason::Directory)),
-        Ok(_) => return Err(error(Reason::NotAFile)),
-        Err(_) if is_pattern(argument) => {}
-        Err(absent) if absent.kind() == io::ErrorKind::NotFound => {
-            return Err(error(Reason::NotFound));
-        }
-        Err(other) => return Err(error(other.into())),
+    if Path::new(argument).metadata().is_ok() || !is_pattern(argument) {
+        return Ok(vec![file(argument)?]);
     }
     let mut files = Vec::new();
     for path in

@@ -4,13 +4,14 @@
 use std::fmt;
 use std::path::Path;
 
-use crate::arguments;
+use crate::arguments::{self, Named};
 use crate::error::{Error, Fault, Place, Reason};
 use crate::file::Found;
 use crate::format::{Format, FrameSource};
 use crate::frame::Frame;
 use crate::positions::{Positions, Precision};
 use crate::weld::Welding;
+use crate::{cache, gltf};
 
 /// How to read a body.
 ///
@@ -18,7 +19,7 @@ use crate::weld::Welding;
 /// use pliant_io::OpenOptions;
 /// let as_in_the_file = OpenOptions { weld: false, ..OpenOptions::default() };
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct OpenOptions {
     /// Weld vertices where boundary edges coincide bit for bit in the first frame. Default: true;
     /// without, every seam of a file that splits vertices is a hit.
@@ -31,7 +32,13 @@ pub struct OpenOptions {
     /// refused before it is read; an OBJ file announces nothing, and is refused when so much of it has
     /// been read. Not counted: buffers, and the one line or polygon in hand (many MB only where a file
     /// has a line or polygon so long).
+    ///
+    /// The bodies of one glTF file share it, and beside their frames what the file says about their shape and motion is counted.
     pub max_memory: u64,
+    /// The animation of a glTF file to evaluate, by name; one without a name is called by its number. Default: the first.
+    pub clip: Option<String>,
+    /// Frames a second at which an animation is evaluated. Default: 30.
+    pub fps: f64,
 }
 
 impl Default for OpenOptions {
@@ -39,12 +46,15 @@ impl Default for OpenOptions {
         Self {
             weld: true,
             max_memory: 4 << 30,
+            clip: None,
+            fps: 30.0,
         }
     }
 }
 
 /// One body: connectivity known, frames still to come.
 pub struct Body {
+    argument: String,
     name: String,
     files: Vec<FrameFile>,
     /// The frames of the file that is being read.
@@ -52,7 +62,8 @@ pub struct Body {
     file: usize,
     frame: Frame,
     welding: Option<Welding>,
-    /// Frames read, the first while opening; frames handed out.
+    options: OpenOptions,
+    /// The number that follows the frame read last, and the frame handed out or skipped last.
     read: usize,
     handed_out: usize,
     failed: bool,
@@ -68,8 +79,8 @@ struct FrameFile {
 
 impl FrameFile {
     /// Opens the file, which had so many `frames` when the body was opened.
-    fn open(&self, frames: usize) -> Result<Box<dyn FrameSource>, Error> {
-        let source = self.format.open(&self.found);
+    fn open(&self, frames: usize, options: &OpenOptions) -> Result<Box<dyn FrameSource>, Error> {
+        let source = self.format.open(&self.found, options);
         let source = source.map_err(|fault| Error::new(self.path(), fault))?;
         if source.frame_count() != frames {
             return Err(Error::new(self.path(), Reason::Changed));
@@ -82,20 +93,73 @@ impl FrameFile {
     }
 }
 
-/// Opens the body that `argument` names: a file, or a pattern whose files are its frames. Reads its
-/// first frame.
+/// Opens the body that `argument` names: a file, a pattern whose files are its frames, a body of a file
+/// (`scene.glb#arm`), or a mesh with its positions (`shirt.obj+walk.pc2`). Reads its first frame.
 ///
 /// # Errors
 ///
-/// Nothing found, no format known for the ending, or a first frame that cannot be read: [`Reason`]
-/// lists what can be wrong.
+/// Nothing found, no format known for the ending, several bodies in the file ([`open_all`] opens
+/// them), or a first frame that cannot be read: [`Reason`] lists what can be wrong.
 pub fn open(argument: &str, options: &OpenOptions) -> Result<Body, Error> {
+    let mut bodies = open_all(argument, options)?;
+    match bodies.pop() {
+        Some(body) if bodies.is_empty() => Ok(body),
+        last => {
+            bodies.extend(last);
+            // Behind the argument and a `#`.
+            let part = |body: &Body| body.name.get(argument.len() + 1..).map(str::to_owned);
+            let names: Vec<_> = bodies.iter().filter_map(part).collect();
+            Err(Error::new(argument, gltf::many_bodies(&names, argument)))
+        }
+    }
+}
+
+/// Opens the bodies that `argument` names: those of a glTF file, in the order of its nodes; of every other argument the one.
+/// Reads the first frame of each.
+///
+/// # Errors
+///
+/// As [`open`], but for several bodies.
+pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Error> {
+    match arguments::named(argument)? {
+        Named::Files(mut files) if files.len() == 1 => {
+            let found = files.swap_remove(0);
+            match format_of(&found)? {
+                Format::Gltf => open_scene(argument, &found, None, options),
+                _ => open_files(argument, vec![found], options).map(|body| vec![body]),
+            }
+        }
+        Named::Files(files) => open_files(argument, files, options).map(|body| vec![body]),
+        Named::Part { file, name } => open_scene(argument, &file, Some(&name), options),
+        Named::Cache { mesh, positions } => {
+            let format = format_of(&positions)?;
+            let path = positions.path().to_owned();
+            let source = cache::open(&mesh, &positions, format, options)
+                .map_err(|fault| Error::new(path, fault))?;
+            let end = source.frame_count();
+            let files = vec![FrameFile {
+                found: positions,
+                format,
+                end,
+            }];
+            let frame = Frame::new(options.max_memory, options.weld);
+            Body::begin(argument, files, Box::new(source), frame, options).map(|body| vec![body])
+        }
+    }
+}
+
+fn format_of(found: &Found) -> Result<Format, Error> {
+    Format::of(found.path()).map_err(|reason| Error::new(found.path(), reason))
+}
+
+/// The body whose frames are these files.
+fn open_files(argument: &str, found: Vec<Found>, options: &OpenOptions) -> Result<Body, Error> {
     let mut files = Vec::new();
     let mut end = 0_usize;
-    for found in arguments::files(argument)? {
-        let format = Format::of(found.path()).map_err(|reason| Error::new(found.path(), reason))?;
+    for found in found {
+        let format = format_of(&found)?;
         let frames = format
-            .frame_count(&found)
+            .frame_count(&found, options)
             .map_err(|fault| Error::new(found.path(), fault))?;
         end = end.saturating_add(frames);
         files.push(FrameFile { found, format, end });
@@ -103,29 +167,79 @@ pub fn open(argument: &str, options: &OpenOptions) -> Result<Body, Error> {
     let first = files
         .first()
         .ok_or_else(|| Error::new(argument, Reason::NoMatch))?;
-    let path = first.path().to_owned();
-    let in_first = |fault: Fault| Error::new(&path, fault);
+    let source = first.open(first.end, options)?;
+    let frame = Frame::new(options.max_memory, options.weld);
+    Body::begin(argument, files, source, frame, options)
+}
 
-    let mut source = first.open(first.end)?;
-    let mut frame = Frame::new(options.max_memory, options.weld);
-    let _complete = source.read(&mut frame).map_err(in_first)?;
-    frame.becomes_first(path);
-    let welding = frame.weld();
-    Ok(Body {
-        name: argument.to_owned(),
-        files,
-        source,
-        file: 0,
-        frame,
-        welding,
-        read: 1,
-        handed_out: 0,
-        failed: false,
-    })
+/// The bodies of a file that holds several, or the one that is called `name`. Together they keep to the limit of memory.
+fn open_scene(
+    argument: &str,
+    found: &Found,
+    name: Option<&str>,
+    options: &OpenOptions,
+) -> Result<Vec<Body>, Error> {
+    let scene =
+        gltf::open(found, name, options).map_err(|fault| Error::new(found.path(), fault))?;
+    let mut held = scene.held;
+    let alone = scene.bodies.len() == 1;
+    let mut bodies = Vec::new();
+    for (part, source) in scene.bodies {
+        let end = source.frame_count();
+        let files = vec![FrameFile {
+            found: found.clone(),
+            format: Format::Gltf,
+            end,
+        }];
+        let frame = Frame::new(options.max_memory, options.weld).beside(held);
+        let mut body = Body::begin(argument, files, Box::new(source), frame, options)?;
+        if !alone {
+            body.name = format!("{argument}#{part}");
+        }
+        held = body.frame.held();
+        bodies.push(body);
+    }
+    Ok(bodies)
 }
 
 impl Body {
-    /// The argument as given.
+    /// Reads the first frame, by which all others are held.
+    fn begin(
+        argument: &str,
+        files: Vec<FrameFile>,
+        mut source: Box<dyn FrameSource>,
+        mut frame: Frame,
+        options: &OpenOptions,
+    ) -> Result<Self, Error> {
+        let path = files.first().map(|file| file.path().to_owned());
+        let path = path.unwrap_or_default();
+        let in_first = |fault: Fault| Error::new(&path, fault);
+        let held = frame.fill_from(source.held());
+        held.map_err(|reason| in_first(reason.into()))?;
+        let _complete = source.read(&mut frame).map_err(in_first)?;
+        frame.becomes_first(path);
+        let welding = frame.weld(|| source.alike());
+        Ok(Self {
+            argument: argument.to_owned(),
+            name: argument.to_owned(),
+            files,
+            source,
+            file: 0,
+            frame,
+            welding,
+            options: options.clone(),
+            read: 1,
+            handed_out: 0,
+            failed: false,
+        })
+    }
+
+    /// The argument as given; where it names a file of several bodies, all of them have it.
+    pub fn argument(&self) -> &str {
+        &self.argument
+    }
+
+    /// The argument; behind a `#` the name of the body, where it names several.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -172,6 +286,21 @@ impl Body {
         self.files.get(at).map(FrameFile::path)
     }
 
+    /// The name of the animation of a glTF file that moves the body; None where none does.
+    pub fn clip(&self) -> Option<&str> {
+        self.source.clip()
+    }
+
+    /// Passes over so many frames, or all that are left: [`next_frame`](Self::next_frame) hands out the one behind them.
+    ///
+    /// Files of which no frame is wanted are not opened; within a file frames are passed over without reading them where the
+    /// format allows it (not in a deflated array). What is not read is not checked: neither its coordinates, nor its faces, nor
+    /// the checksum of the array that it is in.
+    pub fn skip(&mut self, frames: usize) {
+        let after = self.handed_out.saturating_add(frames);
+        self.handed_out = after.min(self.frame_count());
+    }
+
     /// The positions of the next frame, from frame 0 on; None after the last.
     ///
     /// They are valid until the next call, which reads over them.
@@ -188,7 +317,7 @@ impl Body {
         if self.handed_out == self.frame_count() {
             return Ok(None);
         }
-        if self.handed_out == self.read {
+        if self.handed_out >= self.read {
             // Set first, so that an error on any way out leaves it set.
             self.failed = true;
             self.advance()?;
@@ -198,12 +327,14 @@ impl Body {
         Ok(Some(self.frame.positions()))
     }
 
-    /// The positions of the frame handed out last, and of frame 0 before any was; after an error they mean nothing.
+    /// The positions of the frame handed out last, also after [`rewind`](Self::rewind), and of frame 0 before any was; after an
+    /// error they mean nothing.
     pub fn positions(&self) -> Positions<'_> {
         self.frame.positions()
     }
 
-    /// Begins again: the next frame is frame 0. The files are opened again, and must be those that were found.
+    /// Begins again: the next frame is frame 0. Files that are read again must be those that were found; what is held of a glTF
+    /// file is not read again.
     ///
     /// # Errors
     ///
@@ -214,27 +345,35 @@ impl Body {
         }
         if self.read > 1 {
             self.failed = true;
-            let first = &self.files[0];
-            self.source = first.open(first.end)?;
+            let rewound = self.file == 0 && {
+                let rewound = self.source.rewind();
+                rewound.map_err(|fault| Error::new(self.files[0].path(), fault))?
+            };
+            if !rewound {
+                self.open_file(0)?;
+            }
             self.failed = false;
-            (self.file, self.read) = (0, 0);
+            self.read = 0;
         }
         self.handed_out = 0;
         Ok(())
     }
 
-    /// Reads the next frame over the last.
+    /// Reads the frame to hand out next over the last one read.
     fn advance(&mut self) -> Result<(), Error> {
-        if self.read == self.files[self.file].end {
-            self.file += 1;
-            let file = &self.files[self.file];
-            self.source = file.open(file.end - self.read)?;
+        let frame = self.handed_out;
+        let at = self.files.partition_point(|file| file.end <= frame);
+        if at != self.file {
+            self.open_file(at)?;
+            self.read = self.begin_of(at);
         }
         let path = self.files[self.file].path();
-        let _complete = self
-            .source
-            .read(&mut self.frame)
-            .map_err(|fault| Error::new(path, fault))?;
+        let in_file = |fault: Fault| Error::new(path, fault);
+        if frame > self.read {
+            self.source.skip(frame - self.read).map_err(in_file)?;
+        }
+        let _complete = self.source.read(&mut self.frame).map_err(in_file)?;
+        self.read = frame;
         if let Some(welding) = &self.welding {
             let apart = welding.check(self.frame.positions());
             apart.map_err(|reason| Error::new(path, reason.at(self.place())))?;
@@ -243,12 +382,24 @@ impl Body {
         Ok(())
     }
 
+    /// Goes to the beginning of a file.
+    fn open_file(&mut self, at: usize) -> Result<(), Error> {
+        let file = &self.files[at];
+        self.file = at;
+        self.source = file.open(file.end - self.begin_of(at), &self.options)?;
+        let filled = self.frame.fill_from(self.source.held());
+        filled.map_err(|reason| Error::new(file.path(), reason))
+    }
+
+    /// The number of the first frame of a file.
+    fn begin_of(&self, file: usize) -> usize {
+        file.checked_sub(1)
+            .map_or(0, |before| self.files[before].end)
+    }
+
     /// Where in its file the frame just read is.
     fn place(&self) -> Place {
-        let begin = self
-            .file
-            .checked_sub(1)
-            .map_or(0, |before| self.files[before].end);
+        let begin = self.begin_of(self.file);
         if self.files[self.file].end - begin == 1 {
             Place::File
         } else {

@@ -32,6 +32,10 @@ pub enum Place {
     Array(&'static str),
     /// A frame of a file that holds many, counted from 0 within the file.
     Frame(u64),
+    /// A byte of a binary file, counted from 0.
+    Byte(u64),
+    /// A part of a glTF file (`accessor`, `node`, ...), counted from 0.
+    Part(&'static str, usize),
 }
 
 /// What is wrong there.
@@ -92,6 +96,20 @@ pub enum Reason {
         "a frame needs at least {} of memory while its seams are found, {} are allowed; allow more with `--max-memory`, or use `--no-weld`", Size(*needed), Size(*limit)
     )]
     SeamsTooLarge { needed: u64, limit: u64 },
+    #[error("holds {count} bodies: {names}; name one: '{example}'")]
+    ManyBodies {
+        count: usize,
+        names: String,
+        example: String,
+    },
+    #[error("there is no body {name:?}; there is: {names}")]
+    NoBody { name: String, names: String },
+    #[error("there is no clip {name:?}; there is: {names}")]
+    NoClip { name: String, names: String },
+    #[error("is there already; use `--force` to write over it")]
+    Exists,
+    #[error("cannot be written: {0}")]
+    Write(io::Error),
     #[error("a polygon of more than {most} corners")]
     ManyCorners { most: usize },
     #[error("does not fit in memory")]
@@ -135,9 +153,13 @@ fn numbering(first: i64, last: i64) -> String {
 
 impl Error {
     pub(crate) fn new(file: impl Into<PathBuf>, fault: impl Into<Fault>) -> Self {
-        let Fault { place, reason } = fault.into();
+        let Fault {
+            file: other,
+            place,
+            reason,
+        } = fault.into();
         Self {
-            file: file.into(),
+            file: other.unwrap_or_else(|| file.into()),
             place,
             reason,
         }
@@ -184,6 +206,8 @@ impl fmt::Display for Place {
             Place::Element(name, number) => write!(f, ", {name} {number}"),
             Place::Array(name) => write!(f, ", array `{name}`"),
             Place::Frame(number) => write!(f, ", frame {number}"),
+            Place::Byte(number) => write!(f, ", byte {number}"),
+            Place::Part(name, number) => write!(f, ", {name} {number}"),
         }
     }
 }
@@ -191,6 +215,8 @@ impl fmt::Display for Place {
 /// An error without the name of the file: what a reader returns.
 #[derive(Debug)]
 pub(crate) struct Fault {
+    /// Another file than the one being read: one that it needs.
+    pub(crate) file: Option<PathBuf>,
     pub(crate) place: Place,
     pub(crate) reason: Reason,
 }
@@ -203,11 +229,18 @@ impl Fault {
         }
         self
     }
+
+    /// Names the file, where it is another than the one being read.
+    pub(crate) fn or_in(mut self, file: &Path) -> Self {
+        self.file.get_or_insert_with(|| file.to_owned());
+        self
+    }
 }
 
 impl Reason {
     pub(crate) fn at(self, place: Place) -> Fault {
         Fault {
+            file: None,
             place,
             reason: self,
         }

@@ -65,6 +65,23 @@ impl Found {
         &self.path
     }
 
+    /// A file that was not named but is needed: found now.
+    pub(crate) fn find(path: PathBuf) -> Result<Self, Reason> {
+        let metadata = match path.metadata() {
+            Err(absent) if absent.kind() == io::ErrorKind::NotFound => {
+                return Err(Reason::NotFound);
+            }
+            metadata => metadata?,
+        };
+        if metadata.is_dir() {
+            return Err(Reason::Directory);
+        }
+        if !metadata.is_file() {
+            return Err(Reason::NotAFile);
+        }
+        Ok(Self::new(path, &metadata))
+    }
+
     /// Opens the file, if it is still the one found.
     pub(crate) fn open(&self) -> Result<Opened, Reason> {
         let mut options = File::options();
@@ -83,6 +100,11 @@ impl Found {
 }
 
 impl Opened {
+    /// In bytes.
+    pub(crate) fn length(&self) -> u64 {
+        self.state.length
+    }
+
     /// Refuses a file that is not as it was found.
     pub(crate) fn unchanged(&self) -> Result<(), Reason> {
         if State::of(&self.file.metadata()?) == self.state {

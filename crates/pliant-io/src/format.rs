@@ -1,6 +1,6 @@
 //! Which ending is which reader: the one place to add a format.
 //!
-//! A format is one file. Where a file of it is one frame, the file holds a function `read(input,
+//! A format is one file, or a folder. Where a file of it is one frame, it has a function `read(input,
 //! frame)` like `obj::read`; where a file is a sequence, a type that implements [`FrameSource`]
 //! like `npz::Npz`. Either way it fills a [`Frame`], which checks what it is given and hands out
 //! the proof that the frame is complete.
@@ -8,19 +8,24 @@
 use std::io::BufReader;
 use std::path::Path;
 
+use crate::body::OpenOptions;
 use crate::error::{Fault, Reason};
 use crate::file::{Found, Opened};
 use crate::frame::{Complete, Frame};
-use crate::{npz, obj, ply};
+use crate::{cache, gltf, npz, obj, ply, stl};
 
 /// For messages.
-const READABLE: &str = "a frame a file: .obj, .ply; a sequence a file: .npz";
+const READABLE: &str = "a frame a file: .obj, .ply, .stl; a sequence a file: .npz, .glb, .gltf; positions beside a mesh: 'mesh.obj+positions.pc2', .mdd";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Format {
     Obj,
     Ply,
+    Stl,
     Npz,
+    Gltf,
+    Pc2,
+    Mdd,
 }
 
 /// The frames of one file, in order.
@@ -31,6 +36,31 @@ pub(crate) trait FrameSource: Send {
     /// Reads the next one into `frame`, from a file that did not change meanwhile; not called after the last, nor after an
     /// error.
     fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault>;
+
+    /// Passes over so many; at least one is left. Not called before the body has its faces, be they of this source or of another
+    /// one.
+    fn skip(&mut self, frames: usize) -> Result<(), Fault>;
+
+    /// Begins again without opening its file again: the next is the first. False where it cannot.
+    fn rewind(&mut self) -> Result<bool, Fault> {
+        Ok(false)
+    }
+
+    /// The bytes that it holds beside the frame.
+    fn held(&self) -> u64 {
+        0
+    }
+
+    /// A number for each vertex of the frame read first: vertices may be welded only if theirs are equal. None where equal
+    /// positions are enough.
+    fn alike(&self) -> Option<Vec<u64>> {
+        None
+    }
+
+    /// The name of the animation that moves it.
+    fn clip(&self) -> Option<&str> {
+        None
+    }
 }
 
 impl Format {
@@ -40,20 +70,40 @@ impl Format {
         match ending.to_str() {
             Some("obj") => Ok(Self::Obj),
             Some("ply") => Ok(Self::Ply),
+            Some("stl") => Ok(Self::Stl),
             Some("npz") => Ok(Self::Npz),
+            Some("gltf" | "glb") => Ok(Self::Gltf),
+            Some("pc2") => Ok(Self::Pc2),
+            Some("mdd") => Ok(Self::Mdd),
             _ => Err(Reason::UnknownFormat { readable: READABLE }),
         }
     }
 
+    /// Whether a file may hold several bodies.
+    pub(crate) fn holds_bodies(self) -> bool {
+        self == Self::Gltf
+    }
+
+    /// Whether a file holds positions alone.
+    pub(crate) fn is_cache(self) -> bool {
+        matches!(self, Self::Pc2 | Self::Mdd)
+    }
+
     /// How many frames `file` has, with as little reading as the format allows.
-    pub(crate) fn frame_count(self, file: &Found) -> Result<usize, Fault> {
+    pub(crate) fn frame_count(self, file: &Found, options: &OpenOptions) -> Result<usize, Fault> {
         match self {
-            Self::Obj | Self::Ply => Ok(1),
-            Self::Npz => Ok(npz::Npz::open(file)?.frame_count()),
+            Self::Obj | Self::Ply | Self::Stl => Ok(1),
+            Self::Npz | Self::Gltf | Self::Pc2 | Self::Mdd => {
+                Ok(self.open(file, options)?.frame_count())
+            }
         }
     }
 
-    pub(crate) fn open(self, file: &Found) -> Result<Box<dyn FrameSource>, Fault> {
+    pub(crate) fn open(
+        self,
+        file: &Found,
+        options: &OpenOptions,
+    ) -> Result<Box<dyn FrameSource>, Fault> {
         let one_frame = |read| -> Result<Box<dyn FrameSource>, Fault> {
             let input = BufReader::with_capacity(1 << 16, file.open()?);
             Ok(Box::new(OneFrame { input, read }))
@@ -61,7 +111,13 @@ impl Format {
         match self {
             Self::Obj => one_frame(|input, frame| obj::read(input, frame)),
             Self::Ply => one_frame(|input, frame| ply::read(input, frame)),
+            Self::Stl => one_frame(|input, frame| {
+                let length = input.get_ref().length();
+                stl::read(input, length, frame)
+            }),
             Self::Npz => Ok(Box::new(npz::Npz::open(file)?)),
+            Self::Gltf => Ok(Box::new(gltf::open_one(file, options)?)),
+            Self::Pc2 | Self::Mdd => Err(cache::alone(file.path()).into()),
         }
     }
 }
@@ -83,6 +139,10 @@ impl FrameSource for OneFrame {
         self.input.get_ref().unchanged()?;
         read
     }
+
+    fn skip(&mut self, _: usize) -> Result<(), Fault> {
+        Ok(()) // none: one is left
+    }
 }
 
 #[cfg(test)]
@@ -93,7 +153,7 @@ mod tests {
     fn endings_decide_in_either_case() {
         assert_eq!(Format::of(Path::new("a/b.OBJ")).ok(), Some(Format::Obj));
         assert_eq!(Format::of(Path::new("b.obj.Ply")).ok(), Some(Format::Ply));
-        for unknown in ["a.npy", "a.stl", "a", ".obj", "obj", "a.obj."] {
+        for unknown in ["a.npy", "a.fbx", "a", ".obj", "obj", "a.obj."] {
             assert!(Format::of(Path::new(unknown)).is_err(), "{unknown}");
         }
     }
@@ -116,7 +176,10 @@ mod tests {
             ] {
                 std::fs::write(&path, text).unwrap();
                 let found = Found::new(path.clone(), &path.metadata().unwrap());
-                let mut source = Format::of(&path).unwrap().open(&found).unwrap();
+                let mut source = Format::of(&path)
+                    .unwrap()
+                    .open(&found, &OpenOptions::default())
+                    .unwrap();
                 if refused {
                     std::fs::write(&path, change).unwrap();
                 }

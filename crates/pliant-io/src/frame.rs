@@ -17,6 +17,8 @@ pub(crate) struct Frame {
     vertices: Vertices,
     polygons: Polygons,
     account: Account,
+    /// Of it, what the source of the frames holds.
+    source: u64,
     /// Whether seams will be looked for in the first frame.
     weld: bool,
     first: Option<First>,
@@ -49,9 +51,30 @@ impl Frame {
             vertices: Vertices::new(),
             polygons: Polygons::new(),
             account: Account::new(limit),
+            source: 0,
             weld,
             first: None,
         }
+    }
+
+    /// Enters what is held already, for other bodies that are counted with this one.
+    pub(crate) fn beside(mut self, held: u64) -> Self {
+        self.account.enter_allowed(held);
+        self
+    }
+
+    /// What is held in all.
+    pub(crate) fn held(&self) -> u64 {
+        self.account.held()
+    }
+
+    /// Enters what the source that now fills the frame holds, in place of what the last one held.
+    pub(crate) fn fill_from(&mut self, held: u64) -> Result<(), Reason> {
+        self.account.take_off(self.source);
+        self.source = 0;
+        self.account.enter(held)?;
+        self.source = held;
+        Ok(())
     }
 
     /// Begins a frame whose file has coordinates of `precision`; refuses one that announces more than may be held.
@@ -95,6 +118,20 @@ impl Frame {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Keeps the faces of the first frame, which came from a mesh, and begins its vertices anew: those of a cache.
+    pub(crate) fn replace_vertices(
+        &mut self,
+        precision: Precision,
+        announced: u64,
+    ) -> Result<(), Reason> {
+        self.vertices.clear(0, &mut self.account);
+        self.vertices.set_precision(precision);
+        self.vertices.clear(announced, &mut self.account);
+        self.account
+            .check(announced.saturating_mul(precision.bytes()))?;
+        Ok(())
     }
 
     /// Takes the next vertex.
@@ -175,15 +212,20 @@ impl Frame {
         self.polygons.compare_from_now_on();
     }
 
-    /// Welds the first frame, if it is to be welded; None where there is nothing to weld.
-    pub(crate) fn weld(&mut self) -> Option<Welding> {
+    /// Welds the first frame, if it is to be welded; None where there is nothing to weld. `alike`: see
+    /// [`FrameSource::alike`](crate::format::FrameSource::alike).
+    pub(crate) fn weld(&mut self, alike: impl FnOnce() -> Option<Vec<u64>>) -> Option<Welding> {
+        if !self.weld {
+            return None;
+        }
         let positions = self.vertices.positions();
-        let same = |vertex| weld::position_bits(positions, vertex);
         let triangles = self.polygons.triangles();
-        let welding = self
-            .weld
-            .then(|| weld::weld(triangles, positions.len(), same));
-        let welding = welding.flatten()?;
+        let welding = match alike() {
+            Some(alike) => weld::weld(triangles, positions.len(), |vertex| alike[vertex as usize]),
+            None => weld::weld(triangles, positions.len(), |vertex| {
+                weld::position_bits(positions, vertex)
+            }),
+        }?;
         // Less than finding took, which was allowed.
         self.account.enter_allowed(welding.bytes());
         Some(welding)

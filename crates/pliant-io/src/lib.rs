@@ -3,8 +3,10 @@
 //! Every *argument* names one **body**: a file, or a pattern such as `cloth_*.obj` whose files, in
 //! natural order (`frame2` before `frame10`), are its frames. [`open`] reads what holds for the
 //! whole body (triangles, faces, how many frames there are) and the first frame;
-//! [`Body::next_frame`] then hands out one frame after another. Only the frame handed out is in
-//! memory: a sequence larger than memory is read with the memory of one frame.
+//! [`Body::next_frame`] then hands out one frame after another, [`Body::skip`] passes over some. Only
+//! the frame handed out is in memory: a sequence larger than memory is read with the memory of one
+//! frame. A glTF file holds several bodies: [`open_all`] opens them, `scene.glb#arm` names one. A
+//! cache of positions is named beside its mesh: `shirt.obj+walk.pc2`. [`Writer`] writes.
 //!
 //! ```
 //! # let folder = format!("pliant-io-front-page-{}", std::process::id());
@@ -43,13 +45,23 @@
 //! |---|---|---|
 //! | `.obj` | one frame: `v`, and the `v` indices of `f` | f64, the nearest to what is written |
 //! | `.ply` | one frame: ASCII, binary of either byte order | as declared: `float` f32, `double` f64 |
+//! | `.stl` | one frame: text or binary, told apart by the length | f32 |
 //! | `.npz` | all frames: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3) | as the array: float32, float64 |
+//! | `.pc2`, `.mdd` | positions of all frames, for a mesh of one frame in any other format | f32 |
+//! | `.glb`, `.gltf` | bodies, and animations of which [`OpenOptions::clip`] is evaluated at [`OpenOptions::fps`] | f32 |
 //!
 //! - **Polygons become fans** around their first corner, triangles numbered in file order;
 //!   [`Body::faces`] then says which polygon each triangle is of.
-//! - **Seams are welded**: files split a vertex where texture coordinates or normals differ.
-//!   Vertices at the two ends of boundary edges that coincide bit for bit in the first frame become
-//!   one; [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off.
+//! - **Seams are welded**: files split a vertex where texture coordinates or normals differ, STL
+//!   splits all. Vertices at the two ends of boundary edges that coincide bit for bit in the first
+//!   frame become one; [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off. In
+//!   glTF they must coincide at rest, and joints, weights and morph targets move them alike.
+//! - **glTF**: the default scene; a body for each node whose mesh has triangles, strips or fans
+//!   (points and lines have no surface); nodes in nodes, skins, morph targets, sparse accessors;
+//!   steps, lines and cubic splines. Computed in double precision, rounded to f32. Frames at 0,
+//!   1/fps, 2/fps, ... and the clip's end; without animations one, of the file as it rests. Bytes
+//!   are read from the file, from files beside it and from data URIs. Quantised, meshopt and Draco
+//!   files, and what else a file requires and would change shapes, are refused.
 //! - **The frames of a body agree**: same faces, same number of vertices, no later frame of a
 //!   higher precision than the first.
 //! - **Files are not trusted.** Every coordinate is finite and at most `f32::MAX` in magnitude,
@@ -62,23 +74,26 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `arguments.rs`, `natural.rs` | an argument is a file or a pattern; the order of its files |
+//! | `arguments.rs`, `natural.rs` | what an argument names; the order of its files |
 //! | `series.rs` | a pattern that the shell expanded |
 //! | `body.rs` | files in a row are one body: the streaming loop |
 //! | `file.rs` | a file must stay as it was found |
 //! | `format.rs` | which ending is which reader: the one place to add a format |
 //! | `frame.rs`, `positions.rs`, `polygons.rs` | what readers fill, checked: recorded once, then compared |
-//! | `obj.rs`, `ply/`, `npz/` | one format each |
+//! | `obj.rs`, `ply/`, `stl.rs`, `npz/`, `cache.rs`, `gltf/` | one format each |
+//! | `write/` | one format each, and files that appear when they are whole |
 //! | `weld.rs` | boundary edges that coincide |
 //! | `memory.rs`, `text.rs` | nothing is allocated on a claim, nor beyond the limit; lines and numbers of text formats |
 //! | `error.rs` | one type, one line |
 
 mod arguments;
 mod body;
+mod cache;
 mod error;
 mod file;
 mod format;
 mod frame;
+mod gltf;
 mod memory;
 mod natural;
 mod npz;
@@ -87,10 +102,13 @@ mod ply;
 mod polygons;
 mod positions;
 mod series;
+mod stl;
 mod text;
 mod weld;
+mod write;
 
-pub use body::{Body, OpenOptions, open};
+pub use body::{Body, OpenOptions, open, open_all};
 pub use error::{Error, Place, Reason};
 pub use positions::{Positions, Precision};
 pub use series::looks_like_a_series;
+pub use write::{Shape, WriteOptions, Writer};

@@ -26,6 +26,10 @@ impl Account {
         Self { held: 0, limit }
     }
 
+    pub(crate) fn held(&self) -> u64 {
+        self.held
+    }
+
     /// What is held and `more`; an error where that is not allowed.
     pub(crate) fn check(&self, more: u64) -> Result<u64, Excess> {
         let needed = self.held.saturating_add(more);

@@ -83,7 +83,7 @@ fn what_names_nothing_readable_is_an_error() {
         .write("t.npz", "")
         .write("cut.obj", "v 0 0");
     std::fs::create_dir(folder.path().join("d.obj")).unwrap();
-    let readable = "a frame a file: .obj, .ply; a sequence a file: .npz";
+    let readable = "a frame a file: .obj, .ply, .stl; a sequence a file: .npz, .glb, .gltf; positions beside a mesh: 'mesh.obj+positions.pc2', .mdd";
     assert_eq!(folder.error("none.obj"), "none.obj: no such file");
     assert_eq!(
         folder.error("none_*.obj"),
@@ -240,13 +240,20 @@ fn memory_is_limited_by_what_is_held() {
         0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
     folder.write("t.ply", ascii);
     let open = |name: &str, weld, max_memory| {
-        pliant_io::open(&folder.argument(name), &OpenOptions { weld, max_memory })
-            .and_then(|mut body| all_frames(&mut body))
-            .map_err(|error| match error.reason() {
-                Reason::TooLarge { needed, limit } => ("frame", *needed, *limit),
-                Reason::SeamsTooLarge { needed, limit } => ("seams", *needed, *limit),
-                _ => panic!("{error}"),
-            })
+        pliant_io::open(
+            &folder.argument(name),
+            &OpenOptions {
+                weld,
+                max_memory,
+                ..OpenOptions::default()
+            },
+        )
+        .and_then(|mut body| all_frames(&mut body))
+        .map_err(|error| match error.reason() {
+            Reason::TooLarge { needed, limit } => ("frame", *needed, *limit),
+            Reason::SeamsTooLarge { needed, limit } => ("seams", *needed, *limit),
+            _ => panic!("{error}"),
+        })
     };
     let frame = 4 * 24 + 4 * 12;
     let seams = frame + 4 * 24 + 4 * 8;

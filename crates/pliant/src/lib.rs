@@ -85,7 +85,7 @@ pub use geometry::Scalar;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
 pub use pairs::Pair;
 pub use statistics::Statistics;
-pub use world::{BodyId, TreeShape, World};
+pub use world::{BodyId, NodeBox, TreeShape, World};
 
 /// The example in the README is compiled and run.
 #[cfg(doctest)]

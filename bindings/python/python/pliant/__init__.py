@@ -13,7 +13,7 @@ share a vertex are left out. Surfaces only: a body wholly inside another meets n
 
 from . import reference
 from ._pliant import Check, World, check, intersection_pairs, self_intersection_pairs
-from ._types import Body, Error, Frame, Mesh, OpenMesh, Pair, Statistics, TreeShape
+from ._types import Body, Error, Frame, Mesh, OpenMesh, Pair, Statistics, TreeBoxes, TreeShape
 
 __all__ = [
     "Body",
@@ -24,6 +24,7 @@ __all__ = [
     "OpenMesh",
     "Pair",
     "Statistics",
+    "TreeBoxes",
     "TreeShape",
     "World",
     "check",

@@ -73,6 +73,17 @@ class TreeShape(NamedTuple):
     """Nodes that hold triangles."""
 
 
+class TreeBoxes(NamedTuple):
+    """The boxes of a level of a tree, one a part of tree_parts."""
+
+    lower: NDArray[Any]
+    """(k, 3): the smallest coordinates of the triangles below each node."""
+    upper: NDArray[Any]
+    """(k, 3): the largest."""
+    made: NDArray[np.bool_]
+    """(k,): whether the tree holds this box, made for the shape that the body has now."""
+
+
 class Statistics(NamedTuple):
     """The work of one query, and of the calls of update and update_body before it."""
 
@@ -99,7 +110,8 @@ class Body:
     """A body that was read from files, or a connected piece of one."""
 
     name: str
-    """The path as given, and where it is split, # and the number of the piece."""
+    """The path as given; of a glTF file of several bodies, # and the name of the body; where it is split, # and the number of the
+    piece."""
     vertices: int
     triangles: int
     faces: NDArray[np.uint32] | None
@@ -107,7 +119,7 @@ class Body:
     welded: int
     """Vertices welded away in its file."""
     source: int
-    """Which path it is of, counted from 0."""
+    """Which path it is of, counted from 0; each body of a glTF file counts."""
     first_triangle: int
     """Its lowest triangle, as numbered in the file."""
 
@@ -147,5 +159,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, TreeShape, Statistics, Body, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, TreeBoxes, TreeShape, Statistics, Body, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

@@ -85,6 +85,13 @@ impl Experiment {
             .sum()
     }
 
+    /// The motions of the contests, one after the other, each made anew when it is asked for: for pictures of them.
+    pub fn motions(&self, form: Form) -> impl Iterator<Item = Motion> {
+        (self.plan)(form)
+            .into_iter()
+            .map(|planned| (planned.make)().motion)
+    }
+
     /// Plays all contests. `progress` is told the contest at hand and the steps played.
     pub fn run(
         &self,

@@ -1,5 +1,6 @@
 //! `pliant bench`: methods side by side, and what the paper claims about them.
 
+mod report;
 mod tables;
 
 use crate::{Outcome, print_all};
@@ -25,6 +26,12 @@ pub(crate) struct Arguments {
     /// Write everything that was measured to a file, as benchmarks/record.schema.json describes it
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write a page about it, one file that needs no network: charts of every contest, and its bodies in motion
+    #[arg(long, value_name = "FILE.html", value_parser = crate::report::page_name)]
+    report: Option<PathBuf>,
+    /// Write every chart as SVG into a folder
+    #[arg(long, value_name = "FOLDER")]
+    svg: Option<PathBuf>,
 }
 
 fn experiments_help() -> String {
@@ -59,6 +66,9 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
         // Before hours are spent: can it be written?
         std::fs::write(file, "").with_context(|| format!("cannot write {}", file.display()))?;
     }
+    if let Some(page) = &arguments.report {
+        crate::report::prepare(page)?;
+    }
     let form = if arguments.small {
         Form::Small
     } else {
@@ -80,12 +90,15 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
         machine,
         experiments: Vec::new(),
     };
-    for experiment in chosen {
+    for experiment in &chosen {
         let done = experiment.run(form, rounds, &mut |contest, steps| {
             bar.set_message(contest.to_owned());
             bar.inc(steps);
         });
         bar.suspend(|| print_all(&tables::experiment(&done)))?;
+        if let Some(folder) = &arguments.svg {
+            report::write_charts(folder, &done)?;
+        }
         record.experiments.push(done);
         if let Some(file) = &arguments.json {
             // After each experiment: what was measured is not lost if a later one fails.
@@ -95,5 +108,8 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
         }
     }
     bar.finish_and_clear();
+    if let Some(page) = &arguments.report {
+        report::write(page, &record, &chosen, form)?;
+    }
     Ok(Outcome::Clear)
 }

@@ -3,13 +3,16 @@
 mod hits;
 mod names;
 mod output;
-mod size;
+mod pictures;
+pub(crate) mod size;
 
 use crate::Outcome;
+use crate::report::PictureOptions;
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
 use hits::Hits;
 use output::Output;
+use pictures::Pictures;
 use pliant::Options;
 use pliant_check::{Check, Error, Group, Settings};
 use pliant_io::OpenOptions;
@@ -23,7 +26,7 @@ use std::path::PathBuf;
     reason = "each is a flag of the program"
 )]
 pub(crate) struct Arguments {
-    /// One body each: a mesh (.obj, .ply), a sequence (.npz), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj')
+    /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with its positions (mesh.obj+walk.pc2, .mdd), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj'); each body of a glTF file (.glb, .gltf), or one of them (scene.glb#arm)
     #[arg(value_name = "BODY", required = true)]
     bodies: Vec<String>,
     /// Check each body against itself too; one body alone always is
@@ -38,7 +41,7 @@ pub(crate) struct Arguments {
     /// Make every connected piece of a file a body: FILE#1, FILE#2, ... in the order of their lowest triangle; triangles keep their numbers
     #[arg(long, value_enum, value_name = "INTO")]
     split: Option<Split>,
-    /// Give several bodies a name, for --ignore; each by its name, or by its number, from 0
+    /// Give several bodies a name, for --ignore; each by its name, or by its number, from 0; a glTF file stands for all its bodies
     #[arg(long = "group", value_name = "NAME=BODY,BODY", value_parser = names::group)]
     groups: Vec<Group>,
     /// Bodies, or groups, that do not meet; A,A means that those of A do not meet each other, nor themselves
@@ -53,6 +56,12 @@ pub(crate) struct Arguments {
     /// The most memory that a frame may take, seam finding included, and again that a list of pairs may (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     max_memory: u64,
+    /// The animation of glTF files, by name; the first if none is named
+    #[arg(long, value_name = "NAME")]
+    clip: Option<String>,
+    /// Frames a second at which animations of glTF files are evaluated
+    #[arg(long, value_name = "N", default_value = "30", value_parser = crate::convert::rate)]
+    fps: f64,
     /// How many threads share the work; no number changes an answer
     #[arg(long, value_name = "T", default_value = "1")]
     threads: NonZeroUsize,
@@ -65,6 +74,8 @@ pub(crate) struct Arguments {
     /// Nothing on standard output: the exit code says it
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    pictures: PictureOptions,
 }
 
 const EXAMPLES: &str = "\
@@ -74,12 +85,14 @@ Examples:
   pliant check a.ply b.ply c.ply --ignore 0,2              bodies by number; so are names with commas in them
   pliant check teeth.ply --split components                which pieces of the file meet each other?
   pliant check teeth.ply --split components --ignore 'teeth.ply#1,teeth.ply#2'
-  pliant check walk.npz --baseline 0                       what frame 0 does not have already
+  pliant check scene.glb --ignore 'scene.glb#arm,scene.glb#sleeve'
+  pliant check fox.glb --clip Run --baseline 0             what frame 0 does not have already
   pliant check walk.npz --hits hits.vtp                    hits_00.vtp, hits_01.vtp, ..., hits.pvd for ParaView
+  pliant check walk.npz --report walk.html                 the bodies in motion, what intersects in red
   pliant check walk.npz --quiet && echo clean
 
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed, as many for one that --baseline leaves out, and with --hits 16 more and 300 for each triangle written.";
+Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed, as many for one that --baseline leaves out, with --hits 16 more and 300 for each triangle written, and what a glTF file says of shape and motion.";
 
 /// `A,B`.
 type Names = [String; 2];
@@ -105,28 +118,34 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
             arguments.bodies.len()
         ));
     }
-    let mut check = open(arguments).or_else(|error| output::annotate(arguments, error.into()))?;
+    let mut check = open(arguments).or_else(|error| output::annotate(arguments, advise(error)))?;
     let mut hits = arguments.hits.as_deref().map(Hits::new).transpose()?;
+    let mut pictures = Pictures::new(arguments, &check)?;
     let mut output = Output::begin(arguments, &check)?;
-    let checked = frames(&mut check, hits.as_mut(), &mut output);
+    let checked = frames(&mut check, hits.as_mut(), &mut pictures, &mut output);
     let checked = checked.and_then(|()| hits.map_or(Ok(()), Hits::end));
-    output.end(checked)
+    let drawn = pictures.end(arguments, &check, &checked);
+    let outcome = output.end(checked)?;
+    drawn?;
+    Ok(outcome)
 }
 
 fn open(arguments: &Arguments) -> Result<Check, Error> {
     let reading = OpenOptions {
         weld: !arguments.no_weld,
         max_memory: arguments.max_memory,
+        clip: arguments.clip.clone(),
+        fps: arguments.fps,
     };
+    let kept = arguments.hits.is_some() || arguments.pictures.are_asked_for();
     let printed = !arguments.quiet && !arguments.count;
     let mut options = Options::default();
     options.threads = arguments.threads;
     let settings = Settings {
         itself: arguments.itself,
         // Where only the exit code is asked for, one pair says as much as all.
-        first: arguments.first || arguments.quiet && arguments.hits.is_none(),
-        listed: arguments.hits.is_some()
-            || printed && matches!(arguments.format, Format::Json | Format::Lines),
+        first: arguments.first || arguments.quiet && !kept,
+        listed: kept || printed && matches!(arguments.format, Format::Json | Format::Lines),
         max_list: arguments.max_memory,
         split: arguments.split.map(|split| match split {
             Split::Components => pliant_check::Split::Components,
@@ -143,6 +162,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
 fn frames(
     check: &mut Check,
     mut hits: Option<&mut Hits>,
+    pictures: &mut Pictures,
     output: &mut Output,
 ) -> anyhow::Result<()> {
     while let Some(found) = check.next_frame().map_err(advise)? {
@@ -150,6 +170,7 @@ fn frames(
         if let Some(hits) = &mut hits {
             hits.frame(check, &found)?;
         }
+        pictures.frame(check, &found)?;
     }
     Ok(())
 }
@@ -160,6 +181,7 @@ fn advise(error: Error) -> anyhow::Error {
         Error::TooManyPairs { .. } => anyhow!(
             "{error}; allow more with `--max-memory`, or ask for less with `--count` or `--first`"
         ),
+        Error::NoClip => anyhow!("{error}; leave out `--clip`"),
         other => other.into(),
     }
 }

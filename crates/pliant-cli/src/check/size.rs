@@ -1,7 +1,7 @@
 //! A number of bytes as people write it: `4GiB`, `512MiB`, `1G`, `65536`.
 
 /// Reads a size. The letters are powers of 1024, in either case, with or without `iB`.
-pub(super) fn parse(text: &str) -> Result<u64, String> {
+pub(crate) fn parse(text: &str) -> Result<u64, String> {
     let help = "write a number of bytes, or one with a unit: 65536, 512MiB, 4G";
     let end = text
         .find(|c: char| !c.is_ascii_digit())

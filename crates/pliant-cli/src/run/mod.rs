@@ -2,12 +2,13 @@
 
 mod record;
 
+use crate::report::{PictureOptions, Watcher};
 use crate::tree_options::{TreeOptions, value_name};
 use crate::{Outcome, print_all};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use pliant::{Scalar, World};
+use pliant::{Pair, Scalar, World};
 use pliant_scenes::{Asks, Scene};
 use record::{Record, StepRecord};
 use std::time::Instant;
@@ -38,6 +39,8 @@ pub(crate) struct Arguments {
     /// A table, or one JSON object with a figure for every step
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
+    #[command(flatten)]
+    pictures: PictureOptions,
     #[command(flatten)]
     trees: TreeOptions,
 }
@@ -87,9 +90,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         Asks::Itself => Query::Itself,
     });
 
+    let mut watcher = Watcher::new(&arguments.pictures, Vec::new, "step", steps.iter().copied())?;
     let played = match arguments.precision {
-        Precision::F32 => play::<f32>(arguments, &scene, query, &steps, |x| x)?,
-        Precision::F64 => play::<f64>(arguments, &scene, query, &steps, f64::from)?,
+        Precision::F32 => play::<f32>(arguments, &scene, query, &steps, |x| x, &mut watcher)?,
+        Precision::F64 => play::<f64>(arguments, &scene, query, &steps, f64::from, &mut watcher)?,
     };
     let record = Record {
         scene: scene.name(),
@@ -111,6 +115,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
             record.json()
         ),
     };
+    watcher.finish(scene.name(), "step", |_, play| record.tell(play))?;
     print_all(&text)?;
     Ok(Outcome::Clear)
 }
@@ -122,6 +127,7 @@ fn play<S: Scalar>(
     query: Query,
     steps: &[u32],
     convert: impl Fn(f32) -> S,
+    watcher: &mut Watcher,
 ) -> anyhow::Result<Vec<StepRecord>> {
     let mut world = World::<S>::with_options(arguments.trees.to_options()?);
     let mut single = Vec::new();
@@ -166,9 +172,13 @@ fn play<S: Scalar>(
         }
         let updated = Instant::now();
         let mut statistics = pliant::Statistics::default();
+        let mut first = None;
         let pairs = match query {
             Query::All => world.intersection_pairs().len(),
-            Query::First => usize::from(world.first_intersection().is_some()),
+            Query::First => {
+                first = world.first_intersection();
+                usize::from(first.is_some())
+            }
             Query::Itself => {
                 let mut pairs = 0;
                 for &body in &bodies {
@@ -190,8 +200,41 @@ fn play<S: Scalar>(
             query_ms: milliseconds(updated, end),
             statistics,
         });
+        if watcher.looks_at(step) {
+            let rows = match query {
+                Query::First => first.map(row).into_iter().collect(),
+                // Asked again, off the clock: it makes no box.
+                Query::All => world
+                    .intersection_pairs()
+                    .iter()
+                    .copied()
+                    .map(row)
+                    .collect(),
+                Query::Itself => self_rows(&mut world)?,
+            };
+            watcher.frame(step, &world, &rows)?;
+        }
         bar.inc(1);
     }
     bar.finish_and_clear();
     Ok(played)
+}
+
+fn row(pair: Pair) -> [u32; 4] {
+    [
+        pair.body_a.0,
+        pair.triangle_a,
+        pair.body_b.0,
+        pair.triangle_b,
+    ]
+}
+
+fn self_rows<S: Scalar>(world: &mut World<S>) -> anyhow::Result<Vec<[u32; 4]>> {
+    let bodies: Vec<_> = world.bodies().collect();
+    let mut rows = Vec::new();
+    for body in bodies {
+        let pairs = world.self_intersection_pairs(body)?;
+        rows.extend(pairs.iter().map(|&[a, b]| [body.0, a, body.0, b]));
+    }
+    Ok(rows)
 }

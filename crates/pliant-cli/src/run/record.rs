@@ -1,8 +1,10 @@
 //! What was played, for people and for programs.
 
+use crate::report::{chart, fact};
 use crate::table::{grouped, table};
 use crate::tree_options::TreeOptions;
 use pliant::Statistics;
+use pliant_report::Play;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -107,14 +109,64 @@ impl Record<'_> {
         object
     }
 
-    /// For a terminal.
-    pub(super) fn table(&self) -> String {
-        let mut text = String::new();
-        let asked = match self.query.as_str() {
+    /// For a page.
+    pub(super) fn tell(&self, play: &mut Play) {
+        play.facts.extend([
+            fact("query", self.asked()),
+            fact("precision", &self.precision),
+            fact("trees", self.trees.describe()),
+            fact("seed", self.seed.to_string()),
+        ]);
+        let steps: Vec<u32> = self.played.iter().map(|step| step.step).collect();
+        let list =
+            |figure: fn(&StepRecord) -> f64| self.played.iter().map(figure).collect::<Vec<_>>();
+        play.charts.extend([
+            chart(
+                "time per step, by phase",
+                "ms",
+                "step",
+                &steps,
+                [
+                    (
+                        "both".to_owned(),
+                        list(|step| step.update_ms + step.query_ms),
+                    ),
+                    ("query".to_owned(), list(|step| step.query_ms)),
+                    ("update".to_owned(), list(|step| step.update_ms)),
+                ],
+            ),
+            chart(
+                "boxes made per step",
+                "boxes",
+                "step",
+                &steps,
+                [
+                    (
+                        "bottom-up".to_owned(),
+                        list(|step| step.statistics.boxes_bottom_up as f64),
+                    ),
+                    (
+                        "top-down".to_owned(),
+                        list(|step| step.statistics.boxes_top_down as f64),
+                    ),
+                ],
+            ),
+        ]);
+    }
+
+    /// The query, for people.
+    fn asked(&self) -> &'static str {
+        match self.query.as_str() {
             "first" => "first pair between bodies",
             "self" => "all pairs of each body with itself",
             _ => "all pairs between bodies",
-        };
+        }
+    }
+
+    /// For a terminal.
+    pub(super) fn table(&self) -> String {
+        let mut text = String::new();
+        let asked = self.asked();
         let bodies = if self.bodies == 1 {
             "1 body".to_owned()
         } else {

@@ -3,7 +3,7 @@
 //!
 //! Frame by frame from the compressed stream; never more than one frame unpacked. Little and big
 //! endian alike. The end of the data and its checksum are verified before the last frame is handed
-//! out: whoever stops earlier has read unverified data.
+//! out: whoever stops earlier, or passes over frames of an array that is not deflated, has read unverified data.
 
 mod directory;
 mod entry;
@@ -178,6 +178,17 @@ impl FrameSource for Npz {
         // First: what looks wrong may be half of a change.
         self.vertices.unchanged()?;
         read
+    }
+
+    fn skip(&mut self, frames: usize) -> Result<(), Fault> {
+        let frames = frames as u64;
+        let bytes = frames.saturating_mul(self.count.saturating_mul(3 * self.dtype.size as u64));
+        let skipped = self.vertices.skip(bytes);
+        // First: what looks wrong may be half of a change.
+        self.vertices.unchanged()?;
+        skipped.map_err(|reason| reason.at(Place::Frame(self.next)))?;
+        self.next += frames;
+        Ok(())
     }
 }
 

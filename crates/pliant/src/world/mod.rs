@@ -6,6 +6,7 @@
 mod body;
 mod forest;
 mod parts;
+mod picture;
 mod queries;
 mod step;
 mod validate;
@@ -24,6 +25,7 @@ use crate::traversal::Scratch;
 use body::Body;
 pub(crate) use body::validate as validate_body;
 use forest::{Forest, with_trees};
+pub use picture::NodeBox;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use witness::Witnesses;

@@ -11,8 +11,9 @@
 //! to be complete. If a frame cannot be checked, the object ends with `"error"`.
 //!
 //! With `--split components` a body is a piece of a source: `"split": "components"` says so, `"triangle_numbers": "source"` that
-//! triangles of pairs are numbered as in the source, and `sources` has what bodies have otherwise. A body then has the number of
-//! its `source`, and its `first_triangle`; its `vertices` and `triangles` are those of the piece.
+//! triangles of pairs are numbered as in the source, and `sources` has what bodies have otherwise: files, or the bodies of glTF
+//! files. A body then has the number of its `source`, and its `first_triangle`; its `vertices` and `triangles` are those of the
+//! piece.
 //!
 //! `groups` (numbers of bodies by name) and `ignore` repeat what was asked. With `--baseline`, which is repeated too, a frame has
 //! `left_out`: how many pairs were, because they intersect in that frame; not where `--first` stopped at a new pair.

@@ -1,0 +1,231 @@
+//! A page about experiments, and their charts as SVG: figures 3 and 4 of the paper, with what is measured beside what moves.
+
+use crate::report::{asked, cannot_write, chart, fact};
+use crate::table::grouped;
+use anyhow::Context;
+use pliant::World;
+use pliant_bench::experiments::{Experiment, Form};
+use pliant_bench::motion::Motion;
+use pliant_bench::record::{Claim, ContestRecord, ExperimentRecord, MethodRecord, Record, Verdict};
+use pliant_report::{Chart, Play, Recorder, Report};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// What makes a picture: two contests with the same show the same.
+type Shows = (String, usize, usize, Vec<u32>, bool);
+
+fn shows(contest: &ContestRecord) -> Shows {
+    let of_itself = contest.query == "self";
+    let ContestRecord {
+        motion,
+        bodies,
+        triangles,
+        steps,
+        ..
+    } = contest;
+    (
+        motion.clone(),
+        *bodies,
+        *triangles,
+        steps.clone(),
+        of_itself,
+    )
+}
+
+/// Writes a page about everything in a record.
+pub(super) fn write(
+    path: &Path,
+    record: &Record,
+    chosen: &[&Experiment],
+    form: Form,
+) -> anyhow::Result<()> {
+    let mut report = Report::new(&asked());
+    let machine = &record.machine;
+    report.facts = vec![
+        fact("processor", &machine.processor),
+        fact("cores", machine.cores.to_string()),
+        fact("system", &machine.system),
+        fact("build", &machine.profile),
+    ];
+    let contests = record.experiments.iter().flat_map(|done| &done.contests);
+    let motions = contests.map(shows).collect::<BTreeSet<_>>().len();
+    report.found = format!(
+        "{} on {}, medians of {}.",
+        record
+            .experiments
+            .iter()
+            .map(|done| done.experiment.as_str())
+            .collect::<Vec<_>>()
+            .join(", "),
+        machine.processor,
+        match record.experiments.first().map_or(0, |done| done.rounds) {
+            1 => "1 round".to_owned(),
+            rounds => format!("{rounds} rounds"),
+        },
+    );
+    if form == Form::Small {
+        report
+            .found
+            .push_str(" A small form: its times mean nothing.");
+    }
+    let mut seen: Vec<Shows> = Vec::new();
+    for (done, experiment) in record.experiments.iter().zip(chosen) {
+        for (place, motion) in experiment
+            .motions(form)
+            .enumerate()
+            .take(done.contests.len())
+        {
+            let mut play = play(done, place);
+            let shows = shows(&done.contests[place]);
+            let shown = seen
+                .iter()
+                .position(|known| *known == shows)
+                .unwrap_or_else(|| {
+                    report.motions.push(replay(&motion, shows.4, motions));
+                    seen.push(shows);
+                    seen.len() - 1
+                });
+            play.motion = Some(shown);
+            report.plays.push(play);
+        }
+    }
+    report.write(path).with_context(|| cannot_write(path))
+}
+
+/// Writes every chart into a folder.
+pub(super) fn write_charts(folder: &Path, experiment: &ExperimentRecord) -> anyhow::Result<()> {
+    std::fs::create_dir_all(folder).with_context(|| cannot_write(folder))?;
+    for contest in &experiment.contests {
+        for (what, chart) in charts(contest) {
+            let name = file_name(&format!(
+                "{} {} {what}",
+                experiment.experiment, contest.name
+            ));
+            let path = folder.join(name + ".svg");
+            std::fs::write(&path, chart.svg()).with_context(|| cannot_write(&path))?;
+        }
+    }
+    Ok(())
+}
+
+/// Letters and digits, and a hyphen for all between.
+fn file_name(text: &str) -> String {
+    let words = text
+        .split(|c: char| !c.is_ascii_alphanumeric())
+        .filter(|word| !word.is_empty());
+    words.collect::<Vec<_>>().join("-").to_ascii_lowercase()
+}
+
+/// One contest of an experiment.
+fn play(done: &ExperimentRecord, place: usize) -> Play {
+    let contest = &done.contests[place];
+    let mut play = Play::new(&format!("{}: {}", done.experiment, contest.name), "step");
+    play.facts = vec![
+        fact("bodies", contest.bodies.to_string()),
+        fact("triangles of a body", grouped(contest.triangles as u64)),
+        fact("steps", contest.steps.len().to_string()),
+        fact("query", &contest.query),
+        fact(
+            "most pairs",
+            grouped(contest.pairs.iter().max().copied().unwrap_or(0) as u64),
+        ),
+        fact("checked against", &contest.truth),
+    ];
+    for method in &contest.methods {
+        if let Some(wrong) = &method.wrong {
+            play.notes.push(format!(
+                "{} is wrong from step {} on and was not timed: {} pairs missing, {} too many.",
+                method.name, wrong.step, wrong.missing, wrong.extra
+            ));
+        }
+    }
+    // A claim about one contest begins with its name; those about several stand with the first.
+    let names = |claim: &Claim, contest: &ContestRecord| claim.claim.starts_with(&contest.name);
+    let of_this = |claim: &&Claim| {
+        let of_one = done.contests.iter().any(|contest| names(claim, contest));
+        names(claim, contest) || (place == 0 && !of_one)
+    };
+    play.notes
+        .extend(done.claims.iter().filter(of_this).map(|claim| {
+            let verdict = match claim.verdict {
+                Verdict::Holds => "Holds",
+                Verdict::HoldsWeaker => "Holds weaker",
+                Verdict::DoesNotHoldToday => "Does not hold today",
+                Verdict::Measured => "Measured",
+            };
+            format!("{verdict}: {} ({})", claim.claim, claim.figure)
+        }));
+    play.charts
+        .extend(charts(contest).into_iter().map(|(_, chart)| chart));
+    play
+}
+
+/// Update and query together, then each alone: time by method, and by phase.
+fn charts(contest: &ContestRecord) -> Vec<(&'static str, Chart)> {
+    let phases: [(&str, &str, fn(&MethodRecord, usize) -> f64); 3] = [
+        ("both", "update and query", |method, step| {
+            method.update_ms[step] + method.query_ms[step]
+        }),
+        ("update", "update alone", |method, step| {
+            method.update_ms[step]
+        }),
+        ("query", "query alone", |method, step| method.query_ms[step]),
+    ];
+    let timed = || {
+        contest
+            .methods
+            .iter()
+            .filter(|method| !method.update_ms.is_empty())
+    };
+    phases
+        .into_iter()
+        .map(|(short, phase, figure)| {
+            let lines = timed().map(|method| {
+                (
+                    method.name.clone(),
+                    (0..contest.steps.len())
+                        .map(|step| figure(method, step))
+                        .collect(),
+                )
+            });
+            let title = format!("{}: {phase}, time per step", contest.name);
+            (short, chart(&title, "ms", "step", &contest.steps, lines))
+        })
+        .collect()
+}
+
+/// Plays a motion once more, with our library, to see which triangles are red and which boxes are made.
+fn replay(motion: &Motion, of_itself: bool, motions: usize) -> pliant_report::Motion {
+    let mut world = World::<f32>::new();
+    let bodies: Vec<_> = motion
+        .bodies
+        .iter()
+        .filter_map(|body| world.add(&body.triangles, &body.first.world).ok())
+        .collect();
+    let mut recorder = Recorder::one_of(Vec::new(), motions);
+    for (&step, frame) in motion.steps.iter().zip(&motion.frames) {
+        for (&body, placed) in bodies.iter().zip(frame) {
+            // The methods were given the same positions; they are good.
+            let _ = world.set_positions(body, &placed.world);
+        }
+        let mut rows: Vec<[u32; 4]> = Vec::new();
+        if of_itself {
+            for &body in &bodies {
+                let pairs = world.self_intersection_pairs(body).unwrap_or_default();
+                rows.extend(pairs.iter().map(|&[a, b]| [body.0, a, body.0, b]));
+            }
+        } else {
+            let pairs = world.intersection_pairs().iter();
+            rows.extend(pairs.map(|pair| {
+                [
+                    pair.body_a.0,
+                    pair.triangle_a,
+                    pair.body_b.0,
+                    pair.triangle_b,
+                ]
+            }));
+        }
+        recorder.frame(step, &world, &rows);
+    }
+    recorder.finish()
+}

@@ -1,0 +1,109 @@
+//! `--report` and `--png` of a check: what is left of each frame's pairs, in the world as the check left it.
+//!
+//! A picture has the sources as its bodies, with the triangles' own numbers; pieces of a source are not told apart in it.
+
+use super::Arguments;
+use crate::report::{Watcher, fact};
+use pliant_check::{Check, Found, Row, WorldOf};
+use pliant_report::BodyLabel;
+
+/// Looks at the frames of one check.
+pub(super) struct Pictures(Watcher);
+
+impl Pictures {
+    pub(super) fn new(arguments: &Arguments, check: &Check) -> anyhow::Result<Self> {
+        let numbers = 0..u32::try_from(check.frame_count()).unwrap_or(u32::MAX);
+        Watcher::new(&arguments.pictures, || labels(check), "frame", numbers).map(Self)
+    }
+
+    /// Takes the frame that was checked last.
+    pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
+        let number = found.frame as u32;
+        if !self.0.looks_at(number) {
+            return Ok(());
+        }
+        let pairs: Vec<Row> = found
+            .pairs
+            .iter()
+            .map(|&row| of_sources(check, row))
+            .collect();
+        match check.world() {
+            WorldOf::F32(world) => self.0.frame(number, world, &pairs),
+            WorldOf::F64(world) => self.0.frame(number, world, &pairs),
+        }
+    }
+
+    /// Writes the page, also of a check that ended early.
+    pub(super) fn end(
+        self,
+        arguments: &Arguments,
+        check: &Check,
+        checked: &anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        self.0.finish("check", "frame", |_, play| {
+            let precision = match check.world() {
+                WorldOf::F32(_) => "f32",
+                WorldOf::F64(_) => "f64",
+            };
+            play.facts.extend([
+                fact("query", asked(arguments, check)),
+                fact("precision", precision),
+            ]);
+            if arguments.split.is_some() {
+                play.facts
+                    .push(fact("pieces", check.body_count().to_string()));
+            }
+            if let Some(frame) = arguments.baseline {
+                play.notes.push(format!(
+                    "Pairs that intersect in frame {frame} are left out."
+                ));
+            }
+            for [a, b] in &arguments.ignore {
+                play.notes
+                    .push(format!("Pairs of {a} and {b} are left out."));
+            }
+            if let Err(error) = checked {
+                play.notes
+                    .push(format!("The check ended early: {error:#}."));
+            }
+        })
+    }
+}
+
+/// What the page calls the sources.
+fn labels(check: &Check) -> Vec<BodyLabel> {
+    let label = |source: &pliant_io::Body| BodyLabel {
+        name: source.name().to_owned(),
+        faces: source.faces().map(<[u32]>::to_vec),
+    };
+    check.sources().iter().map(label).collect()
+}
+
+/// A pair of bodies of answers as a pair of sources, the smaller first.
+fn of_sources(check: &Check, [body_a, a, body_b, b]: Row) -> Row {
+    let source = |body| check.source_of(body).unwrap_or_default() as u32;
+    let (one, other) = ((source(body_a), a), (source(body_b), b));
+    let ((source_a, a), (source_b, b)) = (one.min(other), one.max(other));
+    [source_a, a, source_b, b]
+}
+
+fn asked(arguments: &Arguments, check: &Check) -> &'static str {
+    let (one, each) = if arguments.split.is_some() {
+        (
+            "the piece with itself",
+            "the pieces with each other, and each with itself",
+        )
+    } else {
+        (
+            "the body with itself",
+            "the bodies with each other, and each with itself",
+        )
+    };
+    match (arguments.first, check.body_count(), arguments.itself) {
+        (true, ..) => "the first pair of each frame",
+        (_, 1, _) => one,
+        (_, _, true) => each,
+        _ if arguments.split.is_some() => "the pieces with each other",
+        _ => "the bodies with each other",
+    }
+}

@@ -1,0 +1,165 @@
+//! `pliant convert`: a mesh or a sequence in another format.
+//!
+//! Streamed like a check: in memory is one frame. Vertices stay as they are in the file; an STL file has none of its own, so its
+//! corners are welded and each place is written once.
+
+mod frames;
+
+use crate::Outcome;
+use crate::check::size;
+use anyhow::{Context, bail};
+use clap::Args;
+use frames::Frames;
+use pliant_io::{Body, OpenOptions, Positions, Shape, WriteOptions, Writer};
+
+#[derive(Args, Debug)]
+#[command(after_help = FORMATS)]
+pub(crate) struct Arguments {
+    /// What to read, as for `pliant check`: a mesh, a sequence, a quoted pattern ('cloth_*.obj'), a mesh with its positions (mesh.obj+walk.pc2), a body of a glTF file (scene.glb#arm)
+    #[arg(value_name = "IN")]
+    from: String,
+    /// What to write: a mesh (.obj, .ply, .stl), a sequence (.npz, mesh.obj+walk.pc2, mesh.obj+walk.mdd), or a mesh a frame (cloth_%04d.obj)
+    #[arg(value_name = "OUT")]
+    to: String,
+    /// Only these frames: 10..20 are 10 to 19; 10.. and ..20 are open; 10 is one
+    #[arg(long, value_name = "A..B", default_value = "..")]
+    frames: Frames,
+    /// The animation of a glTF file, by name; the first if none is named
+    #[arg(long, value_name = "NAME")]
+    clip: Option<String>,
+    /// Frames a second: at which an animation of a glTF file is evaluated, and that an MDD file says it has
+    #[arg(long, value_name = "N", default_value = "30", value_parser = rate)]
+    fps: f64,
+    /// Write over files that are there
+    #[arg(long)]
+    force: bool,
+    /// Keep the corners of an STL file apart
+    #[arg(long)]
+    no_weld: bool,
+    /// The most memory that a frame may take (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
+    #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
+    max_memory: u64,
+}
+
+const FORMATS: &str = "\
+Examples:
+  pliant convert 'cloth_*.obj' cloth.npz              a file a frame into one file
+  pliant convert walk.npz 'walk_%04d.ply'             and back: walk_0000.ply, walk_0001.ply, ...
+  pliant convert fox.glb fox.obj+fox.pc2 --clip Run   an animation as a mesh and its positions
+  pliant convert walk.npz pose.stl --frames 12        one frame
+
+A file appears under its name when it is whole; nothing is written over without --force. glTF is read, not written.
+STL, PC2 and MDD have 32-bit coordinates: others are rounded, and a note says so.";
+
+/// A number of frames a second.
+pub(crate) fn rate(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|rate: &f64| *rate > 0.0 && rate.is_finite())
+        .ok_or_else(|| "write a number above 0: 30, 59.94".to_owned())
+}
+
+/// Reads, writes, and says what was written.
+pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    let is_stl = arguments.from.to_ascii_lowercase().ends_with(".stl");
+    let mut body = pliant_io::open(
+        &arguments.from,
+        &OpenOptions {
+            weld: is_stl && !arguments.no_weld,
+            max_memory: arguments.max_memory,
+            clip: arguments.clip.clone(),
+            fps: arguments.fps,
+        },
+    )?;
+    if arguments.clip.is_some() && body.clip().is_none() {
+        bail!(
+            "{}: has no animation, so `--clip` has no meaning here",
+            body.name()
+        );
+    }
+    let frames = arguments.frames.within(body.frame_count())?;
+    let (vertices, triangles) = kept(&body);
+    let shape = Shape {
+        faces: body.faces().map(<[u32]>::to_vec),
+        vertex_count: vertices.as_ref().map_or(body.vertex_count(), Vec::len),
+        frame_count: frames.len(),
+        precision: body.precision(),
+        triangles,
+    };
+    let said = format!(
+        "{} frame{}, {} vertices, {} triangles",
+        shape.frame_count,
+        if shape.frame_count == 1 { "" } else { "s" },
+        shape.vertex_count,
+        shape.triangles.len()
+    );
+    let options = WriteOptions {
+        force: arguments.force,
+        fps: arguments.fps,
+    };
+    let mut writer = Writer::create(&arguments.to, shape, options)?;
+    body.skip(frames.start);
+    let mut some = Picked::default();
+    for frame in frames {
+        let name = body.name().to_owned();
+        let positions = body.next_frame()?;
+        let positions = positions.with_context(|| format!("{name}: frame {frame} is missing"))?;
+        writer.frame(match &vertices {
+            None => positions,
+            Some(vertices) => some.pick(positions, vertices),
+        })?;
+    }
+    if writer.rounded() {
+        let name = &arguments.to;
+        crate::complain(&format!(
+            "pliant: note: {name} has 32-bit coordinates, {} has 64-bit ones: they were rounded",
+            body.name()
+        ));
+    }
+    writer.finish()?;
+    crate::print_all(&format!("{}: {said}\n", arguments.to))?;
+    Ok(Outcome::Clear)
+}
+
+/// The vertices to write, None for all, and the triangles between them: without those that were welded away.
+fn kept(body: &Body) -> (Option<Vec<u32>>, Vec<[u32; 3]>) {
+    let mut triangles = body.triangles().to_vec();
+    if body.welded() == 0 {
+        return (None, triangles);
+    }
+    let mut number = vec![None; body.vertex_count()];
+    let mut vertices = Vec::new();
+    for corner in triangles.as_flattened_mut() {
+        *corner = *number[*corner as usize].get_or_insert_with(|| {
+            vertices.push(*corner);
+            vertices.len() as u32 - 1
+        });
+    }
+    (Some(vertices), triangles)
+}
+
+/// Some of the positions of a frame.
+#[derive(Default)]
+struct Picked {
+    narrow: Vec<[f32; 3]>,
+    wide: Vec<[f64; 3]>,
+}
+
+impl Picked {
+    fn pick(&mut self, positions: Positions<'_>, vertices: &[u32]) -> Positions<'_> {
+        match positions {
+            Positions::F32(all) => {
+                self.narrow.clear();
+                self.narrow
+                    .extend(vertices.iter().map(|&vertex| all[vertex as usize]));
+                Positions::F32(&self.narrow)
+            }
+            Positions::F64(all) => {
+                self.wide.clear();
+                self.wide
+                    .extend(vertices.iter().map(|&vertex| all[vertex as usize]));
+                Positions::F64(&self.wide)
+            }
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! PC2 and MDD: positions alone, frame after frame; the faces come from a mesh.
+//!
+//! ```text
+//! PC2, little-endian    "POINTCACHE2\0", version 1, vertices n, first frame, frames a sample, samples T; then T x n x (x, y, z)
+//! MDD, big-endian       samples T, vertices n, T times; then T x n x (x, y, z)
+//! ```
+//!
+//! Whole numbers of 32 bits, everything else f32. A sample is a frame, whatever its time. The mesh is one frame of any format,
+//! has as many vertices, and of its positions nothing is kept. The length of the file is that of its header and samples exactly.
+
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+use crate::body::OpenOptions;
+use crate::error::{Fault, Place, Reason};
+use crate::file::{Found, Opened};
+use crate::format::{Format, FrameSource};
+use crate::frame::{Announced, Complete, Frame};
+use crate::positions::Precision;
+
+/// How a PC2 file begins, and its version.
+pub(crate) const PC2: [u8; 16] = *b"POINTCACHE2\0\x01\0\0\0";
+
+/// Bytes of a position.
+const POSITION: usize = 12;
+/// Positions read at a time.
+const ROWS: u64 = 4096;
+
+/// Why positions alone cannot be read.
+pub(crate) fn alone(path: &Path) -> Reason {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    Reason::Unsupported(format!(
+        "holds positions but no faces; name the mesh that they move too: 'mesh.obj+{name}'"
+    ))
+}
+
+/// The frames of a mesh whose positions are in a file.
+pub(crate) struct Cache {
+    mesh: Option<(Found, Box<dyn FrameSource>)>,
+    input: BufReader<Opened>,
+    big_endian: bool,
+    /// Where positions begin.
+    head: u64,
+    /// Vertices of a frame.
+    count: u64,
+    frames: u64,
+    next: u64,
+    /// Reused: some positions, as they are in the file.
+    chunk: Vec<u8>,
+}
+
+/// Opens the mesh, which must be one frame, and the positions, which are of this format.
+pub(crate) fn open(
+    mesh: &Found,
+    positions: &Found,
+    format: Format,
+    options: &OpenOptions,
+) -> Result<Cache, Fault> {
+    let in_mesh = |fault: Fault| fault.or_in(mesh.path());
+    let source = Format::of(mesh.path())
+        .map_err(|reason| in_mesh(reason.into()))?
+        .open(mesh, options)
+        .map_err(in_mesh)?;
+    let frames = source.frame_count();
+    if frames != 1 {
+        let reason = format!("has {frames} frames; the mesh beside positions must have one");
+        return Err(in_mesh(Reason::Unsupported(reason).into()));
+    }
+    let mut input = BufReader::with_capacity(1 << 16, positions.open()?);
+    let length = input.get_ref().length();
+    let big_endian = format == Format::Mdd;
+    let (frames, count, head) = if big_endian {
+        let [frames, count] = whole(&mut input, length, u32::from_be_bytes)?;
+        let times = 4 * u64::from(frames);
+        (frames, count, times.saturating_add(8))
+    } else {
+        let mut start = [0; 16];
+        fill(&mut input, &mut start, length)?;
+        if start != PC2 {
+            let reason = "does not begin as a PC2 file of version 1 does";
+            return Err(Reason::Malformed(reason.into()).at(Place::Byte(0)));
+        }
+        let [count, _, _, frames] = whole(&mut input, length, u32::from_le_bytes)?;
+        (frames, count, 32)
+    };
+    if frames == 0 {
+        return Err(Reason::NoFrames.into());
+    }
+    if count == 0 {
+        return Err(Reason::NoVertices.into());
+    }
+    let (frames, count) = (u64::from(frames), u64::from(count));
+    let needed = u128::from(frames) * u128::from(count) * POSITION as u128 + u128::from(head);
+    if needed != u128::from(length) {
+        let message = format!(
+            "{frames} frames of {count} vertices need {needed} bytes, the file has {length}"
+        );
+        return Err(if needed > u128::from(length) {
+            Reason::Truncated(message)
+        } else {
+            Reason::Malformed(message)
+        }
+        .into());
+    }
+    input.seek(SeekFrom::Start(head))?;
+    Ok(Cache {
+        mesh: Some((mesh.clone(), source)),
+        input,
+        big_endian,
+        head,
+        count,
+        frames,
+        next: 0,
+        chunk: Vec::new(),
+    })
+}
+
+/// The next whole numbers, none of them negative.
+fn whole<const N: usize>(
+    input: &mut impl Read,
+    length: u64,
+    number: fn([u8; 4]) -> u32,
+) -> Result<[u32; N], Fault> {
+    let mut numbers = [0; N];
+    for each in &mut numbers {
+        let mut bytes = [0; 4];
+        fill(input, &mut bytes, length)?;
+        *each = number(bytes);
+    }
+    Ok(numbers)
+}
+
+fn fill(input: &mut impl Read, bytes: &mut [u8], length: u64) -> Result<(), Reason> {
+    input.read_exact(bytes).map_err(|error| match error.kind() {
+        io::ErrorKind::UnexpectedEof => {
+            Reason::Truncated(format!("the header is longer than {length} bytes"))
+        }
+        _ => error.into(),
+    })
+}
+
+impl Cache {
+    fn read_frame(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
+        let place = Place::Frame(self.next);
+        let at = |reason: Reason| reason.at(Place::Frame(self.next));
+        if let Some((mesh, mut source)) = self.mesh.take() {
+            let in_mesh = |fault: Fault| fault.or_in(mesh.path());
+            let _complete = source.read(frame).map_err(in_mesh)?;
+            let expected = frame.vertex_count() as u64;
+            if expected != self.count {
+                return Err(Reason::VertexCount {
+                    vertices: self.count,
+                    expected,
+                    than: mesh.path().to_owned(),
+                }
+                .into());
+            }
+            frame
+                .replace_vertices(Precision::F32, self.count)
+                .map_err(at)?;
+        } else {
+            let announced = Announced {
+                vertices: self.count,
+                faces: 0,
+            };
+            frame.begin(Precision::F32, announced).map_err(at)?;
+            frame.same_faces();
+        }
+        let number = if self.big_endian {
+            f32::from_be_bytes
+        } else {
+            f32::from_le_bytes
+        };
+        let mut left = self.count;
+        while left > 0 {
+            let now = left.min(ROWS);
+            self.chunk.resize(now as usize * POSITION, 0);
+            self.input
+                .read_exact(&mut self.chunk)
+                .map_err(|error| match error.kind() {
+                    io::ErrorKind::UnexpectedEof => {
+                        Reason::Truncated("the file announces more".into())
+                    }
+                    _ => error.into(),
+                })
+                .map_err(at)?;
+            for bytes in self.chunk.chunks_exact(POSITION) {
+                let mut position = [0.0; 3];
+                for (value, bytes) in position.iter_mut().zip(bytes.chunks_exact(4)) {
+                    *value = number(bytes.try_into().unwrap_or_default()).into();
+                }
+                frame.vertex(position).map_err(at)?;
+            }
+            left -= now;
+        }
+        self.next += 1;
+        frame.complete(0).map_err(|fault| fault.or_at(place))
+    }
+}
+
+impl FrameSource for Cache {
+    fn frame_count(&self) -> usize {
+        usize::try_from(self.frames).unwrap_or(usize::MAX)
+    }
+
+    fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
+        let read = self.read_frame(frame);
+        // First: what looks wrong may be half of a change.
+        self.input.get_ref().unchanged()?;
+        read
+    }
+
+    fn skip(&mut self, frames: usize) -> Result<(), Fault> {
+        // At most what the file has: its length was compared.
+        let bytes = (frames as u64).saturating_mul(self.count * POSITION as u64);
+        self.input
+            .seek_relative(i64::try_from(bytes).unwrap_or(i64::MAX))?;
+        self.next += frames as u64;
+        Ok(())
+    }
+
+    fn rewind(&mut self) -> Result<bool, Fault> {
+        self.input.get_ref().unchanged()?;
+        self.input.seek(SeekFrom::Start(self.head))?;
+        self.next = 0;
+        Ok(true)
+    }
+
+    fn held(&self) -> u64 {
+        self.mesh.as_ref().map_or(0, |(_, source)| source.held())
+    }
+}

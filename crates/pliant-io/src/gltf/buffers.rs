@@ -1,0 +1,246 @@
+//! Where the bytes of a glTF file are: behind its JSON (GLB), in files beside it, or in the JSON itself.
+//!
+//! Bytes in files stay there and are read where an accessor asks; those in the JSON are decoded once. No other place is ever
+//! looked at: no network, no folder above.
+
+use std::io::{Read, Seek, SeekFrom};
+use std::path::{Component, Path, PathBuf};
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+use super::document::{Document, memory};
+use crate::error::{Fault, Place, Reason};
+use crate::file::{Found, Opened};
+use crate::memory::Account;
+
+/// An open file and what buffers it has.
+pub(super) struct Buffers {
+    main: Opened,
+    folder: PathBuf,
+    /// Behind the JSON: where it begins, and its length.
+    behind: Option<(u64, u64)>,
+    opened: Vec<Option<Bytes>>,
+}
+
+/// The bytes of a buffer.
+enum Bytes {
+    Behind,
+    Beside(PathBuf, Opened),
+    Within(Vec<u8>),
+}
+
+const GLB: &[u8; 4] = b"glTF";
+/// The mark, version and length of a GLB file; the length and kind of a chunk.
+const HEAD: u64 = 12;
+const CHUNK: u64 = 8;
+
+/// Opens a file and reads its JSON, if it and what is in it may be held.
+pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Buffers), Fault> {
+    let mut main = found.open()?;
+    let length = main.length();
+    let mut start = [0; 4];
+    let filled = Read::by_ref(&mut main).take(4).read(&mut start)?;
+    let (json, behind) = if filled == 4 && start == *GLB {
+        chunks(&mut main, length)?
+    } else {
+        ((0, length), None)
+    };
+    account.check(json.1.saturating_mul(2))?;
+    main.seek(SeekFrom::Start(json.0))?;
+    let mut text = Vec::new();
+    Read::by_ref(&mut main)
+        .take(json.1)
+        .read_to_end(&mut text)?;
+    main.unchanged()?;
+    account.enter(memory(&text))?;
+    let document = Document::parse(&text)?;
+    let folder = found.path().parent().unwrap_or(Path::new("")).to_owned();
+    let opened = document.buffers.iter().map(|_| None).collect();
+    let buffers = Buffers {
+        main,
+        folder,
+        behind,
+        opened,
+    };
+    Ok((document, buffers))
+}
+
+/// Where the two chunks of a GLB file begin, and how long they are.
+fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u64)>), Fault> {
+    let mut number = |what: &str, at: u64| -> Result<u64, Fault> {
+        let mut bytes = [0; 4];
+        main.seek(SeekFrom::Start(at))?;
+        main.read_exact(&mut bytes)
+            .map_err(|_| Reason::Truncated(format!("{what} is missing")).at(Place::Byte(at)))?;
+        Ok(u32::from_le_bytes(bytes).into())
+    };
+    let version = number("the version", 4)?;
+    if version != 2 {
+        let reason = format!("is GLB of version {version}; only version 2 can be read");
+        return Err(Reason::Unsupported(reason).into());
+    }
+    let announced = number("the length", 8)?;
+    if announced > length {
+        let reason = format!("the file announces {announced} bytes, and has {length}");
+        return Err(Reason::Truncated(reason).at(Place::Byte(8)));
+    }
+    let mut chunk = |at: u64, kind: &[u8; 4]| -> Result<Option<(u64, u64)>, Fault> {
+        if at + CHUNK > announced {
+            return Ok(None);
+        }
+        let (size, found) = (number("a chunk", at)?, number("a chunk", at + 4)?);
+        if at + CHUNK + size > announced {
+            let reason = format!("a chunk of {size} bytes goes beyond the {announced} announced");
+            return Err(Reason::Truncated(reason).at(Place::Byte(at)));
+        }
+        let is_kind = found == u64::from(u32::from_le_bytes(*kind));
+        Ok(is_kind.then_some((at + CHUNK, size)))
+    };
+    let json = chunk(HEAD, b"JSON")?.ok_or_else(|| {
+        Reason::Malformed("the first chunk is not JSON".into()).at(Place::Byte(HEAD))
+    })?;
+    // Chunks begin at multiples of four.
+    let behind = chunk((json.0 + json.1).next_multiple_of(4), b"BIN\0")?;
+    Ok((json, behind))
+}
+
+impl Buffers {
+    /// Fills `bytes` with those of a buffer from `offset` on.
+    pub(super) fn read(
+        &mut self,
+        document: &Document,
+        buffer: usize,
+        offset: u64,
+        bytes: &mut [u8],
+        account: &mut Account,
+    ) -> Result<(), Fault> {
+        let at = |reason: Reason| reason.at(Place::Part("buffer", buffer));
+        let Some(entry) = document.buffers.get(buffer) else {
+            return Err(at(Reason::Malformed("there is no such buffer".into())));
+        };
+        let end = offset.saturating_add(bytes.len() as u64);
+        let beyond = |has: u64| {
+            at(Reason::Truncated(format!(
+                "bytes {offset} to {end} are asked for, it has {has}"
+            )))
+        };
+        if end > entry.byte_length {
+            return Err(beyond(entry.byte_length));
+        }
+        if self.opened[buffer].is_none() {
+            let opened = self.find(entry.uri.as_deref(), buffer, account);
+            self.opened[buffer] =
+                Some(opened.map_err(|fault| fault.or_at(Place::Part("buffer", buffer)))?);
+        }
+        match &mut self.opened[buffer] {
+            Some(Bytes::Within(within)) => {
+                let range = offset as usize..end as usize;
+                let there = within
+                    .get(range)
+                    .ok_or_else(|| beyond(within.len() as u64))?;
+                bytes.copy_from_slice(there);
+            }
+            Some(Bytes::Beside(path, file)) => {
+                let has = file.length();
+                if end > has {
+                    return Err(beyond(has).or_in(path));
+                }
+                fill(file, offset, bytes).map_err(|reason| at(reason).or_in(path))?;
+            }
+            Some(Bytes::Behind) | None => {
+                let (start, has) = self.behind.unwrap_or_default();
+                if end > has {
+                    return Err(beyond(has));
+                }
+                fill(&mut self.main, start + offset, bytes).map_err(at)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Where the bytes of a buffer are.
+    fn find(
+        &self,
+        uri: Option<&str>,
+        buffer: usize,
+        account: &mut Account,
+    ) -> Result<Bytes, Fault> {
+        let Some(uri) = uri else {
+            if buffer == 0 && self.behind.is_some() {
+                return Ok(Bytes::Behind);
+            }
+            return Err(
+                Reason::Malformed("has neither a URI nor bytes behind the JSON".into()).into(),
+            );
+        };
+        if let Some(data) = uri.strip_prefix("data:") {
+            let Some((kind, text)) = data.split_once(',') else {
+                return Err(Reason::Malformed("a data URI without a comma".into()).into());
+            };
+            if !kind.ends_with(";base64") {
+                return Err(Reason::Unsupported("a data URI that is not base64".into()).into());
+            }
+            account.enter(text.len() as u64)?;
+            let bytes = STANDARD
+                .decode(text)
+                .map_err(|error| Reason::Malformed(format!("a data URI: {error}")))?;
+            return Ok(Bytes::Within(bytes));
+        }
+        let name = unescaped(uri);
+        let path = Path::new(&name);
+        let plain = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+        if name.is_empty() || name.contains([':', '\\', '\0']) || !path.components().all(plain) {
+            let uri: String = uri.chars().take(60).collect();
+            return Err(Reason::Unsupported(format!(
+                "its bytes are at {uri:?}; only files beside this one, and data URIs, are read"
+            ))
+            .into());
+        }
+        let path = self.folder.join(path);
+        let opened = Found::find(path.clone()).and_then(|found| found.open());
+        let opened = opened.map_err(|reason| Fault::from(reason).or_in(&path))?;
+        Ok(Bytes::Beside(path, opened))
+    }
+
+    /// Refuses files that are not as they were found.
+    pub(super) fn unchanged(&self) -> Result<(), Fault> {
+        self.main.unchanged()?;
+        for bytes in self.opened.iter().flatten() {
+            if let Bytes::Beside(path, file) = bytes {
+                file.unchanged()
+                    .map_err(|reason| Fault::from(reason).or_in(path))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn fill(file: &mut Opened, offset: u64, bytes: &mut [u8]) -> Result<(), Reason> {
+    file.seek(SeekFrom::Start(offset))?;
+    Ok(file.read_exact(bytes)?)
+}
+
+/// `%20` and the like as the characters that they stand for.
+fn unescaped(uri: &str) -> String {
+    let mut bytes = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let [first, after @ ..] = rest {
+        let escaped = match (first, after) {
+            (b'%', [high, low, ..]) => {
+                let digit = |c: u8| char::from(c).to_digit(16);
+                digit(*high)
+                    .zip(digit(*low))
+                    .map(|(high, low)| (16 * high + low) as u8)
+            }
+            _ => None,
+        };
+        bytes.push(escaped.unwrap_or(*first));
+        rest = if escaped.is_some() {
+            &after[2..]
+        } else {
+            after
+        };
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}

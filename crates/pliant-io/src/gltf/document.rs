@@ -1,0 +1,269 @@
+//! The JSON of a glTF file: what says where triangles are and how they move. All else (materials, cameras, ...) is passed over
+//! unread, so that what is wrong there is no reason to refuse a shape.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::error::Reason;
+
+#[derive(Deserialize, Debug, Default)]
+#[serde(default, rename_all = "camelCase")]
+pub(super) struct Document {
+    asset: Asset,
+    pub(super) extensions_used: Vec<String>,
+    pub(super) extensions_required: Vec<String>,
+    pub(super) scene: Option<usize>,
+    pub(super) scenes: Vec<Roots>,
+    pub(super) nodes: Vec<Node>,
+    pub(super) meshes: Vec<Mesh>,
+    pub(super) skins: Vec<Skin>,
+    pub(super) animations: Vec<Animation>,
+    pub(super) accessors: Vec<Accessor>,
+    pub(super) buffer_views: Vec<View>,
+    pub(super) buffers: Vec<Buffer>,
+}
+
+#[derive(Deserialize, Debug, Default)]
+#[serde(default)]
+struct Asset {
+    version: String,
+}
+
+#[derive(Deserialize, Debug, Default)]
+#[serde(default)]
+pub(super) struct Roots {
+    pub(super) nodes: Vec<usize>,
+}
+
+#[derive(Deserialize, Debug, Default)]
+#[serde(default)]
+pub(super) struct Node {
+    pub(super) name: Option<String>,
+    pub(super) children: Vec<usize>,
+    pub(super) mesh: Option<usize>,
+    pub(super) skin: Option<usize>,
+    pub(super) matrix: Option<Box<[f64; 16]>>,
+    pub(super) translation: Option<Box<[f64; 3]>>,
+    pub(super) rotation: Option<Box<[f64; 4]>>,
+    pub(super) scale: Option<Box<[f64; 3]>>,
+    pub(super) weights: Option<Vec<f64>>,
+}
+
+#[derive(Deserialize, Debug, Default)]
+#[serde(default)]
+pub(super) struct Mesh {
+    pub(super) name: Option<String>,
+    pub(super) primitives: Vec<Primitive>,
+    pub(super) weights: Vec<f64>,
+}
+
+#[derive(Deserialize, Debug)]
+pub(super) struct Primitive {
+    #[serde(default)]
+    pub(super) attributes: BTreeMap<String, usize>,
+    pub(super) indices: Option<usize>,
+    #[serde(default = "triangles")]
+    pub(super) mode: u32,
+    #[serde(default)]
+    pub(super) targets: Vec<BTreeMap<String, usize>>,
+}
+
+fn triangles() -> u32 {
+    4
+}
+
+#[derive(Deserialize, Debug)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Skin {
+    pub(super) joints: Vec<usize>,
+    pub(super) inverse_bind_matrices: Option<usize>,
+}
+
+#[derive(Deserialize, Debug, Default)]
+#[serde(default)]
+pub(super) struct Animation {
+    pub(super) name: Option<String>,
+    pub(super) channels: Vec<Channel>,
+    pub(super) samplers: Vec<Sampler>,
+}
+
+#[derive(Deserialize, Debug)]
+pub(super) struct Channel {
+    pub(super) sampler: usize,
+    pub(super) target: Target,
+}
+
+#[derive(Deserialize, Debug)]
+pub(super) struct Target {
+    pub(super) node: Option<usize>,
+    pub(super) path: String,
+}
+
+#[derive(Deserialize, Debug)]
+pub(super) struct Sampler {
+    pub(super) input: usize,
+    pub(super) output: usize,
+    #[serde(default = "linear")]
+    pub(super) interpolation: String,
+}
+
+fn linear() -> String {
+    "LINEAR".to_owned()
+}
+
+#[derive(Deserialize, Debug)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Accessor {
+    pub(super) buffer_view: Option<usize>,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
+    pub(super) component_type: u32,
+    #[serde(default)]
+    pub(super) normalized: bool,
+    pub(super) count: u64,
+    #[serde(rename = "type")]
+    pub(super) shape: String,
+    pub(super) sparse: Option<Box<Sparse>>,
+}
+
+#[derive(Deserialize, Debug)]
+pub(super) struct Sparse {
+    pub(super) count: u64,
+    pub(super) indices: SparseIndices,
+    pub(super) values: SparseValues,
+}
+
+#[derive(Deserialize, Debug)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SparseIndices {
+    pub(super) buffer_view: usize,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
+    pub(super) component_type: u32,
+}
+
+#[derive(Deserialize, Debug)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct SparseValues {
+    pub(super) buffer_view: usize,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
+}
+
+#[derive(Deserialize, Debug)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct View {
+    pub(super) buffer: usize,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
+    pub(super) byte_length: u64,
+    pub(super) byte_stride: Option<u64>,
+}
+
+#[derive(Deserialize, Debug)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Buffer {
+    pub(super) uri: Option<String>,
+    pub(super) byte_length: u64,
+}
+
+/// The most bytes that a value of a document takes for each of the marks that stand before values.
+const VALUE: u64 = 256;
+
+/// The most memory that the document in `text` takes, text included.
+pub(super) fn memory(text: &[u8]) -> u64 {
+    let begins = |byte: &&u8| matches!(byte, b',' | b'[' | b'{');
+    let values = text.iter().filter(begins).count() as u64;
+    (text.len() as u64 * 2).saturating_add(values * VALUE)
+}
+
+impl Document {
+    pub(super) fn parse(text: &[u8]) -> Result<Self, Reason> {
+        let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
+        let document: Self = serde_json::from_slice(text).map_err(|error| {
+            // The message may quote a string of the file, however long.
+            let mut message: String = error.to_string().chars().take(200).collect();
+            if error.is_eof() {
+                message = format!(
+                    "the JSON is cut short at line {} column {}",
+                    error.line(),
+                    error.column()
+                );
+                return Reason::Truncated(message);
+            }
+            Reason::Malformed(format!("the JSON is not that of a glTF file: {message}"))
+        })?;
+        let version = &document.asset.version;
+        if !version.is_empty() && !version.starts_with("2.") {
+            let version: String = version.chars().take(20).collect();
+            return Err(Reason::Unsupported(format!(
+                "is glTF {version:?}; only version 2 can be read, so convert it"
+            )));
+        }
+        document.refuse_extensions()?;
+        Ok(document)
+    }
+
+    /// Refuses what would change shapes if it were evaluated.
+    fn refuse_extensions(&self) -> Result<(), Reason> {
+        let unsupported = |why: String| Err(Reason::Unsupported(why));
+        for name in &self.extensions_required {
+            match &name[..] {
+                "KHR_mesh_quantization" => return unsupported(QUANTISED.to_owned()),
+                "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
+                    return unsupported(
+                        "is compressed by meshopt, which is not evaluated; export it without compression".to_owned(),
+                    );
+                }
+                "KHR_draco_mesh_compression" => {
+                    return unsupported(
+                        "is compressed by Draco, which is not evaluated; export it without compression".to_owned(),
+                    );
+                }
+                name if is_of_looks(name) => {}
+                name => {
+                    let name: String = name.chars().take(60).collect();
+                    return unsupported(format!(
+                        "needs the extension {name:?}, which is not evaluated; export it without"
+                    ));
+                }
+            }
+        }
+        if self
+            .extensions_used
+            .iter()
+            .any(|name| name == "EXT_mesh_gpu_instancing")
+        {
+            return unsupported(
+                "uses EXT_mesh_gpu_instancing, which is not evaluated; export every instance as a node".to_owned(),
+            );
+        }
+        Ok(())
+    }
+
+    /// The name of an animation, or its number.
+    pub(super) fn clip_name(&self, animation: usize) -> String {
+        let name = self
+            .animations
+            .get(animation)
+            .and_then(|it| it.name.clone());
+        name.unwrap_or_else(|| animation.to_string())
+    }
+}
+
+pub(super) const QUANTISED: &str = "has quantised positions (KHR_mesh_quantization), which are not evaluated; export it with 32-bit positions";
+
+/// Whether an extension is about how surfaces look, not where they are.
+fn is_of_looks(name: &str) -> bool {
+    [
+        "KHR_materials_",
+        "KHR_texture_",
+        "EXT_texture_",
+        "KHR_lights_",
+        "EXT_lights_",
+    ]
+    .iter()
+    .any(|begin| name.starts_with(begin))
+        || matches!(name, "KHR_xmp_json_ld" | "KHR_xmp")
+}

@@ -1,0 +1,383 @@
+//! A mesh at rest: positions, triangles, which joints hold each vertex, where morph targets move it.
+//!
+//! The primitives of a mesh are one body, their vertices one after another. Triangles, strips and fans are evaluated; points and
+//! lines have no surface and are passed over. Morph targets keep only the vertices that they move, so that memory grows with the
+//! data of the file.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::accessor::{Reader, Wanted, whole};
+use crate::error::{Fault, Place, Reason};
+use crate::memory::{Account, bytes_of};
+
+pub(super) struct Mesh {
+    pub(super) rest: Vec<[f32; 3]>,
+    /// Taken by every body of the mesh in its first frame; freed with the last.
+    pub(super) triangles: Arc<Vec<[u32; 3]>>,
+    pub(super) targets: Vec<Vec<Delta>>,
+    /// Of the morph targets, where neither a node nor an animation says.
+    pub(super) weights: Vec<f64>,
+    /// The joints of vertex v are from `starts[v]` up to `starts[v + 1]`; empty where a primitive has none.
+    starts: Vec<u32>,
+    influences: Vec<Influence>,
+}
+
+/// A vertex that a morph target moves, and by how much.
+pub(super) type Delta = (u32, [f32; 3]);
+
+/// A joint that holds a vertex, and how much.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Influence {
+    pub(super) joint: u16,
+    pub(super) weight: f32,
+}
+
+/// Primitive modes.
+const TRIANGLES: u32 = 4;
+const STRIP: u32 = 5;
+const FAN: u32 = 6;
+
+/// Sets of joints: four each.
+const JOINTS: [&str; 4] = ["JOINTS_0", "JOINTS_1", "JOINTS_2", "JOINTS_3"];
+const WEIGHTS: [&str; 4] = ["WEIGHTS_0", "WEIGHTS_1", "WEIGHTS_2", "WEIGHTS_3"];
+
+impl Mesh {
+    /// Reads a mesh; None where it has no triangles.
+    pub(super) fn read(reader: &mut Reader, number: usize) -> Result<Option<Self>, Fault> {
+        let at = |fault: Fault| fault.or_at(Place::Part("mesh", number));
+        let malformed = |why: &str| at(Reason::Malformed(why.into()).into());
+        let Some(entry) = reader.document.meshes.get_mut(number) else {
+            return Err(malformed("there is no such mesh"));
+        };
+        let weights = std::mem::take(&mut entry.weights);
+        let primitives = std::mem::take(&mut entry.primitives);
+        let surfaces = || {
+            primitives
+                .iter()
+                .filter(|primitive| (TRIANGLES..=FAN).contains(&primitive.mode))
+        };
+        if primitives.iter().any(|primitive| primitive.mode > FAN) {
+            return Err(malformed(
+                "a primitive has a mode that the format does not have",
+            ));
+        }
+        let mut mesh = Self {
+            rest: Vec::new(),
+            triangles: Arc::default(),
+            targets: Vec::new(),
+            weights,
+            starts: Vec::new(),
+            influences: Vec::new(),
+        };
+        let targets = surfaces()
+            .next()
+            .map_or(0, |primitive| primitive.targets.len());
+        if surfaces().any(|primitive| primitive.targets.len() != targets) {
+            return Err(malformed(
+                "its primitives have different numbers of morph targets",
+            ));
+        }
+        let held = surfaces().all(|primitive| primitive.attributes.contains_key(JOINTS[0]));
+        mesh.targets.resize_with(targets, Vec::new);
+        let mut triangles = Vec::new();
+        for primitive in surfaces() {
+            mesh.read_primitive(reader, primitive, held, &mut triangles)
+                .map_err(at)?;
+        }
+        if held && !mesh.rest.is_empty() {
+            let end = mesh.influences.len() as u32;
+            reader.account.push(&mut mesh.starts, end, 0)?;
+        }
+        mesh.triangles = Arc::new(triangles);
+        Ok(surfaces().next().is_some().then_some(mesh))
+    }
+
+    fn read_primitive(
+        &mut self,
+        reader: &mut Reader,
+        primitive: &super::document::Primitive,
+        held: bool,
+        triangles: &mut Vec<[u32; 3]>,
+    ) -> Result<(), Fault> {
+        let begin = self.rest.len();
+        let Some(&positions) = primitive.attributes.get("POSITION") else {
+            return Err(Reason::Malformed("a primitive has no positions".into()).into());
+        };
+        let count = reader.count(positions)?;
+        if begin as u64 + count > u64::from(u32::MAX) {
+            return Err(Reason::TooMany { what: "vertices" }.into());
+        }
+        let rest = &mut self.rest;
+        reader.each_row(positions, Wanted::POSITIONS, |account, _, row| {
+            Ok(account.push(rest, [row[0], row[1], row[2]].map(|x| x as f32), 0)?)
+        })?;
+        for (target, attributes) in self.targets.iter_mut().zip(&primitive.targets) {
+            let Some(&deltas) = attributes.get("POSITION") else {
+                continue;
+            };
+            reader.same_count(deltas, count, "morph target")?;
+            reader.each_row(deltas, Wanted::DELTAS, |account, vertex, row| {
+                let delta = [row[0], row[1], row[2]].map(|x| x as f32);
+                if delta != [0.0; 3] {
+                    account.push(target, ((begin as u64 + vertex) as u32, delta), 0)?;
+                }
+                Ok(())
+            })?;
+        }
+        if held {
+            self.read_influences(reader, &primitive.attributes, count)?;
+        }
+        read_triangles(reader, primitive, begin as u32, count, triangles)
+    }
+
+    /// Which joints hold the vertices of a primitive: those of all sets that weigh something, in the order of joints, so that equal
+    /// vertices are equal whatever the order in the file.
+    fn read_influences(
+        &mut self,
+        reader: &mut Reader,
+        attributes: &BTreeMap<String, usize>,
+        count: u64,
+    ) -> Result<(), Fault> {
+        if attributes.contains_key("JOINTS_4") {
+            return Err(Reason::Unsupported(
+                "more than 16 joints a vertex are not evaluated".into(),
+            )
+            .into());
+        }
+        let mut of_vertices: Vec<[Influence; 4]> = Vec::new();
+        let mut sets = 0;
+        for (joints, weights) in JOINTS.iter().zip(WEIGHTS) {
+            let Some(&joints) = attributes.get(*joints) else {
+                break;
+            };
+            let Some(&weights) = attributes.get(weights) else {
+                return Err(
+                    Reason::Malformed("a primitive has joints without weights".into()).into(),
+                );
+            };
+            reader.same_count(joints, count, "joints")?;
+            reader.same_count(weights, count, "weights")?;
+            let begin = of_vertices.len();
+            reader.each_row(joints, Wanted::JOINTS, |account, _, row| {
+                let mut four = [Influence {
+                    joint: 0,
+                    weight: 0.0,
+                }; 4];
+                for (influence, joint) in four.iter_mut().zip(row) {
+                    influence.joint = whole(*joint) as u16;
+                }
+                Ok(account.push(&mut of_vertices, four, 0)?)
+            })?;
+            reader.each_row(weights, Wanted::WEIGHTS, |_, vertex, row| {
+                let four = of_vertices.get_mut(begin + vertex as usize);
+                for (influence, weight) in four.into_iter().flatten().zip(row) {
+                    influence.weight = *weight as f32;
+                }
+                Ok(())
+            })?;
+            sets += 1;
+        }
+        let count = count as usize;
+        for vertex in 0..count {
+            let mut all = [Influence {
+                joint: 0,
+                weight: 0.0,
+            }; 16];
+            let mut some = 0;
+            for set in 0..sets {
+                for &influence in of_vertices.get(set * count + vertex).into_iter().flatten() {
+                    if influence.weight != 0.0 {
+                        all[some] = influence;
+                        some += 1;
+                    }
+                }
+            }
+            if some == 0 {
+                // What weighs nothing must be somewhere: with its first joint, as three.js has it.
+                all[0] = Influence {
+                    joint: of_vertices.get(vertex).map_or(0, |four| four[0].joint),
+                    weight: 1.0,
+                };
+                some = 1;
+            }
+            all[..some]
+                .sort_unstable_by_key(|influence| (influence.joint, influence.weight.to_bits()));
+            let start = u32::try_from(self.influences.len()).map_err(|_| Reason::TooMany {
+                what: "joints of vertices",
+            })?;
+            reader.account.push(&mut self.starts, start, 0)?;
+            for &influence in &all[..some] {
+                reader.account.push(&mut self.influences, influence, 0)?;
+            }
+        }
+        reader.account.take_off(bytes_of(&of_vertices));
+        Ok(())
+    }
+
+    /// The joints that hold a vertex; none in a mesh that no joint holds.
+    pub(super) fn influences(&self, vertex: usize) -> &[Influence] {
+        match self.starts.get(vertex..vertex + 2) {
+            Some(&[start, end]) => &self.influences[start as usize..end as usize],
+            _ => &[],
+        }
+    }
+
+    /// Refuses joints that a skin of so many does not have, and a mesh that no joint holds.
+    pub(super) fn check_joints(&self, joints: usize) -> Result<(), Reason> {
+        if self.starts.is_empty() {
+            return Err(Reason::Malformed(
+                "has a skin, but a primitive of its mesh has no joints".into(),
+            ));
+        }
+        for vertex in 0..self.rest.len() {
+            if let Some(bad) = self
+                .influences(vertex)
+                .iter()
+                .find(|it| usize::from(it.joint) >= joints)
+            {
+                return Err(Reason::Malformed(format!(
+                    "vertex {vertex} is held by joint {}, the skin has {joints}",
+                    bad.joint
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// The most bytes that [`alike`](Self::alike) takes.
+    pub(super) fn memory_of_alike(&self) -> u64 {
+        let moved = self.targets.iter().map(Vec::len).max().unwrap_or(0) as u64;
+        12 * self.rest.len() as u64 + 32 * moved
+    }
+
+    /// A number for each vertex, the same where they are at one place at rest and everything moves them alike.
+    pub(super) fn alike(&self, skinned: bool) -> Vec<u64> {
+        let bits = |place: [f32; 3]| place.map(|x| (x + 0.0).to_bits());
+        let held = |vertex: usize| {
+            let influences = if skinned {
+                self.influences(vertex)
+            } else {
+                &[]
+            };
+            influences.iter().map(|it| (it.joint, it.weight.to_bits()))
+        };
+        let order = |&a: &u32, &b: &u32| {
+            let (a, b) = (a as usize, b as usize);
+            bits(self.rest[a])
+                .cmp(&bits(self.rest[b]))
+                .then_with(|| held(a).cmp(held(b)))
+        };
+        let mut vertices: Vec<u32> = (0..self.rest.len() as u32).collect();
+        vertices.sort_unstable_by(order);
+        let mut class = vec![0_u64; vertices.len()];
+        let mut next = 0;
+        for together in vertices.chunk_by(|a, b| order(a, b).is_eq()) {
+            for &vertex in together {
+                class[vertex as usize] = next;
+            }
+            next += 1;
+        }
+        drop(vertices);
+        // Those of a class that a target moves alike leave it together.
+        for target in &self.targets {
+            let mut moved: Vec<(u64, [u32; 3], u32)> = target
+                .iter()
+                .map(|&(vertex, delta)| (class[vertex as usize], bits(delta), vertex))
+                .collect();
+            moved.sort_unstable();
+            for together in moved.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+                for &(_, _, vertex) in together {
+                    class[vertex as usize] = next;
+                }
+                next += 1;
+            }
+        }
+        class
+    }
+}
+
+impl Reader {
+    fn same_count(&self, accessor: usize, count: u64, what: &str) -> Result<(), Fault> {
+        let found = self.count(accessor)?;
+        if found == count {
+            return Ok(());
+        }
+        let reason = format!("has {found} {what} rows for {count} positions");
+        Err(Reason::Malformed(reason).at(Place::Part("accessor", accessor)))
+    }
+}
+
+/// Appends the triangles of a primitive, whose `count` vertices begin at `begin`.
+fn read_triangles(
+    reader: &mut Reader,
+    primitive: &super::document::Primitive,
+    begin: u32,
+    count: u64,
+    triangles: &mut Vec<[u32; 3]>,
+) -> Result<(), Fault> {
+    let mode = primitive.mode;
+    // The corners that the next one makes a triangle with, and how many there were.
+    let (mut first, mut last, mut met) = (0, 0, 0_u64);
+    let mut corner = |account: &mut Account, index: f64| -> Result<(), Fault> {
+        if index >= count as f64 {
+            let last = count as i64 - 1;
+            let (face, index) = (triangles.len() as u64, index as i64);
+            return Err(Reason::VertexIndex {
+                face,
+                index,
+                first: 0,
+                last,
+            }
+            .into());
+        }
+        let corner = begin + whole(index) as u32;
+        match (mode, met) {
+            (_, 0) => first = corner,
+            (TRIANGLES, _) if met % 3 == 0 => first = corner,
+            (TRIANGLES, _) if met % 3 == 1 => last = corner,
+            (_, 1) => last = corner,
+            _ => {
+                // Every other triangle of a strip is the other way round.
+                let turned = mode == STRIP && met % 2 == 1;
+                let triangle = if turned {
+                    [first, corner, last]
+                } else {
+                    [first, last, corner]
+                };
+                account.push(triangles, triangle, 0)?;
+                if mode == STRIP {
+                    first = last;
+                }
+                last = corner;
+            }
+        }
+        met += 1;
+        Ok(())
+    };
+    match primitive.indices {
+        Some(indices) => {
+            let place = Place::Part("accessor", indices);
+            reader.each_row(indices, Wanted::INDICES, |account, _, row| {
+                corner(account, row[0]).map_err(|fault| fault.or_at(place.clone()))
+            })?;
+        }
+        None => {
+            for index in 0..count {
+                corner(&mut reader.account, index as f64)?;
+            }
+        }
+    }
+    let whole = if mode == TRIANGLES {
+        met % 3 == 0
+    } else {
+        met != 1 && met != 2
+    };
+    if !whole {
+        return Err(Reason::Malformed(format!("{met} corners do not make whole triangles")).into());
+    }
+    if triangles.len() > u32::MAX as usize {
+        return Err(Reason::TooMany { what: "triangles" }.into());
+    }
+    Ok(())
+}

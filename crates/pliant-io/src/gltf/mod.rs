@@ -1,0 +1,416 @@
+//! glTF 2 and GLB: the default scene, each node with a mesh a body, moved by one clip: evaluated frame by frame.
+//!
+//! ```text
+//! nodes        each in its parent; moved by the clip: STEP, LINEAR, CUBICSPLINE
+//! morph        rest + sum over targets of weight x delta
+//! skin         sum over joints of weight x (joint in the world) x (inverse bind matrix), weights brought to a sum of 1
+//! no skin      the node in the world
+//! ```
+//!
+//! What is read from the file is held; a frame is evaluated in double precision when it is asked for, and handed on in single,
+//! as files have it. Frames are at 0, 1/fps, 2/fps, ... and the clip's end. A body that the clip does not move, and every body
+//! where there is no clip, has one frame. The place of a node with a skin does not matter, as the format says.
+//!
+//! Source: the glTF 2.0 specification, 3.5, 3.7 and Appendix C. Sines are those of `libm`: the same bits on every machine.
+
+mod accessor;
+mod affine;
+mod animation;
+mod buffers;
+mod document;
+mod mesh;
+mod scene;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::body::OpenOptions;
+use crate::error::{Fault, Place, Reason};
+use crate::file::Found;
+use crate::format::FrameSource;
+use crate::frame::{Announced, Complete, Frame};
+use crate::memory::Account;
+use crate::positions::Precision;
+use accessor::Reader;
+use animation::Clip;
+use mesh::Mesh;
+use scene::{Pose, Scene};
+
+/// The bodies of a file, with their names.
+pub(crate) struct Bodies {
+    pub(crate) bodies: Vec<(String, GltfBody)>,
+    /// The bytes that they share.
+    pub(crate) held: u64,
+}
+
+/// The frames of one body.
+pub(crate) struct GltfBody {
+    scene: Arc<Scene>,
+    mesh: Arc<Mesh>,
+    /// Until the first frame.
+    triangles: Option<Arc<Vec<[u32; 3]>>>,
+    node: usize,
+    skin: Option<usize>,
+    /// Of the morph targets, where the clip does not say.
+    weights: Vec<f64>,
+    moves: bool,
+    next: usize,
+    /// Reused: the shape that morph targets give; empty where there are none.
+    morphed: Vec<[f64; 3]>,
+    /// What [`Bodies::held`] says of a body that is alone.
+    held: u64,
+}
+
+/// Opens the one body of a file.
+pub(crate) fn open_one(found: &Found, options: &OpenOptions) -> Result<GltfBody, Fault> {
+    let Bodies { mut bodies, held } = open(found, None, options)?;
+    match bodies.pop() {
+        Some((_, mut body)) if bodies.is_empty() => {
+            body.held += held;
+            Ok(body)
+        }
+        last => {
+            let names = bodies.into_iter().chain(last).map(|(name, _)| name);
+            Err(many_bodies(
+                &names.collect::<Vec<_>>(),
+                &found.path().display().to_string(),
+            )
+            .into())
+        }
+    }
+}
+
+/// Opens a file: all its bodies, or the one that is called `name`.
+pub(crate) fn open(
+    found: &Found,
+    name: Option<&str>,
+    options: &OpenOptions,
+) -> Result<Bodies, Fault> {
+    let fps = options.fps;
+    if !(fps > 0.0 && fps.is_finite()) {
+        let reason = format!("{fps} frames a second cannot be evaluated; `--fps` must be above 0");
+        return Err(Reason::Unsupported(reason).into());
+    }
+    let mut account = Account::new(options.max_memory);
+    let (document, buffers) = buffers::open(found, &mut account)?;
+    let parsed = account.held();
+    let mut reader = Reader {
+        document,
+        buffers,
+        account,
+    };
+    let bodies = read(&mut reader, name, options);
+    // First: what looks wrong may be half of a change.
+    reader.buffers.unchanged()?;
+    let bodies = bodies?;
+    reader.account.take_off(parsed);
+    Ok(Bodies {
+        bodies,
+        held: reader.account.held(),
+    })
+}
+
+fn read(
+    reader: &mut Reader,
+    name: Option<&str>,
+    options: &OpenOptions,
+) -> Result<Vec<(String, GltfBody)>, Fault> {
+    let clip = read_clip(reader, options.clip.as_deref())?;
+    let scene = Arc::new(Scene::read(reader, clip, options.fps)?);
+    let nodes = nodes_with_meshes(reader)?;
+    let names = names(reader, &nodes);
+    let wanted = |at: &usize| name.is_none_or(|name| name == names[*at]);
+    let moved = scene.moved();
+    let mut meshes: BTreeMap<usize, Option<Arc<Mesh>>> = BTreeMap::new();
+    let mut bodies = Vec::new();
+    for at in (0..nodes.len()).filter(wanted) {
+        let (node, number) = nodes[at];
+        let mesh = if let Some(mesh) = meshes.get(&number) {
+            mesh.clone()
+        } else {
+            let mesh = Mesh::read(reader, number)?.map(Arc::new);
+            meshes.entry(number).or_insert(mesh).clone()
+        };
+        let Some(mesh) = mesh else { continue };
+        let entry = &reader.document.nodes[node];
+        let skin = entry.skin;
+        let weights = entry
+            .weights
+            .clone()
+            .unwrap_or_else(|| mesh.weights.clone());
+        if let Some(skin) = skin {
+            let joints = scene.skin_joints(skin);
+            let joints =
+                joints.ok_or_else(|| Reason::Malformed(format!("skin {skin} does not exist")));
+            let checked = joints.and_then(|joints| mesh.check_joints(joints));
+            checked.map_err(|reason| reason.at(Place::Part("node", node)))?;
+        }
+        let places = match skin {
+            Some(skin) => scene.moves_joints(skin, &moved),
+            None => moved[node],
+        };
+        let morphed = if mesh.targets.is_empty() {
+            0
+        } else {
+            size_of::<[f64; 3]>() * mesh.rest.len()
+        };
+        bodies.push((
+            names[at].clone(),
+            GltfBody {
+                moves: places || scene.morphs(node),
+                scene: scene.clone(),
+                triangles: Some(mesh.triangles.clone()),
+                held: morphed as u64 + mesh.memory_of_alike(),
+                mesh,
+                node,
+                skin,
+                weights,
+                next: 0,
+                morphed: Vec::new(),
+            },
+        ));
+    }
+    if bodies.is_empty() {
+        return Err(match name {
+            Some(name) if !names.iter().any(|known| known == name) => Reason::NoBody {
+                name: name.chars().take(60).collect(),
+                names: listed(names.into_iter()),
+            },
+            _ => Reason::NoFaces,
+        }
+        .into());
+    }
+    Ok(bodies)
+}
+
+/// The animation of this name; without a name the first, if there is one.
+fn read_clip(reader: &mut Reader, name: Option<&str>) -> Result<Option<Clip>, Fault> {
+    let document = &reader.document;
+    let count = document.animations.len();
+    let clip = match name {
+        None => 0,
+        Some(name) => {
+            let known = (0..count).position(|clip| document.clip_name(clip) == name);
+            known.ok_or_else(|| Reason::NoClip {
+                name: name.chars().take(60).collect(),
+                names: listed((0..count).map(|clip| document.clip_name(clip))),
+            })?
+        }
+    };
+    if clip >= count {
+        return Ok(None);
+    }
+    Clip::read(reader, clip, |reader, node| {
+        let document = &reader.document;
+        let mesh = document
+            .nodes
+            .get(node)
+            .and_then(|node| document.meshes.get(node.mesh?));
+        mesh.and_then(|mesh| mesh.primitives.first())
+            .map_or(0, |primitive| primitive.targets.len())
+    })
+    .map(Some)
+}
+
+/// The nodes of the default scene that have meshes, in the order of nodes, with their meshes.
+fn nodes_with_meshes(reader: &Reader) -> Result<Vec<(usize, usize)>, Fault> {
+    let document = &reader.document;
+    let number = document.scene.unwrap_or(0);
+    let Some(scene) = document.scenes.get(number) else {
+        let reason = if document.scenes.is_empty() {
+            "has no scene, so it does not say where its meshes are; export it with one".into()
+        } else {
+            format!("scene {number} does not exist")
+        };
+        return Err(Reason::Malformed(reason).into());
+    };
+    // A tree, as `Scene::read` has made sure; a root that is listed twice is one.
+    let mut shown = vec![false; document.nodes.len()];
+    let mut open = scene.nodes.clone();
+    while let Some(node) = open.pop() {
+        let Some(entry) = document.nodes.get(node) else {
+            let reason = format!("node {node} does not exist");
+            return Err(Reason::Malformed(reason).at(Place::Part("scene", number)));
+        };
+        if !std::mem::replace(&mut shown[node], true) {
+            open.extend(&entry.children);
+        }
+    }
+    let shown = document
+        .nodes
+        .iter()
+        .enumerate()
+        .filter(|&(node, _)| shown[node]);
+    Ok(shown
+        .filter_map(|(node, entry)| Some((node, entry.mesh?)))
+        .collect())
+}
+
+/// A name for each body, all different: of its node, or else of its mesh.
+fn names(reader: &Reader, nodes: &[(usize, usize)]) -> Vec<String> {
+    let document = &reader.document;
+    let name = |&(node, mesh): &(usize, usize)| {
+        let own = document.nodes[node].name.clone();
+        own.or_else(|| document.meshes.get(mesh)?.name.clone())
+            .unwrap_or_else(|| format!("node {node}"))
+    };
+    let names: Vec<String> = nodes.iter().map(name).collect();
+    let mut times: BTreeMap<&str, usize> = BTreeMap::new();
+    for name in &names {
+        *times.entry(name).or_default() += 1;
+    }
+    let different = names
+        .iter()
+        .zip(nodes)
+        .map(|(name, (node, _))| match times[&name[..]] {
+            1 => name.clone(),
+            _ => format!("{name} (node {node})"),
+        });
+    different.collect()
+}
+
+/// Why a file of several bodies is not one.
+pub(crate) fn many_bodies(names: &[String], argument: &str) -> Reason {
+    let first = names.first().map_or("", |name| &name[..]);
+    Reason::ManyBodies {
+        count: names.len(),
+        example: format!("{argument}#{first}"),
+        names: listed(names.iter().cloned()),
+    }
+}
+
+/// Names for a message: the first ten, each shortened.
+fn listed(names: impl Iterator<Item = String> + Clone) -> String {
+    let count = names.clone().count();
+    if count == 0 {
+        return "none".to_owned();
+    }
+    let short = names
+        .take(10)
+        .map(|name| name.chars().take(40).collect::<String>());
+    let mut list = short.collect::<Vec<_>>().join(", ");
+    if count > 10 {
+        list = format!("{list} and {} more", count - 10);
+    }
+    list
+}
+
+impl GltfBody {
+    fn read_frame(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
+        let number = self.next;
+        let place = if self.moves {
+            Place::Frame(number as u64)
+        } else {
+            Place::Part("node", self.node)
+        };
+        let at = |reason: Reason| reason.at(place.clone());
+        let triangles = self.triangles.take();
+        let announced = Announced {
+            vertices: self.mesh.rest.len() as u64,
+            faces: triangles
+                .as_ref()
+                .map_or(0, |triangles| triangles.len() as u64),
+        };
+        frame.begin(Precision::F32, announced).map_err(at)?;
+        match triangles {
+            Some(triangles) => {
+                for corners in &*triangles {
+                    frame.face(corners, || place.clone()).map_err(at)?;
+                }
+            }
+            None => frame.same_faces(),
+        }
+        let mut morphed = std::mem::take(&mut self.morphed);
+        self.scene
+            .with_pose(number, |pose| self.place(pose, &mut morphed, frame))
+            .map_err(at)?;
+        self.morphed = morphed;
+        self.next += 1;
+        frame.complete(0).map_err(|fault| fault.or_at(place))
+    }
+
+    /// The positions of a pose.
+    fn place(
+        &self,
+        pose: &Pose,
+        morphed: &mut Vec<[f64; 3]>,
+        frame: &mut Frame,
+    ) -> Result<(), Reason> {
+        let Self { mesh, .. } = self;
+        if !mesh.targets.is_empty() {
+            morphed.clear();
+            morphed.extend(mesh.rest.iter().map(|rest| rest.map(f64::from)));
+            let weights = pose.weights.get(&self.node).unwrap_or(&self.weights);
+            for (target, &weight) in mesh
+                .targets
+                .iter()
+                .zip(weights)
+                .filter(|&(_, weight)| *weight != 0.0)
+            {
+                for &(vertex, delta) in target {
+                    for (x, d) in morphed[vertex as usize].iter_mut().zip(delta) {
+                        *x += weight * f64::from(d);
+                    }
+                }
+            }
+        }
+        let joints = self.skin.and_then(|skin| pose.skins.get(skin));
+        let node = &pose.nodes[self.node];
+        for (vertex, rest) in mesh.rest.iter().enumerate() {
+            let shape = morphed
+                .get(vertex)
+                .copied()
+                .unwrap_or_else(|| rest.map(f64::from));
+            let position = match joints {
+                None => node.apply(shape),
+                Some(joints) => {
+                    let (mut sum, mut whole) = ([0.0; 3], 0.0);
+                    for influence in mesh.influences(vertex) {
+                        let weight = f64::from(influence.weight);
+                        let moved = joints[usize::from(influence.joint)].apply(shape);
+                        sum.iter_mut()
+                            .zip(moved)
+                            .for_each(|(sum, x)| *sum += weight * x);
+                        whole += weight;
+                    }
+                    sum.map(|x| x / whole)
+                }
+            };
+            frame.vertex(position.map(|x| f64::from(x as f32)))?;
+        }
+        Ok(())
+    }
+}
+
+impl FrameSource for GltfBody {
+    fn frame_count(&self) -> usize {
+        if self.moves { self.scene.steps + 1 } else { 1 }
+    }
+
+    fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
+        self.read_frame(frame)
+    }
+
+    fn skip(&mut self, frames: usize) -> Result<(), Fault> {
+        self.next += frames;
+        Ok(())
+    }
+
+    fn rewind(&mut self) -> Result<bool, Fault> {
+        self.next = 0;
+        Ok(true)
+    }
+
+    fn held(&self) -> u64 {
+        self.held
+    }
+
+    fn alike(&self) -> Option<Vec<u64>> {
+        Some(self.mesh.alike(self.skin.is_some()))
+    }
+
+    fn clip(&self) -> Option<&str> {
+        let clip = self.scene.clip.as_ref().filter(|_| self.moves);
+        clip.map(|clip| &clip.name[..])
+    }
+}

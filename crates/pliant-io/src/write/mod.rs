@@ -1,0 +1,378 @@
+//! Writing: a mesh, or a sequence, as OBJ, PLY, STL, NPZ, or PC2 or MDD beside a mesh.
+//!
+//! What is written reads back as the same triangles and the same positions: bit for bit, but where 64-bit coordinates go into a
+//! format that has 32 ([`Writer::rounded`] says so). Polygons stay polygons where the format has them. Frames are written as they
+//! come; a file appears under its name when it is whole, and never over another that is not to be lost.
+
+mod cache;
+mod npz;
+mod obj;
+mod ply;
+mod staged;
+mod stl;
+
+use std::path::{Path, PathBuf};
+
+use crate::arguments::mesh_and_positions;
+use crate::error::{Error, Reason};
+use crate::format::Format;
+use crate::positions::{Positions, Precision};
+use staged::Staged;
+
+/// What holds for all frames that are written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Every index is below [`vertex_count`](Self::vertex_count).
+    pub triangles: Vec<[u32; 3]>,
+    /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
+    pub faces: Option<Vec<u32>>,
+    /// Vertices of a frame.
+    pub vertex_count: usize,
+    /// How many frames will be written.
+    pub frame_count: usize,
+    /// The type of the coordinates.
+    pub precision: Precision,
+}
+
+/// How to write.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WriteOptions {
+    /// Write over files that are there. Default: false.
+    pub force: bool,
+    /// Frames a second, for formats that say when a frame is (MDD). Default: 30.
+    pub fps: f64,
+}
+
+impl Default for WriteOptions {
+    fn default() -> Self {
+        Self {
+            force: false,
+            fps: 30.0,
+        }
+    }
+}
+
+/// A body being written, frame by frame.
+///
+/// ```
+/// # let folder = std::env::temp_dir().join(format!("pliant-io-writer-{}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// # let out = folder.join("tent_%02d.ply").display().to_string();
+/// use pliant_io::{Positions, Precision, Shape, WriteOptions, Writer};
+///
+/// let shape = Shape {
+///     triangles: vec![[0, 1, 2]],
+///     faces: None,
+///     vertex_count: 3,
+///     frame_count: 2,
+///     precision: Precision::F32,
+/// };
+/// // "tent_%02d.ply": tent_00.ply, tent_01.ply.
+/// let mut writer = Writer::create(&out, shape, WriteOptions::default())?;
+/// for height in [1.0, 2.0] {
+///     writer.frame(Positions::F32(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, height]]))?;
+/// }
+/// assert_eq!(writer.finish()?.len(), 2);
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Writer {
+    argument: String,
+    shape: Shape,
+    options: WriteOptions,
+    to: To,
+    done: usize,
+    rounded: bool,
+    written: Vec<PathBuf>,
+}
+
+/// Where frames go.
+enum To {
+    /// A file each, if there is more than one.
+    Meshes(Format, Vec<PathBuf>),
+    Npz(Box<npz::Npz>),
+    Cache(Box<Pair>),
+}
+
+/// A mesh, which is written with the first frame, and positions.
+struct Pair {
+    format: Format,
+    mesh: PathBuf,
+    staged: Option<Staged>,
+    cache: cache::Cache,
+}
+
+/// For messages.
+const WRITABLE: &str = "a mesh: .obj, .ply, .stl; a sequence: .npz, 'mesh.obj+positions.pc2' or .mdd, or a file a frame: 'name_%04d.obj'";
+
+impl Writer {
+    /// Prepares to write what `argument` names: a file, files with the number of the frame in place of `%04d`, or a mesh and its
+    /// positions (`mesh.obj+positions.pc2`).
+    ///
+    /// # Errors
+    ///
+    /// The format cannot be written or cannot hold so many frames, a file is there already, or its folder is not; a shape whose
+    /// parts do not agree.
+    pub fn create(argument: &str, shape: Shape, options: WriteOptions) -> Result<Self, Error> {
+        let error = |reason: Reason| Error::new(argument, reason);
+        shape.check().map_err(error)?;
+        let to = if let Some((mesh, positions)) = mesh_and_positions(argument) {
+            let format = Format::of(Path::new(mesh)).map_err(error)?;
+            if !matches!(format, Format::Obj | Format::Ply) {
+                let reason =
+                    "the mesh beside positions is written as .obj or .ply, which keep its vertices";
+                return Err(error(Reason::Unsupported(reason.into())));
+            }
+            let (mesh, positions) = (PathBuf::from(mesh), PathBuf::from(positions));
+            for path in [&mesh, &positions] {
+                staged::check(path, options.force)?;
+            }
+            let big_endian = Format::of(&positions).map_err(error)? == Format::Mdd;
+            To::Cache(Box::new(Pair {
+                format,
+                mesh,
+                staged: None,
+                cache: cache::Cache::create(&positions, big_endian, &shape, options.fps)?,
+            }))
+        } else {
+            Self::single(argument, &shape, &options)?
+        };
+        Ok(Self {
+            argument: argument.to_owned(),
+            shape,
+            options,
+            to,
+            done: 0,
+            rounded: false,
+            written: Vec::new(),
+        })
+    }
+
+    /// What an argument without a mesh names.
+    fn single(argument: &str, shape: &Shape, options: &WriteOptions) -> Result<To, Error> {
+        let path = Path::new(argument);
+        let unsupported = |reason: String| Error::new(path, Reason::Unsupported(reason));
+        match Format::of(path) {
+            Ok(format @ (Format::Obj | Format::Ply | Format::Stl)) => {
+                let paths = match numbered(argument) {
+                    Some(name) => (0..shape.frame_count)
+                        .map(|frame| name(frame).into())
+                        .collect(),
+                    None if shape.frame_count == 1 => vec![path.to_owned()],
+                    None => {
+                        return Err(unsupported(format!(
+                            "holds one frame, there are {}; name a file a frame ('name_%04d.obj'), or choose one with `--frames`",
+                            shape.frame_count
+                        )));
+                    }
+                };
+                for path in &paths {
+                    staged::check(path, options.force)?;
+                }
+                Ok(To::Meshes(format, paths))
+            }
+            Ok(Format::Npz) => {
+                staged::check(path, options.force)?;
+                Ok(To::Npz(Box::new(npz::Npz::create(path, shape)?)))
+            }
+            Ok(Format::Pc2 | Format::Mdd) => Err(unsupported(format!(
+                "holds positions but no faces; name a mesh to write beside it: 'mesh.obj+{argument}'"
+            ))),
+            Ok(Format::Gltf) => Err(unsupported(format!(
+                "glTF can be read but not written; what can: {WRITABLE}"
+            ))),
+            Err(_) => Err(unsupported(format!(
+                "this kind of file cannot be written; what can: {WRITABLE}"
+            ))),
+        }
+    }
+
+    /// Writes the next frame.
+    ///
+    /// # Errors
+    ///
+    /// The disk is full, a file has come into being meanwhile, or the frame does not have the shape announced.
+    pub fn frame(&mut self, positions: Positions<'_>) -> Result<(), Error> {
+        let Self { shape, options, .. } = self;
+        if positions.len() != shape.vertex_count || self.done == shape.frame_count {
+            return Err(Error::new(
+                &self.argument,
+                Reason::Malformed(format!(
+                    "frame {} of {} vertices was to be written; {} frames of {} were announced",
+                    self.done,
+                    positions.len(),
+                    shape.frame_count,
+                    shape.vertex_count
+                )),
+            ));
+        }
+        match &mut self.to {
+            To::Meshes(format, paths) => {
+                let path = &paths[self.done];
+                self.rounded |=
+                    write_mesh(*format, path, shape, positions)?.commit(options.force)?;
+                self.written.push(path.clone());
+            }
+            To::Npz(npz) => npz.frame(positions)?,
+            To::Cache(pair) => {
+                if pair.staged.is_none() {
+                    pair.staged = Some(write_mesh(pair.format, &pair.mesh, shape, positions)?);
+                }
+                self.rounded |= pair.cache.frame(positions)?;
+            }
+        }
+        self.done += 1;
+        Ok(())
+    }
+
+    /// Whether any coordinate so far was not one of 32 bits and went into a format that has no others.
+    pub fn rounded(&self) -> bool {
+        self.rounded
+    }
+
+    /// Ends the writing: now every file is under its name. Returns them.
+    ///
+    /// # Errors
+    ///
+    /// As [`frame`](Self::frame), or frames are missing.
+    pub fn finish(mut self) -> Result<Vec<PathBuf>, Error> {
+        let announced = self.shape.frame_count;
+        if self.done != announced {
+            let reason = format!("{announced} frames were announced, {} came", self.done);
+            return Err(Error::new(&self.argument, Reason::Malformed(reason)));
+        }
+        let force = self.options.force;
+        match self.to {
+            To::Meshes(..) => {}
+            To::Npz(npz) => {
+                let staged = npz.finish(&self.shape)?;
+                self.written.push(staged.path().to_owned());
+                staged.commit(force)?;
+            }
+            To::Cache(pair) => {
+                let Pair { staged, cache, .. } = *pair;
+                let positions = cache.finish();
+                for staged in staged.into_iter().chain([positions]) {
+                    self.written.push(staged.path().to_owned());
+                    staged.commit(force)?;
+                }
+            }
+        }
+        Ok(self.written)
+    }
+}
+
+/// Writes one frame beside its place.
+fn write_mesh(
+    format: Format,
+    path: &Path,
+    shape: &Shape,
+    positions: Positions<'_>,
+) -> Result<Staged, Error> {
+    let mut staged = Staged::create(path)?;
+    let written = match format {
+        Format::Ply => ply::write(&mut staged, shape, positions),
+        Format::Stl => stl::write(&mut staged, shape, positions),
+        _ => obj::write(&mut staged, shape, positions),
+    };
+    match written {
+        Ok(rounded) => {
+            staged.rounded = rounded;
+            Ok(staged)
+        }
+        Err(error) => Err(Error::new(path, Reason::Write(error))),
+    }
+}
+
+/// The names of files with `%d` or `%04d` in place of a number; None where there is none.
+fn numbered(argument: &str) -> Option<impl Fn(usize) -> String + '_> {
+    let (before, rest) = argument.split_once('%')?;
+    let (width, after) = rest.split_once('d')?;
+    if !width.bytes().all(|c| c.is_ascii_digit()) || width.len() > 3 {
+        return None;
+    }
+    let (zeros, width) = (width.starts_with('0'), width.parse().unwrap_or(0));
+    Some(move |frame: usize| {
+        if zeros {
+            format!("{before}{frame:0width$}{after}")
+        } else {
+            format!("{before}{frame:width$}{after}")
+        }
+    })
+}
+
+impl Shape {
+    /// Refuses parts that do not agree.
+    fn check(&self) -> Result<(), Reason> {
+        let malformed = |why: &str| Err(Reason::Malformed(why.into()));
+        if self.frame_count == 0 {
+            return Err(Reason::NoFrames);
+        }
+        if self.triangles.is_empty() {
+            return Err(Reason::NoFaces);
+        }
+        let mut corners = self.triangles.as_flattened().iter();
+        if corners.any(|&corner| corner as usize >= self.vertex_count) {
+            return malformed("a triangle to be written has a vertex that does not exist");
+        }
+        if u32::try_from(self.vertex_count).is_err() || u32::try_from(self.triangles.len()).is_err()
+        {
+            return Err(Reason::TooMany {
+                what: "vertices or triangles",
+            });
+        }
+        let faces = self.faces.as_ref();
+        if faces.is_some_and(|faces| faces.len() != self.triangles.len()) {
+            return malformed("to be written are not as many faces as triangles");
+        }
+        Ok(())
+    }
+
+    /// Calls `each` with the corners of every polygon: those of its fan.
+    fn each_polygon<E>(&self, mut each: impl FnMut(&[u32]) -> Result<(), E>) -> Result<(), E> {
+        let Some(faces) = &self.faces else {
+            return self.triangles.iter().try_for_each(|corners| each(corners));
+        };
+        let mut polygon = Vec::new();
+        let mut begin = 0;
+        for same in faces.chunk_by(|a, b| a == b) {
+            let fan = &self.triangles[begin..begin + same.len()];
+            begin += same.len();
+            polygon.clear();
+            polygon.extend(fan[0]);
+            polygon.extend(fan[1..].iter().map(|corners| corners[2]));
+            each(&polygon)?;
+        }
+        Ok(())
+    }
+}
+
+/// A position in 32 bits; sets `rounded` where it was none.
+fn narrowed(position: [f64; 3], rounded: &mut bool) -> [f32; 3] {
+    position.map(|x| {
+        let narrow = x as f32;
+        *rounded |= f64::from(narrow).to_bits() != x.to_bits();
+        narrow
+    })
+}
+
+/// The positions one by one, widened.
+fn widened(positions: Positions<'_>) -> impl Iterator<Item = [f64; 3]> + '_ {
+    (0..positions.len() as u32).map(move |vertex| positions.get(vertex))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_stand_where_the_pattern_says() {
+        let name = |pattern| numbered(pattern).map(|name| name(7));
+        assert_eq!(name("a_%04d.obj").as_deref(), Some("a_0007.obj"));
+        assert_eq!(name("a%d_b.obj").as_deref(), Some("a7_b.obj"));
+        assert_eq!(name("%3d.ply").as_deref(), Some("  7.ply"));
+        for none in ["a.obj", "100%.obj", "a%xd.obj", "a%9999d.obj"] {
+            assert_eq!(name(none), None, "{none}");
+        }
+    }
+}

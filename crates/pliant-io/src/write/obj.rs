@@ -1,0 +1,40 @@
+//! OBJ as text: the shortest decimals that read back as the same 64-bit number.
+
+use std::fmt;
+use std::io::{self, Write};
+
+use super::{Shape, widened};
+use crate::positions::Positions;
+
+/// Writes one frame; nothing is rounded.
+pub(super) fn write(
+    out: &mut impl Write,
+    shape: &Shape,
+    positions: Positions<'_>,
+) -> io::Result<bool> {
+    for [x, y, z] in widened(positions) {
+        writeln!(out, "v {} {} {}", Decimal(x), Decimal(y), Decimal(z))?;
+    }
+    shape.each_polygon(|corners| {
+        write!(out, "f")?;
+        for &corner in corners {
+            write!(out, " {}", u64::from(corner) + 1)?;
+        }
+        writeln!(out)
+    })?;
+    Ok(false)
+}
+
+/// With an exponent where there would be many zeros.
+struct Decimal(f64);
+
+impl fmt::Display for Decimal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(x) = *self;
+        if x == 0.0 || (1e-5..1e16).contains(&x.abs()) {
+            write!(f, "{x}")
+        } else {
+            write!(f, "{x:e}")
+        }
+    }
+}

@@ -1,0 +1,327 @@
+//! Lines over steps, as in figures 3 and 4 of the paper: shown by the page, and written as SVG for a paper.
+
+use crate::colours::of_line;
+use crate::page::escape;
+use serde::Serialize;
+use std::fmt::Write;
+
+/// Some figures at each step.
+#[derive(Clone, Debug, Serialize)]
+pub struct Chart {
+    /// What is shown.
+    pub title: String,
+    /// What the figures are: `ms`.
+    pub unit: String,
+    /// What the steps are called: `step` or `frame`.
+    pub along: String,
+    /// The numbers of the steps.
+    pub x: Vec<u32>,
+    /// The lines.
+    pub series: Vec<Series>,
+}
+
+/// One line.
+#[derive(Clone, Debug, Serialize)]
+pub struct Series {
+    /// What it is called.
+    pub name: String,
+    /// One figure a step.
+    pub values: Vec<f64>,
+}
+
+/// The picture, and the part of it that lines are drawn in.
+const WIDTH: f64 = 720.0;
+const HEIGHT: f64 = 400.0;
+const LEFT: f64 = 64.0;
+const TOP: f64 = 40.0;
+const RIGHT: f64 = 20.0;
+const BOTTOM: f64 = 48.0;
+/// From there down, the legend; the height of a line of it.
+const LEGEND: f64 = HEIGHT + 10.0;
+const LEGEND_LINE: f64 = 18.0;
+
+impl Chart {
+    /// Whether the lines are so far apart that only a logarithmic axis shows all of them: the largest median is over fifty
+    /// times the smallest.
+    pub fn is_logarithmic(&self) -> bool {
+        let medians: Vec<f64> = self
+            .series
+            .iter()
+            .map(|series| {
+                let mut sorted: Vec<f64> = series
+                    .values
+                    .iter()
+                    .copied()
+                    .filter(|x| x.is_finite())
+                    .collect();
+                sorted.sort_by(f64::total_cmp);
+                sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+            })
+            .filter(|&median| median > 0.0)
+            .collect();
+        let least = medians.iter().copied().fold(f64::INFINITY, f64::min);
+        medians.iter().any(|&median| median > 50.0 * least)
+    }
+
+    /// A picture for a paper: black on nothing, with a legend below.
+    pub fn svg(&self) -> String {
+        let rows = self.series.len().div_ceil(2) as f64;
+        let height = LEGEND + rows * LEGEND_LINE;
+        let axes = Axes::of(self);
+        let mut svg = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="black">
+<title>{title}</title>
+<text x="{LEFT}" y="20" font-size="14">{title}</text>
+"#,
+            title = escape(&self.title),
+        );
+        axes.draw(&mut svg, self);
+        for (number, series) in self.series.iter().enumerate() {
+            let (colour, dashes) = of_line(number);
+            let dashes = dash_attribute(dashes);
+            let points = self
+                .x
+                .iter()
+                .zip(&series.values)
+                .filter(|(_, y)| y.is_finite());
+            let points: Vec<String> = points
+                .map(|(&x, &y)| format!("{:.2},{:.2}", axes.x(f64::from(x)), axes.y(y)))
+                .collect();
+            let _ = writeln!(
+                svg,
+                r#"<polyline fill="none" stroke="{colour}" stroke-width="1.5" stroke-linejoin="round"{dashes} points="{}"/>"#,
+                points.join(" ")
+            );
+            let x = LEFT + (number % 2) as f64 * (WIDTH - LEFT - RIGHT) / 2.0;
+            let y = LEGEND + (number / 2) as f64 * LEGEND_LINE;
+            let _ = writeln!(
+                svg,
+                r#"<line x1="{x}" y1="{0}" x2="{1}" y2="{0}" stroke="{colour}" stroke-width="2"{dashes}/><text x="{2}" y="{y}">{3}</text>"#,
+                y - 4.0,
+                x + 24.0,
+                x + 32.0,
+                escape(&series.name),
+            );
+        }
+        svg.push_str("</svg>\n");
+        svg
+    }
+}
+
+/// Where values are in the picture.
+struct Axes {
+    x: [f64; 2],
+    y: [f64; 2],
+    logarithmic: bool,
+}
+
+impl Axes {
+    fn of(chart: &Chart) -> Self {
+        let logarithmic = chart.is_logarithmic();
+        let values = chart
+            .series
+            .iter()
+            .flat_map(|series| &series.values)
+            .copied();
+        let values = values.filter(|&y| y.is_finite() && (!logarithmic || y > 0.0));
+        let (least, most) = values.fold((f64::INFINITY, 0.0), |(least, most), y| {
+            (f64::min(least, y), f64::max(most, y))
+        });
+        let y = if logarithmic {
+            [
+                10_f64.powf(least.log10().floor()),
+                10_f64.powf(most.log10().ceil()),
+            ]
+        } else {
+            let most = if most > 0.0 { most } else { 1.0 };
+            let tick = tick_size(most);
+            [0.0, (most / tick).ceil() * tick]
+        };
+        let first = chart.x.iter().copied().min().unwrap_or(0);
+        let last = chart.x.iter().copied().max().unwrap_or(1);
+        Self {
+            x: [
+                f64::from(first),
+                f64::from(last).max(f64::from(first) + 1.0),
+            ],
+            y,
+            logarithmic,
+        }
+    }
+
+    fn x(&self, x: f64) -> f64 {
+        LEFT + (x - self.x[0]) / (self.x[1] - self.x[0]) * (WIDTH - LEFT - RIGHT)
+    }
+
+    fn y(&self, y: f64) -> f64 {
+        let [low, high] = self.y;
+        let part = if self.logarithmic {
+            (y.max(low).log10() - low.log10()) / (high.log10() - low.log10())
+        } else {
+            (y - low) / (high - low)
+        };
+        HEIGHT - BOTTOM - part * (HEIGHT - BOTTOM - TOP)
+    }
+
+    fn draw(&self, svg: &mut String, chart: &Chart) {
+        let (right, bottom) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
+        for y in self.ticks_up() {
+            let at = self.y(y);
+            let _ = writeln!(
+                svg,
+                r##"<line x1="{LEFT}" y1="{at:.2}" x2="{right}" y2="{at:.2}" stroke="#ddd"/><text x="{0}" y="{1:.2}" text-anchor="end">{2}</text>"##,
+                LEFT - 8.0,
+                at + 4.0,
+                short(y),
+            );
+        }
+        let step = tick_size(self.x[1] - self.x[0]).max(1.0);
+        let mut x = (self.x[0] / step).ceil() * step;
+        while x <= self.x[1] {
+            let at = self.x(x);
+            let _ = writeln!(
+                svg,
+                r#"<line x1="{at:.2}" y1="{bottom}" x2="{at:.2}" y2="{0}" stroke="black"/><text x="{at:.2}" y="{1}" text-anchor="middle">{x}</text>"#,
+                bottom + 5.0,
+                bottom + 19.0,
+            );
+            x += step;
+        }
+        let _ = writeln!(
+            svg,
+            r#"<line x1="{LEFT}" y1="{bottom}" x2="{right}" y2="{bottom}" stroke="black"/>
+<text x="{right}" y="{0}" text-anchor="end">{1}</text>
+<text x="{2}" y="{TOP}" text-anchor="end" dy="-10">{3}</text>"#,
+            bottom + 36.0,
+            escape(&chart.along),
+            LEFT - 8.0,
+            escape(&chart.unit),
+        );
+    }
+
+    fn ticks_up(&self) -> Vec<f64> {
+        let [low, high] = self.y;
+        if self.logarithmic {
+            let decades = (high / low).log10().round() as i32;
+            return (0..=decades)
+                .map(|decade| low * 10_f64.powi(decade))
+                .collect();
+        }
+        let tick = tick_size(high);
+        (0..=(high / tick).round() as u32)
+            .map(|i| f64::from(i) * tick)
+            .collect()
+    }
+}
+
+/// 1, 2 or 5 times a power of ten; between four and ten of them are in `range`.
+fn tick_size(range: f64) -> f64 {
+    let rough = range / 4.0;
+    let power = 10_f64.powf(rough.log10().floor());
+    [5.0, 2.0, 1.0]
+        .into_iter()
+        .map(|step| step * power)
+        .find(|&step| step <= rough)
+        .unwrap_or(power)
+}
+
+/// A number without the dust that sums of fractions leave.
+fn short(y: f64) -> String {
+    let text = format!("{y:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn dash_attribute(dashes: &[u8]) -> String {
+    if dashes.is_empty() {
+        return String::new();
+    }
+    let dashes: Vec<String> = dashes.iter().map(u8::to_string).collect();
+    format!(r#" stroke-dasharray="{}""#, dashes.join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chart(series: &[(&str, &[f64])]) -> Chart {
+        Chart {
+            title: "time <per> step".to_owned(),
+            unit: "ms".to_owned(),
+            along: "step".to_owned(),
+            x: vec![10, 20, 30],
+            series: series
+                .iter()
+                .map(|&(name, values)| Series {
+                    name: name.to_owned(),
+                    values: values.to_vec(),
+                })
+                .collect(),
+        }
+    }
+
+    #[test]
+    fn ticks_are_round_numbers() {
+        for (range, tick) in [
+            (1.0, 0.2),
+            (4.0, 1.0),
+            (3.9, 0.5),
+            (200.0, 50.0),
+            (0.663, 0.1),
+            (39.9, 5.0),
+        ] {
+            assert!(
+                (tick_size(range) - tick).abs() < 1e-12,
+                "{range}: {}",
+                tick_size(range)
+            );
+        }
+        assert_eq!(
+            [short(0.1 + 0.2), short(20.0), short(0.0)],
+            ["0.3", "20", "0"]
+        );
+    }
+
+    #[test]
+    fn lines_far_apart_are_on_a_logarithmic_axis() {
+        assert!(!chart(&[("a", &[1.0, 1.0, 9.0]), ("b", &[40.0, 50.0, 60.0])]).is_logarithmic());
+        let far = chart(&[("a", &[1.0, 1.0, 9.0]), ("b", &[40.0, 51.0, 60.0])]);
+        assert!(far.is_logarithmic());
+        let axes = Axes::of(&far);
+        assert_eq!(axes.ticks_up(), [1.0, 10.0, 100.0]);
+        assert_eq!((axes.y(100.0), axes.y(1.0)), (TOP, HEIGHT - BOTTOM));
+    }
+
+    #[test]
+    fn the_picture_has_every_point_in_its_place_and_no_name_is_markup() {
+        let svg = chart(&[
+            ("a & b", &[0.0, 2.0, 4.0]),
+            ("</svg>", &[f64::NAN, 1.0, 1.0]),
+        ])
+        .svg();
+        assert!(
+            svg.contains(r#"points="64.00,352.00 382.00,196.00 700.00,40.00""#),
+            "{svg}"
+        );
+        assert!(
+            svg.contains(r#"points="382.00,274.00 700.00,274.00""#),
+            "{svg}"
+        );
+        assert!(svg.contains("a &amp; b") && svg.contains("time &lt;per&gt; step"));
+        assert_eq!(svg.matches("</svg>").count(), 1);
+    }
+
+    #[test]
+    fn nothing_and_zeros_are_drawn_too() {
+        for series in [
+            &[][..],
+            &[("a", &[0.0; 3][..])],
+            &[("a", &[f64::NAN; 3][..])],
+        ] {
+            let svg = chart(series).svg();
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        }
+        let mut empty = chart(&[]);
+        empty.x.clear();
+        assert!(!empty.svg().contains("NaN"));
+    }
+}

@@ -1,0 +1,190 @@
+//! What was kept of a motion.
+
+use crate::recorder::BodyLabel;
+use pliant::{BodyId, Scalar};
+
+/// Bodies in motion, as a page can hold them; numbers for every frame, shapes for some.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// Bodies, vertices and triangles in all.
+    pub(crate) sizes: [usize; 3],
+    pub(crate) bodies: Vec<BodyRecord>,
+    /// The numbers of all frames.
+    pub(crate) numbers: Vec<u32>,
+    /// Intersecting pairs in all frames.
+    pub(crate) pairs: Vec<u64>,
+    /// Ascending.
+    pub(crate) frames: Vec<Frame>,
+    /// Not even a few frames would fit into a page; then there are no bodies and no frames.
+    pub(crate) too_large: bool,
+}
+
+/// What does not change.
+#[derive(Clone, Debug)]
+pub(crate) struct BodyRecord {
+    pub(crate) id: BodyId,
+    pub(crate) label: BodyLabel,
+    pub(crate) vertices: usize,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Triangles in the order of the tree.
+    pub(crate) order: Vec<u32>,
+    /// For each level where its parts start in `order`.
+    pub(crate) starts: Vec<Vec<u32>>,
+}
+
+/// One frame.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame {
+    /// Among all frames, from 0.
+    pub(crate) place: usize,
+    /// Of each body.
+    pub(crate) shapes: Vec<Shape>,
+    pub(crate) hits: Hits,
+    /// Body by body, level by level, part by part: was the box made for this shape?
+    pub(crate) made: Vec<bool>,
+}
+
+/// Which triangles intersect; all bodies' triangles are numbered in one row.
+#[derive(Clone, Debug)]
+pub(crate) enum Hits {
+    /// Sorted.
+    Pairs(Vec<[u32; 2]>),
+    /// Sorted; the pairs were too many.
+    Triangles(Vec<u32>),
+}
+
+/// The shape of a body: its box, and positions in it from 0 to 1 along its longest side, whatever their magnitude.
+#[derive(Clone, Debug)]
+pub(crate) struct Shape {
+    pub(crate) lower: [f64; 3],
+    /// The longest side; 0 of a point.
+    pub(crate) side: f64,
+    pub(crate) inside: Vec<[f32; 3]>,
+}
+
+impl Motion {
+    /// Bodies, vertices and triangles in all.
+    pub fn sizes(&self) -> [usize; 3] {
+        self.sizes
+    }
+
+    /// Intersecting pairs in each frame.
+    pub fn pairs(&self) -> &[u64] {
+        &self.pairs
+    }
+
+    /// The numbers of the frames.
+    pub fn numbers(&self) -> &[u32] {
+        &self.numbers
+    }
+
+    /// The frames that can be shown, by their numbers.
+    pub fn shown(&self) -> impl ExactSizeIterator<Item = u32> {
+        self.frames.iter().map(|frame| self.numbers[frame.place])
+    }
+
+    /// The number of the first frame in which something intersects.
+    pub fn first_contact(&self) -> Option<u32> {
+        let place = self.pairs.iter().position(|&pairs| pairs > 0)?;
+        Some(self.numbers[place])
+    }
+
+    /// The first frame with the most pairs, and how many they are, where any intersect.
+    pub fn worst(&self) -> Option<(u32, u64)> {
+        let most = self.pairs.iter().copied().max().filter(|&most| most > 0)?;
+        let place = self.pairs.iter().position(|&pairs| pairs == most)?;
+        Some((self.numbers[place], most))
+    }
+
+    /// In how many frames something intersects.
+    pub fn frames_with_hits(&self) -> usize {
+        self.pairs.iter().filter(|&&pairs| pairs > 0).count()
+    }
+}
+
+impl BodyRecord {
+    /// `levels`: for each level the part of each triangle.
+    pub(crate) fn new(
+        id: BodyId,
+        label: BodyLabel,
+        vertices: usize,
+        triangles: Vec<[u32; 3]>,
+        levels: &[Vec<u32>],
+    ) -> Self {
+        let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
+        if let Some(deepest) = levels.last() {
+            order.sort_by_key(|&triangle| deepest[triangle as usize]);
+        }
+        let starts = levels
+            .iter()
+            .map(|parts| {
+                let part = |place: usize| parts[order[place] as usize];
+                let is_start = |&place: &usize| place == 0 || part(place) != part(place - 1);
+                (0..order.len())
+                    .filter(is_start)
+                    .map(|place| place as u32)
+                    .collect()
+            })
+            .collect();
+        Self {
+            id,
+            label,
+            vertices,
+            triangles,
+            order,
+            starts,
+        }
+    }
+}
+
+impl Frame {
+    /// Bytes of a page, before it is compressed.
+    pub(crate) fn cost(&self) -> usize {
+        let vertices: usize = self.shapes.iter().map(|shape| shape.inside.len()).sum();
+        let hits = match &self.hits {
+            Hits::Pairs(pairs) => 8 * pairs.len(),
+            Hits::Triangles(triangles) => 4 * triangles.len(),
+        };
+        6 * vertices + hits + self.made.len() / 8
+    }
+}
+
+impl Shape {
+    pub(crate) fn of<S: Scalar>(positions: &[[S; 3]]) -> Self {
+        if positions.is_empty() {
+            return Self {
+                lower: [0.0; 3],
+                side: 0.0,
+                inside: Vec::new(),
+            };
+        }
+        let (mut lower, mut upper) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for position in positions {
+            for axis in 0..3 {
+                let x = position[axis].to_f64();
+                (lower[axis], upper[axis]) = (lower[axis].min(x), upper[axis].max(x));
+            }
+        }
+        let side = (0..3)
+            .map(|axis| upper[axis] - lower[axis])
+            .fold(0.0, f64::max);
+        let inside = positions
+            .iter()
+            .map(|position| {
+                std::array::from_fn(|axis| {
+                    let from_lower = position[axis].to_f64() - lower[axis];
+                    if side > 0.0 {
+                        (from_lower / side) as f32
+                    } else {
+                        0.0
+                    }
+                })
+            })
+            .collect();
+        Self {
+            lower,
+            side,
+            inside,
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! The page: one file, nothing from outside it.
+//!
+//! Text from files and commands (names, paths) may be hostile. It goes into the page in two places only: escaped in the title,
+//! and as JSON in which `<` is written `\u003c`, so that no text can end the element it is in. The viewer shows text as text.
+
+use crate::chart::Chart;
+use crate::colours::{HIT, of_body, of_line};
+use crate::frames::Motion;
+use crate::pack::STEPS;
+use crate::report::{Play, Report};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
+
+const VIEWER: &str = include_str!("../assets/viewer.js");
+const STYLE: &str = include_str!("../assets/viewer.css");
+
+impl Report {
+    /// The whole page.
+    pub fn page(&self) -> String {
+        let facts = |facts: &[(String, String)]| json!(facts);
+        let head = json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "asked": self.asked,
+            "found": self.found,
+            "facts": facts(&self.facts),
+            "hit": hex(HIT),
+            "plays": self.plays.iter().map(|play| self.play(play)).collect::<Value>(),
+            "motions": self.motions.iter().map(motion).collect::<Value>(),
+        });
+        let mut data = String::new();
+        for motion in &self.motions {
+            data.push_str("<script type=\"application/octet-stream\" class=\"motion\">");
+            if !motion.too_large {
+                STANDARD.encode_string(motion.pack(), &mut data);
+            }
+            data.push_str("</script>\n");
+        }
+        // `default-src 'none'`: the browser itself refuses whatever would be asked for from outside.
+        format!(
+            r#"<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>{title}</title>
+<style>
+{STYLE}</style>
+</head>
+<body>
+<main id="page"><noscript>This report needs JavaScript, which your browser does not run.</noscript></main>
+<script type="application/json" id="report">{head}</script>
+{data}<script>
+{VIEWER}</script>
+</body>
+</html>
+"#,
+            title = escape(&self.asked),
+            head = head.to_string().replace('<', "\\u003c"),
+        )
+    }
+
+    fn play(&self, play: &Play) -> Value {
+        let motion = play.motion.and_then(|place| self.motions.get(place));
+        let mut notes = play.notes.clone();
+        notes.extend(motion.and_then(|motion| thinned(motion, &play.along)));
+        json!({
+            "name": play.name,
+            "along": play.along,
+            "facts": play.facts,
+            "notes": notes,
+            "motion": play.motion,
+            "charts": play.charts.iter().map(chart).collect::<Value>(),
+        })
+    }
+}
+
+/// What the picture leaves out.
+fn thinned(motion: &Motion, along: &str) -> Option<String> {
+    let (shown, all) = (motion.frames.len(), motion.numbers.len());
+    if motion.too_large {
+        Some(
+            "The bodies are too large to be drawn in a page; what was found is complete."
+                .to_owned(),
+        )
+    } else if shown < all {
+        Some(format!(
+            "The picture shows {shown} of {all} {along}s, to keep the page small; the first contact, the {along} with the most pairs and the last are among them. Figures are of all {along}s."
+        ))
+    } else {
+        None
+    }
+}
+
+fn motion(motion: &Motion) -> Value {
+    let view = motion.view();
+    let bodies = motion.bodies.iter().enumerate().map(|(number, body)| {
+        json!({
+            "name": body.label.name,
+            "number": body.id.0,
+            "colour": hex(of_body(number)),
+            "vertices": body.vertices,
+            "triangles": body.triangles.len(),
+            "levels": body.starts.iter().map(Vec::len).collect::<Value>(),
+            "faces": body.label.faces.is_some(),
+            "step": motion.side(number) / STEPS / view.radius,
+        })
+    });
+    json!({
+        "numbers": motion.numbers,
+        "pairs": motion.pairs,
+        "frames": motion.frames.iter().map(|frame| frame.place).collect::<Value>(),
+        "bodies": bodies.collect::<Value>(),
+    })
+}
+
+fn chart(chart: &Chart) -> Value {
+    let lines = chart.series.iter().enumerate().map(|(number, series)| {
+        let (colour, dashes) = of_line(number);
+        json!({ "name": series.name, "colour": colour, "dash": dashes, "values": series.values })
+    });
+    json!({
+        "title": chart.title,
+        "unit": chart.unit,
+        "along": chart.along,
+        "logarithmic": chart.is_logarithmic(),
+        "x": chart.x,
+        "lines": lines.collect::<Value>(),
+        "svg": chart.svg(),
+    })
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// Text as HTML and SVG have it.
+pub(crate) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '&' => escaped.push_str("&amp;"),
+            '"' => escaped.push_str("&quot;"),
+            // Not in XML, not even escaped.
+            c if c.is_control() && !matches!(c, '\n' | '\t') => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}

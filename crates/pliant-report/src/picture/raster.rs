@@ -1,0 +1,83 @@
+//! Triangles on a grid of samples, the nearest wins.
+
+use crate::colours::Colour;
+
+/// Samples, row by row from the top.
+pub(super) struct Canvas {
+    size: [usize; 2],
+    colours: Vec<Colour>,
+    /// How near the eye; larger is nearer.
+    nearness: Vec<f64>,
+}
+
+impl Canvas {
+    pub(super) fn new(size: [usize; 2], paper: Colour) -> Self {
+        Self {
+            size,
+            colours: vec![paper; size[0] * size[1]],
+            nearness: vec![f64::NEG_INFINITY; size[0] * size[1]],
+        }
+    }
+
+    /// Draws a triangle in samples, x to the right, y down, z towards the eye. Where two are equally near, `wins` decides, and
+    /// then the one before.
+    pub(super) fn triangle(&mut self, [a, b, c]: [[f64; 3]; 3], colour: Colour, wins: bool) {
+        let area = side(a, b, [c[0], c[1]]);
+        if area == 0.0 || !area.is_finite() {
+            return;
+        }
+        // Samples are in the middle of their cells.
+        let range = |axis: usize| {
+            let all = [a[axis], b[axis], c[axis]];
+            let least = all.into_iter().fold(f64::INFINITY, f64::min);
+            let most = all.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            let first = (least - 0.5).ceil().max(0.0) as usize;
+            let end = ((most - 0.5).floor() + 1.0).clamp(0.0, self.size[axis] as f64) as usize;
+            first..end
+        };
+        let columns = range(0);
+        for row in range(1) {
+            for column in columns.clone() {
+                let at = [column as f64 + 0.5, row as f64 + 0.5];
+                let of_a = side(b, c, at) / area;
+                let of_b = side(c, a, at) / area;
+                let of_c = side(a, b, at) / area;
+                if of_a < 0.0 || of_b < 0.0 || of_c < 0.0 {
+                    continue;
+                }
+                let near = of_a * a[2] + of_b * b[2] + of_c * c[2];
+                let sample = row * self.size[0] + column;
+                let before = self.nearness[sample];
+                if near > before || (near == before && wins) {
+                    self.nearness[sample] = near;
+                    self.colours[sample] = colour;
+                }
+            }
+        }
+    }
+
+    /// An image of half the size: each pixel the mean of its four samples.
+    pub(super) fn halved(&self) -> Vec<u8> {
+        let [width, height] = self.size;
+        let mut pixels = Vec::with_capacity(width * height / 4 * 3);
+        for row in (0..height).step_by(2) {
+            for column in (0..width).step_by(2) {
+                let above = row * width + column;
+                let samples = [above, above + 1, above + width, above + width + 1];
+                for part in 0..3 {
+                    let sum: u16 = samples
+                        .iter()
+                        .map(|&sample| u16::from(self.colours[sample][part]))
+                        .sum();
+                    pixels.push(((sum + 2) / 4) as u8);
+                }
+            }
+        }
+        pixels
+    }
+}
+
+/// Twice the area of a triangle, its sign the side of the edge from `a` to `b` that `at` is on.
+fn side(a: [f64; 3], b: [f64; 3], at: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0])
+}

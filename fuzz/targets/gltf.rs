@@ -1,0 +1,30 @@
+//! Any bytes as a glTF file, and any JSON with any bytes behind it: the lengths of the chunks are more than a fuzzer guesses.
+//!
+//! What begins like a file (`glTF`, `{`) is the file; otherwise the first two bytes say how long the JSON is, and what follows it
+//! is the buffer.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|input: &[u8]| match *input {
+    [b'g', b'l', b'T', b'F', ..] | [b'{', ..] => pliant_fuzz::read_as("gltf", input),
+    [low, high, ref rest @ ..] => {
+        let length = usize::from(u16::from_le_bytes([low, high])).min(rest.len());
+        let (json, buffer) = rest.split_at(length);
+        pliant_fuzz::read_as("gltf", &glb(json, buffer));
+    }
+    _ => {}
+});
+
+fn glb(json: &[u8], buffer: &[u8]) -> Vec<u8> {
+    let mut json = json.to_vec();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let length = |bytes: usize| (bytes as u32).to_le_bytes();
+    let all = 12 + 8 + json.len() + 8 + buffer.len();
+    let head = [
+        &b"glTF\x02\0\0\0"[..],
+        &length(all),
+        &length(json.len()),
+        b"JSON",
+    ]
+    .concat();
+    [&head, &json[..], &length(buffer.len()), b"BIN\0", buffer].concat()
+}

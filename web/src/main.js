@@ -1,0 +1,246 @@
+// The page: what was asked and found, the bodies in motion, and under them what was measured.
+
+import { Chart } from './charts.js';
+import { unpack } from './data.js';
+import { element, grouped } from './dom.js';
+import { Player } from './player.js';
+import { Selection } from './selection.js';
+import { Stage } from './stage.js';
+
+const KEYS = [
+  ['Space', 'play, pause'],
+  ['← →', 'one step back, forward'],
+  ['Page Up, Page Down', 'ten steps'],
+  ['Home, End', 'the first, the last'],
+  ['P, N', 'the hit before, the next hit'],
+  ['F', 'the first contact'],
+  ['W', 'the worst: most pairs'],
+  ['T', 'choose the next red triangle; Escape lets it go'],
+  ['[ ]', 'boxes of the level above, below'],
+  ['X', 'see through the bodies'],
+  ['Shift and arrows, + −', 'turn, come nearer, go away'],
+  ['R', 'look from where it began'],
+];
+
+const report = JSON.parse(document.getElementById('report').textContent);
+const packed = [...document.querySelectorAll('script.motion')];
+/** Motions that were unpacked, by place. */
+const motions = new Map();
+let charts = [];
+let stage = null;
+let current = null;
+
+const player = new Player('step', shown);
+const selection = new Selection((triangles) => stage?.mark(triangles));
+const canvas = element('canvas', { tabIndex: 0, 'aria-label': 'The bodies. Drag to turn, click a triangle; then scroll to come nearer.' });
+const levels = element('select', { id: 'levels', onchange: showBoxes });
+const boxesSaid = element('span', { className: 'hint' });
+const seeThrough = element('button', { type: 'button', 'aria-pressed': 'false', onclick: toggleSeeThrough }, 'See through');
+const legend = element('ul', { className: 'legend' });
+const stageBox = element('section', { className: 'stage', 'aria-label': 'The bodies in motion' },
+  element('div', { className: 'picture' }, canvas, player.status),
+  player.bar,
+  element('div', { className: 'tools' },
+    element('label', { for: 'levels' }, 'Boxes'), levels, boxesSaid,
+    element('span', { className: 'space' }), seeThrough,
+    element('button', { type: 'button', onclick: () => stage?.look() }, 'Reset view')),
+  selection.panel,
+  legend);
+const notes = element('ul', { className: 'notes' });
+const playFacts = element('dl', { className: 'facts' });
+const chartsBox = element('section', { className: 'charts', 'aria-label': 'Figures' });
+
+const matched = matchMedia('(prefers-color-scheme: dark)');
+matched.addEventListener('change', () => {
+  stage?.recolour();
+  charts.forEach((chart) => chart.draw());
+});
+
+build();
+guarded(choose(0));
+
+function build() {
+  const page = document.getElementById('page');
+  const choice = element('select', { id: 'plays', onchange: () => guarded(choose(+choice.value)) },
+    ...report.plays.map((play, i) => element('option', { value: i }, play.name)));
+  page.replaceChildren(
+    element('header', {},
+      element('p', { className: 'brand' }, 'pliant ', element('span', {}, report.version)),
+      element('h1', {}, report.found),
+      element('p', { className: 'asked' }, element('code', {}, report.asked))),
+    facts(report.facts),
+    ...(report.plays.length > 1 ? [element('p', { className: 'choice' }, element('label', { for: 'plays' }, 'Show'), choice)] : []),
+    playFacts,
+    stageBox,
+    notes,
+    chartsBox,
+    element('details', { className: 'keys' }, element('summary', {}, 'Keys'),
+      element('table', {}, element('tbody', {}, ...KEYS.map(([key, what]) =>
+        element('tr', {}, element('th', { scope: 'row' }, element('kbd', {}, key)), element('td', {}, what)))))),
+    element('footer', {},
+      'Written by pliant ', report.version, '. Everything is in this file. The decisions were made on the exact positions; in the picture they are rounded to 1/65,535 of each body. ',
+      'A box is marked where the tree holds it for the shape of this step: the others were not needed. Drawn with three.js and uPlot, whose licences (MIT) stand in the source of this page.'));
+}
+
+function facts(list, into = element('dl', { className: 'facts' })) {
+  into.replaceChildren(...list.map(([name, value]) => element('div', { className: value.length > 26 ? 'long' : '' }, element('dt', {}, name), element('dd', {}, value))));
+  into.hidden = list.length === 0;
+  return into;
+}
+
+/** Shows a play. */
+async function choose(place) {
+  const play = report.plays[place];
+  current = null;
+  player.pause();
+  if (!play) return;
+  facts(play.facts, playFacts);
+  notes.replaceChildren(...play.notes.map((note) => element('li', {}, note)));
+  notes.hidden = play.notes.length === 0;
+  charts.forEach((chart) => chart.leave());
+  charts = play.charts.map((chart) => new Chart(chart, (number) => current && player.goToNumber(number)));
+  chartsBox.replaceChildren(...charts.map((chart) => chart.figure));
+  charts.forEach((chart) => chart.draw());
+
+  const motion = play.motion === null ? null : await motionAt(play.motion);
+  stageBox.hidden = !motion || motion.frames.length === 0;
+  if (!stageBox.hidden) {
+    if (!stage && !openStage()) return ready();
+    player.along = play.along;
+    player.slider.setAttribute('aria-label', play.along);
+    stage.show(motion);
+    offerLevels(motion);
+    legend.replaceChildren(...named(motion.bodies));
+    selection.load(motion);
+    current = motion;
+    player.load(motion);
+  }
+  ready();
+}
+
+/** For tests, and whoever else waits. */
+function ready() {
+  document.body.dataset.ready = 'yes';
+}
+
+function openStage() {
+  try {
+    stage = new Stage(canvas, report.hit, (triangle) => selection.choose(triangle));
+    return true;
+  } catch (error) {
+    console.warn(error);
+    stageBox.replaceChildren(element('p', {}, 'This browser has no WebGL, so the bodies cannot be drawn; all figures are here.'));
+    return false;
+  }
+}
+
+async function motionAt(place) {
+  if (!motions.has(place)) {
+    const text = packed[place].textContent;
+    motions.set(place, text ? await unpack(report.motions[place], text) : null);
+    packed[place].remove();
+  }
+  return motions.get(place);
+}
+
+/** A frame is to be seen; says how many triangles of it are red. */
+function shown(frame) {
+  const red = stage.set(frame);
+  selection.set(frame);
+  sayBoxes();
+  charts.forEach((chart) => chart.mark(frame.number));
+  Object.assign(stageBox.dataset, { number: frame.number, pairs: frame.pairs, red });
+  return red;
+}
+
+function offerLevels(motion) {
+  const most = Math.max(...motion.bodies.map((body) => body.starts.length));
+  const options = Array.from({ length: most }, (_, level) => element('option', { value: level }, `level ${level}${level === 0 ? ', the bodies' : ''}`));
+  levels.replaceChildren(element('option', { value: '' }, 'none'), ...options);
+  stage.boxesOf(null);
+  boxesSaid.textContent = '';
+}
+
+function showBoxes() {
+  stage.level = levels.value === '' ? null : +levels.value;
+  sayBoxes();
+}
+
+function sayBoxes() {
+  const { all, made } = stage.boxesOf(stage.level);
+  boxesSaid.textContent = all === 0 ? '' : `${grouped(made)} of ${grouped(all)} made`;
+  Object.assign(stageBox.dataset, { boxes: all, made });
+}
+
+function toggleSeeThrough() {
+  seeThrough.setAttribute('aria-pressed', String(stage.toggleSeeThrough()));
+}
+
+function named(bodies) {
+  const listed = bodies.slice(0, 12).map((body) => {
+    const chip = element('span', { className: 'chip' });
+    chip.style.background = body.colour;
+    return element('li', {}, chip, element('bdi', {}, body.name));
+  });
+  if (bodies.length > 12) listed.push(element('li', {}, `and ${bodies.length - 12} more`));
+  const chip = element('span', { className: 'chip' });
+  chip.style.background = report.hit;
+  return [...listed, element('li', {}, chip, 'intersects')];
+}
+
+function guarded(promise) {
+  promise.catch((error) => {
+    console.error(error);
+    notes.hidden = false;
+    notes.append(element('li', {}, `The bodies cannot be shown: ${error.message}`));
+    ready();
+  });
+}
+
+const ACTS = {
+  ' ': () => player.toggle(),
+  ArrowLeft: () => player.step(-1),
+  ArrowRight: () => player.step(1),
+  PageUp: () => player.step(-10),
+  PageDown: () => player.step(10),
+  Home: () => player.step(-Infinity),
+  End: () => player.step(Infinity),
+  p: () => player.hit(-1),
+  n: () => player.hit(1),
+  f: () => !player.jumps.first.disabled && player.firstContact(),
+  w: () => player.most(),
+  t: () => selection.next(),
+  Escape: () => selection.choose(null),
+  '[': () => moveLevel(-1),
+  ']': () => moveLevel(1),
+  x: toggleSeeThrough,
+  r: () => stage.look(),
+  '+': () => stage.turn(0, 0, 1.15),
+  '=': () => stage.turn(0, 0, 1.15),
+  '-': () => stage.turn(0, 0, 1 / 1.15),
+};
+const TURNS = {
+  ArrowLeft: () => stage.turn(-0.1, 0),
+  ArrowRight: () => stage.turn(0.1, 0),
+  ArrowUp: () => stage.turn(0, 0.1),
+  ArrowDown: () => stage.turn(0, -0.1),
+};
+
+function moveLevel(by) {
+  const place = levels.selectedIndex + by;
+  if (place < 0 || place >= levels.options.length) return;
+  levels.selectedIndex = place;
+  showBoxes();
+}
+
+document.addEventListener('keydown', (event) => {
+  if (!current || event.ctrlKey || event.metaKey || event.altKey) return;
+  const { tagName } = event.target;
+  // Where a key has a meaning of its own already, it keeps it.
+  if (tagName === 'SELECT') return;
+  if (event.key === ' ' && (tagName === 'BUTTON' || tagName === 'SUMMARY')) return;
+  const act = event.shiftKey && TURNS[event.key] ? TURNS[event.key] : ACTS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+  if (!act) return;
+  event.preventDefault();
+  act();
+});

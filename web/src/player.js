@@ -1,0 +1,125 @@
+// Which frame is shown: play, pause, scrub, jump; and the strip that says where something intersects.
+
+import { counted, element, grouped } from './dom.js';
+
+export class Player {
+  /** `shown` is told of every change: the frame, and whether it is one of many while playing. */
+  constructor(along, shown) {
+    this.along = along;
+    this.shown = shown;
+    const button = (text, title, act) => element('button', { type: 'button', title, onclick: act }, text);
+    this.playButton = element('button', { type: 'button', className: 'play', onclick: () => this.toggle() });
+    this.slider = element('input', { type: 'range', min: 0, step: 1, 'aria-label': along, oninput: () => this.go(+this.slider.value) });
+    this.strip = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+    this.strip.setAttribute('class', 'strip');
+    this.strip.setAttribute('preserveAspectRatio', 'none');
+    this.strip.setAttribute('aria-hidden', 'true');
+    this.status = element('output', { className: 'status', 'aria-live': 'polite' });
+    this.jumps = {
+      first: button('First contact', 'F', () => this.firstContact()),
+      before: button('‹ Hit', 'P', () => this.hit(-1)),
+      after: button('Hit ›', 'N', () => this.hit(1)),
+      most: button('Most pairs', 'W', () => this.most()),
+    };
+    this.bar = element('div', { className: 'player' },
+      this.playButton,
+      element('div', { className: 'track' }, this.strip, this.slider),
+      element('div', { className: 'jumps', role: 'group', 'aria-label': 'Jump to' }, ...Object.values(this.jumps)));
+    this.showPlaying();
+  }
+
+  /** Takes another motion. It begins where most triangles are red. */
+  load(motion) {
+    this.pause();
+    this.frames = motion.frames;
+    this.slider.max = this.frames.length - 1;
+    this.slider.disabled = this.frames.length < 2;
+    this.playButton.disabled = this.frames.length < 2;
+    const none = !this.frames.some((frame) => frame.pairs > 0);
+    for (const jump of Object.values(this.jumps)) jump.disabled = none;
+    const most = Math.max(1, ...this.frames.map((frame) => frame.pairs));
+    const last = Math.max(1, this.frames.length - 1);
+    const points = this.frames.map((frame, i) => `${(1000 * i) / last},${100 - (96 * frame.pairs) / most}`);
+    this.strip.setAttribute('viewBox', '0 0 1000 100');
+    this.strip.innerHTML = '<path/>';
+    this.strip.firstChild.setAttribute('d', `M0,100 L${points.join(' L')} L1000,100 Z`);
+    this.place = undefined;
+    if (none) this.go(0);
+    else this.most();
+  }
+
+  get frame() {
+    return this.frames[this.place];
+  }
+
+  go(place) {
+    const now = Math.max(0, Math.min(this.frames.length - 1, place));
+    if (now === this.place) return;
+    this.place = now;
+    this.slider.value = now;
+    const { number, pairs } = this.frame;
+    const red = this.shown(this.frame);
+    const text = `${this.along} ${number}: ${pairs === 0 ? 'nothing intersects' : `${counted(pairs, 'pair')}, ${grouped(red)} red ${red === 1 ? 'triangle' : 'triangles'}`}`;
+    this.slider.setAttribute('aria-valuetext', text);
+    this.status.textContent = text;
+  }
+
+  /** To a frame by its number, or to the one before it that is shown. */
+  goToNumber(number) {
+    let place = this.frames.findIndex((frame) => frame.number > number);
+    if (place < 0) place = this.frames.length;
+    this.pause();
+    this.go(place - 1);
+  }
+
+  firstContact() {
+    this.pause();
+    this.go(this.frames.findIndex((frame) => frame.pairs > 0));
+  }
+
+  most() {
+    this.pause();
+    const most = Math.max(...this.frames.map((frame) => frame.pairs));
+    this.go(this.frames.findIndex((frame) => frame.pairs === most));
+  }
+
+  /** To the next frame with hits, or the one before. */
+  hit(direction) {
+    this.pause();
+    for (let place = this.place + direction; place in this.frames; place += direction) {
+      if (this.frames[place].pairs > 0) return this.go(place);
+    }
+  }
+
+  step(by) {
+    this.pause();
+    this.go(this.place + by);
+  }
+
+  toggle() {
+    if (this.timer) return this.pause();
+    if (this.frames.length < 2) return;
+    if (this.place === this.frames.length - 1) this.go(0);
+    // About eight seconds for all, but neither a slide show nor a blur.
+    const pause = 1000 / Math.max(6, Math.min(30, this.frames.length / 8));
+    this.status.setAttribute('aria-live', 'off');
+    this.timer = setInterval(() => {
+      this.go(this.place + 1);
+      if (this.place === this.frames.length - 1) this.pause();
+    }, pause);
+    this.showPlaying();
+  }
+
+  pause() {
+    clearInterval(this.timer);
+    this.timer = null;
+    this.status.setAttribute('aria-live', 'polite');
+    this.showPlaying();
+  }
+
+  showPlaying() {
+    this.playButton.textContent = this.timer ? 'Pause' : 'Play';
+    this.playButton.classList.toggle('playing', Boolean(this.timer));
+    this.playButton.setAttribute('aria-keyshortcuts', 'Space');
+  }
+}

@@ -1,0 +1,377 @@
+// The page in a real browser, headless: `npm ci && npm test`, after `cargo build --release`.
+//
+// Needs Chromium (Debian: apt-get install chromium), found as $CHROMIUM or under its usual names; without one nothing is
+// tested, and it says so. $PLIANT is the program, target/release/pliant if it is not set. Screenshots go to target/screenshots.
+
+import assert from 'node:assert/strict';
+import { spawnSync } from 'node:child_process';
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const root = fileURLToPath(new URL('..', import.meta.url));
+const program = process.env.PLIANT ?? join(root, 'target/release/pliant');
+const browserPath = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) => path && existsSync(path));
+const skip = browserPath ? false : 'there is no Chromium; set CHROMIUM, or install one';
+const morph = join(root, '../shared/data/human-morph.npz');
+const shots = join(root, 'target/screenshots');
+const folder = mkdtempSync(join(tmpdir(), 'pliant-report-'));
+let browser;
+
+before(async () => {
+  if (skip) return;
+  mkdirSync(shots, { recursive: true });
+  browser = await chromium.launch({
+    executablePath: browserPath,
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
+      '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+  });
+});
+
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** Runs pliant in the folder; exit code 1 says that something intersects. */
+function pliant(...words) {
+  const said = spawnSync(program, words, { cwd: folder, encoding: 'utf8', maxBuffer: 1 << 28 });
+  assert.ok(said.status === 0 || said.status === 1, `${words.join(' ')}: ${said.stderr ?? said.error}`);
+  return said.stdout;
+}
+
+/** Opens a page; fails at its end if it had an error or asked for anything but itself. */
+async function open(name, options = {}) {
+  const page = await browser.newPage({ viewport: { width: 1200, height: 900 }, offline: true, ...options });
+  const [errors, requests] = [[], []];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && errors.push(message.text()));
+  page.on('request', (request) => requests.push(request.url()));
+  const address = pathToFileURL(join(folder, name)).href;
+  await page.goto(address);
+  await page.waitForSelector('body[data-ready]', { timeout: 60_000 });
+  const state = async () => {
+    const { number, pairs, red, made, boxes } = await page.locator('.stage').evaluate((stage) => ({ ...stage.dataset }));
+    return { number: +number, pairs: +pairs, red: +red, made: +made, boxes: +boxes };
+  };
+  /** Waits for the picture to be drawn. */
+  const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  /** The pixels of the picture as it is on the screen: how many are red, one in the middle of red, one on a body that is not. */
+  const pixels = async () => {
+    await drawn();
+    return lookAt(await page.locator('canvas').first().screenshot());
+  };
+  const close = async () => {
+    await page.close();
+    assert.deepEqual(errors, []);
+    assert.deepEqual(requests, [address], 'nothing is asked for but the page itself');
+  };
+  return { page, state, drawn, pixels, close };
+}
+
+/** What is on a PNG; the browser decodes it, on a page of its own. */
+async function lookAt(png) {
+  const page = await browser.newPage();
+  const seen = await page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    const at = (x, y) => data.subarray(4 * (y * image.width + x), 4 * (y * image.width + x) + 3);
+    const kinds = {
+      red: ([r, g, b]) => r > 110 && r > 2 * g && r > 2 * b,
+      // Calm colours, neither paper nor ink.
+      plain: ([r, g, b]) => Math.max(r, g, b) < 235 && Math.min(r, g, b) > 70 && Math.max(r, g, b) < 1.7 * Math.min(r, g, b) && Math.abs(r - b) > 12,
+    };
+    const [found, count] = [{}, { red: 0, plain: 0, edge: 0 }];
+    for (let x = 0; x < image.width; x++) count.edge += [2, image.height - 3].filter((y) => kinds.plain(at(x, y))).length;
+    for (let y = 0; y < image.height; y++) count.edge += [2, image.width - 3].filter((x) => kinds.plain(at(x, y))).length;
+    for (let y = 3; y < image.height - 3; y++) {
+      for (let x = 3; x < image.width - 3; x++) {
+        for (const [kind, is] of Object.entries(kinds)) {
+          if (!is(at(x, y))) continue;
+          count[kind]++;
+          const around = [-3, 0, 3].flatMap((dx) => [-3, 0, 3].map((dy) => at(x + dx, y + dy)));
+          if (!found[kind] && around.every(is)) found[kind] = { x, y };
+        }
+      }
+    }
+    return { count, ...found };
+  }, png.toString('base64'));
+  await page.close();
+  return seen;
+}
+
+/** Sets the slider to a place, as a hand would. */
+const scrub = (page, place) => page.locator('.track input').fill(String(place));
+
+/** How many triangles are in some pair. */
+const redOf = (pairs) => new Set(pairs.flatMap(([a, b, c, d]) => [`${a} ${b}`, `${c} ${d}`])).size;
+
+/** A page about two bodies whose names would end a script, load an image, begin a comment; their names. */
+function hostile() {
+  const names = ['</script><script>document.title="owned"</x.obj', '<!--<img src=x onerror=alert(1)>&amp;.obj'];
+  const shapes = ['v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n', 'v 0.6 0.2 -1\nv 0.6 0.2 1\nv 0.7 0.3 1\nf 1 2 3\n'];
+  names.forEach((name, i) => {
+    mkdirSync(dirname(join(folder, name)), { recursive: true });
+    writeFileSync(join(folder, name), shapes[i]);
+  });
+  pliant('check', ...names, '--report', 'hostile.html');
+  return names;
+}
+
+test('the red triangles are those of the JSON, scrubbed to', { skip }, async () => {
+  // Two bodies, a query of all pairs; `run --format json` has counts, `check` has pairs.
+  const json = JSON.parse(pliant('run', '--triangles', '1280', '--stride', '5', '--report', 'run.html', '--format', 'json'));
+  const { page, state, pixels, close } = await open('run.html');
+  assert.equal((await state()).number, json.step[json.pairs.indexOf(Math.max(...json.pairs))], 'begins where most pairs are');
+  for (const place of [0, 12, 25, 39]) {
+    await scrub(page, place);
+    const { number, pairs, red } = await state();
+    assert.deepEqual([number, pairs], [json.step[place], json.pairs[place]]);
+    assert.equal(red > 0, pairs > 0);
+    const { count } = await pixels();
+    if (pairs === 0) assert.equal(count.red, 0);
+    assert.ok(count.plain > 1000 && count.edge === 0, `all bodies are in the picture: ${JSON.stringify(count)}`);
+  }
+  const seen = await pixels();
+  assert.ok(seen.count.red > 500, `${seen.count.red} red pixels where most triangles are red`);
+  // What is red meets somebody, what is not meets nobody.
+  await page.locator('canvas').first().click({ position: seen.red });
+  assert.match(await page.locator('.selection').innerText(), /meets \d+ triangles?:/);
+  await page.locator('canvas').first().click({ position: seen.plain });
+  assert.match(await page.locator('.selection').innerText(), /meets nothing here/);
+  await page.keyboard.press('x');
+  await page.locator('canvas').first().click({ position: (await pixels()).red });
+  assert.match(await page.locator('.selection').innerText(), /meets \d+ triangles?:/);
+  await close();
+});
+
+test('real meshes: frame by frame as many red triangles as are in the pairs', { skip: skip || (existsSync(morph) ? false : 'there is no shared/data beside the checkout') }, async () => {
+  const json = JSON.parse(pliant('check', morph, '--report', 'morph.html', '--format', 'json'));
+  const { page, state, close } = await open('morph.html', { colorScheme: 'dark' });
+  for (const place of [0, 1, 20, 38, 50, 59]) {
+    await scrub(page, place);
+    const { number, pairs, red } = await state();
+    const frame = json.frames[place];
+    assert.deepEqual([number, pairs, red], [frame.frame, frame.count, redOf(frame.pairs)]);
+  }
+  await page.screenshot({ path: join(shots, 'check-dark.png'), fullPage: true });
+  await close();
+});
+
+test('keys: steps, ends, hits, first contact, most pairs, play', { skip }, async () => {
+  const json = JSON.parse(pliant('run', '--triangles', '1280', '--stride', '5', '--report', 'keys.html', '--format', 'json'));
+  const { page, state, close } = await open('keys.html');
+  const at = async () => json.step.indexOf((await state()).number);
+  const press = async (key, place) => {
+    await page.keyboard.press(key);
+    assert.equal(await at(), place, key);
+  };
+  const hits = json.pairs.map((pairs, place) => (pairs > 0 ? place : -1)).filter((place) => place >= 0);
+  const [first, last] = [hits[0], json.step.length - 1];
+  await press('Home', 0);
+  await press('ArrowRight', 1);
+  await press('ArrowLeft', 0);
+  await press('ArrowLeft', 0);
+  await press('PageDown', 10);
+  await press('PageUp', 0);
+  await press('n', first);
+  await press('n', hits[1]);
+  await press('p', first);
+  await press('p', first);
+  await press('End', last);
+  await press('f', first);
+  await press('w', json.pairs.indexOf(Math.max(...json.pairs)));
+  // Focus on the slider: its own arrow keys, and once each.
+  await page.locator('.track input').focus();
+  await press('Home', 0);
+  await press('ArrowRight', 1);
+  // Play runs to the end and stops; Space on a button presses the button alone.
+  await page.locator('canvas').first().focus();
+  await page.keyboard.press('Space');
+  assert.equal(await page.locator('.play').textContent(), 'Pause');
+  await page.keyboard.press('Space');
+  assert.equal(await page.locator('.play').textContent(), 'Play');
+  // From the end it begins anew.
+  await page.keyboard.press('End');
+  await page.keyboard.press('Space');
+  await page.keyboard.press('Space');
+  assert.ok((await at()) < last);
+  await page.locator('.play').focus();
+  await page.keyboard.press('Space');
+  await page.waitForFunction((number) => document.querySelector('.stage').dataset.number === String(number), json.step[last]);
+  await page.waitForFunction(() => document.querySelector('.play').textContent === 'Play');
+  // Every control is reached, and the focus is seen.
+  await page.locator('.play').focus();
+  await page.keyboard.press('Tab');
+  const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
+  assert.notEqual(outline, 'none');
+  await close();
+});
+
+test('a triangle that is clicked is named as in its file, with those it meets', { skip }, async () => {
+  const names = hostile();
+  const { page, state, drawn, close } = await open('hostile.html');
+  assert.deepEqual(await state().then(({ pairs, red }) => [pairs, red]), [1, 2]);
+  await page.keyboard.press('t');
+  const said = await page.locator('.selection').innerText();
+  assert.match(said, /triangle 0 \(face 0 of the file\) meets 1 triangle/);
+  assert.ok(said.includes(names[0]) && said.includes(names[1]), said);
+  await page.locator('.selection button').click();
+  assert.ok((await page.locator('.selection p').innerText()).startsWith(names[1]));
+  await page.keyboard.press('Escape');
+  assert.match(await page.locator('.selection').innerText(), /^Click a triangle/);
+  // The page scrolls under the pointer until the picture was clicked.
+  const eye = async () => {
+    await drawn();
+    return page.locator('.ring').evaluate((ring) => ring.style.left + ring.style.top);
+  };
+  await page.keyboard.press('t');
+  const before = await eye();
+  const canvas = page.locator('canvas').first();
+  await canvas.hover();
+  await page.mouse.wheel(0, 200);
+  await page.waitForFunction(() => scrollY > 0);
+  assert.equal(await eye(), before);
+  // The middle of the picture is on a body; its far corner is on none.
+  await canvas.click();
+  assert.match(await page.locator('.selection').innerText(), /triangle \d+/);
+  const near = await eye();
+  await page.mouse.wheel(0, 200);
+  await page.waitForFunction((near) => {
+    const { left, top } = document.querySelector('.ring').style;
+    return left + top !== near;
+  }, near);
+  await canvas.click({ position: { x: 20, y: 60 } });
+  assert.match(await page.locator('.selection').innerText(), /^Click a triangle/);
+  await close();
+});
+
+test('names are text, whatever is in them', { skip }, async () => {
+  const names = hostile();
+  const { page, close } = await open('hostile.html');
+  assert.match(await page.title(), /^pliant check/);
+  assert.equal(await page.locator('img').count(), 0);
+  const legend = await page.locator('.legend').innerText();
+  for (const name of names) assert.ok(legend.includes(name), legend);
+  await close();
+});
+
+test('boxes of the levels, and which of them were made', { skip }, async () => {
+  const options = ['--degree', '2', '--partition', 'centre', '--leaf-size', '1', '--triangles', '320', '--steps', '150', '--stride', '10'];
+  const json = JSON.parse(pliant('run', ...options, '--report', 'boxes.html', '--format', 'json'));
+  const { page, state, close } = await open('boxes.html');
+  const levels = await page.locator('#levels option').count();
+  assert.ok(levels > 5, String(levels));
+  await page.locator('#levels').selectOption('0');
+  assert.deepEqual(await state().then(({ made, boxes }) => [made, boxes]), [2, 2]);
+  await page.locator('h1').click();
+  let made = Infinity;
+  for (let level = 1; level < levels - 1; level++) {
+    await page.keyboard.press(']');
+    const now = await state();
+    assert.ok(now.boxes > 0 && now.made <= now.boxes);
+    made = now.made / now.boxes;
+  }
+  assert.ok(made > 0 && made < 1, 'of the deepest level some are made, not all');
+  // At the first step the bodies are apart, and nothing was made.
+  await page.keyboard.press('Home');
+  assert.equal((await state()).made, 0);
+  assert.equal(json.pairs[0], 0);
+  await page.keyboard.press('w');
+  await page.screenshot({ path: join(shots, 'boxes.png') });
+  await page.locator('#levels').selectOption('');
+  assert.equal((await state()).boxes, 0);
+  await close();
+});
+
+test('a click in a chart moves the picture; charts are saved as SVG', { skip }, async () => {
+  pliant('run', '--triangles', '320', '--stride', '10', '--report', 'charts.html');
+  const { page, state, close } = await open('charts.html');
+  assert.equal(await page.locator('.chart canvas').count(), 3);
+  const over = page.locator('.chart .u-over').first();
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.click(box.x + 1, box.y + 30);
+  assert.equal((await state()).number, 10);
+  await page.mouse.click(box.x + box.width / 2, box.y + 30);
+  assert.ok([100, 110].includes((await state()).number));
+  await page.mouse.click(box.x + box.width - 1, box.y + 30);
+  assert.equal((await state()).number, 200);
+  const marker = await page.locator('.marker').first().boundingBox();
+  assert.ok(Math.abs(marker.x - (box.x + box.width)) < 3, 'the step is marked in the chart');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByText('Save as SVG').first().click()]);
+  assert.equal(download.suggestedFilename(), 'time-per-step-by-phase.svg');
+  const svg = readFileSync(await download.path(), 'utf8');
+  assert.match(svg, /^<svg [\s\S]*<polyline[\s\S]*<\/svg>\n$/);
+  await page.close();
+});
+
+test('experiments: a page with several contests', { skip }, async () => {
+  pliant('bench', 'experiment-1', '--small', '--rounds', '1', '--report', 'bench.html', '--svg', 'charts');
+  const { page, state, close } = await open('bench.html');
+  assert.equal(await page.locator('#plays option').count(), 3);
+  for (const contest of [0, 1, 2]) {
+    await page.locator('#plays').selectOption(String(contest));
+    await page.waitForFunction(() => document.querySelectorAll('.chart canvas').length === 3);
+    const { pairs } = await state();
+    assert.ok(pairs > 0);
+  }
+  await page.screenshot({ path: join(shots, 'bench-light.png'), fullPage: true });
+  await close();
+});
+
+test('a narrow screen, and both schemes', { skip }, async () => {
+  pliant('run', '--triangles', '5120', '--stride', '2', '--report', 'narrow.html');
+  for (const [name, options] of Object.entries({
+    'run-light': { colorScheme: 'light' },
+    'run-dark': { colorScheme: 'dark' },
+    'run-phone': { colorScheme: 'light', viewport: { width: 375, height: 812 } },
+  })) {
+    const { page, pixels, close } = await open('narrow.html', options);
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(overflow <= 0, `${name}: ${overflow} pixels too wide`);
+    await page.screenshot({ path: join(shots, `${name}.png`), fullPage: true });
+    // Far apart, and still in the picture.
+    await page.keyboard.press('Home');
+    const { count } = await pixels();
+    assert.ok(count.plain > 100 && count.edge === 0, `${name}: ${JSON.stringify(count)}`);
+    await close();
+  }
+});
+
+test('without WebGL the figures are still there', { skip }, async () => {
+  pliant('run', '--triangles', '320', '--stride', '20', '--report', 'plain.html');
+  const page = await browser.newPage();
+  const errors = [];
+  page.on('pageerror', (error) => errors.push(String(error)));
+  await page.addInitScript(() => {
+    const original = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return kind.startsWith('webgl') ? null : original.call(this, kind, ...rest);
+    };
+  });
+  await page.goto(pathToFileURL(join(folder, 'plain.html')).href);
+  await page.waitForSelector('body[data-ready]');
+  assert.match(await page.locator('.stage').innerText(), /no WebGL/);
+  assert.equal(await page.locator('.chart canvas').count(), 3);
+  assert.deepEqual(errors, []);
+  await page.close();
+});
+
+test('the default scene, 2 x 20,480 triangles and 200 steps: under 30 MB, and it opens', { skip }, async () => {
+  pliant('run', '--report', 'default.html');
+  const size = readFileSync(join(folder, 'default.html')).length;
+  assert.ok(size < 30e6, `${size} bytes`);
+  const { page, state, close } = await open('default.html');
+  assert.deepEqual(await state().then(({ number, pairs }) => [number, pairs]), [200, 3742]);
+  await scrub(page, 59);
+  assert.deepEqual(await state().then(({ number, red }) => [number, red > 0]), [60, true]);
+  assert.equal(await page.locator('.notes').isVisible(), false, 'nothing was left out');
+  await close();
+});

@@ -6,8 +6,9 @@ mod output;
 mod size;
 
 use crate::Outcome;
+use crate::tree_options::at_least_one;
 use anyhow::anyhow;
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, ValueHint};
 use hits::Hits;
 use output::Output;
 use pliant::Options;
@@ -24,7 +25,7 @@ use std::path::PathBuf;
 )]
 pub(crate) struct Arguments {
     /// One body each: a mesh (.obj, .ply), a sequence (.npz), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj')
-    #[arg(value_name = "BODY", required = true)]
+    #[arg(value_name = "BODY", required = true, value_hint = ValueHint::FilePath)]
     bodies: Vec<String>,
     /// Check each body against itself too; one body alone always is
     #[arg(long = "self")]
@@ -54,7 +55,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     max_memory: u64,
     /// How many threads share the work; no number changes an answer
-    #[arg(long, value_name = "T", default_value = "1")]
+    #[arg(long, value_name = "T", default_value = "1", value_parser = at_least_one::<NonZeroUsize>)]
     threads: NonZeroUsize,
     /// A table by frame, one JSON object, annotations for GitHub Actions, or a line for each pair: FRAME BODY TRIANGLE BODY TRIANGLE
     #[arg(long, value_enum, default_value_t = Format::Table)]

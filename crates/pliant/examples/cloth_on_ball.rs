@@ -175,11 +175,11 @@ impl Simulation {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = env::args().skip(1);
-    let seconds: f32 = arguments.next().map_or(Ok(10.0), |text| text.parse())?;
+    let seconds: usize = arguments.next().map_or(Ok(10), |text| text.parse())?;
     let folder = arguments.next();
     folder.as_ref().map_or(Ok(()), fs::create_dir_all)?;
     let mut simulation = Simulation::new()?;
-    for step in 1..=(seconds * STEPS_A_SECOND as f32) as usize {
+    for step in 1..=seconds * STEPS_A_SECOND {
         let pairs = simulation.step()?;
         if step.is_multiple_of(STEPS_A_SECOND / 4) {
             let (time, height) = (step as f32 * STEP, simulation.height());

@@ -61,7 +61,7 @@
 //! | time and work | [`World::update`], [`update_body`](World::update_body), [`statistics`](World::statistics), [`Statistics`] |
 //! | how trees are built and updated, threads | [`Options`], [`Degree`], [`Partition`], [`Update`]; [`World::tree_shape`], [`tree_parts`](World::tree_parts), [`vertex_order`](World::vertex_order) |
 //! | single or double precision | [`Scalar`] |
-//! | the answer without any tree, to compare with | [`reference`] |
+//! | the answer without any tree, to compare with | [`reference`](mod@reference) |
 //! | a whole simulation | `examples/cloth_on_ball.rs`: a cloth that falls on a moving ball and reacts to what is found |
 //!
 //! Words of the paper (Larsson and Akenine-Möller, *Collision Detection for Continuously Deforming Bodies*, 2001), and where they

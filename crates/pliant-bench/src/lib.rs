@@ -10,6 +10,7 @@
 //! contest      methods play a motion, turn by turn; answers are compared, then times
 //! experiments  the paper's, and ours: which motion, which methods, what is claimed
 //! soak         not a contest: a world of ours that lives long, compared with worlds built fresh
+//! time         how long, as people read it
 //! ```
 
 pub mod contest;
@@ -21,3 +22,4 @@ pub mod methods;
 pub mod motion;
 pub mod record;
 pub mod soak;
+pub mod time;

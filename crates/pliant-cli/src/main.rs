@@ -3,16 +3,22 @@
 //! Whatever goes wrong ends in one line on standard error that says what, where and what to do, and in exit code 2. If
 //! standard output is closed before the end, as `head` does, the exit code is 2 too, without a line.
 
+mod advice;
 mod bench;
 mod check;
+mod completions;
 mod convert;
+#[cfg(test)]
+mod examples;
+mod man;
 mod report;
 mod run;
 mod table;
 mod tree_options;
 
 use anyhow::Context;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use indicatif::ProgressBar;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -34,6 +40,10 @@ enum Verb {
     Convert(convert::Arguments),
     /// Compare methods side by side: the paper's experiments and ours
     Bench(bench::Arguments),
+    /// Print completions for a shell
+    Completions(completions::Arguments),
+    /// Write manual pages
+    Man(man::Arguments),
 }
 
 const EXAMPLES: &str = "\
@@ -45,7 +55,9 @@ Examples:
   pliant check walk.npz --count               how many pairs in each frame
   pliant check fox.glb --clip Run             an animation of a glTF file, evaluated
   pliant convert fox.glb fox.npz              the same as a sequence of another format
-  pliant bench experiment-1                   the paper's figure 3: ours, the older methods, other libraries";
+  pliant bench experiment-1                   the paper's figure 3: ours, the older methods, other libraries
+
+`pliant VERB --help` has more. Exit code 0: nothing intersects, or nothing was asked. 1: something does. 2: it could not be done.";
 
 /// What the caller of the program learns from its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,6 +74,8 @@ fn main() -> ExitCode {
         Verb::Check(arguments) => check::check(&arguments),
         Verb::Convert(arguments) => convert::convert(&arguments),
         Verb::Bench(arguments) => bench::bench(&arguments),
+        Verb::Completions(arguments) => completions::print(&arguments),
+        Verb::Man(arguments) => man::write(&arguments),
     };
     match outcome {
         Ok(Outcome::Clear) => ExitCode::SUCCESS,
@@ -69,7 +83,7 @@ fn main() -> ExitCode {
         Err(error) => {
             // Whoever reads has gone (`| head`): nobody to tell.
             if !is_broken_pipe(&error) {
-                complain(&format!("pliant: {error:#}"));
+                complain(&format!("pliant: {error:#}{}", advice::after(&error)));
             }
             ExitCode::from(2)
         }
@@ -82,6 +96,20 @@ fn print_all(text: &str) -> anyhow::Result<()> {
     out.write_all(text.as_bytes())
         .and_then(|()| out.flush())
         .context("cannot write to standard output")
+}
+
+/// The program as clap knows it, for what is made from it.
+fn command() -> clap::Command {
+    Arguments::command()
+}
+
+/// A bar on standard error where that is a terminal, or none.
+fn progress(length: u64, quiet: bool) -> ProgressBar {
+    if quiet {
+        ProgressBar::hidden()
+    } else {
+        ProgressBar::new(length)
+    }
 }
 
 /// A line on standard error; if even that is closed, there is nothing left to do.

@@ -3,6 +3,7 @@
 use clap::{Args, ValueEnum};
 use pliant::Options;
 use std::num::{NonZeroU32, NonZeroUsize};
+use std::str::FromStr;
 
 /// How trees are built and updated, and bodies that may meet are found.
 #[derive(Args, Clone, Debug)]
@@ -15,7 +16,7 @@ pub(crate) struct TreeOptions {
     #[arg(long, value_enum, default_value_t = Partition::Balanced)]
     partition: Partition,
     /// The most triangles in a leaf; 1 in the paper
-    #[arg(long, value_name = "K", default_value = "8")]
+    #[arg(long, value_name = "K", default_value = "8", value_parser = at_least_one::<NonZeroU32>)]
     leaf_size: NonZeroU32,
     /// Which boxes are made when
     #[arg(long, value_enum, default_value_t = Update::Hybrid)]
@@ -27,7 +28,7 @@ pub(crate) struct TreeOptions {
     #[arg(long, value_enum, default_value_t = Broad::Auto)]
     broad: Broad,
     /// How many threads share the work of a query
-    #[arg(long, value_name = "T", default_value = "1")]
+    #[arg(long, value_name = "T", default_value = "1", value_parser = at_least_one::<NonZeroUsize>)]
     threads: NonZeroUsize,
 }
 
@@ -122,6 +123,12 @@ impl TreeOptions {
             self.degree
         )
     }
+}
+
+/// A number of things of which one must be there.
+pub(crate) fn at_least_one<N: FromStr>(text: &str) -> Result<N, String> {
+    text.parse()
+        .map_err(|_| "write a whole number, 1 or more".to_owned())
 }
 
 /// A value as it is written on the command line.

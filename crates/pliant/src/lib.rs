@@ -47,8 +47,30 @@
 //!
 //! # Map
 //!
-//! The modules are the algorithm, in the order in which data flows; `ARCHITECTURE.md` in the repository says where each section of
-//! the paper is (Larsson and Akenine-Möller, *Collision Detection for Continuously Deforming Bodies*, 2001).
+//! | for | look at |
+//! |---|---|
+//! | a first loop, step by step, and what to do with hits | `docs/guide.md` in the repository, here as [`guide`] |
+//! | bodies | [`World::add`], [`remove`](World::remove), [`bodies`](World::bodies), [`BodyId`] |
+//! | moving them | [`World::set_positions`], [`write_positions`](World::write_positions); [`rebuild`](World::rebuild) |
+//! | all pairs | [`World::intersection_pairs`], [`intersection_pairs_between`](World::intersection_pairs_between), [`self_intersection_pairs`](World::self_intersection_pairs); [`Pair`] |
+//! | the first pair | [`World::first_intersection`], [`first_intersection_between`](World::first_intersection_between), [`first_self_intersection`](World::first_self_intersection) |
+//! | pairs one by one, until you stop | [`World::visit_intersections`], [`visit_intersections_between`](World::visit_intersections_between), [`visit_self_intersections`](World::visit_self_intersections) |
+//! | who may meet whom | [`World::set_filter`], [`ignore`](World::ignore), [`unignore`](World::unignore) |
+//! | the broad phase | [`BroadPhase`], [`World::set_loose_box`] |
+//! | what was refused, and why | [`Error`], [`ErrorKind`] |
+//! | time and work | [`World::update`], [`update_body`](World::update_body), [`statistics`](World::statistics), [`Statistics`] |
+//! | how trees are built and updated, threads | [`Options`], [`Degree`], [`Partition`], [`Update`]; [`World::tree_shape`], [`tree_parts`](World::tree_parts), [`vertex_order`](World::vertex_order) |
+//! | single or double precision | [`Scalar`] |
+//! | the answer without any tree, to compare with | [`reference`](mod@reference) |
+//! | a whole simulation | `examples/cloth_on_ball.rs`: a cloth that falls on a moving ball and reacts to what is found |
+//!
+//! Words of the paper (Larsson and Akenine-Möller, *Collision Detection for Continuously Deforming Bodies*, 2001), and where they
+//! are chosen: initial shape tree and mesh connectivity tree, [`Partition`]; bottom-up, top-down and hybrid update, [`Update`];
+//! k-ary trees, [`Degree`]; brute force and sweep and prune, [`BroadPhase`]; first pair and all pairs, the queries of [`World`]; all
+//! at once, [`Options::paper`].
+//!
+//! Inside, modules are the algorithm, in the order in which data flows; `ARCHITECTURE.md` in the repository says where each section
+//! of the paper is.
 //!
 //! ```text
 //! world         bodies and their shapes; the one place where the phases meet
@@ -91,3 +113,8 @@ pub use world::{BodyId, NodeBox, TreeShape, World};
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+// A module of the documentation alone; its code is compiled and run like that of the README.
+#[cfg(any(doc, doctest))]
+#[doc = include_str!("../../../docs/guide.md")]
+pub mod guide {}

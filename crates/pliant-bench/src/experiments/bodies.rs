@@ -5,6 +5,7 @@ use super::{Experiment, Form, Planned, ours, truth, window};
 use crate::contest::{Contender, Contest, Query};
 use crate::motion::Motion;
 use crate::record::{Claim, ContestRecord, Verdict};
+use crate::time::duration;
 use pliant::BroadPhase;
 use pliant_scenes::Scene;
 
@@ -77,7 +78,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                     contest.name
                 ),
                 verdict: Verdict::Measured,
-                figure: format!("{brute:.4} ms against {sweep:.4} ms"),
+                figure: format!("{} against {}", duration(brute), duration(sweep)),
             }
         })
         .collect();

@@ -8,6 +8,7 @@ use super::{
 };
 use crate::contest::Query;
 use crate::record::{Claim, ContestRecord, Verdict};
+use crate::time::duration;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "experiment-1",
@@ -109,7 +110,12 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                 1.0,
                 // A ratio below 1.3 is a tie on these machines; the hybrid is not to be behind by more.
                 1.0 / 1.3,
-                format!("mean ms a step: bottom-up {bottom_up:.3}, top-down {top_down:.3}, hybrid {hybrid:.3}"),
+                format!(
+                    "mean time a step: bottom-up {}, top-down {}, hybrid {}",
+                    duration(bottom_up),
+                    duration(top_down),
+                    duration(hybrid)
+                ),
             ));
         }
         for (fast, slow, wanted) in [

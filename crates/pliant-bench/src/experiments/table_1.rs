@@ -5,6 +5,7 @@ use super::{
 };
 use crate::contest::{Contest, Query};
 use crate::record::{Claim, ContestRecord, Verdict};
+use crate::time::duration;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "table-1",
@@ -89,7 +90,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                         contest.name
                     ),
                     verdict: Verdict::Measured,
-                    figure: format!("{first:.3} ms, {worst:.3} ms, {pairs}"),
+                    figure: format!("{}, {}, {pairs}", duration(first), duration(worst)),
                 });
             }
         }

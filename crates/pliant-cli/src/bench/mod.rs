@@ -3,10 +3,10 @@
 mod report;
 mod tables;
 
-use crate::{Outcome, print_all};
+use crate::{Outcome, print_all, progress};
 use anyhow::{Context, bail};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressStyle;
 use pliant_bench::experiments::{EXPERIMENTS, Experiment, Form};
 use pliant_bench::machine::this_machine;
 use pliant_bench::record::Record;
@@ -32,14 +32,24 @@ pub(crate) struct Arguments {
     /// Write every chart as SVG into a folder
     #[arg(long, value_name = "FOLDER")]
     svg: Option<PathBuf>,
+    /// Nothing on standard output, and no progress; for --json
+    #[arg(short, long)]
+    quiet: bool,
 }
+
+const EXAMPLES: &str = "\
+Examples:
+  pliant bench cloth --small --rounds 1            what there is to see, in seconds
+  pliant bench experiment-1                        the paper's figure 3
+  pliant bench peers --rounds 9                    against other libraries, medians of more rounds
+  pliant bench all --quiet --json record.json      everything, as a record; on a quiet machine";
 
 fn experiments_help() -> String {
     let lines = EXPERIMENTS
         .iter()
         .map(|experiment| format!("  {:<14}{}\n", experiment.name, experiment.about));
     format!(
-        "Experiments:\n{}  {:<14}everything",
+        "Experiments:\n{}  {:<14}everything\n\n{EXAMPLES}",
         lines.collect::<String>(),
         "all"
     )
@@ -76,13 +86,20 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
     };
     let rounds = usize::from(arguments.rounds);
     let machine = this_machine();
-    print_all(&format!("{}\n", tables::machine_line(&machine)))?;
+    let print = |text: &str| {
+        if arguments.quiet {
+            Ok(())
+        } else {
+            print_all(text)
+        }
+    };
+    print(&format!("{}\n", tables::machine_line(&machine)))?;
 
     let length = chosen
         .iter()
         .map(|experiment| experiment.length(form, rounds))
         .sum();
-    let bar = ProgressBar::new(length).with_style(ProgressStyle::with_template(
+    let bar = progress(length, arguments.quiet).with_style(ProgressStyle::with_template(
         "{msg} {wide_bar} {percent} %, {elapsed} gone, {eta} to go",
     )?);
     let mut record = Record {
@@ -95,7 +112,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
             bar.set_message(contest.to_owned());
             bar.inc(steps);
         });
-        bar.suspend(|| print_all(&tables::experiment(&done)))?;
+        bar.suspend(|| print(&tables::experiment(&done)))?;
         if let Some(folder) = &arguments.svg {
             report::write_charts(folder, &done)?;
         }

@@ -4,6 +4,7 @@ use crate::table::{grouped, table};
 use pliant_bench::record::{
     Claim, ContestRecord, ExperimentRecord, Machine, MethodRecord, Verdict,
 };
+use pliant_bench::time::duration;
 use std::fmt::Write;
 
 /// Where and with what, in one line.
@@ -76,7 +77,7 @@ fn contest(text: &mut String, record: &ContestRecord) {
         grouped(most as u64),
         record.reference,
     );
-    let mut header = vec!["mean ms a step".to_owned()];
+    let mut header = vec!["mean time a step".to_owned()];
     for window in &record.windows {
         header.extend([window.name.clone(), "times faster".to_owned()]);
     }
@@ -102,7 +103,7 @@ fn row(method: &MethodRecord, record: &ContestRecord) -> Vec<String> {
         }
         None => {
             for window in &method.windows {
-                row.push(format!("{:.4}", window.mean_ms));
+                row.push(duration(window.mean_ms));
                 row.push(window.speedup.map_or_else(String::new, |spread| {
                     format!(
                         "{:.2} ({:.2} to {:.2})",

@@ -8,8 +8,9 @@ pub(crate) mod size;
 
 use crate::Outcome;
 use crate::report::PictureOptions;
+use crate::tree_options::at_least_one;
 use anyhow::anyhow;
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, ValueHint};
 use hits::Hits;
 use output::Output;
 use pictures::Pictures;
@@ -27,7 +28,7 @@ use std::path::PathBuf;
 )]
 pub(crate) struct Arguments {
     /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with its positions (mesh.obj+walk.pc2, .mdd), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj'); each body of a glTF file (.glb, .gltf), or one of them (scene.glb#arm)
-    #[arg(value_name = "BODY", required = true)]
+    #[arg(value_name = "BODY", required = true, value_hint = ValueHint::FilePath)]
     bodies: Vec<String>,
     /// Check each body against itself too; one body alone always is
     #[arg(long = "self")]
@@ -63,7 +64,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", default_value = "30", value_parser = crate::convert::rate)]
     fps: f64,
     /// How many threads share the work; no number changes an answer
-    #[arg(long, value_name = "T", default_value = "1")]
+    #[arg(long, value_name = "T", default_value = "1", value_parser = at_least_one::<NonZeroUsize>)]
     threads: NonZeroUsize,
     /// A table by frame, one JSON object, annotations for GitHub Actions, or a line for each pair: FRAME BODY TRIANGLE BODY TRIANGLE
     #[arg(long, value_enum, default_value_t = Format::Table)]

@@ -33,6 +33,9 @@ pub(crate) struct Arguments {
     /// Write over files that are there
     #[arg(long)]
     force: bool,
+    /// Nothing on standard output
+    #[arg(short, long)]
+    quiet: bool,
     /// Keep the corners of an STL file apart
     #[arg(long)]
     no_weld: bool,
@@ -117,7 +120,9 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         ));
     }
     writer.finish()?;
-    crate::print_all(&format!("{}: {said}\n", arguments.to))?;
+    if !arguments.quiet {
+        crate::print_all(&format!("{}: {said}\n", arguments.to))?;
+    }
     Ok(Outcome::Clear)
 }
 

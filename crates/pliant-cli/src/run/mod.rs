@@ -4,16 +4,17 @@ mod record;
 
 use crate::report::{PictureOptions, Watcher};
 use crate::tree_options::{TreeOptions, value_name};
-use crate::{Outcome, print_all};
+use crate::{Outcome, print_all, progress};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressStyle;
 use pliant::{Pair, Scalar, World};
 use pliant_scenes::{Asks, Scene};
 use record::{Record, StepRecord};
 use std::time::Instant;
 
 #[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
     /// spheres, crowd, arms, gather or cloth
     #[arg(default_value = "spheres")]
@@ -34,15 +35,34 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, default_value_t = Precision::F32)]
     precision: Precision,
     /// A scene of the same kind with other bumps
-    #[arg(long, value_name = "SEED", default_value_t = Scene::DEFAULT_SEED)]
+    #[arg(long, value_name = "SEED", allow_negative_numbers = true, value_parser = seed, default_value_t = Scene::DEFAULT_SEED)]
     seed: u64,
     /// A table, or one JSON object with a figure for every step
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
+    /// Nothing on standard output, and no progress
+    #[arg(short, long)]
+    quiet: bool,
     #[command(flatten)]
     pictures: PictureOptions,
     #[command(flatten)]
     trees: TreeOptions,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pliant run                                     two bumpy spheres of 20,480 triangles, 200 steps
+  pliant run crowd --steps 50 --threads 2        27 bodies, two threads; the answer is the same
+  pliant run cloth --precision f64               a folding sheet with itself
+  pliant run spheres --query first               is there any pair? mostly much cheaper
+  pliant run spheres --triangles 80 --stride 20  small bodies, every 20th step
+  pliant run spheres --update top-down --degree 4 --partition centre --leaf-size 1
+  pliant run gather --format json > gather.json  a figure for every step";
+
+/// A seed as people write it.
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse()
+        .map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -71,7 +91,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let last = arguments.steps.unwrap_or(scene.steps());
     if last > scene.steps() {
         bail!(
-            "scene {} has {} steps; --steps {last} is too many",
+            "scene {} has {} steps; --steps {last} is too many, leave it out to play all",
             scene.name(),
             scene.steps()
         );
@@ -81,7 +101,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         .collect();
     if steps.is_empty() {
         bail!(
-            "--stride {} is longer than the {last} steps to play",
+            "--stride {} is longer than the {last} steps to play; choose a smaller one",
             arguments.stride
         );
     }
@@ -116,7 +136,9 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         ),
     };
     watcher.finish(scene.name(), "step", |_, play| record.tell(play))?;
-    print_all(&text)?;
+    if !arguments.quiet {
+        print_all(&text)?;
+    }
     Ok(Outcome::Clear)
 }
 
@@ -149,7 +171,7 @@ fn play<S: Scalar>(
         );
     }
 
-    let bar = ProgressBar::new(steps.len() as u64)
+    let bar = progress(steps.len() as u64, arguments.quiet)
         .with_style(ProgressStyle::with_template(
             "{msg} {wide_bar} {pos}/{len} steps, {eta} to go",
         )?)

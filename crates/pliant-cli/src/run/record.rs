@@ -4,6 +4,7 @@ use crate::report::{chart, fact};
 use crate::table::{grouped, table};
 use crate::tree_options::TreeOptions;
 use pliant::Statistics;
+use pliant_bench::time::duration;
 use pliant_report::Play;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -206,7 +207,7 @@ impl Record<'_> {
                 "step {}, {} pairs, {}",
                 worst.step,
                 grouped(worst.pairs as u64),
-                milliseconds(time(worst))
+                duration(time(worst))
             ),
         ]);
         let _ = writeln!(text, "{}\n", found.trim_fmt());
@@ -221,11 +222,7 @@ impl Record<'_> {
             let mut sorted: Vec<f64> = self.played.iter().map(figure).collect();
             sorted.sort_by(f64::total_cmp);
             let worst = sorted.last().copied().unwrap_or_default();
-            times.add_row([
-                name.to_owned(),
-                milliseconds(median(&sorted)),
-                milliseconds(worst),
-            ]);
+            times.add_row([name.to_owned(), duration(median(&sorted)), duration(worst)]);
         }
         let _ = writeln!(text, "{}\n", times.trim_fmt());
 
@@ -244,8 +241,4 @@ impl Record<'_> {
 /// Of at least one sorted value.
 fn median(sorted: &[f64]) -> f64 {
     f64::midpoint(sorted[(sorted.len() - 1) / 2], sorted[sorted.len() / 2])
-}
-
-fn milliseconds(value: f64) -> String {
-    format!("{value:.3} ms")
 }

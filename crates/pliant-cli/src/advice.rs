@@ -1,0 +1,72 @@
+//! What to do next, after a message that says only what is wrong. Messages that say it themselves get nothing.
+
+use pliant_check::Error as CheckError;
+use pliant_io::Reason;
+use std::io::{self, ErrorKind};
+
+/// `"; "` and what to do, or nothing.
+pub(crate) fn after(error: &anyhow::Error) -> String {
+    error
+        .chain()
+        .find_map(advice)
+        .map_or_else(String::new, |advice| format!("; {advice}"))
+}
+
+fn advice(error: &(dyn std::error::Error + 'static)) -> Option<&'static str> {
+    if let Some(error) = error.downcast_ref::<pliant_io::Error>() {
+        reading(error.reason())
+    } else if let Some(error) = error.downcast_ref::<CheckError>() {
+        checking(error)
+    } else {
+        writing(error.downcast_ref::<io::Error>()?.kind())
+    }
+}
+
+fn reading(reason: &Reason) -> Option<&'static str> {
+    Some(match reason {
+        Reason::NotFound => "the path is taken from the current folder",
+        Reason::NoMatch => {
+            "the pattern is taken from the current folder; `ls` with it, not quoted, shows what it matches"
+        }
+        Reason::Pattern(_) => "in a pattern, write [[] for the [ of a name",
+        Reason::Io(_) => "see that you may read it and that its disk is there",
+        Reason::Malformed(_)
+        | Reason::FewCorners { .. }
+        | Reason::VertexIndex { .. }
+        | Reason::Coordinate { .. }
+        | Reason::NoVertices
+        | Reason::NoFaces
+        | Reason::NoFrames => "mend it, or export it again",
+        Reason::Truncated(_) | Reason::Checksum { .. } => "copy it or export it again",
+        Reason::TooMany { .. } => "split the mesh",
+        Reason::ManyCorners { .. } => "triangulate the mesh first",
+        Reason::OutOfMemory => "split the mesh, or free some memory",
+        _ => return None,
+    })
+}
+
+fn checking(error: &CheckError) -> Option<&'static str> {
+    match error {
+        CheckError::Read(error) => reading(error.reason()),
+        CheckError::FrameCounts { .. } => {
+            Some("export the same frames of each, or one frame of what stands still")
+        }
+        CheckError::Missing { .. } => Some("wait until it is written, then check again"),
+        CheckError::BadGroup { .. } => Some("choose another name"),
+        _ => None,
+    }
+}
+
+/// Of files that the program writes; those that it reads have their own errors.
+fn writing(kind: ErrorKind) -> Option<&'static str> {
+    match kind {
+        ErrorKind::NotFound => Some("make its folder first"),
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            Some("choose a place where you may write")
+        }
+        ErrorKind::IsADirectory => Some("name a file in it"),
+        ErrorKind::NotADirectory | ErrorKind::AlreadyExists => Some("choose another name"),
+        ErrorKind::StorageFull => Some("free some space"),
+        _ => None,
+    }
+}

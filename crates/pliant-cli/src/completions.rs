@@ -1,0 +1,57 @@
+//! `pliant completions`: what a shell needs to complete verbs, options and their values.
+
+use crate::{Outcome, command, print_all};
+use clap::Args;
+use clap_complete::Shell;
+
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pliant completions bash > ~/.local/share/bash-completion/completions/pliant
+  pliant completions zsh > ~/.zfunc/_pliant                 with fpath+=(~/.zfunc) before compinit in ~/.zshrc
+  pliant completions fish > ~/.config/fish/completions/pliant.fish
+  pliant completions powershell >> $PROFILE
+  pliant completions elvish >> ~/.config/elvish/rc.elv";
+
+/// Prints the script of a shell.
+pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
+    print_all(&script(arguments.shell))?;
+    Ok(Outcome::Clear)
+}
+
+fn script(shell: Shell) -> String {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut command(), "pliant", &mut script);
+    String::from_utf8_lossy(&script).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::script;
+    use crate::examples::for_each_option;
+    use clap::ValueEnum;
+    use clap_complete::Shell;
+
+    #[test]
+    fn every_shell_knows_every_verb_and_option() {
+        for &shell in Shell::value_variants() {
+            let script = script(shell);
+            for_each_option(|verb, option| {
+                // fish names options by `-l`, without their dashes.
+                let written = match shell {
+                    Shell::Fish => format!("-l {option}"),
+                    _ => format!("--{option}"),
+                };
+                assert!(script.contains(verb), "{shell}: {verb}");
+                assert!(script.contains(&written), "{shell}: {verb} {written}");
+            });
+        }
+    }
+}

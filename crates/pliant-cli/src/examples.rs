@@ -1,0 +1,63 @@
+//! Tests of the help: it teaches by examples, and every example is a command that the program takes.
+
+use clap::Command;
+
+/// Shows every verb with every long option it has.
+pub(crate) fn for_each_option(mut show: impl FnMut(&str, &str)) {
+    let mut program = crate::command();
+    program.build();
+    let mut shown = 0;
+    for verb in verbs(&program) {
+        for option in verb.get_arguments().filter_map(|option| option.get_long()) {
+            show(verb.get_name(), option);
+            shown += 1;
+        }
+    }
+    assert!(shown > 30, "only {shown} options");
+}
+
+fn verbs(program: &Command) -> impl Iterator<Item = &Command> {
+    program
+        .get_subcommands()
+        .filter(|verb| verb.get_name() != "help")
+}
+
+/// The commands in a help text: lines that begin with `  pliant`, up to what a shell does with them or a remark.
+fn examples(command: &Command) -> Vec<String> {
+    let help = command
+        .get_after_help()
+        .map_or_else(String::new, ToString::to_string);
+    help.lines()
+        .filter_map(|line| line.strip_prefix("  "))
+        .filter(|line| line.starts_with("pliant "))
+        .map(|line| {
+            let ends = ["  ", " && ", " | ", " > ", " >> "].map(|end| line.find(end));
+            let end = ends.into_iter().flatten().min().unwrap_or(line.len());
+            line[..end].to_owned()
+        })
+        .collect()
+}
+
+#[test]
+fn every_example_in_the_help_is_a_command_that_the_program_takes() {
+    let program = crate::command();
+    for command in std::iter::once(&program).chain(verbs(&program)) {
+        let examples = examples(command);
+        assert!(
+            examples.len() >= 2,
+            "{} has no examples",
+            command.get_name()
+        );
+        for example in examples {
+            let words = shlex::split(&example).expect("its quotes are closed");
+            let taken = program.clone().try_get_matches_from(&words);
+            let taken = taken.unwrap_or_else(|error| panic!("{example}: {error}"));
+            let verb = taken.subcommand_name().expect("a verb");
+            assert!(
+                command.get_name() == "pliant" || command.get_name() == verb,
+                "{example} is in the help of {}",
+                command.get_name()
+            );
+        }
+    }
+}

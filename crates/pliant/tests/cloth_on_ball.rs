@@ -1,0 +1,24 @@
+//! The loop of the paper's figure 1, as the example runs it: a cloth that reacts to the pairs reported stays on a moving ball.
+
+#[path = "../examples/cloth_on_ball.rs"]
+#[allow(dead_code, reason = "its main is not called")]
+mod cloth_on_ball;
+
+use cloth_on_ball::{RADIUS, STEPS_A_SECOND, Simulation};
+
+#[test]
+fn the_cloth_stays_on_the_ball_and_outside_it() {
+    let mut simulation = Simulation::new().unwrap();
+    let mut met = 0;
+    for _ in 0..4 * STEPS_A_SECOND {
+        met += usize::from(simulation.step().unwrap() > 0);
+        let (step, depth) = (simulation.steps, simulation.depth());
+        assert!(depth < 0.02, "step {step}: {depth} m inside the ball");
+    }
+    assert!(met > STEPS_A_SECOND, "it met the ball in {met} steps");
+    let height = simulation.height();
+    assert!(
+        (height - RADIUS).abs() < 0.02,
+        "{height} m above its middle"
+    );
+}

@@ -2,11 +2,9 @@
 
 mod common;
 
-use common::{Said, pliant};
+use common::{check, folder, pliant};
 use serde_json::json;
 use std::fs;
-use std::path::Path;
-use tempfile::TempDir;
 
 /// A right-angled triangle of side 2 in the plane z, as an OBJ file.
 fn flat(z: f64) -> String {
@@ -27,18 +25,6 @@ fn upright(z: f64) -> String {
 fn pair(crossing: bool) -> String {
     let z = if crossing { 0.0 } else { 5.0 };
     flat(0.0) + &upright(z).replace("f 1 2 3", "f 4 5 6")
-}
-
-fn folder(files: &[(&str, String)]) -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, text) in files {
-        fs::write(folder.path().join(name), text).unwrap();
-    }
-    folder
-}
-
-fn check(folder: &Path, arguments: &[&str]) -> Said {
-    pliant(folder, &[&["check"], arguments].concat())
 }
 
 #[test]

@@ -2,10 +2,9 @@
 
 mod common;
 
-use common::{Said, pliant};
+use common::check;
 use std::fmt::Write;
 use std::fs;
-use std::path::Path;
 use tempfile::TempDir;
 
 const SHEET: &str = "v -1 -1 0\nv 9 -1 0\nv -1 9 0\nf 1 2 3\n";
@@ -20,10 +19,6 @@ fn folder(name: &str) -> TempDir {
     }
     fs::write(folder.path().join("sheet.obj"), SHEET).unwrap();
     folder
-}
-
-fn check(folder: &Path, arguments: &[&str]) -> Said {
-    pliant(folder, &[&["check"], arguments].concat())
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Said, measured, pliant};
+use common::{check, folder, measured};
 use serde_json::json;
 use std::fmt::Write;
 use std::fs;
@@ -17,18 +17,6 @@ fn upright(x: f64) -> String {
 /// Vertices and a triangle in the plane z, which uprights from x = 0 to 4 cross where z is from -1 to 1.
 fn flat(z: f64) -> String {
     format!("v -1 -1 {z}\nv 9 -1 {z}\nv -1 9 {z}\nf -1 -2 -3\n")
-}
-
-fn folder(files: &[(&str, String)]) -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, text) in files {
-        fs::write(folder.path().join(name), text).unwrap();
-    }
-    folder
-}
-
-fn check(folder: &Path, arguments: &[&str]) -> Said {
-    pliant(folder, &[&["check"], arguments].concat())
 }
 
 fn json(folder: &Path, arguments: &[&str]) -> serde_json::Value {

@@ -165,7 +165,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
             "a candidate of the coplanar grids costs at most ten times one of the spheres",
             generic / coplanar,
             0.1,
-            0.0,
+            0.1,
             format!("{:.1} times", coplanar / generic),
         ));
     }

@@ -147,16 +147,12 @@ impl Line {
     fn contest(self, form: Form) -> Contest {
         let triangles = self.triangles[usize::from(form == Form::Small)];
         let steps = self.steps.len();
-        let mut methods: Vec<Contender> = [DEFAULT]
+        let methods: Vec<Contender> = [DEFAULT]
             .iter()
             .chain(&PEERS)
-            .map(|label| contender(label))
+            .chain(self.others)
+            .map(|label| method(label, steps, self.query))
             .collect();
-        methods.extend(
-            self.others
-                .iter()
-                .map(|label| other(label, steps, self.query)),
-        );
         let mut contest = Contest {
             windows: self.windows,
             cold: self.cold,
@@ -175,8 +171,8 @@ impl Line {
     }
 }
 
-/// A method of this experiment alone, or one by its name in tables.
-fn other(label: &'static str, steps: usize, query: Query) -> Contender {
+/// A method of this experiment alone, or one of all experiments, by its name in tables.
+fn method(label: &'static str, steps: usize, query: Query) -> Contender {
     let floor = |decides| {
         let itself = query == Query::Itself;
         Contender::new(label, Floor::new(Sweep::new(exact), steps, itself, decides))

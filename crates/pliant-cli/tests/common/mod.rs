@@ -45,6 +45,20 @@ impl Said {
     }
 }
 
+/// A folder of text files.
+pub(crate) fn folder(files: &[(&str, String)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+/// `pliant check` in a folder.
+pub(crate) fn check(folder: &Path, arguments: &[&str]) -> Said {
+    pliant(folder, &[&["check"], arguments].concat())
+}
+
 /// Runs `pliant` in a folder.
 pub(crate) fn pliant(folder: &Path, arguments: &[&str]) -> Said {
     let output = Command::new(env!("CARGO_BIN_EXE_pliant"))

@@ -118,6 +118,7 @@ impl<S: Scalar> World<S> {
                 }
             }
         });
+        drop(step);
         self.body_pairs = body_pairs;
         self.body_pairs_hold = true;
         answer
@@ -335,6 +336,7 @@ impl<S: Scalar> World<S> {
                 options,
                 level: *level,
                 threads,
+                _busy: threads.busy(),
                 bodies,
                 origin: *origin,
                 scratch,
@@ -362,6 +364,7 @@ impl<S: Scalar> World<S> {
                 options,
                 level: *level,
                 threads,
+                _busy: threads.busy(),
                 bodies,
                 origin: *origin,
                 scratch,

@@ -2,14 +2,21 @@
 //!
 //! Work is cut into jobs by its size, never by the number of threads; every job writes what is its own, and what the jobs have
 //! found is put together in their order. So answers, their order and all counters are the same for any number of threads.
+//!
+//! A step is some dozens of such parts, each shorter than it takes to wake a thread. So threads that were woken stay awake from one
+//! part to the next, and a little longer. Each begins with jobs of its own, side by side, and helps others when these are done:
+//! what a thread wrote in one part it is likely to read in the next.
 
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// More than there are jobs in the largest of batches.
 const MOST: usize = 256;
-/// How often a thread looks for something before it lets others have its core.
+/// How long a thread looks for more to do before it sleeps: longer than what one thread alone does in the middle of a query.
+const AWAKE: Duration = Duration::from_micros(200);
+/// How often it looks before it lets others have its core in between.
 const LOOKS: u32 = 100;
 
 /// The threads of a world.
@@ -22,21 +29,8 @@ pub(crate) struct Threads {
 #[derive(Debug)]
 struct Others {
     pool: rayon::ThreadPool,
-    /// Odd while they are to stay awake; another number each time.
-    awake: Arc<AtomicU64>,
-}
-
-/// As long as it lives, the others, once there was work for them, look for more instead of falling asleep: to be woken takes a
-/// thread longer than most of what is done here.
-#[derive(Debug)]
-pub(crate) struct Busy<'t>(&'t Threads);
-
-impl Drop for Busy<'_> {
-    fn drop(&mut self) {
-        if let Some(others) = &self.0.others {
-            others.rest();
-        }
-    }
+    /// How many of them are awake.
+    awake: Arc<AtomicUsize>,
 }
 
 impl Threads {
@@ -61,43 +55,10 @@ impl Threads {
         self.others.is_some()
     }
 
-    /// There is going to be work again and again.
-    pub(crate) fn busy(&self) -> Busy<'_> {
-        Busy(self)
-    }
-
     /// Does all jobs; returns when all are done.
     pub(crate) fn run<J: Send>(&self, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
         match &self.others {
-            Some(others) if jobs.len() > 1 => {
-                others.wake();
-                let helpers = others.pool.current_num_threads().min(jobs.len() - 1);
-                let done = AtomicUsize::new(0);
-                let rest = Mutex::new(jobs.iter_mut().enumerate());
-                let take_jobs = || {
-                    loop {
-                        let next = rest.lock().unwrap_or_else(PoisonError::into_inner).next();
-                        let Some((number, job)) = next else { break };
-                        work(number, job);
-                    }
-                };
-                others.pool.in_place_scope(|scope| {
-                    for _ in 0..helpers {
-                        scope.spawn(|_| {
-                            take_jobs();
-                            done.fetch_add(1, Ordering::Release);
-                        });
-                    }
-                    take_jobs();
-                    // The scope's own end would put this thread to sleep at once.
-                    for look in 0..100 * LOOKS {
-                        if done.load(Ordering::Acquire) == helpers {
-                            break;
-                        }
-                        wait(look);
-                    }
-                });
-            }
+            Some(others) if jobs.len() > 1 => others.share(jobs, &work),
             _ => {
                 for (number, job) in jobs.iter_mut().enumerate() {
                     work(number, job);
@@ -108,42 +69,115 @@ impl Threads {
 }
 
 impl Others {
-    /// Every thread of the pool looks for work from now on, until they may rest.
-    fn wake(&self) {
-        let now = self.awake.load(Ordering::Relaxed);
-        if now % 2 == 1 {
-            return;
-        }
-        let now = now + 1;
-        self.awake.store(now, Ordering::Relaxed);
-        let awake = Arc::clone(&self.awake);
-        self.pool.spawn_broadcast(move |_| {
-            let mut look = 0;
-            while awake.load(Ordering::Relaxed) == now {
-                match rayon::yield_now() {
-                    Some(rayon::Yield::Executed) => look = 0,
-                    _ => {
-                        wait(look);
-                        look += 1;
-                    }
-                }
+    /// Does all jobs together with the calling thread.
+    fn share<J: Send>(&self, jobs: &mut [J], work: &(impl Fn(usize, &mut J) + Sync)) {
+        self.wake();
+        let helpers = self.pool.current_num_threads().min(jobs.len() - 1);
+        let size = jobs.len().div_ceil(helpers + 1);
+        let shares: Vec<_> = jobs
+            .chunks_mut(size)
+            .enumerate()
+            .map(|(which, jobs)| {
+                Mutex::new(Share {
+                    first: which * size,
+                    jobs,
+                })
+            })
+            .collect();
+        let done = AtomicUsize::new(0);
+        self.pool.in_place_scope(|scope| {
+            for _ in 0..helpers {
+                scope.spawn(|_| {
+                    let own = rayon::current_thread_index().map_or(0, |thread| thread + 1);
+                    do_all(&shares, own, work);
+                    done.fetch_add(1, Ordering::Release);
+                });
             }
+            do_all(&shares, 0, work);
+            // The end of the scope would put this thread to sleep at once.
+            let mut patience = Patience::default();
+            while done.load(Ordering::Acquire) < helpers && patience.is_left() {}
         });
     }
 
-    /// They may sleep again.
-    fn rest(&self) {
-        let now = self.awake.load(Ordering::Relaxed);
-        self.awake.store(now + now % 2, Ordering::Relaxed);
+    /// Has every thread look for work from now on, unless they do.
+    fn wake(&self) {
+        if self.awake.load(Ordering::Acquire) > 0 {
+            return;
+        }
+        self.awake
+            .store(self.pool.current_num_threads(), Ordering::Release);
+        let awake = Arc::clone(&self.awake);
+        self.pool.spawn_broadcast(move |_| {
+            let mut patience = Patience::default();
+            while patience.is_left() {
+                if rayon::yield_now() == Some(rayon::Yield::Executed) {
+                    patience = Patience::default();
+                }
+            }
+            awake.fetch_sub(1, Ordering::Release);
+        });
     }
 }
 
-/// A moment, or a turn for others after many.
-fn wait(look: u32) {
-    if look < LOOKS {
-        std::hint::spin_loop();
-    } else {
+/// Jobs side by side: one thread takes them from the front, others from the back.
+struct Share<'j, J> {
+    first: usize,
+    jobs: &'j mut [J],
+}
+
+impl<'j, J> Share<'j, J> {
+    /// A job and its number.
+    fn take(&mut self, from_front: bool) -> Option<(usize, &'j mut J)> {
+        let jobs = std::mem::take(&mut self.jobs);
+        let (job, rest) = if from_front {
+            jobs.split_first_mut()?
+        } else {
+            jobs.split_last_mut()?
+        };
+        self.jobs = rest;
+        let number = if from_front {
+            self.first += 1;
+            self.first - 1
+        } else {
+            self.first + self.jobs.len()
+        };
+        Some((number, job))
+    }
+}
+
+/// Does the jobs of one share, and then of the others, until none is left.
+fn do_all<J>(shares: &[Mutex<Share<'_, J>>], own: usize, work: &impl Fn(usize, &mut J)) {
+    let (before, after) = shares.split_at(own.min(shares.len()));
+    for (which, share) in after.iter().chain(before).enumerate() {
+        // Not in the condition of the loop: the lock would be held while the job is done.
+        let take = || {
+            let mut share = share.lock().unwrap_or_else(PoisonError::into_inner);
+            share.take(which == 0)
+        };
+        while let Some((number, job)) = take() {
+            work(number, job);
+        }
+    }
+}
+
+/// Waiting for something that is about to happen.
+#[derive(Default)]
+struct Patience {
+    looks: u32,
+    since: Option<Instant>,
+}
+
+impl Patience {
+    /// Waits a moment; whether to go on.
+    fn is_left(&mut self) -> bool {
+        self.looks += 1;
+        if self.looks < LOOKS {
+            std::hint::spin_loop();
+            return true;
+        }
         std::thread::yield_now();
+        self.since.get_or_insert_with(Instant::now).elapsed() < AWAKE
     }
 }
 

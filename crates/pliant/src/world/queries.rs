@@ -118,7 +118,6 @@ impl<S: Scalar> World<S> {
                 }
             }
         });
-        drop(step);
         self.body_pairs = body_pairs;
         self.body_pairs_hold = true;
         answer
@@ -336,7 +335,6 @@ impl<S: Scalar> World<S> {
                 options,
                 level: *level,
                 threads,
-                _busy: threads.busy(),
                 bodies,
                 origin: *origin,
                 scratch,
@@ -364,7 +362,6 @@ impl<S: Scalar> World<S> {
                 options,
                 level: *level,
                 threads,
-                _busy: threads.busy(),
                 bodies,
                 origin: *origin,
                 scratch,

@@ -2,7 +2,7 @@
 //! says: see `queries`.
 
 use super::body::Body;
-use crate::exec::{Busy, Threads};
+use crate::exec::Threads;
 use crate::geometry::{Origin, Scalar};
 use crate::kernels::Level;
 use crate::options::Options;
@@ -20,8 +20,6 @@ pub(super) struct Step<'w, S> {
     pub(super) options: &'w Options,
     pub(super) level: Level,
     pub(super) threads: &'w Threads,
-    /// Held until the query is done.
-    pub(super) _busy: Busy<'w>,
     pub(super) bodies: &'w mut [Body<S>],
     pub(super) origin: Origin,
     pub(super) scratch: &'w mut Scratch,

@@ -34,6 +34,11 @@ struct Others {
 }
 
 impl Threads {
+    /// The calling thread alone.
+    pub(crate) fn one() -> Self {
+        Self { others: None }
+    }
+
     /// `count` threads, the calling one included, but not more than [`MOST`]. Where the system gives none, the calling thread does all work.
     pub(crate) fn new(count: NonZeroUsize) -> Self {
         let others = (count.get() > 1).then(|| {
@@ -53,6 +58,28 @@ impl Threads {
     /// Whether there are others than the calling thread.
     pub(crate) fn are_many(&self) -> bool {
         self.others.is_some()
+    }
+
+    /// Does `work` on two equally long lists, cut side by side into parts of `size` where there are others to share them, and
+    /// joins what the parts gave, in their order.
+    pub(crate) fn run_parts<A: Sync, B: Send, R: Send>(
+        &self,
+        size: usize,
+        from: &[A],
+        to: &mut [B],
+        work: impl Fn(&[A], &mut [B]) -> R + Sync,
+        join: impl Fn(R, R) -> R,
+    ) -> R {
+        if !self.are_many() || to.len() <= size {
+            return work(from, to);
+        }
+        let parts = from.chunks(size).zip(to.chunks_mut(size));
+        let mut jobs: Vec<_> = parts.map(|(from, to)| (from, to, None)).collect();
+        self.run(&mut jobs, |_, (from, to, done)| {
+            *done = Some(work(from, to))
+        });
+        let all = jobs.into_iter().filter_map(|(_, _, done)| done);
+        all.reduce(join).expect("there is more than one part")
     }
 
     /// Does all jobs; returns when all are done.

@@ -1,6 +1,10 @@
 //! Points side by side in memory, laid out so that one is read as four numbers at once.
 
 use super::Scalar;
+use crate::exec::Threads;
+
+/// Points in a job: some ten microseconds of work.
+pub(crate) const POINTS_JOB: usize = 1 << 13;
 
 /// Points of three coordinates and a fourth number that means nothing, so that each fills a register of four.
 #[derive(Clone, Debug)]
@@ -21,16 +25,19 @@ impl<S: Scalar> Points<S> {
     pub(crate) fn of(points: &[[S; 3]]) -> Self {
         let order: Vec<u32> = (0..points.len() as u32).collect();
         let mut all = Self::with_len(points.len());
-        all.gather(points, &order);
+        all.gather(&Threads::one(), points, &order);
         all
     }
 
     /// Takes the points that `order` names.
-    pub(crate) fn gather(&mut self, from: &[[S; 3]], order: &[u32]) {
-        for (place, &point) in self.points.iter_mut().zip(order) {
-            let [x, y, z] = from[point as usize];
-            *place = [x, y, z, z];
-        }
+    pub(crate) fn gather(&mut self, threads: &Threads, from: &[[S; 3]], order: &[u32]) {
+        let gather = |order: &[u32], places: &mut [[S; 4]]| {
+            for (place, &point) in places.iter_mut().zip(order) {
+                let [x, y, z] = from[point as usize];
+                *place = [x, y, z, z];
+            }
+        };
+        threads.run_parts(POINTS_JOB, order, &mut self.points, gather, |(), ()| ());
     }
 
     #[inline]

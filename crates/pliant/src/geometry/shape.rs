@@ -41,6 +41,15 @@ impl<S: Scalar> Bounds<S> {
         }
     }
 
+    /// The bounds of both.
+    pub(crate) fn union(mut self, other: &Self) -> Self {
+        for axis in 0..3 {
+            self.lo[axis] = smaller(self.lo[axis], other.lo[axis]);
+            self.hi[axis] = larger(self.hi[axis], other.hi[axis]);
+        }
+        self
+    }
+
     /// The box that holds these bounds: exact for `f32`, rounded outward for `f64`.
     #[inline]
     pub(crate) fn to_box(self, origin: Origin) -> Aabb {

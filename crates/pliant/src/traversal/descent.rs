@@ -7,7 +7,7 @@ use crate::geometry::Scalar;
 use crate::kernels::bits::Batch;
 use crate::pairs::{BlockPair, Candidate, LeafPair, NodePair};
 use crate::statistics::Statistics;
-use crate::tree::NodeId;
+use crate::tree::{Below, NodeId};
 use crate::update::{Reached, Updates};
 use fearless_simd::dispatch;
 use std::ops::ControlFlow;
@@ -25,18 +25,18 @@ const EXPAND_JOB: usize = 512;
 const MEET_JOB: usize = 256;
 
 /// What is descended: two trees, or one against itself.
-pub(crate) trait Meeting<const N: usize> {
+pub(crate) trait Meeting<const N: usize>: Sync {
     /// Of the positions.
     type Coordinate: Scalar;
     /// Whether it is one tree against itself.
     const ITSELF: bool;
     /// Both bodies, or the one twice.
     fn sides(&self) -> [&Side<'_, N, Self::Coordinate>; 2];
-    /// Makes true what is below the nodes of a batch.
+    /// Makes true what was reached in the first or the second tree.
     fn reach(
         &mut self,
         updates: Updates,
-        batch: &[NodePair],
+        which: usize,
         reached: &mut Reached,
         statistics: &mut Statistics,
     );
@@ -54,10 +54,17 @@ pub(crate) struct Scratch {
     batch: Vec<NodePair>,
     leaves: Batch<LeafPair>,
     blocks: Vec<BlockPair>,
+    untrue: Vec<Untrue>,
     expanded: Vec<Expanded>,
     met: Vec<Meet>,
     /// The pair at which a visitor broke, in tree order.
     pub(crate) broke_at: Option<Candidate>,
+}
+
+/// Groups of either tree that a job of looking found not true, some perhaps more than once.
+#[derive(Debug, Default)]
+struct Untrue {
+    groups: [Vec<u32>; 2],
 }
 
 /// What a job of expanding found.
@@ -83,7 +90,7 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     loop {
         scratch.nodes.take_last(longest, &mut scratch.batch);
         longest = (longest * 2).min(LONGEST_BATCH);
-        meeting.reach(updates, &scratch.batch, &mut scratch.reached, statistics);
+        reach_batch(updates, meeting, scratch, statistics);
         statistics.node_pairs +=
             scratch.batch.len() as u64 + expand_batch(updates, meeting, scratch);
 
@@ -93,6 +100,45 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
         }
         if last {
             return ControlFlow::Continue(());
+        }
+    }
+}
+
+/// Makes true what is below the nodes of a batch.
+fn reach_batch<const N: usize, M: Meeting<N>>(
+    updates: Updates,
+    meeting: &mut M,
+    scratch: &mut Scratch,
+    statistics: &mut Statistics,
+) {
+    let Scratch {
+        batch,
+        untrue,
+        reached,
+        ..
+    } = scratch;
+    let sides = meeting.sides();
+    let jobs = in_use(untrue, batch.len().div_ceil(EXPAND_JOB));
+    updates.threads.run(jobs, |number, job| {
+        for which in 0..2 {
+            let Side { tree, shape, .. } = sides[which];
+            job.groups[which].clear();
+            for pair in part(batch, number, EXPAND_JOB) {
+                if let Below::Group(below) = tree.child(pair[which]).below()
+                    && tree.groups[below as usize].epoch != shape.epoch
+                {
+                    job.groups[which].push(below);
+                }
+            }
+        }
+    });
+    for which in 0..2 {
+        for &group in jobs.iter().flat_map(|job| &job.groups[which]) {
+            reached.note(group);
+        }
+        // Of one tree, both are noted before.
+        if !M::ITSELF || which == 1 {
+            meeting.reach(updates, which, reached, statistics);
         }
     }
 }
@@ -180,14 +226,19 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
             } else {
                 job.meet::<N, M::Coordinate, false>(updates.level, sides, pairs);
             }
+            job.named.clear();
+            job.named
+                .extend(job.hits.iter().map(|&hit| meeting.name(hit)));
         });
         for job in &*jobs {
             *statistics += job.statistics;
         }
-        for &hit in jobs.iter().flat_map(|job| &job.hits) {
-            if visit(meeting.name(hit)).is_break() {
-                *broke_at = Some(hit);
-                return ControlFlow::Break(());
+        for job in &*jobs {
+            for (&hit, &named) in job.hits.iter().zip(&job.named) {
+                if visit(named).is_break() {
+                    *broke_at = Some(hit);
+                    return ControlFlow::Break(());
+                }
             }
         }
     }

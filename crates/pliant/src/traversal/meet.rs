@@ -24,6 +24,8 @@ pub(super) struct Meet {
     undecided: Batch<Undecided>,
     /// Pairs that intersect, in tree order.
     pub(super) hits: Vec<Candidate>,
+    /// The same as the caller numbers triangles.
+    pub(super) named: Vec<[u32; 2]>,
     pub(super) statistics: Statistics,
 }
 

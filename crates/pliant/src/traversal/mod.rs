@@ -25,11 +25,9 @@ mod meet;
 mod one_tree;
 mod two_trees;
 
-use crate::geometry::{Scalar, Shape};
+use crate::geometry::Shape;
 use crate::mesh::Mesh;
-use crate::statistics::Statistics;
-use crate::tree::{Below, NodeId, Tree};
-use crate::update::{Reached, Updates};
+use crate::tree::Tree;
 pub(crate) use descent::{Scratch, descend};
 pub(crate) use one_tree::OneTree;
 pub(crate) use two_trees::TwoTrees;
@@ -39,26 +37,4 @@ pub(crate) struct Side<'t, const N: usize, S> {
     pub(crate) tree: &'t mut Tree<N>,
     pub(crate) mesh: &'t Mesh,
     pub(crate) shape: Shape<'t, S>,
-}
-
-/// Makes true what is below some nodes.
-fn reach<const N: usize, S: Scalar>(
-    updates: Updates,
-    side: &mut Side<'_, N, S>,
-    nodes: impl Iterator<Item = NodeId>,
-    reached: &mut Reached,
-    statistics: &mut Statistics,
-) {
-    let mut any = false;
-    for node in nodes {
-        if let Below::Group(below) = side.tree.child(node).below()
-            && side.tree.groups[below as usize].epoch != side.shape.epoch
-        {
-            reached.note(below);
-            any = true;
-        }
-    }
-    if any {
-        updates.reach(side.tree, &side.shape, reached, statistics);
-    }
 }

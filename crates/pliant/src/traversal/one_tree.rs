@@ -3,10 +3,10 @@
 //! A pair of one node with itself stands for the pairs within it; it expands into its children with themselves and into
 //! the pairs of different children that overlap.
 
+use super::Side;
 use super::descent::Meeting;
-use super::{Side, reach};
 use crate::geometry::Scalar;
-use crate::pairs::{Candidate, NodePair};
+use crate::pairs::Candidate;
 use crate::statistics::Statistics;
 use crate::update::{Reached, Updates};
 
@@ -26,12 +26,11 @@ impl<const N: usize, S: Scalar> Meeting<N> for OneTree<'_, N, S> {
     fn reach(
         &mut self,
         updates: Updates,
-        batch: &[NodePair],
+        _: usize,
         reached: &mut Reached,
         statistics: &mut Statistics,
     ) {
-        let nodes = batch.as_flattened().iter().copied();
-        reach(updates, &mut self.side, nodes, reached, statistics);
+        updates.reach(self.side.tree, &self.side.shape, reached, statistics);
     }
 
     fn name(&self, [a, b]: Candidate) -> [u32; 2] {

@@ -1,9 +1,9 @@
 //! Two bodies.
 
+use super::Side;
 use super::descent::Meeting;
-use super::{Side, reach};
 use crate::geometry::Scalar;
-use crate::pairs::{Candidate, NodePair};
+use crate::pairs::Candidate;
 use crate::statistics::Statistics;
 use crate::update::{Reached, Updates};
 
@@ -24,14 +24,12 @@ impl<const N: usize, S: Scalar> Meeting<N> for TwoTrees<'_, N, S> {
     fn reach(
         &mut self,
         updates: Updates,
-        batch: &[NodePair],
+        which: usize,
         reached: &mut Reached,
         statistics: &mut Statistics,
     ) {
-        let of_a = batch.iter().map(|pair| pair[0]);
-        reach(updates, &mut self.a, of_a, reached, statistics);
-        let of_b = batch.iter().map(|pair| pair[1]);
-        reach(updates, &mut self.b, of_b, reached, statistics);
+        let side = if which == 0 { &mut self.a } else { &mut self.b };
+        updates.reach(side.tree, &side.shape, reached, statistics);
     }
 
     fn name(&self, [a, b]: Candidate) -> [u32; 2] {

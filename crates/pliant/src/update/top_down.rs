@@ -17,6 +17,7 @@ pub(crate) struct Reached {
     groups: Vec<u32>,
     /// For making several levels at once.
     below: Vec<u32>,
+    any: bool,
 }
 
 impl Reached {
@@ -28,11 +29,15 @@ impl Reached {
             self.noted.resize(word + 1, 0);
         }
         self.noted[word] |= 1 << (group % 64);
+        self.any = true;
     }
 
     /// Lists what was noted, and forgets it.
     fn list(&mut self) {
         self.groups.clear();
+        if !std::mem::take(&mut self.any) {
+            return;
+        }
         for (word, bits) in self.noted.iter_mut().enumerate() {
             let mut rest = std::mem::take(bits);
             while rest != 0 {

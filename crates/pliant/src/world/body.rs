@@ -2,7 +2,10 @@
 
 use super::BodyId;
 use crate::error::ErrorKind;
-use crate::geometry::{Aabb, Bounds, Origin, Points, Scalar, Shape, denormals_are_kept};
+use crate::exec::Threads;
+use crate::geometry::{
+    Aabb, Bounds, Origin, POINTS_JOB, Points, Scalar, Shape, denormals_are_kept,
+};
 use crate::kernels::{Level, take_over::take_over};
 use crate::mesh::{self, Mesh};
 
@@ -99,10 +102,10 @@ impl<S: Scalar> Body<S> {
     }
 
     /// Brings the shape into tree order, which everything that looks at it needs.
-    pub(super) fn bring_into_order(&mut self) {
+    pub(super) fn bring_into_order(&mut self, threads: &Threads) {
         if !self.is_in_order {
-            self.in_tree_order
-                .gather(&self.positions, self.mesh.vertex_ids());
+            let order = self.mesh.vertex_ids();
+            self.in_tree_order.gather(threads, &self.positions, order);
             self.is_in_order = true;
         }
     }
@@ -110,7 +113,7 @@ impl<S: Scalar> Body<S> {
     /// The shape in tree order, whether it was brought into it or not.
     pub(super) fn in_tree_order(&self) -> Points<S> {
         let mut points = Points::with_len(self.positions.len());
-        points.gather(&self.positions, self.mesh.vertex_ids());
+        points.gather(&Threads::one(), &self.positions, self.mesh.vertex_ids());
         points
     }
 
@@ -163,6 +166,7 @@ impl<S: Scalar> Body<S> {
     pub(super) fn take_over(
         &mut self,
         level: Level,
+        threads: &Threads,
         positions: &[[S; 3]],
     ) -> Result<(), ErrorKind> {
         if positions.len() != self.positions.len() {
@@ -171,7 +175,10 @@ impl<S: Scalar> Body<S> {
                 found: positions.len(),
             });
         }
-        let Some(all) = take_over(level, positions, &mut self.spare) else {
+        let take_over = |from: &[[S; 3]], to: &mut [[S; 3]]| take_over(level, from, to);
+        let of_both = |a: Option<Bounds<S>>, b: Option<Bounds<S>>| Some(a?.union(&b?));
+        let spare = &mut self.spare;
+        let Some(all) = threads.run_parts(POINTS_JOB, positions, spare, take_over, of_both) else {
             // Which vertex it was is found out only if there was one.
             return Err(first_outside(
                 positions,

@@ -218,7 +218,7 @@ impl<S: Scalar> World<S> {
     pub fn set_positions(&mut self, body: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
         let place = self.place(body)?;
         self.bodies[place]
-            .take_over(self.level, positions)
+            .take_over(self.level, &self.threads, positions)
             .map_err(|kind| Error {
                 body: Some(body),
                 kind,
@@ -246,7 +246,7 @@ impl<S: Scalar> World<S> {
         self.lent.resize(body_there.vertex_count(), [S::NAN; 3]);
         write(&mut self.lent);
         body_there
-            .take_over(self.level, &self.lent)
+            .take_over(self.level, &self.threads, &self.lent)
             .map_err(|kind| {
                 let kind = match kind {
                     ErrorKind::BadPosition { vertex, position }

@@ -187,7 +187,7 @@ mod tests {
         let order = std::mem::take(&mut plan.order);
         let mesh = Mesh::in_order(triangles, positions.len(), order);
         let mut in_tree_order = Points::with_len(positions.len());
-        in_tree_order.gather(positions, mesh.vertex_ids());
+        in_tree_order.gather(&Threads::one(), positions, mesh.vertex_ids());
         let shape = Shape {
             positions: &in_tree_order,
             triangles: mesh.corners(),

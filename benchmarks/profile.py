@@ -21,7 +21,7 @@ PHASES = [
     ("lines of candidates", ["by_lines", "narrow_phase::intersect"], "pairs"),
     ("triangle boxes compared", ["of_two", "of_itself", "Meet::meet"], "candidate_pairs"),
     ("node boxes compared", ["expand", "overlap_mask"], "node_pairs"),
-    ("boxes made", ["make_group_true", "make_groups", "merge_groups", "make_levels"], "boxes"),
+    ("boxes made", ["make_block", "reach_leaves", "make_group_true", "make_groups", "merge_groups", "make_levels"], "boxes"),
     ("positions checked and copied", ["take_over"], "steps"),
     ("positions into tree order", ["bring_into_order"], "steps"),
     ("what is reached", ["reach", "Reached", "descend"], "node_pairs"),

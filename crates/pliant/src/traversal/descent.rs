@@ -3,11 +3,11 @@
 use super::Side;
 use super::expand::expand;
 use super::meet::{Meet, Place, block_pairs};
-use crate::geometry::Scalar;
+use crate::geometry::{Scalar, Shape};
 use crate::kernels::bits::Batch;
 use crate::pairs::{BlockPair, Candidate, LeafPair, NodePair};
 use crate::statistics::Statistics;
-use crate::tree::{Below, NodeId};
+use crate::tree::{Below, NodeId, Tree};
 use crate::update::{Reached, Updates};
 use fearless_simd::dispatch;
 use std::ops::ControlFlow;
@@ -32,14 +32,8 @@ pub(crate) trait Meeting<const N: usize>: Sync {
     const ITSELF: bool;
     /// Both bodies, or the one twice.
     fn sides(&self) -> [&Side<'_, N, Self::Coordinate>; 2];
-    /// Makes true what was reached in the first or the second tree.
-    fn reach(
-        &mut self,
-        updates: Updates,
-        which: usize,
-        reached: &mut Reached,
-        statistics: &mut Statistics,
-    );
+    /// The first or the second tree, and the shape of its body.
+    fn tree_mut(&mut self, which: usize) -> (&mut Tree<N>, &Shape<'_, Self::Coordinate>);
     /// The caller's numbers of two triangles.
     fn name(&self, candidate: Candidate) -> [u32; 2];
 }
@@ -61,11 +55,8 @@ pub(crate) struct Scratch {
     pub(crate) broke_at: Option<Candidate>,
 }
 
-/// Groups of either tree that a job of looking found not true, some perhaps more than once.
-#[derive(Debug, Default)]
-struct Untrue {
-    groups: [Vec<u32>; 2],
-}
+/// What a job of looking found not true in either tree, some perhaps more than once.
+type Untrue = [Vec<u32>; 2];
 
 /// What a job of expanding found.
 #[derive(Debug, Default)]
@@ -90,7 +81,7 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     loop {
         scratch.nodes.take_last(longest, &mut scratch.batch);
         longest = (longest * 2).min(LONGEST_BATCH);
-        reach_batch(updates, meeting, scratch, statistics);
+        reach_groups(updates, meeting, scratch, statistics);
         statistics.node_pairs +=
             scratch.batch.len() as u64 + expand_batch(updates, meeting, scratch);
 
@@ -105,41 +96,77 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
 }
 
 /// Makes true what is below the nodes of a batch.
-fn reach_batch<const N: usize, M: Meeting<N>>(
+fn reach_groups<const N: usize, M: Meeting<N>>(
     updates: Updates,
     meeting: &mut M,
     scratch: &mut Scratch,
     statistics: &mut Statistics,
 ) {
-    let Scratch {
-        batch,
-        untrue,
-        reached,
-        ..
-    } = scratch;
     let sides = meeting.sides();
-    let jobs = in_use(untrue, batch.len().div_ceil(EXPAND_JOB));
-    updates.threads.run(jobs, |number, job| {
-        for which in 0..2 {
-            let Side { tree, shape, .. } = sides[which];
-            job.groups[which].clear();
-            for pair in part(batch, number, EXPAND_JOB) {
-                if let Below::Group(below) = tree.child(pair[which]).below()
-                    && tree.groups[below as usize].epoch != shape.epoch
-                {
-                    job.groups[which].push(below);
-                }
+    let untrue = |which: usize, node: NodeId| {
+        let Side { tree, shape, .. } = sides[which];
+        match tree.child(node).below() {
+            Below::Group(below) if tree.groups[below as usize].epoch != shape.epoch => Some(below),
+            _ => None,
+        }
+    };
+    let found = find(updates, &scratch.batch, &mut scratch.untrue, untrue);
+    for which in 0..2 {
+        note(&mut scratch.reached, which, found);
+        // Of one tree, both are noted before.
+        if !M::ITSELF || which == 1 {
+            let (tree, shape) = meeting.tree_mut(which);
+            updates.reach(tree, shape, &mut scratch.reached, statistics);
+        }
+    }
+}
+
+/// Makes the boxes of the triangles in some leaves true.
+fn reach_leaves<const N: usize, M: Meeting<N>>(
+    updates: Updates,
+    meeting: &mut M,
+    pairs: &[LeafPair],
+    untrue: &mut Vec<Untrue>,
+    reached: &mut Reached,
+    statistics: &mut Statistics,
+) {
+    let sides = meeting.sides();
+    let found = find(updates, pairs, untrue, |which, leaf| {
+        let Side { tree, shape, .. } = sides[which];
+        (!tree.leaves.are_true(leaf, shape.epoch)).then_some(leaf)
+    });
+    for which in 0..2 {
+        note(reached, which, found);
+        if !M::ITSELF || which == 1 {
+            let (tree, shape) = meeting.tree_mut(which);
+            updates.reach_leaves(&mut tree.leaves, shape, reached, statistics);
+        }
+    }
+}
+
+/// What is not true on either side of some pairs, as `untrue` says.
+fn find<'j, P: Copy + Sync>(
+    updates: Updates,
+    pairs: &[[P; 2]],
+    jobs: &'j mut Vec<Untrue>,
+    untrue: impl Fn(usize, P) -> Option<u32> + Sync,
+) -> &'j [Untrue] {
+    let jobs = in_use(jobs, pairs.len().div_ceil(EXPAND_JOB));
+    updates.threads.run(jobs, |number, found| {
+        found.iter_mut().for_each(Vec::clear);
+        for pair in part(pairs, number, EXPAND_JOB) {
+            for which in 0..2 {
+                found[which].extend(untrue(which, pair[which]));
             }
         }
     });
-    for which in 0..2 {
-        for &group in jobs.iter().flat_map(|job| &job.groups[which]) {
-            reached.note(group);
-        }
-        // Of one tree, both are noted before.
-        if !M::ITSELF || which == 1 {
-            meeting.reach(updates, which, reached, statistics);
-        }
+    jobs
+}
+
+/// Notes what was found on one side.
+fn note(reached: &mut Reached, which: usize, found: &[Untrue]) {
+    for &number in found.iter().flat_map(|found| &found[which]) {
+        reached.note(number);
     }
 }
 
@@ -188,26 +215,28 @@ fn expand_batch<const N: usize, M: Meeting<N>>(
 /// Decides all pairs of leaves on the list, and shows the visitor what intersects.
 fn meet_leaves<const N: usize, M: Meeting<N>>(
     updates: Updates,
-    meeting: &M,
+    meeting: &mut M,
     scratch: &mut Scratch,
     most: &mut usize,
     statistics: &mut Statistics,
     visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    let sides = meeting.sides();
-    let trees = sides.map(|side| &side.tree.leaves);
     let Scratch {
         leaves,
         blocks,
+        untrue,
+        reached,
         met,
         broke_at,
         ..
     } = scratch;
     let mut place = Place::default();
     while place.pair < leaves.len() {
-        let pairs = if trees.iter().all(|leaves| leaves.are_blocks()) {
-            let end = leaves.len().min(place.pair + *most);
-            &leaves.as_slice()[std::mem::replace(&mut place.pair, end)..end]
+        let trees = meeting.sides().map(|side| &side.tree.leaves);
+        let first = place.pair;
+        let are_blocks = trees.iter().all(|leaves| leaves.are_blocks());
+        if are_blocks {
+            place.pair = leaves.len().min(first + *most);
         } else {
             let pairs = leaves.as_slice();
             place = if M::ITSELF {
@@ -215,8 +244,13 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
             } else {
                 block_pairs::<false>(trees, pairs, place, *most, blocks)
             };
-            &*blocks
-        };
+        }
+        // The last of them in part, perhaps.
+        let end = leaves.len().min(place.pair + usize::from(!are_blocks));
+        let pairs = &leaves.as_slice()[first..end];
+        reach_leaves(updates, meeting, pairs, untrue, reached, statistics);
+        let pairs = if are_blocks { pairs } else { &*blocks };
+        let (sides, meeting) = (meeting.sides(), &*meeting);
         *most = (*most * 2).min(MOST_BLOCKS);
         let jobs = in_use(met, pairs.len().div_ceil(MEET_JOB));
         updates.threads.run(jobs, |number, job| {

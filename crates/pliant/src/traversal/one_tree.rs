@@ -5,10 +5,9 @@
 
 use super::Side;
 use super::descent::Meeting;
-use crate::geometry::Scalar;
+use crate::geometry::{Scalar, Shape};
 use crate::pairs::Candidate;
-use crate::statistics::Statistics;
-use crate::update::{Reached, Updates};
+use crate::tree::Tree;
 
 /// A tree whose root box is true.
 pub(crate) struct OneTree<'t, const N: usize, S> {
@@ -23,14 +22,8 @@ impl<const N: usize, S: Scalar> Meeting<N> for OneTree<'_, N, S> {
         [&self.side; 2]
     }
 
-    fn reach(
-        &mut self,
-        updates: Updates,
-        _: usize,
-        reached: &mut Reached,
-        statistics: &mut Statistics,
-    ) {
-        updates.reach(self.side.tree, &self.side.shape, reached, statistics);
+    fn tree_mut(&mut self, _: usize) -> (&mut Tree<N>, &Shape<'_, S>) {
+        (self.side.tree, &self.side.shape)
     }
 
     fn name(&self, [a, b]: Candidate) -> [u32; 2] {

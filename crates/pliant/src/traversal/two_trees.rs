@@ -2,10 +2,9 @@
 
 use super::Side;
 use super::descent::Meeting;
-use crate::geometry::Scalar;
+use crate::geometry::{Scalar, Shape};
 use crate::pairs::Candidate;
-use crate::statistics::Statistics;
-use crate::update::{Reached, Updates};
+use crate::tree::Tree;
 
 /// Two trees whose root boxes are true and overlap.
 pub(crate) struct TwoTrees<'t, const N: usize, S> {
@@ -21,15 +20,9 @@ impl<const N: usize, S: Scalar> Meeting<N> for TwoTrees<'_, N, S> {
         [&self.a, &self.b]
     }
 
-    fn reach(
-        &mut self,
-        updates: Updates,
-        which: usize,
-        reached: &mut Reached,
-        statistics: &mut Statistics,
-    ) {
+    fn tree_mut(&mut self, which: usize) -> (&mut Tree<N>, &Shape<'_, S>) {
         let side = if which == 0 { &mut self.a } else { &mut self.b };
-        updates.reach(side.tree, &side.shape, reached, statistics);
+        (side.tree, &side.shape)
     }
 
     fn name(&self, [a, b]: Candidate) -> [u32; 2] {

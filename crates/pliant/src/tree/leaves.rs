@@ -1,7 +1,8 @@
 //! The triangles in every leaf and, where leaves hold several, the boxes of these triangles.
 //!
 //! With one triangle a leaf, as in the paper, the leaf's box is the triangle's and nothing else is kept. With more, each leaf
-//! owns as many blocks of eight boxes as its triangles need. They are made with the leaf's own box, and true if that is.
+//! owns as many blocks of eight boxes as its triangles need. They are made when the leaf is about to meet another, and are true if
+//! the leaf's epoch is the body's; then the leaf's own box is true as well.
 
 use crate::kernels::BoxLanes;
 use std::ops::Range;
@@ -27,13 +28,17 @@ pub(crate) struct Leaves {
     blocks: Vec<Block>,
     /// The first triangle of each block.
     firsts: Vec<u32>,
+    /// For each leaf the epoch of the body in which the boxes of its triangles were made; 0 is before every epoch.
+    epochs: Vec<u64>,
 }
 
-/// What does not change when boxes do.
-#[derive(Clone, Copy)]
-pub(crate) struct LeafRuns<'t> {
+/// Boxes of triangles as they are made: what is read, and what is written.
+pub(crate) struct LeafBoxes<'t> {
     runs: &'t [Leaf],
-    have_boxes: bool,
+    first_leaf: usize,
+    epochs: &'t mut [u64],
+    first_block: usize,
+    blocks: &'t mut [Block],
 }
 
 impl Leaves {
@@ -44,6 +49,7 @@ impl Leaves {
             have_boxes: size > 1,
             blocks: Vec::new(),
             firsts: Vec::new(),
+            epochs: Vec::new(),
         }
     }
 
@@ -55,6 +61,7 @@ impl Leaves {
             first_block: self.blocks.len() as u32,
         });
         if self.have_boxes {
+            self.epochs.push(0);
             for first in triangles.step_by(LEAF_LANES) {
                 self.blocks.push(Block::EMPTY);
                 self.firsts.push(first);
@@ -68,6 +75,7 @@ impl Leaves {
         self.runs.shrink_to_fit();
         self.blocks.shrink_to_fit();
         self.firsts.shrink_to_fit();
+        self.epochs.shrink_to_fit();
     }
 
     /// The triangles of a leaf, in tree order.
@@ -112,13 +120,21 @@ impl Leaves {
         &self.firsts
     }
 
-    /// What is read and what is written when boxes are made.
-    pub(crate) fn split(&mut self) -> (LeafRuns<'_>, &mut [Block]) {
-        let runs = LeafRuns {
+    /// Whether the boxes of a leaf's triangles are those of this epoch, if there are any.
+    #[inline]
+    pub(crate) fn are_true(&self, leaf: u32, epoch: u64) -> bool {
+        !self.have_boxes || self.epochs[leaf as usize] == epoch
+    }
+
+    /// All boxes, to make some of them.
+    pub(crate) fn boxes(&mut self) -> LeafBoxes<'_> {
+        LeafBoxes {
             runs: &self.runs,
-            have_boxes: self.have_boxes,
-        };
-        (runs, &mut self.blocks)
+            first_leaf: 0,
+            epochs: &mut self.epochs,
+            first_block: 0,
+            blocks: &mut self.blocks,
+        }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -126,16 +142,44 @@ impl Leaves {
     }
 }
 
-impl LeafRuns<'_> {
-    /// The triangles of a leaf, and its first block, if it has blocks.
+impl<'t> LeafBoxes<'t> {
+    /// Cuts them in two before a leaf.
+    pub(crate) fn split_before(self, leaf: u32) -> [Self; 2] {
+        let block = self.runs[leaf as usize].first_block as usize;
+        let (epochs, later_epochs) = self.epochs.split_at_mut(leaf as usize - self.first_leaf);
+        let (blocks, later_blocks) = self.blocks.split_at_mut(block - self.first_block);
+        let later = Self {
+            first_leaf: leaf as usize,
+            epochs: later_epochs,
+            first_block: block,
+            blocks: later_blocks,
+            ..self
+        };
+        [
+            Self {
+                epochs,
+                blocks,
+                ..self
+            },
+            later,
+        ]
+    }
+
+    /// The triangles of a leaf, the epoch of their boxes, and their blocks.
     #[inline(always)]
-    pub(crate) fn get(&self, leaf: u32) -> (Range<usize>, Option<usize>) {
+    pub(crate) fn of(&mut self, leaf: u32) -> (Range<usize>, &mut u64, &mut [Block]) {
         let Leaf {
             start,
             end,
             first_block,
         } = self.runs[leaf as usize];
-        let first_block = self.have_boxes.then_some(first_block as usize);
-        (start as usize..end as usize, first_block)
+        let triangles = start as usize..end as usize;
+        let first = first_block as usize - self.first_block;
+        let blocks = &mut self.blocks[first..first + triangles.len().div_ceil(LEAF_LANES)];
+        (
+            triangles,
+            &mut self.epochs[leaf as usize - self.first_leaf],
+            blocks,
+        )
     }
 }

@@ -24,7 +24,7 @@ mod vertex_sets;
 use crate::geometry::Aabb;
 use crate::mesh::Mesh;
 use build::Plan;
-pub(crate) use leaves::{Block, LEAF_LANES, LeafRuns, Leaves};
+pub(crate) use leaves::{LEAF_LANES, LeafBoxes, Leaves};
 pub(crate) use neighbours::Neighbours;
 pub(crate) use siblings::{Below, Child, Siblings};
 pub(crate) use vertex_sets::VertexSets;

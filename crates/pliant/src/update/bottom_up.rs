@@ -6,7 +6,6 @@
 
 use super::make::{Work, make_groups_true, merge_groups};
 use crate::geometry::Scalar;
-use crate::statistics::Statistics;
 use crate::tree::{Below, Tree};
 
 /// Makes the nodes of `top` and of `levels - 1` levels of groups below it true, and the triangles in the leaves among them.
@@ -17,7 +16,6 @@ pub(super) fn make_levels_true<const N: usize, S: Scalar>(
     top: u32,
     levels: u32,
     groups: &mut Vec<u32>,
-    statistics: &mut Statistics,
 ) -> u64 {
     // The groups of the subtree level by level, in ascending order; those from `lowest` on are the lowest level made here.
     groups.clear();
@@ -38,5 +36,5 @@ pub(super) fn make_levels_true<const N: usize, S: Scalar>(
         lowest = end;
     }
     let (above, lowest) = groups.split_at(lowest);
-    make_groups_true(work, tree, lowest, statistics) + merge_groups(work, tree, above, statistics)
+    make_groups_true(work, tree, lowest) + merge_groups(work, tree, above)
 }

@@ -29,7 +29,7 @@ pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
         return;
     }
     let levels = level_ahead(update, tree.depth) + 1;
-    let boxes = make_levels_true(work, tree, 0, levels, groups, statistics);
+    let boxes = make_levels_true(work, tree, 0, levels, groups);
     // The root alone, from the vertices, is the beginning of top-down.
     *(if update == Update::TopDown {
         &mut statistics.boxes_top_down

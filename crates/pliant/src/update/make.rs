@@ -1,14 +1,13 @@
 //! Boxes of groups, straight from the vertices and triangles below them, as many groups at once as there are threads.
 //!
-//! Groups are stored level by level in the order of their triangles, and so are the blocks of triangles in leaves. So groups in
-//! ascending order are cut into runs, and each run owns one part of either array: no two jobs write one box.
+//! Groups are stored level by level in the order of their triangles. So groups in ascending order are cut into runs, and each run
+//! owns one part of the array: no two jobs write one box.
 
 use crate::exec::Threads;
 use crate::geometry::{Scalar, Shape};
 use crate::kernels::Level;
 use crate::kernels::extent::{self, Extent};
-use crate::statistics::Statistics;
-use crate::tree::{Below, Block, LEAF_LANES, LeafRuns, Siblings, Tree, VertexSets};
+use crate::tree::{Below, Leaves, Siblings, Tree, VertexSets};
 use fearless_simd::{Simd, dispatch};
 
 /// Groups in a job: some ten microseconds of work.
@@ -27,54 +26,31 @@ struct Job<'t, const N: usize> {
     run: &'t [u32],
     first_group: usize,
     groups: &'t mut [Siblings<N>],
-    first_block: usize,
-    blocks: &'t mut [Block],
-    /// Boxes of nodes and of triangles made.
-    made: [u64; 2],
+    made: u64,
 }
 
-impl<'t, const N: usize> Job<'t, N> {
-    /// A run of groups, and all of the tree.
-    fn of_all(run: &'t [u32], groups: &'t mut [Siblings<N>], blocks: &'t mut [Block]) -> Self {
-        Self {
-            run,
-            first_group: 0,
-            groups,
-            first_block: 0,
-            blocks,
-            made: [0; 2],
-        }
-    }
-}
-
-/// Makes groups true from what is below them; they come in ascending order. Returns how many boxes of nodes it made.
+/// Makes groups true from what is below them; they come in ascending order. Returns how many boxes it made.
 pub(super) fn make_groups_true<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
     tree: &mut Tree<N>,
     run: &[u32],
-    statistics: &mut Statistics,
 ) -> u64 {
-    let (leaves, blocks) = tree.leaves.split();
-    let mut whole = Job::of_all(run, &mut tree.groups, blocks);
+    let (vertices, leaves) = (&tree.vertices, &tree.leaves);
     let make = |job: &mut Job<'_, N>| {
         dispatch!(work.level, i => {
             for &group in job.run {
-                make_group_true::<_, _, _, false>(i, job, group as usize, leaves, &tree.vertices, work.shape);
+                make_group_true::<_, _, _, false>(i, job, group as usize, leaves, vertices, work.shape);
             }
         });
     };
-    let [nodes, triangles] = if run.len() <= JOB || !work.threads.are_many() {
+    let mut whole = Job::of_all(run, &mut tree.groups);
+    if run.len() <= JOB || !work.threads.are_many() {
         make(&mut whole);
-        whole.made
-    } else {
-        let mut jobs = cut(whole, leaves);
-        work.threads.run(&mut jobs, |_, job| make(job));
-        jobs.iter().fold([0; 2], |all, job| {
-            [all[0] + job.made[0], all[1] + job.made[1]]
-        })
-    };
-    statistics.triangle_boxes += triangles;
-    nodes
+        return whole.made;
+    }
+    let mut jobs = cut(whole);
+    work.threads.run(&mut jobs, |_, job| make(job));
+    jobs.iter().map(|job| job.made).sum()
 }
 
 /// Makes groups true from the groups below them, which are, and from the triangles in their leaves. The groups come in ascending
@@ -83,71 +59,59 @@ pub(super) fn merge_groups<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
     tree: &mut Tree<N>,
     run: &[u32],
-    statistics: &mut Statistics,
 ) -> u64 {
-    let (leaves, blocks) = tree.leaves.split();
-    let mut job = Job::of_all(run, &mut tree.groups, blocks);
+    let mut job = Job::of_all(run, &mut tree.groups);
     dispatch!(work.level, i => {
         for &group in run.iter().rev() {
-            make_group_true::<_, _, _, true>(i, &mut job, group as usize, leaves, &tree.vertices, work.shape);
+            make_group_true::<_, _, _, true>(i, &mut job, group as usize, &tree.leaves, &tree.vertices, work.shape);
         }
     });
-    statistics.triangle_boxes += job.made[1];
-    job.made[0]
+    job.made
+}
+
+impl<'t, const N: usize> Job<'t, N> {
+    /// A run of groups, and all of the tree.
+    fn of_all(run: &'t [u32], groups: &'t mut [Siblings<N>]) -> Self {
+        Self {
+            run,
+            first_group: 0,
+            groups,
+            made: 0,
+        }
+    }
 }
 
 /// Cuts a job into jobs of fewer groups.
-fn cut<'t, const N: usize>(whole: Job<'t, N>, leaves: LeafRuns) -> Vec<Job<'t, N>> {
+fn cut<const N: usize>(whole: Job<'_, N>) -> Vec<Job<'_, N>> {
     let Job {
         run,
-        mut first_group,
+        first_group,
         mut groups,
-        mut first_block,
-        mut blocks,
         ..
     } = whole;
     let mut jobs = Vec::with_capacity(run.len().div_ceil(JOB));
-    let mut runs = run.chunks(JOB).peekable();
-    while let Some(run) = runs.next() {
-        // Up to the first group of the next job, and the first block below it.
-        let next_group = runs.peek().map(|next| next[0] as usize);
-        let end = next_group.map_or(groups.len(), |next| next - first_group);
-        let (own_groups, other_groups) = groups.split_at_mut(end);
-        let next_block = other_groups
-            .iter()
-            .find_map(|group| first_block_below(group, leaves));
-        let end = next_block.map_or(blocks.len(), |next| next - first_block);
-        let (own_blocks, other_blocks) = blocks.split_at_mut(end);
+    for run in run.chunks(JOB).rev() {
+        let first = run[0] as usize;
+        let (before, own) = groups.split_at_mut(first - first_group);
         jobs.push(Job {
             run,
-            first_group,
-            groups: own_groups,
-            first_block,
-            blocks: own_blocks,
-            made: [0; 2],
+            first_group: first,
+            groups: own,
+            made: 0,
         });
-        first_group = next_group.unwrap_or(first_group);
-        first_block = next_block.unwrap_or(first_block);
-        (groups, blocks) = (other_groups, other_blocks);
+        groups = before;
     }
+    jobs.reverse();
     jobs
 }
 
-/// The first block of triangles in a leaf of a group, if it has leaves and they have blocks.
-fn first_block_below<const N: usize>(group: &Siblings<N>, leaves: LeafRuns) -> Option<usize> {
-    group.used_children().find_map(|child| match child.below() {
-        Below::Leaf(leaf) => leaves.get(leaf).1,
-        Below::Group(_) => None,
-    })
-}
-
-/// Makes one group true, and the boxes of the triangles in its leaves. If `MERGE`, the groups below are true.
+/// Makes one group true. If `MERGE`, the groups below are true.
 #[inline(always)]
 fn make_group_true<I: Simd, const N: usize, S: Scalar, const MERGE: bool>(
     i: I,
     job: &mut Job<'_, N>,
     group: usize,
-    leaves: LeafRuns,
+    leaves: &Leaves,
     vertices: &VertexSets,
     shape: &Shape<S>,
 ) {
@@ -162,32 +126,17 @@ fn make_group_true<I: Simd, const N: usize, S: Scalar, const MERGE: bool>(
                 i,
                 &job.groups[below as usize - job.first_group].boxes.union(),
             ),
-            Below::Group(_) => {
+            Below::Leaf(leaf) if !leaves.have_boxes() => {
+                extent::of_triangle(i, shape, leaves.triangles(leaf).start)
+            }
+            _ => {
                 let (run, border) = vertices.run_and_border(first_node + lane);
                 extent::of_points(i, shape, run, border)
-            }
-            Below::Leaf(leaf) => {
-                let (triangles, first_block) = leaves.get(leaf);
-                let Some(first_block) = first_block else {
-                    boxes[lane] = extent::of_triangle(i, shape, triangles.start as u32);
-                    continue;
-                };
-                job.made[1] += triangles.len() as u64;
-                let mut all = None;
-                let blocks = &mut job.blocks[first_block - job.first_block..];
-                for (block, triangles) in blocks
-                    .iter_mut()
-                    .zip(shape.triangles[triangles].chunks(LEAF_LANES))
-                {
-                    let of_block = extent::of_block(i, shape, triangles, block);
-                    all = Some(all.map_or(of_block, |all| extent::union(all, of_block)));
-                }
-                all.expect("a leaf has triangles")
             }
         };
     }
     let siblings = &mut job.groups[place];
     extent::store(boxes, count, &mut siblings.boxes);
     siblings.epoch = shape.epoch;
-    job.made[0] += count as u64;
+    job.made += count as u64;
 }

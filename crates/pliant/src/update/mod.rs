@@ -10,10 +10,11 @@
 //! ```
 //!
 //! `hybrid` decides how far ahead, `bottom_up` makes some levels below a group, `top_down` makes what a traversal reaches, and
-//! `make` makes the boxes, for all of them. Boxes made are counted, so that the strategies can be compared by their work.
+//! `make` makes the boxes, for all of them; `leaves` makes those of single triangles. Boxes made are counted, so that the strategies can be compared by their work.
 
 mod bottom_up;
 mod hybrid;
+mod leaves;
 mod make;
 mod top_down;
 
@@ -22,7 +23,7 @@ use crate::geometry::{Scalar, Shape};
 use crate::kernels::Level;
 use crate::options::Update;
 use crate::statistics::Statistics;
-use crate::tree::Tree;
+use crate::tree::{Leaves, Tree};
 use make::Work;
 pub(crate) use top_down::Reached;
 
@@ -56,8 +57,18 @@ impl Updates<'_> {
     ) {
         let levels = self.update.levels_at_once();
         let work = self.work(shape);
-        let boxes = top_down::reach_groups(work, tree, reached, levels, statistics);
-        statistics.boxes_top_down += boxes;
+        statistics.boxes_top_down += top_down::reach_groups(work, tree, reached, levels);
+    }
+
+    /// Makes true the boxes of triangles in leaves that a traversal has reached; they are not true.
+    pub(crate) fn reach_leaves<S: Scalar>(
+        &self,
+        leaves: &mut Leaves,
+        shape: &Shape<S>,
+        reached: &mut Reached,
+        statistics: &mut Statistics,
+    ) {
+        statistics.triangle_boxes += leaves::reach_leaves(self.work(shape), leaves, reached);
     }
 
     fn work<'w, 's, S>(&'w self, shape: &'w Shape<'s, S>) -> Work<'w, 's, S> {

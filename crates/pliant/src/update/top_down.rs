@@ -6,45 +6,44 @@
 use super::bottom_up::make_levels_true;
 use super::make::{Work, make_groups_true};
 use crate::geometry::Scalar;
-use crate::statistics::Statistics;
 use crate::tree::Tree;
 
-/// Groups that were reached, in the order of memory and each once, however often they were noted.
+/// Groups or leaves that were reached, in the order of memory and each once, however often they were noted.
 #[derive(Debug, Default)]
 pub(crate) struct Reached {
-    /// A bit for every group.
+    /// A bit for each.
     noted: Vec<u64>,
-    groups: Vec<u32>,
+    any: bool,
+    listed: Vec<u32>,
     /// For making several levels at once.
     below: Vec<u32>,
-    any: bool,
 }
 
 impl Reached {
-    /// Notes a group.
+    /// Notes one.
     #[inline]
-    pub(crate) fn note(&mut self, group: u32) {
-        let word = group as usize / 64;
+    pub(crate) fn note(&mut self, number: u32) {
+        let word = number as usize / 64;
         if word >= self.noted.len() {
             self.noted.resize(word + 1, 0);
         }
-        self.noted[word] |= 1 << (group % 64);
+        self.noted[word] |= 1 << (number % 64);
         self.any = true;
     }
 
     /// Lists what was noted, and forgets it.
-    fn list(&mut self) {
-        self.groups.clear();
-        if !std::mem::take(&mut self.any) {
-            return;
-        }
-        for (word, bits) in self.noted.iter_mut().enumerate() {
-            let mut rest = std::mem::take(bits);
-            while rest != 0 {
-                self.groups.push(word as u32 * 64 + rest.trailing_zeros());
-                rest &= rest - 1;
+    pub(super) fn list(&mut self) -> &[u32] {
+        self.listed.clear();
+        if std::mem::take(&mut self.any) {
+            for (word, bits) in self.noted.iter_mut().enumerate() {
+                let mut rest = std::mem::take(bits);
+                while rest != 0 {
+                    self.listed.push(word as u32 * 64 + rest.trailing_zeros());
+                    rest &= rest - 1;
+                }
             }
         }
+        &self.listed
     }
 }
 
@@ -55,17 +54,17 @@ pub(super) fn reach_groups<const N: usize, S: Scalar>(
     tree: &mut Tree<N>,
     reached: &mut Reached,
     levels: u32,
-    statistics: &mut Statistics,
 ) -> u64 {
-    reached.list();
     if levels == 1 {
-        return make_groups_true(work, tree, &reached.groups, statistics);
+        return make_groups_true(work, tree, reached.list());
     }
+    reached.list();
+    let Reached { listed, below, .. } = reached;
     let mut boxes = 0;
-    for &group in &reached.groups {
+    for &group in &*listed {
         // A group may have been made with one above it.
         if tree.groups[group as usize].epoch != work.shape.epoch {
-            boxes += make_levels_true(work, tree, group, levels, &mut reached.below, statistics);
+            boxes += make_levels_true(work, tree, group, levels, below);
         }
     }
     boxes

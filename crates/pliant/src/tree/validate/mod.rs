@@ -42,11 +42,11 @@ impl<const N: usize> Tree<N> {
                 .iter()
                 .copied()
                 .collect();
-            let listed: Vec<u32> = self
+            let listed: BTreeSet<u32> = self
                 .vertices
                 .vertices(siblings.first_node as usize + lane)
                 .collect();
-            if listed.len() != below.len() || !listed.iter().all(|vertex| below.contains(vertex)) {
+            if listed != below {
                 return Err(format!(
                     "node {group}/{lane}: its vertex list is not the set of vertices below it"
                 ));
@@ -73,8 +73,7 @@ impl<const N: usize> Tree<N> {
             }
 
             match siblings.children[lane].below() {
-                Below::Leaf(leaf) if is_true => self.validate_leaf(leaf, shape)?,
-                Below::Leaf(_) => {}
+                Below::Leaf(leaf) => self.validate_leaf(leaf, is_true, shape)?,
                 Below::Group(below) => {
                     let mut next = triangles.start;
                     let lanes = self.groups[below as usize].len();
@@ -130,9 +129,20 @@ impl<const N: usize> Tree<N> {
         Ok(())
     }
 
-    fn validate_leaf<S: Scalar>(&self, leaf: u32, shape: &Shape<S>) -> Result<(), String> {
+    fn validate_leaf<S: Scalar>(
+        &self,
+        leaf: u32,
+        is_true: bool,
+        shape: &Shape<S>,
+    ) -> Result<(), String> {
         if !self.leaves.have_boxes() {
             return Ok(());
+        }
+        let claimed = self.leaves.are_true(leaf, shape.epoch);
+        if claimed && !is_true {
+            return Err(format!(
+                "leaf {leaf}: the boxes of its triangles are true and its own is not"
+            ));
         }
         let triangles = self.leaves.triangles(leaf);
         for (index, triangle) in triangles.enumerate() {
@@ -143,7 +153,7 @@ impl<const N: usize> Tree<N> {
             }
             let found = self.leaves.blocks()[block].get(index % super::LEAF_LANES);
             let exact = shape.box_of(triangle);
-            if found != exact {
+            if claimed && found != exact {
                 return Err(format!(
                     "leaf {leaf}: triangle {triangle} has box {found:?}, not {exact:?}"
                 ));

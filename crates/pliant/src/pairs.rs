@@ -25,6 +25,13 @@ pub(crate) type NodePair = [NodeId; 2];
 /// Within the traversal: two leaves whose boxes overlap.
 pub(crate) type LeafPair = [u32; 2];
 
+/// Within the traversal: leaves side by side in one group of siblings that are in pairs, a bit for each lane.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct WantedLeaves {
+    pub(crate) group: u32,
+    pub(crate) lanes: u8,
+}
+
 /// Within the traversal: two blocks of up to eight triangles, in leaves whose boxes overlap.
 pub(crate) type BlockPair = [u32; 2];
 

@@ -51,6 +51,11 @@ pub(crate) fn of_points<I: Simd, S: Scalar>(
     run: std::ops::Range<usize>,
     others: &[u32],
 ) -> Extent<I> {
+    if run.is_empty()
+        && let Ok(others) = others.try_into()
+    {
+        return of_twelve(i, shape, others);
+    }
     let run = shape.positions.run(run);
     let first = match others.first() {
         Some(&other) => shape.positions.wide(other),
@@ -86,6 +91,19 @@ pub(crate) fn of_points<I: Simd, S: Scalar>(
     let lo = lo[0].min(lo[1]).min(lo[2].min(lo[3]));
     let hi = hi[0].max(hi[1]).max(hi[2].max(hi[3]));
     S::outward(lo, hi, &shape.origin)
+}
+
+/// The box of twelve points: as many as most leaves have.
+#[inline(always)]
+fn of_twelve<I: Simd, S: Scalar>(i: I, shape: &Shape<S>, points: &[u32; 12]) -> Extent<I> {
+    let first = S::load(i, shape.positions.wide(points[0]));
+    let (mut lo, mut hi) = ([first; 2], [first; 2]);
+    for which in 1..12 {
+        let point = S::load(i, shape.positions.wide(points[which]));
+        lo[which % 2] = lo[which % 2].min(point);
+        hi[which % 2] = hi[which % 2].max(point);
+    }
+    S::outward(lo[0].min(lo[1]), hi[0].max(hi[1]), &shape.origin)
 }
 
 /// The box of one triangle.
@@ -188,7 +206,7 @@ mod tests {
                         assert!(block.get(lane).lo.iter().all(|x| x.is_nan()));
                     }
                 }
-                for (run, others) in [(4..9, &[][..]), (2..2, &[1]), (5..6, &[0, 8]), (0..3, &[7, 5, 9]), (3..3, &[7, 5, 9, 0, 2, 2, 6, 6])] {
+                for (run, others) in [(4..9, &[][..]), (2..2, &[1]), (5..6, &[0, 8]), (0..3, &[7, 5, 9]), (3..3, &[7, 5, 9, 0, 2, 2, 6, 6]), (3..3, &[7, 5, 9, 0, 2, 1, 6, 11, 13, 4, 3, 3])] {
                     let mut bounds = Bounds::EMPTY;
                     let all = run.clone().map(|place| place as u32).chain(others.iter().copied());
                     all.for_each(|vertex| bounds.include(positions.get(vertex)));

@@ -1,11 +1,10 @@
 //! The loop of the traversal, the same for two trees and for one.
 
 use super::Side;
-use super::expand::expand;
+use super::expand::{Found, expand};
 use super::meet::{Meet, Place, block_pairs};
 use crate::geometry::{Scalar, Shape};
-use crate::kernels::bits::Batch;
-use crate::pairs::{BlockPair, Candidate, LeafPair, NodePair};
+use crate::pairs::{BlockPair, Candidate, NodePair};
 use crate::statistics::Statistics;
 use crate::tree::{Below, NodeId, Tree};
 use crate::update::{Reached, Updates};
@@ -44,12 +43,12 @@ pub(crate) struct Scratch {
     /// Of refreshing ahead.
     pub(crate) groups: Vec<u32>,
     reached: Reached,
-    nodes: Batch<NodePair>,
     batch: Vec<NodePair>,
-    leaves: Batch<LeafPair>,
-    blocks: Vec<BlockPair>,
     untrue: Vec<Untrue>,
-    expanded: Vec<Expanded>,
+    /// The stack, and pairs of leaves that are to meet.
+    found: Found,
+    expanded: Vec<Found>,
+    blocks: Vec<BlockPair>,
     met: Vec<Meet>,
     /// The pair at which a visitor broke, in tree order.
     pub(crate) broke_at: Option<Candidate>,
@@ -57,14 +56,6 @@ pub(crate) struct Scratch {
 
 /// What a job of looking found not true in either tree, some perhaps more than once.
 type Untrue = [Vec<u32>; 2];
-
-/// What a job of expanding found.
-#[derive(Debug, Default)]
-struct Expanded {
-    nodes: Batch<NodePair>,
-    leaves: Batch<LeafPair>,
-    straight: u64,
-}
 
 /// Shows the visitor every intersecting pair, until it breaks. The order is deterministic, not sorted.
 pub(crate) fn descend<const N: usize, M: Meeting<N>>(
@@ -74,19 +65,19 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     statistics: &mut Statistics,
     visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
-    scratch.nodes.clear();
-    scratch.leaves.clear();
-    scratch.nodes.push([NodeId::ROOT; 2]);
+    scratch.found.clear();
+    scratch.found.nodes.push([NodeId::ROOT; 2]);
     let (mut longest, mut most) = (FIRST_BATCH, 1);
     loop {
-        scratch.nodes.take_last(longest, &mut scratch.batch);
+        scratch.found.nodes.take_last(longest, &mut scratch.batch);
         longest = (longest * 2).min(LONGEST_BATCH);
         reach_groups(updates, meeting, scratch, statistics);
-        statistics.node_pairs +=
-            scratch.batch.len() as u64 + expand_batch(updates, meeting, scratch);
+        expand_batch(updates, meeting, scratch);
+        let straight = std::mem::take(&mut scratch.found.straight);
+        statistics.node_pairs += scratch.batch.len() as u64 + straight;
 
-        let last = scratch.nodes.is_empty();
-        if last || scratch.leaves.len() >= most {
+        let last = scratch.found.nodes.is_empty();
+        if last || scratch.found.leaves.len() >= most {
             meet_leaves(updates, meeting, scratch, &mut most, statistics, visit)?;
         }
         if last {
@@ -102,114 +93,89 @@ fn reach_groups<const N: usize, M: Meeting<N>>(
     scratch: &mut Scratch,
     statistics: &mut Statistics,
 ) {
+    let Scratch {
+        batch,
+        untrue,
+        reached,
+        ..
+    } = scratch;
     let sides = meeting.sides();
-    let untrue = |which: usize, node: NodeId| {
-        let Side { tree, shape, .. } = sides[which];
-        match tree.child(node).below() {
-            Below::Group(below) if tree.groups[below as usize].epoch != shape.epoch => Some(below),
-            _ => None,
-        }
-    };
-    let found = find(updates, &scratch.batch, &mut scratch.untrue, untrue);
-    for which in 0..2 {
-        note(&mut scratch.reached, which, found);
-        // Of one tree, both are noted before.
-        if !M::ITSELF || which == 1 {
-            let (tree, shape) = meeting.tree_mut(which);
-            updates.reach(tree, shape, &mut scratch.reached, statistics);
-        }
-    }
-}
-
-/// Makes the boxes of the triangles in some leaves true.
-fn reach_leaves<const N: usize, M: Meeting<N>>(
-    updates: Updates,
-    meeting: &mut M,
-    pairs: &[LeafPair],
-    untrue: &mut Vec<Untrue>,
-    reached: &mut Reached,
-    statistics: &mut Statistics,
-) {
-    let sides = meeting.sides();
-    let found = find(updates, pairs, untrue, |which, leaf| {
-        let Side { tree, shape, .. } = sides[which];
-        (!tree.leaves.are_true(leaf, shape.epoch)).then_some(leaf)
-    });
-    for which in 0..2 {
-        note(reached, which, found);
-        if !M::ITSELF || which == 1 {
-            let (tree, shape) = meeting.tree_mut(which);
-            updates.reach_leaves(&mut tree.leaves, shape, reached, statistics);
-        }
-    }
-}
-
-/// What is not true on either side of some pairs, as `untrue` says.
-fn find<'j, P: Copy + Sync>(
-    updates: Updates,
-    pairs: &[[P; 2]],
-    jobs: &'j mut Vec<Untrue>,
-    untrue: impl Fn(usize, P) -> Option<u32> + Sync,
-) -> &'j [Untrue] {
-    let jobs = in_use(jobs, pairs.len().div_ceil(EXPAND_JOB));
+    let jobs = in_use(untrue, batch.len().div_ceil(EXPAND_JOB));
     updates.threads.run(jobs, |number, found| {
         found.iter_mut().for_each(Vec::clear);
-        for pair in part(pairs, number, EXPAND_JOB) {
+        for pair in part(batch, number, EXPAND_JOB) {
             for which in 0..2 {
-                found[which].extend(untrue(which, pair[which]));
+                let Side { tree, shape, .. } = sides[which];
+                if let Below::Group(below) = tree.child(pair[which]).below()
+                    && tree.groups[below as usize].epoch != shape.epoch
+                {
+                    found[which].push(below);
+                }
             }
         }
     });
-    jobs
-}
-
-/// Notes what was found on one side.
-fn note(reached: &mut Reached, which: usize, found: &[Untrue]) {
-    for &number in found.iter().flat_map(|found| &found[which]) {
-        reached.note(number);
+    for which in 0..2 {
+        for &group in jobs.iter().flat_map(|found| &found[which]) {
+            reached.note(group);
+        }
+        // Of one tree, both are noted before.
+        if !M::ITSELF || which == 1 {
+            let (tree, shape) = meeting.tree_mut(which);
+            updates.reach(tree, shape, reached, statistics);
+        }
     }
 }
 
-/// Pairs of children onto the stack, pairs of leaves onto their list; returns how many of these went there straight.
+/// Makes true the boxes of the triangles in leaves that are to meet.
+fn reach_leaves<const N: usize, M: Meeting<N>>(
+    updates: Updates,
+    meeting: &mut M,
+    scratch: &mut Scratch,
+    statistics: &mut Statistics,
+) {
+    let Scratch { found, reached, .. } = scratch;
+    for which in 0..2 {
+        for wanted in found.wanted[which].as_slice() {
+            reached.note_lanes::<N>(wanted.group, wanted.lanes);
+        }
+        if !M::ITSELF || which == 1 {
+            let (tree, shape) = meeting.tree_mut(which);
+            updates.reach_leaves(tree, shape, reached, statistics);
+        }
+    }
+}
+
+/// Pairs of children onto the stack, pairs of leaves onto their list.
 fn expand_batch<const N: usize, M: Meeting<N>>(
     updates: Updates,
     meeting: &M,
     scratch: &mut Scratch,
-) -> u64 {
+) {
     let trees = meeting.sides().map(|side| &*side.tree);
-    let expand_some =
-        |batch: &[NodePair], nodes: &mut Batch<NodePair>, leaves: &mut Batch<LeafPair>| {
-            dispatch!(updates.level, i => if M::ITSELF {
-                expand::<_, N, true>(i, trees, batch, nodes, leaves)
-            } else {
-                expand::<_, N, false>(i, trees, batch, nodes, leaves)
-            })
-        };
+    let expand_some = |batch: &[NodePair], found: &mut Found| {
+        dispatch!(updates.level, i => if M::ITSELF {
+            expand::<_, N, true>(i, trees, batch, found);
+        } else {
+            expand::<_, N, false>(i, trees, batch, found);
+        });
+    };
     let Scratch {
-        nodes,
         batch,
-        leaves,
+        found,
         expanded,
         ..
     } = scratch;
     if batch.len() <= EXPAND_JOB || !updates.threads.are_many() {
-        return expand_some(batch, nodes, leaves);
+        return expand_some(batch, found);
     }
     let jobs = in_use(expanded, batch.len().div_ceil(EXPAND_JOB));
-    updates.threads.run(jobs, |number, job| {
-        job.nodes.clear();
-        job.leaves.clear();
-        job.straight = expand_some(
-            part(batch, number, EXPAND_JOB),
-            &mut job.nodes,
-            &mut job.leaves,
-        );
+    updates.threads.run(jobs, |number, found| {
+        found.clear();
+        expand_some(part(batch, number, EXPAND_JOB), found);
     });
     for job in &*jobs {
-        nodes.append(&job.nodes);
-        leaves.append(&job.leaves);
+        found.append(job);
     }
-    jobs.iter().map(|job| job.straight).sum()
 }
 
 /// Decides all pairs of leaves on the list, and shows the visitor what intersects.
@@ -221,36 +187,30 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
     statistics: &mut Statistics,
     visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
+    reach_leaves(updates, meeting, scratch, statistics);
     let Scratch {
-        leaves,
+        found,
         blocks,
-        untrue,
-        reached,
         met,
         broke_at,
         ..
     } = scratch;
+    let sides = meeting.sides();
+    let trees = sides.map(|side| &side.tree.leaves);
+    let leaves = found.leaves.as_slice();
     let mut place = Place::default();
     while place.pair < leaves.len() {
-        let trees = meeting.sides().map(|side| &side.tree.leaves);
-        let first = place.pair;
-        let are_blocks = trees.iter().all(|leaves| leaves.are_blocks());
-        if are_blocks {
-            place.pair = leaves.len().min(first + *most);
+        let pairs = if trees.iter().all(|leaves| leaves.are_blocks()) {
+            let end = leaves.len().min(place.pair + *most);
+            &leaves[std::mem::replace(&mut place.pair, end)..end]
         } else {
-            let pairs = leaves.as_slice();
             place = if M::ITSELF {
-                block_pairs::<true>(trees, pairs, place, *most, blocks)
+                block_pairs::<true>(trees, leaves, place, *most, blocks)
             } else {
-                block_pairs::<false>(trees, pairs, place, *most, blocks)
+                block_pairs::<false>(trees, leaves, place, *most, blocks)
             };
-        }
-        // The last of them in part, perhaps.
-        let end = leaves.len().min(place.pair + usize::from(!are_blocks));
-        let pairs = &leaves.as_slice()[first..end];
-        reach_leaves(updates, meeting, pairs, untrue, reached, statistics);
-        let pairs = if are_blocks { pairs } else { &*blocks };
-        let (sides, meeting) = (meeting.sides(), &*meeting);
+            &*blocks
+        };
         *most = (*most * 2).min(MOST_BLOCKS);
         let jobs = in_use(met, pairs.len().div_ceil(MEET_JOB));
         updates.threads.run(jobs, |number, job| {
@@ -276,7 +236,7 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
             }
         }
     }
-    leaves.clear();
+    found.clear_leaves();
     ControlFlow::Continue(())
 }
 

@@ -7,19 +7,28 @@ use super::make::Work;
 use super::top_down::Reached;
 use crate::geometry::Scalar;
 use crate::kernels::extent;
-use crate::tree::{LEAF_LANES, LeafBoxes, Leaves};
+use crate::tree::{Below, LEAF_LANES, LeafBoxes, NodeId, Tree};
 use fearless_simd::dispatch;
 
 /// Leaves in a job: some ten microseconds of work.
 const JOB: usize = 128;
 
-/// Makes the boxes of the triangles in leaves that were reached; they are not true. Returns how many boxes it made.
-pub(super) fn reach_leaves<S: Scalar>(
+/// Makes the boxes of the triangles in leaves that were reached, unless they are true. Returns how many boxes it made.
+pub(super) fn reach_leaves<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
-    leaves: &mut Leaves,
+    tree: &mut Tree<N>,
     reached: &mut Reached,
 ) -> u64 {
-    let reached = reached.list();
+    let epoch = work.shape.epoch;
+    let (nodes, untrue) = reached.list();
+    untrue.clear();
+    untrue.extend(nodes.iter().filter_map(|&node| {
+        let (group, lane) = NodeId::numbered(node).group_and_lane::<N>();
+        match tree.groups[group].children[lane].below() {
+            Below::Leaf(leaf) if !tree.leaves.are_true(leaf, epoch) => Some(leaf),
+            _ => None,
+        }
+    }));
     let make = |run: &[u32], boxes: &mut LeafBoxes| {
         let shape = work.shape;
         let mut made = 0;
@@ -35,12 +44,12 @@ pub(super) fn reach_leaves<S: Scalar>(
         });
         made
     };
-    let mut rest = leaves.boxes();
-    if reached.len() <= JOB || !work.threads.are_many() {
-        return make(reached, &mut rest);
+    let mut rest = tree.leaves.boxes();
+    if untrue.len() <= JOB || !work.threads.are_many() {
+        return make(untrue, &mut rest);
     }
-    let mut jobs = Vec::with_capacity(reached.len().div_ceil(JOB));
-    for run in reached.chunks(JOB).rev() {
+    let mut jobs = Vec::with_capacity(untrue.len().div_ceil(JOB));
+    for run in untrue.chunks(JOB).rev() {
         let [before, own] = rest.split_before(run[0]);
         jobs.push((run, own, 0));
         rest = before;

@@ -23,7 +23,7 @@ use crate::geometry::{Scalar, Shape};
 use crate::kernels::Level;
 use crate::options::Update;
 use crate::statistics::Statistics;
-use crate::tree::{Leaves, Tree};
+use crate::tree::Tree;
 use make::Work;
 pub(crate) use top_down::Reached;
 
@@ -60,15 +60,15 @@ impl Updates<'_> {
         statistics.boxes_top_down += top_down::reach_groups(work, tree, reached, levels);
     }
 
-    /// Makes true the boxes of triangles in leaves that a traversal has reached; they are not true.
-    pub(crate) fn reach_leaves<S: Scalar>(
+    /// Makes true the boxes of triangles in leaves that a traversal has reached; some may be true.
+    pub(crate) fn reach_leaves<const N: usize, S: Scalar>(
         &self,
-        leaves: &mut Leaves,
+        tree: &mut Tree<N>,
         shape: &Shape<S>,
         reached: &mut Reached,
         statistics: &mut Statistics,
     ) {
-        statistics.triangle_boxes += leaves::reach_leaves(self.work(shape), leaves, reached);
+        statistics.triangle_boxes += leaves::reach_leaves(self.work(shape), tree, reached);
     }
 
     fn work<'w, 's, S>(&'w self, shape: &'w Shape<'s, S>) -> Work<'w, 's, S> {

@@ -8,15 +8,15 @@ use super::make::{Work, make_groups_true};
 use crate::geometry::Scalar;
 use crate::tree::Tree;
 
-/// Groups or leaves that were reached, in the order of memory and each once, however often they were noted.
+/// Groups or nodes that were reached, in the order of memory and each once, however often they were noted.
 #[derive(Debug, Default)]
 pub(crate) struct Reached {
     /// A bit for each.
     noted: Vec<u64>,
     any: bool,
     listed: Vec<u32>,
-    /// For making several levels at once.
-    below: Vec<u32>,
+    /// A list to work with.
+    scratch: Vec<u32>,
 }
 
 impl Reached {
@@ -31,8 +31,19 @@ impl Reached {
         self.any = true;
     }
 
-    /// Lists what was noted, and forgets it.
-    pub(super) fn list(&mut self) -> &[u32] {
+    /// Notes nodes of one group of siblings, a bit for each lane.
+    #[inline]
+    pub(crate) fn note_lanes<const N: usize>(&mut self, group: u32, lanes: u8) {
+        let first = group as usize * N;
+        if first / 64 >= self.noted.len() {
+            self.noted.resize(first / 64 + 1, 0);
+        }
+        self.noted[first / 64] |= u64::from(lanes) << (first % 64);
+        self.any = true;
+    }
+
+    /// Lists what was noted, and forgets it; also gives a list to work with.
+    pub(super) fn list(&mut self) -> (&[u32], &mut Vec<u32>) {
         self.listed.clear();
         if std::mem::take(&mut self.any) {
             for (word, bits) in self.noted.iter_mut().enumerate() {
@@ -43,7 +54,7 @@ impl Reached {
                 }
             }
         }
-        &self.listed
+        (&self.listed, &mut self.scratch)
     }
 }
 
@@ -55,16 +66,15 @@ pub(super) fn reach_groups<const N: usize, S: Scalar>(
     reached: &mut Reached,
     levels: u32,
 ) -> u64 {
+    let (reached, groups) = reached.list();
     if levels == 1 {
-        return make_groups_true(work, tree, reached.list());
+        return make_groups_true(work, tree, reached);
     }
-    reached.list();
-    let Reached { listed, below, .. } = reached;
     let mut boxes = 0;
-    for &group in &*listed {
+    for &group in reached {
         // A group may have been made with one above it.
         if tree.groups[group as usize].epoch != work.shape.epoch {
-            boxes += make_levels_true(work, tree, group, levels, below);
+            boxes += make_levels_true(work, tree, group, levels, groups);
         }
     }
     boxes

@@ -60,28 +60,6 @@ impl Threads {
         self.others.is_some()
     }
 
-    /// Does `work` on two equally long lists, cut side by side into parts of `size` where there are others to share them, and
-    /// joins what the parts gave, in their order.
-    pub(crate) fn run_parts<A: Sync, B: Send, R: Send>(
-        &self,
-        size: usize,
-        from: &[A],
-        to: &mut [B],
-        work: impl Fn(&[A], &mut [B]) -> R + Sync,
-        join: impl Fn(R, R) -> R,
-    ) -> R {
-        if !self.are_many() || to.len() <= size {
-            return work(from, to);
-        }
-        let parts = from.chunks(size).zip(to.chunks_mut(size));
-        let mut jobs: Vec<_> = parts.map(|(from, to)| (from, to, None)).collect();
-        self.run(&mut jobs, |_, (from, to, done)| {
-            *done = Some(work(from, to))
-        });
-        let all = jobs.into_iter().filter_map(|(_, _, done)| done);
-        all.reduce(join).expect("there is more than one part")
-    }
-
     /// Does all jobs; returns when all are done.
     pub(crate) fn run<J: Send>(&self, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
         match &self.others {

@@ -2,14 +2,18 @@
 
 use super::Scalar;
 use crate::exec::Threads;
+use crate::kernels::Level;
+use crate::kernels::gather::{IN_A_ROW, RowBounds, gather};
 
-/// Points in a job: some ten microseconds of work.
-pub(crate) const POINTS_JOB: usize = 1 << 13;
+/// Points in a job: some ten microseconds of work; a whole number of rows.
+pub(crate) const POINTS_JOB: usize = 256 * IN_A_ROW;
 
-/// Points of three coordinates and a fourth number that means nothing, so that each fills a register of four.
+/// Points of three coordinates and a fourth number that means nothing, so that each fills a register of four; and the bounds of
+/// every few in a row.
 #[derive(Clone, Debug)]
 pub(crate) struct Points<S> {
     points: Vec<[S; 4]>,
+    bounds: Vec<RowBounds<S>>,
 }
 
 impl<S: Scalar> Points<S> {
@@ -17,6 +21,7 @@ impl<S: Scalar> Points<S> {
     pub(crate) fn with_len(len: usize) -> Self {
         Self {
             points: vec![[S::default(); 4]; len],
+            bounds: vec![[[S::default(); 4]; 2]; len.div_ceil(IN_A_ROW)],
         }
     }
 
@@ -25,19 +30,31 @@ impl<S: Scalar> Points<S> {
     pub(crate) fn of(points: &[[S; 3]]) -> Self {
         let order: Vec<u32> = (0..points.len() as u32).collect();
         let mut all = Self::with_len(points.len());
-        all.gather(&Threads::one(), points, &order);
+        all.gather(crate::kernels::widest(), &Threads::one(), points, &order);
         all
     }
 
     /// Takes the points that `order` names.
-    pub(crate) fn gather(&mut self, threads: &Threads, from: &[[S; 3]], order: &[u32]) {
-        let gather = |order: &[u32], places: &mut [[S; 4]]| {
-            for (place, &point) in places.iter_mut().zip(order) {
-                let [x, y, z] = from[point as usize];
-                *place = [x, y, z, z];
-            }
-        };
-        threads.run_parts(POINTS_JOB, order, &mut self.points, gather, |(), ()| ());
+    pub(crate) fn gather(
+        &mut self,
+        level: Level,
+        threads: &Threads,
+        from: &[[S; 3]],
+        order: &[u32],
+    ) {
+        let Self { points, bounds } = self;
+        if points.len() <= POINTS_JOB || !threads.are_many() {
+            gather(level, from, order, points, bounds);
+            return;
+        }
+        let mut jobs: Vec<_> = points
+            .chunks_mut(POINTS_JOB)
+            .zip(bounds.chunks_mut(POINTS_JOB / IN_A_ROW))
+            .zip(order.chunks(POINTS_JOB))
+            .collect();
+        threads.run(&mut jobs, |_, ((points, bounds), order)| {
+            gather(level, from, order, points, bounds);
+        });
     }
 
     #[inline]
@@ -52,6 +69,12 @@ impl<S> Points<S> {
     #[inline(always)]
     pub(crate) fn run(&self, run: std::ops::Range<usize>) -> &[[S; 4]] {
         &self.points[run]
+    }
+
+    /// The bounds of every [`IN_A_ROW`] points.
+    #[inline(always)]
+    pub(crate) fn bounds(&self) -> &[RowBounds<S>] {
+        &self.bounds
     }
 
     /// A point and the number that means nothing.

@@ -1,6 +1,7 @@
 //! Boxes from points: of a run of points and some others, and of triangles by eights.
 
 use super::boxes::BoxLanes;
+use super::gather::IN_A_ROW;
 use super::wide::lanes_of;
 use crate::geometry::{Aabb, Points, Scalar, Shape};
 use fearless_simd::f32x4;
@@ -56,26 +57,26 @@ pub(crate) fn of_points<I: Simd, S: Scalar>(
     {
         return of_twelve(i, shape, others);
     }
-    let run = shape.positions.run(run);
+    // A long run is some points, rows that have bounds of their own, and some points.
+    let rows = run.start.div_ceil(IN_A_ROW)..run.end / IN_A_ROW;
+    let (head, rows, tail) = if rows.start < rows.end {
+        let (start, end) = (rows.start * IN_A_ROW, rows.end * IN_A_ROW);
+        (run.start..start, rows, end..run.end)
+    } else {
+        (run.clone(), 0..0, 0..0)
+    };
     let first = match others.first() {
         Some(&other) => shape.positions.wide(other),
-        None => &run[0],
+        None => shape.positions.wide(run.start as u32),
     };
     let first = S::load(i, first);
-    // Several of each, so that a minimum does not wait for the one before.
     let (mut lo, mut hi) = ([first; 4], [first; 4]);
-    let (fours, rest) = run.as_chunks::<4>();
-    for four in fours {
-        for which in 0..4 {
-            let point = S::load(i, &four[which]);
-            lo[which] = lo[which].min(point);
-            hi[which] = hi[which].max(point);
-        }
+    include(i, shape.positions.run(head), &mut lo, &mut hi);
+    for [row_lo, row_hi] in &shape.positions.bounds()[rows] {
+        lo[0] = lo[0].min(S::load(i, row_lo));
+        hi[0] = hi[0].max(S::load(i, row_hi));
     }
-    for point in rest {
-        let point = S::load(i, point);
-        (lo[0], hi[0]) = (lo[0].min(point), hi[0].max(point));
-    }
+    include(i, shape.positions.run(tail), &mut lo, &mut hi);
     let (fours, rest) = others.as_chunks::<4>();
     for four in fours {
         for which in 0..4 {
@@ -91,6 +92,28 @@ pub(crate) fn of_points<I: Simd, S: Scalar>(
     let lo = lo[0].min(lo[1]).min(lo[2].min(lo[3]));
     let hi = hi[0].max(hi[1]).max(hi[2].max(hi[3]));
     S::outward(lo, hi, &shape.origin)
+}
+
+/// Includes points side by side, several at a time, so that a minimum does not wait for the one before.
+#[inline(always)]
+fn include<I: Simd, S: Scalar>(
+    i: I,
+    points: &[[S; 4]],
+    lo: &mut [S::Four<I>; 4],
+    hi: &mut [S::Four<I>; 4],
+) {
+    let (fours, rest) = points.as_chunks::<4>();
+    for four in fours {
+        for which in 0..4 {
+            let point = S::load(i, &four[which]);
+            lo[which] = lo[which].min(point);
+            hi[which] = hi[which].max(point);
+        }
+    }
+    for point in rest {
+        let point = S::load(i, point);
+        (lo[0], hi[0]) = (lo[0].min(point), hi[0].max(point));
+    }
 }
 
 /// The box of twelve points: as many as most leaves have.

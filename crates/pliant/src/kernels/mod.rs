@@ -7,6 +7,7 @@
 //!
 //! ```text
 //! take_over   positions of the caller: checked, copied, bounded
+//! gather      positions into tree order, and the bounds of every few
 //! extent      boxes of points and of triangles
 //! boxes       boxes side by side, and which of them overlap
 //! find        where a number is among eight
@@ -19,6 +20,7 @@ pub(crate) mod bits;
 mod boxes;
 pub(crate) mod extent;
 mod find;
+pub(crate) mod gather;
 mod level;
 pub(crate) mod signs;
 pub(crate) mod take_over;

@@ -6,7 +6,8 @@ use crate::exec::Threads;
 use crate::geometry::{
     Aabb, Bounds, Origin, POINTS_JOB, Points, Scalar, Shape, denormals_are_kept,
 };
-use crate::kernels::{Level, take_over::take_over};
+use crate::kernels::take_over::take_over as take_over_some;
+use crate::kernels::{Level, widest};
 use crate::mesh::{self, Mesh};
 
 pub(super) struct Body<S> {
@@ -102,10 +103,11 @@ impl<S: Scalar> Body<S> {
     }
 
     /// Brings the shape into tree order, which everything that looks at it needs.
-    pub(super) fn bring_into_order(&mut self, threads: &Threads) {
+    pub(super) fn bring_into_order(&mut self, level: Level, threads: &Threads) {
         if !self.is_in_order {
             let order = self.mesh.vertex_ids();
-            self.in_tree_order.gather(threads, &self.positions, order);
+            self.in_tree_order
+                .gather(level, threads, &self.positions, order);
             self.is_in_order = true;
         }
     }
@@ -113,7 +115,12 @@ impl<S: Scalar> Body<S> {
     /// The shape in tree order, whether it was brought into it or not.
     pub(super) fn in_tree_order(&self) -> Points<S> {
         let mut points = Points::with_len(self.positions.len());
-        points.gather(&Threads::one(), &self.positions, self.mesh.vertex_ids());
+        points.gather(
+            widest(),
+            &Threads::one(),
+            &self.positions,
+            self.mesh.vertex_ids(),
+        );
         points
     }
 
@@ -175,10 +182,7 @@ impl<S: Scalar> Body<S> {
                 found: positions.len(),
             });
         }
-        let take_over = |from: &[[S; 3]], to: &mut [[S; 3]]| take_over(level, from, to);
-        let of_both = |a: Option<Bounds<S>>, b: Option<Bounds<S>>| Some(a?.union(&b?));
-        let spare = &mut self.spare;
-        let Some(all) = threads.run_parts(POINTS_JOB, positions, spare, take_over, of_both) else {
+        let Some(all) = take_over(level, threads, positions, &mut self.spare) else {
             // Which vertex it was is found out only if there was one.
             return Err(first_outside(
                 positions,
@@ -262,6 +266,25 @@ impl<S: Scalar> Body<S> {
         self.loose = loose;
         Ok(())
     }
+}
+
+/// Copies points, and returns their bounds, or none if a coordinate is out of range. The slices are equally long.
+fn take_over<S: Scalar>(
+    level: Level,
+    threads: &Threads,
+    from: &[[S; 3]],
+    to: &mut [[S; 3]],
+) -> Option<Bounds<S>> {
+    if from.len() <= POINTS_JOB || !threads.are_many() {
+        return take_over_some(level, from, to);
+    }
+    let parts = from.chunks(POINTS_JOB).zip(to.chunks_mut(POINTS_JOB));
+    let mut jobs: Vec<_> = parts.map(|(from, to)| (from, to, None)).collect();
+    threads.run(&mut jobs, |_, (from, to, bounds)| {
+        *bounds = take_over_some(level, from, to)
+    });
+    let mut parts = jobs.iter().map(|&(_, _, bounds)| bounds);
+    parts.try_fold(Bounds::EMPTY, |all, part| Some(all.union(&part?)))
 }
 
 fn bounds_of<S: Scalar>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {

@@ -37,7 +37,7 @@ impl<'w, S: Scalar> Step<'w, S> {
 
     /// Makes the upper levels of a tree true for this frame.
     pub(super) fn refresh_ahead<const N: usize>(&mut self, tree: &mut Tree<N>, body: usize) {
-        self.bodies[body].bring_into_order(self.threads);
+        self.bodies[body].bring_into_order(self.level, self.threads);
         let updates = self.updates();
         let shape = self.bodies[body].shape(self.origin);
         updates.refresh_ahead(tree, &shape, &mut self.scratch.groups, self.statistics);

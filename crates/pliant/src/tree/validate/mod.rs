@@ -188,7 +188,9 @@ impl<const N: usize> Tree<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exec::Threads;
     use crate::geometry::Points;
+    use crate::kernels::widest;
     use crate::tree::build::{Balanced, Connectivity, Split, plan};
 
     /// What is wrong with the tree that a rule makes of these triangles, as a mesh connectivity tree.
@@ -197,7 +199,7 @@ mod tests {
         let order = std::mem::take(&mut plan.order);
         let mesh = Mesh::in_order(triangles, positions.len(), order);
         let mut in_tree_order = Points::with_len(positions.len());
-        in_tree_order.gather(&Threads::one(), positions, mesh.vertex_ids());
+        in_tree_order.gather(widest(), &Threads::one(), positions, mesh.vertex_ids());
         let shape = Shape {
             positions: &in_tree_order,
             triangles: mesh.corners(),

@@ -1,0 +1,61 @@
+//! Points brought into another order, and the bounds of every few of them.
+//!
+//! While a point is in a register its bounds cost next to nothing. The boxes of upper nodes, whose points are long runs, are then
+//! made from bounds instead of points.
+
+use super::wide::Wide;
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch};
+
+/// Points in a row that have bounds of their own.
+pub(crate) const IN_A_ROW: usize = 32;
+
+/// The bounds of some points: lo, hi; the fourth numbers mean nothing.
+pub(crate) type RowBounds<S> = [[S; 4]; 2];
+
+/// Takes the points that `order` names, each with a number that means nothing; and the bounds of every [`IN_A_ROW`].
+pub(crate) fn gather<S: Wide + Default>(
+    level: Level,
+    from: &[[S; 3]],
+    order: &[u32],
+    points: &mut [[S; 4]],
+    bounds: &mut [RowBounds<S>],
+) {
+    dispatch!(level, i => in_rows(i, from, order, points, bounds));
+}
+
+#[inline(always)]
+fn in_rows<I: Simd, S: Wide + Default>(
+    i: I,
+    from: &[[S; 3]],
+    order: &[u32],
+    points: &mut [[S; 4]],
+    bounds: &mut [RowBounds<S>],
+) {
+    let (rows, rest) = points.as_chunks_mut::<IN_A_ROW>();
+    let (orders, rest_order) = order.as_chunks::<IN_A_ROW>();
+    for ((row, order), bounds) in rows.iter_mut().zip(orders).zip(bounds) {
+        take(from, order, row);
+        let (mut lo, mut hi) = ([S::load(i, &row[0]); 4], [S::load(i, &row[0]); 4]);
+        for four in row.as_chunks::<4>().0 {
+            for which in 0..4 {
+                let point = S::load(i, &four[which]);
+                lo[which] = lo[which].min(point);
+                hi[which] = hi[which].max(point);
+            }
+        }
+        (lo[0].min(lo[1]).min(lo[2].min(lo[3]))).store_slice(&mut bounds[0]);
+        (hi[0].max(hi[1]).max(hi[2].max(hi[3]))).store_slice(&mut bounds[1]);
+    }
+    // Fewer than a row need no bounds: nobody reads them.
+    take(from, rest_order, rest);
+}
+
+/// Takes points, each with a number that means nothing.
+#[inline(always)]
+fn take<S: Copy>(from: &[[S; 3]], order: &[u32], points: &mut [[S; 4]]) {
+    for (place, &point) in points.iter_mut().zip(order) {
+        let [x, y, z] = from[point as usize];
+        *place = [x, y, z, z];
+    }
+}

@@ -110,7 +110,7 @@ impl TreeOptions {
     pub(crate) fn describe(&self) -> String {
         let update = match (self.update, self.level) {
             (Update::Hybrid, Some(level)) => format!("hybrid at level {level}"),
-            (Update::Hybrid, None) => "hybrid at level n/2".to_owned(),
+            (Update::Hybrid, None) => "hybrid".to_owned(),
             (other, _) => value_name(other),
         };
         let (partition, leaf) = (value_name(self.partition), self.leaf_size);

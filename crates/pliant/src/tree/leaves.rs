@@ -30,6 +30,8 @@ pub(crate) struct Leaves {
     firsts: Vec<u32>,
     /// For each leaf the epoch of the body in which the boxes of its triangles were made; 0 is before every epoch.
     epochs: Vec<u64>,
+    /// How many of them were made since this was last asked.
+    reached: usize,
 }
 
 /// Boxes of triangles as they are made: what is read, and what is written.
@@ -50,6 +52,7 @@ impl Leaves {
             blocks: Vec::new(),
             firsts: Vec::new(),
             epochs: Vec::new(),
+            reached: 0,
         }
     }
 
@@ -124,6 +127,16 @@ impl Leaves {
     #[inline]
     pub(crate) fn are_true(&self, leaf: u32, epoch: u64) -> bool {
         !self.have_boxes || self.epochs[leaf as usize] == epoch
+    }
+
+    /// Notes that triangles of so many leaves have new boxes.
+    pub(crate) fn note_reached(&mut self, leaves: usize) {
+        self.reached += leaves;
+    }
+
+    /// How many that were since this was last asked.
+    pub(crate) fn take_reached(&mut self) -> usize {
+        std::mem::take(&mut self.reached)
     }
 
     /// All boxes, to make some of them.

@@ -1,4 +1,8 @@
 //! How far ahead: the level down to which boxes are made before a traversal begins.
+//!
+//! Where a traversal is going to reach most of a tree anyway, it is cheapest to make all of it at once: boxes of inner nodes are
+//! then merged from their children's and never made from vertices. What it is going to reach is about what it reached last time.
+//! The paper's level n / 2 is for all other cases.
 
 use super::bottom_up::make_levels_true;
 use super::make::Work;
@@ -7,11 +11,15 @@ use crate::geometry::Scalar;
 use crate::statistics::Statistics;
 use crate::tree::Tree;
 
-/// The level of the lowest boxes made ahead, in a tree whose deepest leaf is at level `depth`.
-fn level_ahead(update: Update, depth: u32) -> u32 {
+/// One leaf in so many reached is much of a tree: on spheres in contact, nodes that are reached are then about half of all.
+const MUCH: usize = 16;
+
+/// The level of the lowest boxes made ahead, in a tree whose deepest leaf is at level `depth`; `much` of it was reached last time.
+fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {
     match update {
         Update::BottomUp => depth,
         Update::TopDown => 0,
+        Update::Hybrid { level: None, .. } if much => depth,
         Update::Hybrid { level, .. } => level.unwrap_or(depth / 2).min(depth),
     }
 }
@@ -28,7 +36,8 @@ pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
     if tree.groups[0].epoch == work.shape.epoch {
         return;
     }
-    let levels = level_ahead(update, tree.depth) + 1;
+    let much = tree.leaves.take_reached() * MUCH >= tree.leaves.len();
+    let levels = level_ahead(update, tree.depth, much) + 1;
     let boxes = make_levels_true(work, tree, 0, levels, groups);
     // The root alone, from the vertices, is the beginning of top-down.
     *(if update == Update::TopDown {
@@ -48,15 +57,16 @@ mod tests {
             level,
             levels_at_once: std::num::NonZeroU32::MIN,
         };
-        for (update, depth, level) in [
-            (Update::BottomUp, 7, 7),
-            (Update::TopDown, 7, 0),
-            (hybrid(None), 7, 3),
-            (hybrid(None), 0, 0),
-            (hybrid(Some(5)), 7, 5),
-            (hybrid(Some(9)), 7, 7),
+        for (update, depth, level, level_if_much) in [
+            (Update::BottomUp, 7, 7, 7),
+            (Update::TopDown, 7, 0, 0),
+            (hybrid(None), 7, 3, 7),
+            (hybrid(None), 0, 0, 0),
+            (hybrid(Some(5)), 7, 5, 5),
+            (hybrid(Some(9)), 7, 7, 7),
         ] {
-            assert_eq!(level_ahead(update, depth), level, "{update:?}, {depth}");
+            let levels = [false, true].map(|much| level_ahead(update, depth, much));
+            assert_eq!(levels, [level, level_if_much], "{update:?}, {depth}");
         }
     }
 }

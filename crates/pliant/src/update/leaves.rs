@@ -29,6 +29,7 @@ pub(super) fn reach_leaves<const N: usize, S: Scalar>(
             _ => None,
         }
     }));
+    tree.leaves.note_reached(untrue.len());
     let make = |run: &[u32], boxes: &mut LeafBoxes| {
         let shape = work.shape;
         let mut made = 0;

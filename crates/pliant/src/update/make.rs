@@ -10,8 +10,8 @@ use crate::kernels::extent::{self, Extent};
 use crate::tree::{Below, Leaves, Siblings, Tree, VertexSets};
 use fearless_simd::{Simd, dispatch};
 
-/// Groups in a job: some ten microseconds of work.
-const JOB: usize = 32;
+/// Groups in a job: some tens of microseconds of work.
+const JOB: usize = 128;
 
 /// Where and with what to make boxes.
 #[derive(Clone, Copy)]

@@ -6,7 +6,8 @@
 //! ```text
 //! bottom-up   ahead: down to the deepest leaf
 //! top-down    ahead: the root only
-//! hybrid      ahead: down to level floor(n / 2), or a given one, where n is the level of the deepest leaf
+//! hybrid      ahead: down to level floor(n / 2), or a given one, where n is the level of the deepest leaf;
+//!             all levels, if none is given and much of the tree was reached the last time
 //! ```
 //!
 //! `hybrid` decides how far ahead, `bottom_up` makes some levels below a group, `top_down` makes what a traversal reaches, and

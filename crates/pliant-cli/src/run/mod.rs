@@ -56,7 +56,8 @@ Examples:
   pliant run cloth --precision f64               a folding sheet with itself
   pliant run spheres --query first               is there any pair? much cheaper
   pliant run spheres --triangles 80 --stride 20  small bodies, every 20th step
-  pliant run --update top-down --degree 4 --partition centre --leaf-size 1
+  pliant run --partition centre --leaf-size 1    the trees of the paper
+  pliant run --partition centre --leaf-size 1 --degree 4 --update top-down
   pliant run gather --format json > gather.json  a figure for every step";
 
 /// A seed as people write it.

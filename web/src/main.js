@@ -9,12 +9,12 @@ import { Stage } from './stage.js';
 
 const KEYS = [
   ['Space', 'play, pause'],
-  ['← →', 'one step back, forward'],
-  ['Page Up, Page Down', 'ten steps'],
+  ['← →', 'one back, one forward'],
+  ['Page Up, Page Down', 'ten back, ten forward'],
   ['Home, End', 'the first, the last'],
   ['P, N', 'the hit before, the next hit'],
   ['F', 'the first contact'],
-  ['W', 'the worst: most pairs'],
+  ['W', 'the most pairs'],
   ['T', 'choose the next red triangle; Escape lets it go'],
   ['[ ]', 'boxes of the level above, below'],
   ['X', 'see through the bodies'],
@@ -78,8 +78,8 @@ function build() {
       element('table', {}, element('tbody', {}, ...KEYS.map(([key, what]) =>
         element('tr', {}, element('th', { scope: 'row' }, element('kbd', {}, key)), element('td', {}, what)))))),
     element('footer', {},
-      'Written by pliant ', report.version, '. Everything is in this file. The decisions were made on the exact positions; in the picture they are rounded to 1/65,535 of each body. ',
-      'A box is marked where the tree holds it for the shape of this step: the others were not needed. Drawn with three.js and uPlot, whose licences (MIT) stand in the source of this page.'));
+      'Written by pliant ', report.version, '. Everything is in this file. The decisions were made on the exact positions; in the picture they are rounded to 1/65,535 of the longest side of their body. ',
+      'A box is marked where the tree holds it for the shape that is shown: the others were not needed. Drawn with three.js and uPlot, whose licences (MIT) stand in the source of this page.'));
 }
 
 function facts(list, into = element('dl', { className: 'facts' })) {

@@ -55,7 +55,7 @@ export class Selection {
 
   show() {
     if (!this.chosen || !this.frame) {
-      this.panel.replaceChildren(element('p', { className: 'hint' }, 'Click a triangle to see its body and number, and whom it meets. Drag to turn; once clicked, scroll to come nearer.'));
+      this.panel.replaceChildren(element('p', { className: 'hint' }, 'Click a triangle to see its body and number, and whom it meets. Drag to turn; once clicked, scroll to come nearer. What is red inside a body shows with See through.'));
       this.changed([]);
       return;
     }
@@ -79,7 +79,8 @@ export class Selection {
     const { name, colour, fileFaces } = this.motion.bodies[body];
     const chip = element('span', { className: 'chip' });
     chip.style.background = colour;
-    const face = fileFaces ? ` (face ${grouped(fileFaces[triangle])} of the file)` : '';
-    return element('span', { className: 'named' }, chip, element('bdi', {}, name), `, triangle ${grouped(triangle)}${face}`);
+    // Numbers to type elsewhere: without separators.
+    const face = fileFaces ? ` (face ${fileFaces[triangle]} of the file)` : '';
+    return element('span', { className: 'named' }, chip, element('bdi', {}, name), `, triangle ${triangle}${face}`);
   }
 }

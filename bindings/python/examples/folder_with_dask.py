@@ -10,6 +10,7 @@ them: reading is the cheaper part.
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -55,12 +56,14 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=None, help="processes; as many as there are cores")
     parser.add_argument("--frames-per-task", type=int, default=20)
     arguments = parser.parse_args()
+    if not any(arguments.folder.glob("*.npz")):
+        sys.exit(f"{arguments.folder}: there is no .npz file in it")
     cluster = LocalCluster(n_workers=arguments.workers, threads_per_worker=1, dashboard_address=None)
     with cluster, Client(cluster) as client:
         for file, frames in check_folder(client, arguments.folder, arguments.frames_per_task).items():
             worst = max(frames, key=lambda frame: frame.count)
             hit = sum(frame.count > 0 for frame in frames)
-            print(f"{file}: {hit} of {len(frames)} frames intersect; most pairs: {worst.count} in frame {worst.frame}")
+            print(f"{file}: {hit} of {len(frames)} frames intersect; most pairs: {worst.count:,} in frame {worst.frame}")
 
 
 if __name__ == "__main__":

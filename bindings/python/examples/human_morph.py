@@ -33,7 +33,7 @@ def main(path: Path) -> None:
     for frame, count in enumerate(counts):
         print(f"{frame:>8}{count:>10}")
     intersecting = sum(count > 0 for count in counts)
-    print(f"\n{intersecting} of {len(counts)} frames intersect; most pairs: {max(counts)} in frame {np.argmax(counts)}")
+    print(f"\n{intersecting} of {len(counts)} frames intersect; most pairs: {max(counts):,} in frame {np.argmax(counts)}")
 
 
 if __name__ == "__main__":

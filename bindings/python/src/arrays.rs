@@ -149,9 +149,15 @@ fn as_array<'py>(
         return Ok(array);
     }
     let shape = array.getattr("shape")?;
+    let hint = match array.shape() {
+        [_, _, 3] => ": give one frame at a time",
+        [3, _] => ": transposed?",
+        [_, 4] if rows == "m" => ": cut each quad into two triangles",
+        _ => "",
+    };
     Err(Refused::new(
         "BadArray",
-        format!("{what} have shape {shape}; it must be ({rows}, 3)"),
+        format!("{what} have shape {shape}; it must be ({rows}, 3){hint}"),
     ))
 }
 

@@ -131,8 +131,9 @@ def test_float32_in_a_float64_world_changes_no_coordinate() -> None:
     [
         (FACES, FLAT[:, :2], r"positions have shape \(169, 2\); it must be \(n, 3\)"),
         (FACES, FLAT.ravel(), r"positions have shape \(507,\)"),
-        (FACES, FLAT[None], r"positions have shape \(1, 169, 3\)"),
-        (FACES[:, [0, 1, 2, 2]], FLAT, r"faces have shape \(288, 4\); it must be \(m, 3\)"),
+        (FACES, FLAT[None], r"positions have shape \(1, 169, 3\).*: give one frame at a time"),
+        (FACES[:, [0, 1, 2, 2]], FLAT, r"faces have shape \(288, 4\); it must be \(m, 3\): cut each quad into two triangles"),
+        (FACES, FLAT.T, r"positions have shape \(3, 169\); it must be \(n, 3\): transposed\?"),
         (FACES.astype(float), FLAT, "faces are of type float64; they must be integers"),
         (FLAT, FACES, "positions are of type uint32.*exchanged"),
         (FACES.astype(bool), FLAT, "faces are of type bool"),
@@ -143,7 +144,7 @@ def test_float32_in_a_float64_world_changes_no_coordinate() -> None:
         (FACES, None, "has no .faces"),
         (FACES, "positions", r"positions have shape \(\)"),
     ],
-    ids=range(13),
+    ids=range(14),
 )
 def test_what_is_no_mesh_is_refused(faces: Any, positions: Any, message: str) -> None:
     world = pliant.World()

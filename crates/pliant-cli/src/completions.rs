@@ -15,10 +15,12 @@ pub(crate) struct Arguments {
 const EXAMPLES: &str = "\
 Examples:
   pliant completions bash > ~/.local/share/bash-completion/completions/pliant
-  pliant completions zsh > ~/.zfunc/_pliant                 with fpath+=(~/.zfunc) before compinit in ~/.zshrc
+  pliant completions zsh > ~/.zfunc/_pliant
   pliant completions fish > ~/.config/fish/completions/pliant.fish
   pliant completions powershell >> $PROFILE
-  pliant completions elvish >> ~/.config/elvish/rc.elv";
+  pliant completions elvish >> ~/.config/elvish/rc.elv
+
+The folder must be there; zsh needs fpath+=(~/.zfunc) before compinit in ~/.zshrc.";
 
 /// Prints the script of a shell.
 pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {

@@ -39,6 +39,18 @@ fn examples(command: &Command) -> Vec<String> {
 }
 
 #[test]
+fn examples_fit_a_narrow_terminal() {
+    let program = crate::command();
+    for command in std::iter::once(&program).chain(verbs(&program)) {
+        let help = command.get_after_help().expect("examples").to_string();
+        // What is longer would be broken in two, and could not be copied. Prose may be.
+        for line in help.lines().filter(|line| line.starts_with("  ")) {
+            assert!(line.chars().count() <= 80, "{}: {line}", command.get_name());
+        }
+    }
+}
+
+#[test]
 fn every_example_in_the_help_is_a_command_that_the_program_takes() {
     let program = crate::command();
     for command in std::iter::once(&program).chain(verbs(&program)) {

@@ -48,14 +48,14 @@ enum Verb {
 
 const EXAMPLES: &str = "\
 Examples:
-  pliant run                                  two bumpy spheres that move into each other, 200 steps
-  pliant run cloth --steps 30 --format json   a folding sheet with itself
-  pliant check shirt.ply                      one body: does it intersect itself?
-  pliant check 'shirt_*.obj' 'body_*.obj'     two sequences, frame by frame, against each other
-  pliant check walk.npz --count               how many pairs in each frame
-  pliant check fox.glb --clip Run             an animation of a glTF file, evaluated
-  pliant convert fox.glb fox.npz              the same as a sequence of another format
-  pliant bench experiment-1                   the paper's figure 3: ours, the older methods, other libraries
+  pliant run                                 two spheres move into each other
+  pliant run cloth --steps 30 --format json  a folding sheet with itself
+  pliant check shirt.ply                     does it intersect itself?
+  pliant check 'shirt_*.obj' 'body_*.obj'    two sequences against each other
+  pliant check walk.npz --count              how many pairs in each frame
+  pliant check fox.glb --clip Run            an animation of a glTF file
+  pliant convert fox.glb fox.npz             the same in another format
+  pliant bench experiment-1                  the paper's figure 3
 
 `pliant VERB --help` has more. Exit code 0: nothing intersects, or nothing was asked. 1: something does. 2: it could not be done.";
 

@@ -251,7 +251,7 @@ pub(crate) fn chart(
     }
 }
 
-fn counted(number: u64, one: &str, many: &str) -> String {
+pub(crate) fn counted(number: u64, one: &str, many: &str) -> String {
     format!(
         "{} {}",
         grouped(number),

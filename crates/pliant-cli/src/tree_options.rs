@@ -113,13 +113,17 @@ impl TreeOptions {
             (Update::Hybrid, None) => "hybrid".to_owned(),
             (other, _) => value_name(other),
         };
-        let (partition, leaf) = (value_name(self.partition), self.leaf_size);
+        let partition = value_name(self.partition);
+        let leaf = match self.leaf_size.get() {
+            1 => "1 triangle".to_owned(),
+            most => format!("up to {most} triangles"),
+        };
         let threads = match self.threads.get() {
             1 => String::new(),
             count => format!(", {count} threads"),
         };
         format!(
-            "degree {}, partition {partition}, up to {leaf} triangles a leaf, update {update}{threads}",
+            "degree {}, partition {partition}, {leaf} a leaf, update {update}{threads}",
             self.degree
         )
     }

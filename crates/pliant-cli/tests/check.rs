@@ -109,6 +109,38 @@ fn one_when_something_intersects() {
 }
 
 #[test]
+fn the_table_separates_thousands_in_counts_and_not_in_numbers_of_triangles() {
+    let folder = tempfile::tempdir().unwrap();
+    // A thousand triangles far from each other, then fifty that lie on each other.
+    let corners = |x: usize, y: usize| {
+        format!(
+            "v {x} {y} 0\nv {} {y} 0\nv {x} {} 0\nf -3 -2 -1\n",
+            x + 99,
+            y + 99
+        )
+    };
+    let apart = (0..1000).map(|place| corners(0, 100 + 100 * place));
+    let mesh: String = apart
+        .chain((0..50).map(|place| corners(place, 0)))
+        .collect();
+    fs::write(folder.path().join("many.obj"), mesh).unwrap();
+    let table = check(folder.path(), &["many.obj"]).out;
+    let lines: Vec<_> = table.lines().collect();
+    assert_eq!(
+        lines[0],
+        "body 0: many.obj, 3,150 vertices, 1,050 triangles"
+    );
+    assert_eq!(
+        lines[4],
+        "       0     1,225  triangle 1000 of body 0, triangle 1001 of body 0"
+    );
+    assert_eq!(
+        lines[6],
+        "1 of 1 frames intersect; most pairs: 1,225 in frame 0"
+    );
+}
+
+#[test]
 fn a_pattern_is_a_sequence_in_natural_order() {
     // Crossing in frames 9 and 11 only: in the order of characters, 10 would come first.
     let mut files: Vec<_> = (9..12)

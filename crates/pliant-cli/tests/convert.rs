@@ -121,6 +121,11 @@ fn gltf_is_evaluated_and_not_written() {
     assert_eq!(there.counts(), check(&["s.npz"]).counts());
     assert_eq!(there.counts().len(), 5);
 
+    // It has two clips; the table says which was taken.
+    let table = pliant(path, &["check", &file]).out;
+    let head = table.lines().next().unwrap();
+    assert!(head.ends_with(", clip bend"), "{head}");
+
     let many = fixture("hierarchy.gltf").display().to_string();
     let said = check(&[&many]);
     assert_eq!(said.json()["bodies"].as_array().unwrap().len(), 4);

@@ -33,7 +33,7 @@ fn github_shows_the_first_frames_on_their_files() {
     // Commas, colons and per cents would end the name, or begin an escape.
     assert_eq!(
         lines[0],
-        "::error file=m%2C100%25%3A_0.obj,title=pliant::frame 0: 1 pair of triangles intersect; \
+        "::error file=m%2C100%25%3A_0.obj,title=pliant::frame 0: 1 pair of triangles intersects; \
          the first: triangle 0 of m*.obj and triangle 0 of sheet.obj"
     );
     assert!(

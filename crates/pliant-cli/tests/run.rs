@@ -136,7 +136,7 @@ fn every_scene_plays() {
         for word in [
             "first contact",
             "pairs at step",
-            "worst step",
+            "slowest step",
             "update",
             "query",
             "median",

@@ -1,7 +1,7 @@
 //! Deforming scenes to test and measure collision detection with.
 //!
 //! A [`Scene`] is a pure function of its name, size, seed and step: it reads no clock, no file and
-//! no platform mathematics, and its positions are the same bits on every machine. The first three
+//! no platform mathematics, and its positions are the same bits on every machine. The first four
 //! follow the experiments of Larsson and Akenine-Möller, *Collision Detection for Continuously
 //! Deforming Bodies* (2001).
 //!

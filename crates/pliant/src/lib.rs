@@ -15,7 +15,7 @@
 //!     let height = 3.0 - step as f32;
 //!     world.set_positions(cloth, &sheet(2.0).map(|[x, y, z]| [x, y, z + height]))?;
 //!     for pair in world.intersection_pairs() {
-//!         println!("step {step}: triangle {} of {} meets {} of {}", pair.triangle_a, pair.body_a, pair.triangle_b, pair.body_b);
+//!         println!("step {step}: {pair:?}");
 //!     }
 //! }
 //! assert!(world.self_intersection_pairs(cloth)?.is_empty());
@@ -62,7 +62,8 @@
 //! | how trees are built and updated, threads | [`Options`], [`Degree`], [`Partition`], [`Update`]; [`World::tree_shape`], [`tree_parts`](World::tree_parts), [`vertex_order`](World::vertex_order) |
 //! | single or double precision | [`Scalar`] |
 //! | the answer without any tree, to compare with | [`reference`](mod@reference) |
-//! | a whole simulation | `examples/cloth_on_ball.rs`: a cloth that falls on a moving ball and reacts to what is found |
+//! | what a body looks like, for pictures | [`World::triangles`], [`positions`](World::positions), [`tree_boxes`](World::tree_boxes), [`NodeBox`] |
+//! | a whole simulation | `crates/pliant/examples/cloth_on_ball.rs` in the repository: a cloth that falls on a moving ball and reacts to what is found |
 //!
 //! Words of the paper (Larsson and Akenine-Möller, *Collision Detection for Continuously Deforming Bodies*, 2001), and where they
 //! are chosen: initial shape tree and mesh connectivity tree, [`Partition`]; bottom-up, top-down and hybrid update, [`Update`];
@@ -76,7 +77,7 @@
 //! world         bodies and their shapes; the one place where the phases meet
 //! mesh          connectivity, in tree order; never moves
 //! geometry      f32 or f64 coordinates, boxes in f32, rounded outward
-//! tree          boxes of degree 2, 4, 8; build: initial shape (centre, mean), mesh connectivity, balanced
+//! tree          boxes of degree 2, 4, 8; building: by shape, by mesh, balanced
 //! update        bottom-up, top-down, hybrid
 //! broad_phase   brute force; sweep and prune
 //! traversal     tree against tree, tree against itself

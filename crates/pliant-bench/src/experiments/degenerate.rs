@@ -14,7 +14,7 @@ use crate::record::{Claim, ContestRecord, Verdict};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "degenerate",
-    about: "coplanar grids that slide over each other; two spheres 10^4 from the origin",
+    about: "coplanar grids that slide; spheres 10^4 from the origin",
     plan,
     claims,
 };

@@ -11,7 +11,7 @@ use crate::record::{Claim, ContestRecord};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "experiment-3",
-    about: "figure 4: 27 bodies of 5,120 triangles that hit each other, with a response; spheres and bodies with arms",
+    about: "figure 4: 27 bodies of 5,120 triangles that hit each other",
     plan,
     claims,
 };

@@ -16,7 +16,7 @@ use pliant::{Options, Update, World};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "peers",
-    about: "against parry3d and obvhs, and against the floor: two spheres of three sizes, a crowd, a cloth",
+    about: "spheres, a crowd and a cloth, with parry3d, obvhs and the floor",
     plan,
     claims,
 };

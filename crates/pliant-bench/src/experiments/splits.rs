@@ -9,7 +9,7 @@ use pliant::Partition;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "splits",
-    about: "trees split at the centre, at the mean, by connectivity, into equal parts",
+    about: "trees cut at the centre, at the mean, along the mesh, equally",
     plan,
     claims,
 };

@@ -39,10 +39,10 @@ pub(crate) struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
-  pliant bench cloth --small --rounds 1            what there is to see, in seconds
-  pliant bench experiment-1                        the paper's figure 3
-  pliant bench peers --rounds 9                    against other libraries, medians of more rounds
-  pliant bench all --quiet --json record.json      everything, as a record; on a quiet machine";
+  pliant bench cloth --small --rounds 1        what there is to see, in seconds
+  pliant bench experiment-1                    the paper's figure 3
+  pliant bench peers --rounds 9                medians of more rounds
+  pliant bench all --quiet --json record.json  on a quiet machine, as a record";
 
 fn experiments_help() -> String {
     let lines = EXPERIMENTS

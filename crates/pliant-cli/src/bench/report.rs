@@ -1,6 +1,6 @@
 //! A page about experiments, and their charts as SVG: figures 3 and 4 of the paper, with what is measured beside what moves.
 
-use crate::report::{asked, cannot_write, chart, fact};
+use crate::report::{asked, cannot_write, chart, counted, fact};
 use crate::table::grouped;
 use anyhow::Context;
 use pliant::World;
@@ -58,10 +58,14 @@ pub(super) fn write(
             .collect::<Vec<_>>()
             .join(", "),
         machine.processor,
-        match record.experiments.first().map_or(0, |done| done.rounds) {
-            1 => "1 round".to_owned(),
-            rounds => format!("{rounds} rounds"),
-        },
+        counted(
+            record
+                .experiments
+                .first()
+                .map_or(0, |done| done.rounds as u64),
+            "round",
+            "rounds"
+        ),
     );
     if form == Form::Small {
         report

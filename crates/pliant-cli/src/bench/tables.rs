@@ -1,5 +1,6 @@
 //! What was measured, for people.
 
+use crate::report::counted;
 use crate::table::{grouped, table};
 use pliant_bench::record::{
     Claim, ContestRecord, ExperimentRecord, Machine, MethodRecord, Verdict,
@@ -37,8 +38,9 @@ pub(super) fn experiment(record: &ExperimentRecord) -> String {
     };
     let _ = writeln!(
         text,
-        "== {}{small}, medians of {} rounds\n",
-        record.experiment, record.rounds
+        "== {}{small}, medians of {}\n",
+        record.experiment,
+        counted(record.rounds as u64, "round", "rounds")
     );
     for record in &record.contests {
         contest(&mut text, record);
@@ -68,11 +70,11 @@ fn contest(text: &mut String, record: &ContestRecord) {
     let most = record.pairs.iter().max().copied().unwrap_or(0);
     let _ = writeln!(
         text,
-        "{}: {} bodies of {} triangles, {} steps, query {}, at most {} pairs; ratios to {}",
+        "{}: {} of {} triangles, {}, query {}, at most {} pairs; ratios to {}",
         record.name,
-        record.bodies,
+        counted(record.bodies as u64, "body", "bodies"),
         grouped(record.triangles as u64),
-        record.steps.len(),
+        counted(record.steps.len() as u64, "step", "steps"),
         record.query,
         grouped(most as u64),
         record.reference,

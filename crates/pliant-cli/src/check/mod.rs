@@ -82,14 +82,15 @@ pub(crate) struct Arguments {
 const EXAMPLES: &str = "\
 Examples:
   pliant check shirt.ply body.ply hair.ply --ignore hair.ply,body.ply
-  pliant check 'shirt_*.obj' body.ply hair.ply --group soft='shirt_*.obj',hair.ply --ignore soft,soft
-  pliant check a.ply b.ply c.ply --ignore 0,2              bodies by number; so are names with commas in them
-  pliant check teeth.ply --split components                which pieces of the file meet each other?
+  pliant check a.ply b.ply c.ply --group soft=a.ply,c.ply --ignore soft,soft
+  pliant check a,1.ply b.ply c.ply --ignore 0,2      by number: one has a comma
+  pliant check teeth.ply --split components          which pieces meet?
   pliant check teeth.ply --split components --ignore 'teeth.ply#1,teeth.ply#2'
   pliant check scene.glb --ignore 'scene.glb#arm,scene.glb#sleeve'
-  pliant check fox.glb --clip Run --baseline 0             what frame 0 does not have already
-  pliant check walk.npz --hits hits.vtp                    hits_00.vtp, hits_01.vtp, ..., hits.pvd for ParaView
-  pliant check walk.npz --report walk.html                 the bodies in motion, what intersects in red
+  pliant check fox.glb --clip Run --baseline 0       what frame 0 does not have
+  pliant check walk.npz --report walk.html           a page: in motion, hits red
+  pliant check walk.npz --png worst.png --frame 50   one frame as an image
+  pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
   pliant check walk.npz --quiet && echo clean
 
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.

@@ -7,6 +7,7 @@ mod frames;
 
 use crate::Outcome;
 use crate::check::size;
+use crate::table::grouped;
 use anyhow::{Context, bail};
 use clap::Args;
 use frames::Frames;
@@ -46,10 +47,10 @@ pub(crate) struct Arguments {
 
 const FORMATS: &str = "\
 Examples:
-  pliant convert 'cloth_*.obj' cloth.npz              a file a frame into one file
-  pliant convert walk.npz 'walk_%04d.ply'             and back: walk_0000.ply, walk_0001.ply, ...
-  pliant convert fox.glb fox.obj+fox.pc2 --clip Run   an animation as a mesh and its positions
-  pliant convert walk.npz pose.stl --frames 12        one frame
+  pliant convert 'cloth_*.obj' cloth.npz             many files into one
+  pliant convert walk.npz 'walk_%04d.ply'            walk_0000.ply, ...
+  pliant convert fox.glb fox.obj+fox.pc2 --clip Run  a mesh and its positions
+  pliant convert walk.npz pose.stl --frames 12       one frame
 
 A file appears under its name when it is whole; nothing is written over without --force. glTF is read, not written.
 STL, PC2 and MDD have 32-bit coordinates: others are rounded, and a note says so.";
@@ -91,10 +92,10 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     };
     let said = format!(
         "{} frame{}, {} vertices, {} triangles",
-        shape.frame_count,
+        grouped(shape.frame_count as u64),
         if shape.frame_count == 1 { "" } else { "s" },
-        shape.vertex_count,
-        shape.triangles.len()
+        grouped(shape.vertex_count as u64),
+        grouped(shape.triangles.len() as u64)
     );
     let options = WriteOptions {
         force: arguments.force,

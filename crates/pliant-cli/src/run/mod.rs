@@ -16,7 +16,7 @@ use std::time::Instant;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// spheres, crowd, arms, gather or cloth
+    /// spheres: two move into each other; crowd: 27 jostle; arms: 27 bodies with arms; gather: many move to one place; cloth: a sheet folds onto itself
     #[arg(default_value = "spheres")]
     scene: String,
     /// Triangles of a body [default: the scene's]
@@ -51,12 +51,13 @@ pub(crate) struct Arguments {
 
 const EXAMPLES: &str = "\
 Examples:
-  pliant run                                     two bumpy spheres of 20,480 triangles, 200 steps
-  pliant run crowd --steps 50 --threads 2        27 bodies, two threads; the answer is the same
+  pliant run                                     two spheres, 200 steps
+  pliant run crowd --steps 50 --threads 2        27 bodies, two threads
   pliant run cloth --precision f64               a folding sheet with itself
-  pliant run spheres --query first               is there any pair? mostly much cheaper
+  pliant run spheres --query first               is there any pair? much cheaper
   pliant run spheres --triangles 80 --stride 20  small bodies, every 20th step
-  pliant run spheres --update top-down --degree 4 --partition centre --leaf-size 1
+  pliant run --partition centre --leaf-size 1    the trees of the paper
+  pliant run --partition centre --leaf-size 1 --degree 4 --update top-down
   pliant run gather --format json > gather.json  a figure for every step";
 
 /// A seed as people write it.

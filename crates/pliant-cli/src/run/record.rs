@@ -1,6 +1,6 @@
 //! What was played, for people and for programs.
 
-use crate::report::{chart, fact};
+use crate::report::{chart, counted, fact};
 use crate::table::{grouped, table};
 use crate::tree_options::TreeOptions;
 use pliant::Statistics;
@@ -202,17 +202,17 @@ impl Record<'_> {
             grouped(last.pairs as u64),
         ]);
         found.add_row([
-            "worst step".to_owned(),
+            "slowest step".to_owned(),
             format!(
-                "step {}, {} pairs, {}",
+                "step {}, {}, {}",
                 worst.step,
-                grouped(worst.pairs as u64),
+                counted(worst.pairs as u64, "pair", "pairs"),
                 duration(time(worst))
             ),
         ]);
         let _ = writeln!(text, "{}\n", found.trim_fmt());
 
-        let mut times = table(&["time a step", "median", "worst"]);
+        let mut times = table(&["time a step", "median", "slowest"]);
         let figures: [(&str, fn(&StepRecord) -> f64); 3] = [
             ("update", |step| step.update_ms),
             ("query", |step| step.query_ms),

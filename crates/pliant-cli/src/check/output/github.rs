@@ -4,6 +4,7 @@
 //! step, so no more are printed.
 
 use super::{Form, Tally, counted};
+use crate::table::grouped;
 use pliant_check::{Check, Found, Row};
 use std::io::{self, Write};
 
@@ -32,16 +33,20 @@ impl Form for Github {
         let file = file.map_or_else(String::new, |file| format!("file={},", property(&file)));
         let name = |body| check.body(body).map_or_else(String::new, |body| body.name);
         let pairs = if found.complete {
-            counted((found.count, "pair", "pairs"))
+            counted((
+                found.count,
+                "pair of triangles intersects",
+                "pairs of triangles intersect",
+            ))
         } else {
-            "at least 1 pair".to_owned()
+            "at least 1 pair of triangles intersects".to_owned()
         };
         let left_out = match found.left_out {
-            Some(left_out @ 1..) => format!(" ({left_out} more left out)"),
+            Some(left_out @ 1..) => format!(" ({} more left out)", grouped(left_out as u64)),
             _ => String::new(),
         };
         let message = format!(
-            "frame {}: {pairs} of triangles intersect{left_out}; the first: triangle {a} of {} and triangle {b} of {}",
+            "frame {}: {pairs}{left_out}; the first: triangle {a} of {} and triangle {b} of {}",
             found.frame,
             name(body_a),
             name(body_b)

@@ -7,6 +7,7 @@ mod table;
 
 use super::{Arguments, Format};
 use crate::Outcome;
+use crate::table::grouped;
 use anyhow::Context;
 use pliant_check::{Check, Found};
 use std::io::{self, BufWriter, Stdout, Write};
@@ -57,13 +58,9 @@ impl Tally {
 
     /// One line for people.
     fn summary(&self) -> String {
-        let Self {
-            frames,
-            intersecting,
-            ..
-        } = self;
+        let [intersecting, frames] = [self.intersecting, self.frames].map(|n| grouped(n as u64));
         let worst = self.worst.map_or_else(String::new, |(frame, count)| {
-            format!("; most pairs: {count} in frame {frame}")
+            format!("; most pairs: {} in frame {frame}", grouped(count as u64))
         });
         format!("{intersecting} of {frames} frames intersect{worst}")
     }
@@ -136,5 +133,6 @@ pub(super) fn annotate<T>(arguments: &Arguments, error: anyhow::Error) -> anyhow
 
 /// `1 vertex`, `2 vertices`.
 fn counted((number, one, many): (usize, &str, &str)) -> String {
-    format!("{number} {}", if number == 1 { one } else { many })
+    let name = if number == 1 { one } else { many };
+    format!("{} {name}", grouped(number as u64))
 }

@@ -2,6 +2,7 @@
 
 use super::{Form, Tally, counted};
 use crate::check::{Arguments, Names};
+use crate::table::grouped;
 use pliant_check::{BodyFacts, Check, Found};
 use std::io::{self, Write};
 
@@ -82,6 +83,9 @@ impl Form for Table {
                 let welded = counted((source.welded(), "vertex", "vertices"));
                 write!(out, ", {welded} welded where boundary edges coincide")?;
             }
+            if let Some(clip) = source.clip() {
+                write!(out, ", clip {}", printable(clip))?;
+            }
             writeln!(out)?;
         }
         let left_out = self.baseline.map_or("", |_| "  left out");
@@ -97,10 +101,10 @@ impl Form for Table {
 
     fn frame(&mut self, out: &mut dyn Write, _: &Check, found: &Found) -> io::Result<()> {
         let Found { frame, count, .. } = found;
-        write!(out, "{frame:>8}{count:>10}")?;
+        write!(out, "{frame:>8} {:>9}", grouped(*count as u64))?;
         if self.baseline.is_some() {
             match found.left_out {
-                Some(left_out) => write!(out, "{left_out:>10}")?,
+                Some(left_out) => write!(out, " {:>9}", grouped(left_out as u64))?,
                 None => write!(out, "{:>10}", "-")?,
             }
         }

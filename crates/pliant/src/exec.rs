@@ -191,6 +191,42 @@ mod tests {
     use super::*;
 
     #[test]
+    fn shares_are_taken_from_both_ends() {
+        let mut jobs = [10, 11, 12];
+        let mut share = Share {
+            first: 4,
+            jobs: &mut jobs[..],
+        };
+        let mut take = |from_front| {
+            share
+                .take(from_front)
+                .map(|(number, &mut job)| (number, job))
+        };
+        assert_eq!(take(false), Some((6, 12)));
+        assert_eq!(take(true), Some((4, 10)));
+        assert_eq!(take(false), Some((5, 11)));
+        assert_eq!(take(true), None);
+    }
+
+    /// Many short parts one after the other, with pauses in which threads fall asleep.
+    #[test]
+    fn threads_wake_and_sleep_and_lose_nothing() {
+        let threads = Threads::new(NonZeroUsize::new(3).unwrap());
+        let mut jobs = [0_u64; 17];
+        for round in 0..2_000 {
+            threads.run(&mut jobs, |number, job| *job += number as u64);
+            if round % 500 == 0 {
+                std::thread::sleep(2 * AWAKE);
+            }
+        }
+        assert!(
+            jobs.iter()
+                .enumerate()
+                .all(|(number, &job)| job == 2_000 * number as u64)
+        );
+    }
+
+    #[test]
     fn every_job_is_done_once_and_knows_its_number() {
         for threads in [1, 2, 7] {
             let threads = Threads::new(NonZeroUsize::new(threads).unwrap());

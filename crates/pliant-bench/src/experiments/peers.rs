@@ -281,7 +281,8 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                 &format!("{name}, {window}: {wanted} times faster than the fastest peer"),
                 factor,
                 wanted,
-                1.0,
+                // An aim is reached or not.
+                wanted,
                 figure,
             ),
             None => Claim {

@@ -59,3 +59,43 @@ fn take<S: Copy>(from: &[[S; 3]], order: &[u32], points: &mut [[S; 4]]) {
         *place = [x, y, z, z];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Bounds, Scalar};
+    use crate::kernels::all_levels;
+
+    fn check<S: Scalar>(number: impl Fn(f64) -> S) {
+        for len in [0, 1, IN_A_ROW - 1, IN_A_ROW, 3 * IN_A_ROW + 5] {
+            let from: Vec<[S; 3]> = (0..len)
+                .map(|at| [at * 37 % 101, at * 11 % 17, at].map(|x| number(x as f64 * 0.3 - 4.0)))
+                .collect();
+            let order: Vec<u32> = (0..len).map(|at| (at * 7 % len) as u32).collect();
+            for level in all_levels() {
+                let mut points = vec![[S::default(); 4]; len];
+                let mut bounds = vec![[[S::default(); 4]; 2]; len.div_ceil(IN_A_ROW)];
+                gather(level, &from, &order, &mut points, &mut bounds);
+                for (found, &point) in points.iter().zip(&order) {
+                    assert_eq!(found[..3], from[point as usize], "{level:?}");
+                }
+                for (order, found) in order.as_chunks::<IN_A_ROW>().0.iter().zip(&bounds) {
+                    let mut row = Bounds::EMPTY;
+                    order
+                        .iter()
+                        .for_each(|&point| row.include(from[point as usize]));
+                    assert_eq!(
+                        found.map(|corner| [corner[0], corner[1], corner[2]]),
+                        [row.lo, row.hi]
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_levels_take_points_and_bound_rows() {
+        check(|x| x as f32);
+        check(|x| x);
+    }
+}

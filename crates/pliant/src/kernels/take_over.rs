@@ -52,3 +52,71 @@ fn in_lanes<I: Simd, S: Scalar>(_: I, from: &[[S; 3]], to: &mut [[S; 3]]) -> Opt
     let in_range = |corner: [S; 3]| corner.iter().all(|x| x.is_in_range());
     (numbers && (from.is_empty() || in_range(bounds.lo) && in_range(bounds.hi))).then_some(bounds)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernels::all_levels;
+
+    /// What taking over means.
+    fn plain<S: Scalar>(from: &[[S; 3]]) -> Option<Bounds<S>> {
+        let mut bounds = Bounds::EMPTY;
+        from.iter().for_each(|&point| bounds.include(point));
+        let good = from.as_flattened().iter().all(|x| x.is_in_range());
+        good.then_some(bounds)
+    }
+
+    /// Of every length round a whole number of registers, with every bad number in every place.
+    fn check<S: Scalar>(number: impl Fn(f64) -> S, bad: &[S]) {
+        let points: Vec<[S; 3]> = (0..35)
+            .map(|at| [at * 7 % 5, 3 - at, at * at % 11].map(|x| number(f64::from(x) * 1.5 - 2.25)))
+            .collect();
+        for level in all_levels() {
+            for len in [0, 1, 7, 8, 9, 16, 31, 35] {
+                let mut to = vec![[S::default(); 3]; len];
+                let from = &points[..len];
+                assert_eq!(
+                    take_over(level, from, &mut to),
+                    plain(from),
+                    "{level:?} {len}"
+                );
+                assert_eq!(to, from);
+                for place in 0..3 * len {
+                    for &bad in bad {
+                        let mut from = from.to_vec();
+                        from.as_flattened_mut()[place] = bad;
+                        assert_eq!(plain(&from), None);
+                        let found = take_over(level, &from, &mut to);
+                        assert_eq!(found, None, "{level:?} {bad:?} at {place} of {len}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_levels_copy_bound_and_refuse_alike() {
+        check(|x| x as f32, &[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
+        let too_far = f64::from(f32::MAX) * (1.0 + f64::EPSILON);
+        check(
+            |x| x,
+            &[
+                f64::NAN,
+                f64::INFINITY,
+                f64::NEG_INFINITY,
+                too_far,
+                -too_far,
+                f64::MAX,
+            ],
+        );
+    }
+
+    #[test]
+    fn the_largest_numbers_are_good() {
+        let far = [[f32::MAX, -f32::MAX, 0.0]; 9];
+        let mut to = [[0.0; 3]; 9];
+        for level in all_levels() {
+            assert_eq!(take_over(level, &far, &mut to), plain(&far));
+        }
+    }
+}

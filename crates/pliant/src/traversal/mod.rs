@@ -4,9 +4,10 @@
 //! stack = [(root, root)]                                    boxes true and overlapping
 //! while the stack is not empty:
 //!     take a batch from its top                             1 pair, then 2, 4, ... up to thousands
-//!     reach:   make true the groups below the batch         the only step that writes boxes
+//!     reach:   make true the groups below the batch         only reaching writes boxes
 //!     expand:  children whose boxes overlap onto the stack, pairs of leaves onto a list
 //!     when the list is long, or the stack empty:
+//!         reach:  make true the boxes of the triangles in these leaves
 //!         meet:   triangles whose boxes overlap: candidates; these are decided
 //!         visit:  what intersects, in order
 //! ```

@@ -5,10 +5,10 @@
 //! root alone, in its lane 0. Groups are stored level by level from the root down, so that the groups of the upper levels are
 //! a prefix of the array, and a pass from its end to its beginning meets children before their parents.
 //!
-//! The structure never changes between builds; boxes do. A group (and the triangle boxes of a leaf) carries the *epoch* of
-//! the body at which its boxes were made, and is **true** only if that is the body's epoch now. Two rules hold at all times:
-//! nothing reads a box that is not true, and the group above a true group is true. `update` makes groups true, `traversal`
-//! asks for it, `validate` checks it.
+//! The structure never changes between builds; boxes do. A group, and a leaf for the boxes of its triangles, carries the *epoch*
+//! of the body at which these were made, and is **true** only if that is the body's epoch now. Two rules hold at all times: nothing
+//! reads a box that is not true, and the group above a true group or leaf is true. `update` makes them true, `traversal` asks for
+//! it, `validate` checks it.
 //!
 //! Paper, 3.2. What differs: several triangles may share a leaf (whose triangles' boxes are then kept, eight side by side);
 //! vertex lists of inner nodes are mostly runs of numbers, which takes away most of the memory that 3.3 regrets.
@@ -56,6 +56,8 @@ impl NodeId {
 #[derive(Debug)]
 pub(crate) struct Tree<const N: usize> {
     pub(crate) groups: Vec<Siblings<N>>,
+    /// The first group of every level.
+    level_starts: Vec<u32>,
     /// The vertices below every node.
     pub(crate) vertices: VertexSets,
     /// The triangles in every leaf.
@@ -74,12 +76,16 @@ impl<const N: usize> Tree<N> {
         // Parts come level by level, so the part at hand is always in the first group that still lacks a child.
         let (mut group, mut lane, mut lanes) = (0, 0, 1);
         let mut lanes_of_groups = std::collections::VecDeque::new();
+        let mut level_starts = Vec::new();
         for part in &plan.parts {
             if lane == lanes {
                 (group, lane) = (group + 1, 0);
                 lanes = lanes_of_groups
                     .pop_front()
                     .expect("a part below the root has a parent before it");
+            }
+            if part.level as usize == level_starts.len() {
+                level_starts.push(group as u32);
             }
             groups[group].children[lane] = if part.children.is_empty() {
                 Child::leaf(leaves.push(part.triangles.clone()))
@@ -104,11 +110,21 @@ impl<const N: usize> Tree<N> {
         let depth = plan.parts.last().map_or(0, |deepest| deepest.level);
         Self {
             groups,
+            level_starts,
             vertices: VertexSets::new(plan, mesh),
             leaves,
             neighbours: None,
             depth,
         }
+    }
+
+    /// The groups of a level; behind the last level there are none.
+    pub(crate) fn level(&self, level: u32) -> std::ops::Range<u32> {
+        let start = |level: u32| match self.level_starts.get(level as usize) {
+            Some(&group) => group,
+            None => self.groups.len() as u32,
+        };
+        start(level)..start(level + 1)
     }
 
     /// How many nodes there are, leaves included: the boxes of a complete update.

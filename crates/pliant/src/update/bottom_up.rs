@@ -19,21 +19,28 @@ pub(super) fn make_levels_true<const N: usize, S: Scalar>(
 ) -> u64 {
     // The groups of the subtree level by level, in ascending order; those from `lowest` on are the lowest level made here.
     groups.clear();
-    groups.push(top);
     let mut lowest = 0;
-    for _ in 1..levels {
-        let end = groups.len();
-        for parent in lowest..end {
-            for child in tree.groups[groups[parent] as usize].used_children() {
-                if let Below::Group(below) = child.below() {
-                    groups.push(below);
+    if top == 0 {
+        // From the root on, levels are whole.
+        let level = tree.level(levels.min(tree.depth + 1) - 1);
+        groups.extend(0..level.end);
+        lowest = level.start as usize;
+    } else {
+        groups.push(top);
+        for _ in 1..levels {
+            let end = groups.len();
+            for parent in lowest..end {
+                for child in tree.groups[groups[parent] as usize].used_children() {
+                    if let Below::Group(below) = child.below() {
+                        groups.push(below);
+                    }
                 }
             }
+            if groups.len() == end {
+                break;
+            }
+            lowest = end;
         }
-        if groups.len() == end {
-            break;
-        }
-        lowest = end;
     }
     let (above, lowest) = groups.split_at(lowest);
     make_groups_true(work, tree, lowest) + merge_groups(work, tree, above)

@@ -34,6 +34,11 @@ impl<const N: usize> Tree<N> {
             deepest = deepest.max(level);
             let (group, lane) = node.group_and_lane::<N>();
             let siblings = &self.groups[group];
+            if !self.level(level).contains(&(group as u32)) {
+                return Err(format!(
+                    "group {group}: not in the run of its level, {level}"
+                ));
+            }
             let triangles = self.triangles_below(node)?;
 
             let below: BTreeSet<u32> = mesh.corners()

@@ -50,8 +50,32 @@ pub(crate) struct Scratch {
     expanded: Vec<Found>,
     blocks: Vec<BlockPair>,
     met: Vec<Meet>,
+    sizes: Sizes,
     /// The pair at which a visitor broke, in tree order.
     pub(crate) broke_at: Option<Candidate>,
+}
+
+/// How many pairs are taken at once. They double over a query, whatever it has asked before.
+#[derive(Clone, Copy, Debug)]
+struct Sizes {
+    nodes: usize,
+    blocks: usize,
+}
+
+impl Default for Sizes {
+    fn default() -> Self {
+        Self {
+            nodes: FIRST_BATCH,
+            blocks: FIRST_BATCH,
+        }
+    }
+}
+
+impl Scratch {
+    /// At the beginning of every query.
+    pub(crate) fn begin(&mut self) {
+        self.sizes = Sizes::default();
+    }
 }
 
 /// What a job of looking found not true in either tree, some perhaps more than once.
@@ -67,18 +91,23 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
 ) -> ControlFlow<()> {
     scratch.found.clear();
     scratch.found.nodes.push([NodeId::ROOT; 2]);
-    let (mut longest, mut most) = (FIRST_BATCH, 1);
     loop {
-        scratch.found.nodes.take_last(longest, &mut scratch.batch);
-        longest = (longest * 2).min(LONGEST_BATCH);
+        let Scratch {
+            found,
+            batch,
+            sizes,
+            ..
+        } = scratch;
+        found.nodes.take_last(sizes.nodes, batch);
+        sizes.nodes = (sizes.nodes * 2).min(LONGEST_BATCH);
         reach_groups(updates, meeting, scratch, statistics);
         expand_batch(updates, meeting, scratch);
         let straight = std::mem::take(&mut scratch.found.straight);
         statistics.node_pairs += scratch.batch.len() as u64 + straight;
 
         let last = scratch.found.nodes.is_empty();
-        if last || scratch.found.leaves.len() >= most {
-            meet_leaves(updates, meeting, scratch, &mut most, statistics, visit)?;
+        if last || scratch.found.leaves.len() >= scratch.sizes.blocks {
+            meet_leaves(updates, meeting, scratch, statistics, visit)?;
         }
         if last {
             return ControlFlow::Continue(());
@@ -100,6 +129,12 @@ fn reach_groups<const N: usize, M: Meeting<N>>(
         ..
     } = scratch;
     let sides = meeting.sides();
+    if sides
+        .iter()
+        .all(|side| side.tree.complete == side.shape.epoch)
+    {
+        return;
+    }
     let jobs = in_use(untrue, batch.len().div_ceil(EXPAND_JOB));
     updates.threads.run(jobs, |number, found| {
         found.iter_mut().for_each(Vec::clear);
@@ -183,7 +218,6 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
     updates: Updates,
     meeting: &mut M,
     scratch: &mut Scratch,
-    most: &mut usize,
     statistics: &mut Statistics,
     visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
 ) -> ControlFlow<()> {
@@ -192,6 +226,7 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
         found,
         blocks,
         met,
+        sizes,
         broke_at,
         ..
     } = scratch;
@@ -201,17 +236,17 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
     let mut place = Place::default();
     while place.pair < leaves.len() {
         let pairs = if trees.iter().all(|leaves| leaves.are_blocks()) {
-            let end = leaves.len().min(place.pair + *most);
+            let end = leaves.len().min(place.pair + sizes.blocks);
             &leaves[std::mem::replace(&mut place.pair, end)..end]
         } else {
             place = if M::ITSELF {
-                block_pairs::<true>(trees, leaves, place, *most, blocks)
+                block_pairs::<true>(trees, leaves, place, sizes.blocks, blocks)
             } else {
-                block_pairs::<false>(trees, leaves, place, *most, blocks)
+                block_pairs::<false>(trees, leaves, place, sizes.blocks, blocks)
             };
             &*blocks
         };
-        *most = (*most * 2).min(MOST_BLOCKS);
+        sizes.blocks = (sizes.blocks * 2).min(MOST_BLOCKS);
         let jobs = in_use(met, pairs.len().div_ceil(MEET_JOB));
         updates.threads.run(jobs, |number, job| {
             let pairs = part(pairs, number, MEET_JOB);

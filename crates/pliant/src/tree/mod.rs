@@ -66,6 +66,8 @@ pub(crate) struct Tree<const N: usize> {
     neighbours: Option<Neighbours>,
     /// The level of the deepest leaf, where the root's is 0: the n of the paper's n / 2.
     pub(crate) depth: u32,
+    /// The epoch in which all groups were last made at once: in that epoch none is untrue.
+    pub(crate) complete: u64,
 }
 
 impl<const N: usize> Tree<N> {
@@ -115,6 +117,7 @@ impl<const N: usize> Tree<N> {
             leaves,
             neighbours: None,
             depth,
+            complete: 0,
         }
     }
 

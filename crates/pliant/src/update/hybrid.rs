@@ -39,6 +39,9 @@ pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
     let much = tree.leaves.take_reached() * MUCH >= tree.leaves.len();
     let levels = level_ahead(update, tree.depth, much) + 1;
     let boxes = make_levels_true(work, tree, 0, levels, groups);
+    if levels > tree.depth {
+        tree.complete = work.shape.epoch;
+    }
     // The root alone, from the vertices, is the beginning of top-down.
     *(if update == Update::TopDown {
         &mut statistics.boxes_top_down

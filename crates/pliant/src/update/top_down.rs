@@ -13,7 +13,8 @@ use crate::tree::Tree;
 pub(crate) struct Reached {
     /// A bit for each.
     noted: Vec<u64>,
-    any: bool,
+    /// The words in which there are any.
+    words: std::ops::Range<usize>,
     listed: Vec<u32>,
     /// A list to work with.
     scratch: Vec<u32>,
@@ -23,35 +24,37 @@ impl Reached {
     /// Notes one.
     #[inline]
     pub(crate) fn note(&mut self, number: u32) {
-        let word = number as usize / 64;
-        if word >= self.noted.len() {
-            self.noted.resize(word + 1, 0);
-        }
-        self.noted[word] |= 1 << (number % 64);
-        self.any = true;
+        self.note_bits(number as usize / 64, 1 << (number % 64));
     }
 
     /// Notes nodes of one group of siblings, a bit for each lane.
     #[inline]
     pub(crate) fn note_lanes<const N: usize>(&mut self, group: u32, lanes: u8) {
         let first = group as usize * N;
-        if first / 64 >= self.noted.len() {
-            self.noted.resize(first / 64 + 1, 0);
+        self.note_bits(first / 64, u64::from(lanes) << (first % 64));
+    }
+
+    #[inline]
+    fn note_bits(&mut self, word: usize, bits: u64) {
+        if word >= self.noted.len() {
+            self.noted.resize(word + 1, 0);
         }
-        self.noted[first / 64] |= u64::from(lanes) << (first % 64);
-        self.any = true;
+        self.noted[word] |= bits;
+        self.words = if self.words.is_empty() {
+            word..word + 1
+        } else {
+            self.words.start.min(word)..self.words.end.max(word + 1)
+        };
     }
 
     /// Lists what was noted, and forgets it; also gives a list to work with.
     pub(super) fn list(&mut self) -> (&[u32], &mut Vec<u32>) {
         self.listed.clear();
-        if std::mem::take(&mut self.any) {
-            for (word, bits) in self.noted.iter_mut().enumerate() {
-                let mut rest = std::mem::take(bits);
-                while rest != 0 {
-                    self.listed.push(word as u32 * 64 + rest.trailing_zeros());
-                    rest &= rest - 1;
-                }
+        for word in std::mem::take(&mut self.words) {
+            let mut rest = std::mem::take(&mut self.noted[word]);
+            while rest != 0 {
+                self.listed.push(word as u32 * 64 + rest.trailing_zeros());
+                rest &= rest - 1;
             }
         }
         (&self.listed, &mut self.scratch)

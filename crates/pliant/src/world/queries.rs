@@ -314,6 +314,7 @@ impl<S: Scalar> World<S> {
     /// At the beginning of every query.
     fn begin(&mut self) {
         self.settle_origin();
+        self.scratch.begin();
         self.statistics = std::mem::take(&mut self.done_early);
     }
 

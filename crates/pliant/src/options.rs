@@ -82,7 +82,7 @@ pub enum Update {
     Hybrid {
         /// The level down to which boxes are made bottom-up, the root being level 0; levels that a tree does not have are
         /// its last. `None`: floor(n / 2), where n is the level of the deepest leaf, which the paper found "an efficient choice";
-        /// but all levels after a query that looked at the triangles of many leaves (one in sixteen; never where leaves hold one).
+        /// but all levels after a query that looked at the triangles of many leaves (one in ten; never where leaves hold one).
         level: Option<u32>,
         /// How many levels are made at once, bottom-up, where a box that is not true is reached. The paper found one level,
         /// which is top-down, the fastest.

@@ -12,7 +12,7 @@ use crate::statistics::Statistics;
 use crate::tree::Tree;
 
 /// One leaf in so many reached is much of a tree: on spheres in contact, nodes that are reached are then about half of all.
-const MUCH: usize = 16;
+const MUCH: usize = 10;
 
 /// The level of the lowest boxes made ahead, in a tree whose deepest leaf is at level `depth`; `much` of it was reached last time.
 fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {

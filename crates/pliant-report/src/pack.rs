@@ -307,7 +307,9 @@ mod tests {
                 1 => Hits::Triangles(vec![0, 2, 3]),
                 _ => Hits::Pairs(Vec::new()),
             },
-            made: (0..11).map(|bit| (bit * bit + frame) % 3 == 0).collect(),
+            made: (0..11)
+                .map(|bit| (bit * bit + frame).is_multiple_of(3))
+                .collect(),
         };
         Motion {
             sizes: [2, 45, 6],

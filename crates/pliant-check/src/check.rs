@@ -151,6 +151,12 @@ impl Check {
         self.asked.itself
     }
 
+    /// From now on asks for no more than one pair in each frame, or for all; for a list of them, or for their number. As
+    /// [`Settings::first`] and [`Settings::listed`], where frames differ in what is wanted of them.
+    pub fn ask(&mut self, first: bool, listed: bool) {
+        (self.asked.first, self.asked.listed) = (first, listed);
+    }
+
     /// Reads the next frame and checks it; `None` after the last.
     ///
     /// # Errors

@@ -117,11 +117,13 @@ impl<'a> Names<'a> {
             }
             if names.groups.contains_key(name.as_str()) {
                 return Err(bad(
-                    "there is a group of this name; name all its bodies at once",
+                    "there is a group of this name; name all its bodies at once, or choose another name",
                 ));
             }
             if names.of_bodies(name).is_some() || name.bytes().all(|c| c.is_ascii_digit()) {
-                return Err(bad("it is the name or number of a body"));
+                return Err(bad(
+                    "it is the name or number of a body; choose another name",
+                ));
             }
             if bodies.is_empty() {
                 return Err(bad("no bodies are named; write NAME=BODY,BODY"));

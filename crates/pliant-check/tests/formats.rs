@@ -167,4 +167,22 @@ fn a_clip_of_what_has_none_is_refused() {
             .body_count(),
         5
     );
+    // One of the same format that has no clip at all stands still.
+    let folder = tempfile::tempdir().unwrap();
+    let still = folder.path().join("still.gltf").display().to_string();
+    let data = "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    let text = format!(
+        r#"{{"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36}}],"buffers":[{{"byteLength":36,"uri":"{data}"}}]}}"#
+    );
+    std::fs::write(&still, text).unwrap();
+    let alone = Check::open(
+        std::slice::from_ref(&still),
+        &reading(),
+        &Settings::default(),
+    );
+    assert!(matches!(alone.err(), Some(Error::NoClip)));
+    let both = Check::open(&[still, SCENE.to_owned()], &reading(), &Settings::default());
+    assert_eq!(both.unwrap().body_count(), 5);
 }

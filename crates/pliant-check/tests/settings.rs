@@ -89,6 +89,52 @@ fn positions_are_those_of_the_frame_checked_last() {
 }
 
 #[test]
+fn each_frame_may_be_asked_for_something_else() {
+    let (_folder, arguments) = folder();
+    let reading = OpenOptions::default();
+    let mut check = Check::open(&arguments, &reading, &Settings::default()).unwrap();
+    let all: Vec<_> = std::iter::from_fn(|| check.next_frame().unwrap()).collect();
+    let mut check = Check::open(&arguments, &reading, &Settings::default()).unwrap();
+    for (first, listed, all) in [
+        (false, false, &all[0]),
+        (true, true, &all[1]),
+        (true, false, &all[2]),
+        (false, true, &all[3]),
+    ] {
+        check.ask(first, listed);
+        let found = check.next_frame().unwrap().unwrap();
+        let count = if first { 1 } else { all.count };
+        assert_eq!((found.count, found.complete), (count, !first));
+        let pairs = if listed { count } else { 0 };
+        assert_eq!(found.pairs.len(), pairs);
+        assert!(found.pairs.iter().all(|pair| all.pairs.contains(pair)));
+    }
+}
+
+#[test]
+fn bodies_of_both_precisions_meet_in_double_precision() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let corners = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+    let stl = format!("solid a\nfacet\nouter loop\n{corners}endloop\nendfacet\nendsolid\n");
+    fs::write(path("single.stl"), stl).unwrap();
+    // Above the other by less than single precision can tell from what is below it.
+    for (name, low) in [("above.obj", "1e-60"), ("below.obj", "-1e-60")] {
+        let text = format!("v 0.25 0.25 {low}\nv 0.25 0.5 1\nv 0.5 0.25 1\nf 1 2 3\n");
+        fs::write(path(name), text).unwrap();
+    }
+    for (name, count) in [("above.obj", 0), ("below.obj", 1)] {
+        for arguments in [
+            [path("single.stl"), path(name)],
+            [path(name), path("single.stl")],
+        ] {
+            let found = counts(&arguments, &Settings::default()).unwrap();
+            assert_eq!(found, [(0, count)], "{arguments:?}");
+        }
+    }
+}
+
+#[test]
 fn frames_that_there_are_not_are_refused() {
     let (_folder, arguments) = folder();
     let refused = |settings: &Settings| counts(&arguments, settings).unwrap_err().to_string();

@@ -1,7 +1,7 @@
 //! What to do next, after a message that says only what is wrong. Messages that say it themselves get nothing.
 
 use pliant_check::Error as CheckError;
-use pliant_io::Reason;
+use pliant_io::{Place, Reason};
 use std::io::{self, ErrorKind};
 
 /// `"; "` and what to do, or nothing.
@@ -14,7 +14,7 @@ pub(crate) fn after(error: &anyhow::Error) -> String {
 
 fn advice(error: &(dyn std::error::Error + 'static)) -> Option<&'static str> {
     if let Some(error) = error.downcast_ref::<pliant_io::Error>() {
-        reading(error.reason())
+        reading(error)
     } else if let Some(error) = error.downcast_ref::<CheckError>() {
         checking(error)
     } else {
@@ -22,8 +22,12 @@ fn advice(error: &(dyn std::error::Error + 'static)) -> Option<&'static str> {
     }
 }
 
-fn reading(reason: &Reason) -> Option<&'static str> {
-    Some(match reason {
+/// Of files that are read, and of those that `pliant convert` writes.
+fn reading(error: &pliant_io::Error) -> Option<&'static str> {
+    Some(match error.reason() {
+        Reason::NotFound if matches!(error.place(), Place::Part(..)) => {
+            "the glTF file keeps data there: copy it along, to where that file is"
+        }
         Reason::NotFound => "the path is taken from the current folder",
         Reason::NoMatch => {
             "the pattern is taken from the current folder; `ls` with it, not quoted, shows what it matches"
@@ -41,18 +45,26 @@ fn reading(reason: &Reason) -> Option<&'static str> {
         Reason::TooMany { .. } => "split the mesh",
         Reason::ManyCorners { .. } => "triangulate the mesh first",
         Reason::OutOfMemory => "split the mesh, or free some memory",
+        Reason::FacesDiffer { .. } | Reason::FaceCount { .. } | Reason::VertexCount { .. } => {
+            "export all of them from one mesh"
+        }
+        Reason::NoBody { .. } => "choose one of these",
+        Reason::NoClip { .. } => "choose one of these with `--clip`",
+        Reason::Write(error) => return writing(error.kind()),
         _ => return None,
     })
 }
 
 fn checking(error: &CheckError) -> Option<&'static str> {
     match error {
-        CheckError::Read(error) => reading(error.reason()),
+        CheckError::Read(error) => reading(error),
         CheckError::FrameCounts { .. } => {
             Some("export the same frames of each, or one frame of what stands still")
         }
         CheckError::Missing { .. } => Some("wait until it is written, then check again"),
-        CheckError::BadGroup { .. } => Some("choose another name"),
+        CheckError::NoSuchFrame { .. } | CheckError::NoSuchName { .. } => {
+            Some("choose one of these")
+        }
         _ => None,
     }
 }

@@ -11,6 +11,7 @@ use pliant_report::{BodyLabel, Chart, Motion, Play, Recorder, Report, Series};
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 /// Where pictures go.
 #[derive(Args, Clone, Debug, Default)]
@@ -22,15 +23,14 @@ pub(crate) struct PictureOptions {
     #[arg(long, value_name = "FILE.png", requires = "frame", value_parser = image_name)]
     png: Option<PathBuf>,
     /// The frame, or the step, that --png draws
-    #[arg(long, value_name = "N", requires = "png")]
+    #[arg(long, value_name = "N", requires = "png", allow_negative_numbers = true, value_parser = frame::<u32>)]
     frame: Option<u32>,
 }
 
-impl PictureOptions {
-    /// Whether there is to be a picture at all.
-    pub(crate) fn are_asked_for(&self) -> bool {
-        self.report.is_some() || self.png.is_some()
-    }
+/// The number of a frame.
+pub(crate) fn frame<N: FromStr>(text: &str) -> Result<N, String> {
+    text.parse()
+        .map_err(|_| "write the number of a frame, from 0".to_owned())
 }
 
 /// A name that is a page's: a mistyped argument must not cost somebody a mesh.

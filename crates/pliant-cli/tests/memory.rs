@@ -166,6 +166,31 @@ fn memory_of_pieces_and_of_a_baseline() {
 }
 
 #[test]
+fn memory_of_gltf() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let surface = Surface::new(400, 3);
+    for (held, targets) in [(false, 0), (true, 0), (false, 1), (true, 4)] {
+        fs::write(path.join("a.glb"), surface.glb(held, targets)).unwrap();
+        let Some(peak) = peak(path, &["a.glb"]) else {
+            return;
+        };
+        // What moves: its positions at rest; four joints, each a number and a weight, and where they begin; what a target moves,
+        // and how far. Of what stands still nothing is held beside its frame.
+        let said = match (held, targets) {
+            (false, 0) => 0,
+            _ => 12 + if held { 4 * 8 + 4 } else { 0 } + 16 * targets as u64,
+        };
+        let said = said * u64::from(surface.vertices());
+        let multiple = multiple(peak, PROGRAM + said, surface);
+        println!(
+            "held {held}, {targets} targets: {multiple:.2} times two frames, and {said} bytes"
+        );
+        assert!(multiple < MULTIPLE, "held {held}, {targets}: {multiple}");
+    }
+}
+
+#[test]
 fn memory_of_hits() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{Said, pliant};
+use serde_json::json;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -20,12 +21,79 @@ fn in_folder(arguments: &[&str]) -> Said {
     }
     fs::write(folder.path().join("bad.obj"), "v 0 0 0\nf 1 2 3\n").unwrap();
     fs::write(folder.path().join("empty.obj"), "").unwrap();
+    fs::write(folder.path().join("two.pc2"), positions(2)).unwrap();
+    fs::write(folder.path().join("three.pc2"), positions(3)).unwrap();
+    fs::write(
+        folder.path().join("words.stl"),
+        "facet normal 0 0 1\n".repeat(9),
+    )
+    .unwrap();
+    let data = "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    for (name, change) in [
+        ("still.gltf", None),
+        ("old.gltf", Some(("/asset/version", json!("1.0")))),
+        ("nowhere.gltf", Some(("/scenes", json!([])))),
+        ("alone.gltf", Some(("/buffers/0/uri", json!("gone.bin")))),
+        (
+            "web.gltf",
+            Some(("/buffers/0/uri", json!("https://a/b.bin"))),
+        ),
+        ("plain.gltf", Some(("/buffers/0/uri", json!("data:,a")))),
+        (
+            "cut.gltf",
+            Some(("/buffers/0/uri", json!("data:;base64,AAAA"))),
+        ),
+        (
+            "draco.gltf",
+            Some(("/extensionsRequired", json!(["KHR_draco_mesh_compression"]))),
+        ),
+        (
+            "odd.gltf",
+            Some(("/animations/0/channels/0/target/path", json!("pointer"))),
+        ),
+    ] {
+        let mut scene = json!({
+            "asset": {"version": "2.0"},
+            "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"mesh": 0, "name": "arm"}, {"mesh": 0, "name": "leg"}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": data}],
+            "extensionsRequired": [],
+        });
+        if name == "odd.gltf" {
+            let channel = json!({"sampler": 0, "target": {"node": 0, "path": ""}});
+            scene["animations"] = json!([{"channels": [channel], "samplers": []}]);
+        }
+        if let Some((pointer, value)) = change {
+            *scene.pointer_mut(pointer).unwrap() = value;
+        }
+        fs::write(folder.path().join(name), scene.to_string()).unwrap();
+    }
     pliant(folder.path(), arguments)
+}
+
+/// A PC2 file of one frame.
+fn positions(vertices: u32) -> Vec<u8> {
+    let mut file = b"POINTCACHE2\0\x01\0\0\0".to_vec();
+    file.extend([vertices, 0, 0, 1].map(u32::to_le_bytes).concat());
+    file.resize(file.len() + 12 * vertices as usize, 0);
+    file
+}
+
+/// Each line is refused, and what is said has the words beside it.
+fn says_next(lines: &[(&str, &str)]) {
+    for (line, next) in lines {
+        let said = in_folder(&line.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(said.code, 2, "{line}: {}", said.out);
+        assert!(said.err.contains(next), "{line}: {}", said.err);
+    }
 }
 
 #[test]
 fn every_error_says_what_to_do_next() {
-    for (line, next) in [
+    says_next(&[
         ("", "Usage: pliant <COMMAND>"),
         ("chek a.obj", "similar subcommand exists: 'check'"),
         ("run sphere", "there are spheres, crowd"),
@@ -62,6 +130,30 @@ fn every_error_says_what_to_do_next() {
             "check a.obj --max-memory 10",
             "allow more with `--max-memory`",
         ),
+        ("check a.obj --baseline x", "write the number of a frame"),
+        ("check a.obj --baseline -1", "write the number of a frame"),
+        (
+            "check a.obj --png a.png --frame -1",
+            "write the number of a frame",
+        ),
+        (
+            "check a.obj --png a.png --frame 9",
+            "the first is 0, the last 0",
+        ),
+        ("check a.obj --group x=", "write NAME=BODY,BODY"),
+        ("check a.obj --group =a.obj", "write NAME=BODY,BODY"),
+        (
+            "check a.obj --group x=a.obj --group x=a.obj",
+            "name all its bodies at once",
+        ),
+        (
+            "check a.obj --group x=y",
+            "bodies: 0 = \"a.obj\"; choose one of these",
+        ),
+        (
+            "check a.obj --split pieces",
+            "[possible values: components]",
+        ),
         ("check a.obj --threads 0", "write a whole number, 1 or more"),
         ("check a.obj --hits x.obj", "must end in .vtp or .vtu"),
         ("check a.obj --hits no/x.vtp", "make its folder first"),
@@ -70,11 +162,90 @@ fn every_error_says_what_to_do_next() {
         ("bench cloth --json .", "name a file in it"),
         ("completions ksh", "[possible values: bash"),
         ("man a.obj", "choose another name"),
-    ] {
-        let said = in_folder(&line.split_whitespace().collect::<Vec<_>>());
-        assert_eq!(said.code, 2, "{line}: {}", said.out);
-        assert!(said.err.contains(next), "{line}: {}", said.err);
+    ]);
+}
+
+#[test]
+fn every_error_of_a_format_or_a_conversion_says_what_to_do_next() {
+    says_next(&[
+        ("check a.obj#b", "leave out what begins with the #"),
+        (
+            "check words.stl",
+            "expected \"solid\", found \"facet\"; mend it",
+        ),
+        ("check two.pc2", "'mesh.obj+two.pc2'"),
+        ("check a.obj+two.pc2", "export all of them from one mesh"),
+        (
+            "check s_*.obj+three.pc2",
+            "a pattern cannot stand here; name one file",
+        ),
+        ("check a.obj+no.pc2", "from the current folder"),
+        (
+            "check old.gltf",
+            "only version 2 can be read, so convert it",
+        ),
+        (
+            "check nowhere.gltf",
+            "does not say where its meshes are; mend it, or export it again",
+        ),
+        (
+            "check alone.gltf",
+            "gone.bin, buffer 0: no such file; the glTF file keeps data there",
+        ),
+        ("check web.gltf", "export it as .glb"),
+        ("check plain.gltf", "export the file as .glb"),
+        ("check cut.gltf", "copy it or export it again"),
+        ("check draco.gltf", "export it without compression"),
+        (
+            "check odd.gltf",
+            "moves \"pointer\", which is not evaluated; export it without",
+        ),
+        (
+            "check still.gltf#head",
+            "there is: arm, leg; choose one of these",
+        ),
+        ("check still.gltf --clip Run", "leave out `--clip`"),
+        ("check still.gltf --fps 0", "write a number above 0"),
+        ("check still.gltf --fps -1", "write a number above 0"),
+        ("convert still.gltf x.obj", "name one: 'still.gltf#arm'"),
+        (
+            "convert still.gltf#arm x.obj --clip Run",
+            "leave out `--clip`",
+        ),
+        ("convert still.gltf#arm a.obj", "use `--force`"),
+        ("convert still.gltf#arm no/x.obj", "make it first"),
+        ("convert still.gltf#arm x.glb", "what can: a mesh: .obj"),
+        ("convert s_*.obj x.obj", "'name_%04d.obj'"),
+        (
+            "convert s_*.obj x.obj --frames 9",
+            "there are frames 0 to 2",
+        ),
+        (
+            "convert s_*.obj x.obj --frames 3..1",
+            "write the first frame, and the one behind the last",
+        ),
+        (
+            "convert s_*.obj x.obj --frames -1",
+            "write frames as 10..20",
+        ),
+        ("convert a.obj x.pc2", "'mesh.obj+x.pc2'"),
+        ("convert a.obj x.stl+y.pc2", "is written as .obj or .ply"),
+    ]);
+}
+
+#[test]
+fn where_nothing_can_be_written_another_place_is_advised() {
+    // Nobody may make files there.
+    let nowhere = Path::new("/sys");
+    if !cfg!(target_os = "linux") || !nowhere.is_dir() {
+        eprintln!("skipped: no place known where files cannot be written");
+        return;
     }
+    let said = in_folder(&["convert", "a.obj", "/sys/x.obj"]);
+    said.assert_refused(&[
+        "/sys/x.obj: cannot be written",
+        "choose a place where you may write",
+    ]);
 }
 
 #[test]

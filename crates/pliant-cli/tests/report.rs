@@ -4,6 +4,7 @@ mod common;
 
 use common::{Said, pliant};
 use serde_json::Value;
+use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
@@ -127,6 +128,44 @@ fn what_cannot_be_is_said_before_anything_is_done() {
         assert_eq!(check(folder, half).code, 2);
     }
     assert!(!folder.join("a.png").exists());
+}
+
+#[test]
+fn a_picture_keeps_the_pairs_of_its_frame_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // Forty triangles that stand, all across forty that lie there in frame 1: a list of 1,600 pairs takes 25,600 bytes.
+    let (mut still, mut away, mut across) = (String::new(), String::new(), String::new());
+    for i in 0..40 {
+        let z = f64::from(i) / 50.0;
+        let x = 0.01 + z / 10.0;
+        writeln!(still, "v 0 0 {z}\nv 1 0 {z}\nv 0 1 {z}\nf -3 -2 -1").unwrap();
+        for (text, x) in [(&mut away, x + 9.0), (&mut across, x)] {
+            writeln!(text, "v {x} 0.1 -1\nv {x} 0.1 2\nv {x} 0.2 2\nf -3 -2 -1").unwrap();
+        }
+    }
+    for (name, text) in [
+        ("still.obj", still),
+        ("moves_0.obj", away),
+        ("moves_1.obj", across),
+    ] {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    let little = ["--max-memory", "20000"];
+    let draw = |form: &[&str], frame: &str| {
+        let picture = ["--png", "a.png", "--frame", frame];
+        check(folder, &[form, &little, &picture].concat())
+    };
+    for form in [&["--count"][..], &[], &["--quiet"]] {
+        let alone = check(folder, &[form, &little].concat());
+        let drawn = draw(form, "0");
+        assert_eq!(
+            (drawn.code, &drawn.out, &drawn.err),
+            (1, &alone.out, &alone.err),
+            "{form:?}"
+        );
+        draw(form, "1").assert_refused(&["frame 1", "--max-memory"]);
+    }
 }
 
 #[test]

@@ -48,12 +48,20 @@ pub(crate) fn named(argument: &str) -> Result<Named, Error> {
             });
         }
         if let Some((path, name)) = argument.split_once('#')
-            && Format::of(Path::new(path)).is_ok_and(Format::holds_bodies)
+            && let Ok(format) = Format::of(Path::new(path))
         {
-            return Ok(Named::Part {
-                file: file(path)?,
-                name: name.to_owned(),
-            });
+            if format.holds_bodies() {
+                return Ok(Named::Part {
+                    file: file(path)?,
+                    name: name.to_owned(),
+                });
+            }
+            if Path::new(path).exists() {
+                let reason = format!(
+                    "holds one body, not one called {name:?}; leave out what begins with the #"
+                );
+                return Err(Error::new(path, Reason::Unsupported(reason)));
+            }
         }
     }
     files(argument).map(Named::Files)
@@ -68,7 +76,13 @@ pub(crate) fn mesh_and_positions(argument: &str) -> Option<(&str, &str)> {
 
 /// One file of exactly this name.
 fn file(name: &str) -> Result<Found, Error> {
-    Found::find(name.into()).map_err(|reason| Error::new(name, reason))
+    let error = |reason: Reason| Error::new(name, reason);
+    Found::find(name.into()).map_err(|reason| match reason {
+        Reason::NotFound if is_pattern(name) => error(Reason::Unsupported(
+            "no such file, and a pattern cannot stand here; name one file".into(),
+        )),
+        reason => error(reason),
+    })
 }
 
 /// The files that `argument` names, in natural order; at least one.

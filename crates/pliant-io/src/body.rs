@@ -8,7 +8,7 @@ use crate::arguments::{self, Named};
 use crate::error::{Error, Fault, Place, Reason};
 use crate::file::Found;
 use crate::format::{Format, FrameSource};
-use crate::frame::Frame;
+use crate::frame::{Complete, Frame};
 use crate::positions::{Positions, Precision};
 use crate::weld::Welding;
 use crate::{cache, gltf};
@@ -35,7 +35,8 @@ pub struct OpenOptions {
     ///
     /// The bodies of one glTF file share it, and beside their frames what the file says about their shape and motion is counted.
     pub max_memory: u64,
-    /// The animation of a glTF file to evaluate, by name; one without a name is called by its number. Default: the first.
+    /// The animation of a glTF file to evaluate, by name; one without a name is called by its number. Default: the first. A
+    /// file that has no animation stands still.
     pub clip: Option<String>,
     /// Frames a second at which an animation is evaluated. Default: 30.
     pub fps: f64,
@@ -67,6 +68,29 @@ pub struct Body {
     read: usize,
     handed_out: usize,
     failed: bool,
+}
+
+/// In place of the source of a body of one frame, which is never read again: what that one held is free.
+struct AllRead {
+    clip: Option<String>,
+}
+
+impl FrameSource for AllRead {
+    fn frame_count(&self) -> usize {
+        1
+    }
+
+    fn read(&mut self, _: &mut Frame) -> Result<Complete, Fault> {
+        Err(Reason::NoFrames.into()) // not called: none is left
+    }
+
+    fn skip(&mut self, _: usize) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    fn clip(&self) -> Option<&str> {
+        self.clip.as_deref()
+    }
 }
 
 /// A file and the number of the body's frame that follows its last.
@@ -219,6 +243,11 @@ impl Body {
         let _complete = source.read(&mut frame).map_err(in_first)?;
         frame.becomes_first(path);
         let welding = frame.weld(|| source.alike());
+        if files.last().is_some_and(|file| file.end == 1) {
+            source = Box::new(AllRead {
+                clip: source.clip().map(str::to_owned),
+            });
+        }
         Ok(Self {
             argument: argument.to_owned(),
             name: argument.to_owned(),

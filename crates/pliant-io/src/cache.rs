@@ -63,7 +63,9 @@ pub(crate) fn open(
         .map_err(in_mesh)?;
     let frames = source.frame_count();
     if frames != 1 {
-        let reason = format!("has {frames} frames; the mesh beside positions must have one");
+        let reason = format!(
+            "has {frames} frames; the mesh beside positions must have one: write it to a file with `pliant convert --frames 0`"
+        );
         return Err(in_mesh(Reason::Unsupported(reason).into()));
     }
     let mut input = BufReader::with_capacity(1 << 16, positions.open()?);

@@ -43,6 +43,11 @@ pub(crate) fn read(
     if is_text(&head) {
         return read_text((&head[..]).chain(input), frame);
     }
+    // Before and in their number of triangles binary files have other bytes too.
+    if head.is_ascii() && !has_controls(&head) {
+        let word = words(&head).next().unwrap_or_default();
+        return Err(expected("\"solid\"", Some(word)).at(Place::Line(1)));
+    }
     Err(match count {
         None => Reason::Truncated(format!(
             "a binary STL file has {HEAD} bytes before its triangles, this one has {length}"
@@ -62,8 +67,12 @@ pub(crate) fn read(
 /// Whether a file that begins so is text.
 fn is_text(head: &[u8]) -> bool {
     let first = words(head).next().unwrap_or_default();
-    let control = |&byte: &u8| byte < b' ' && !byte.is_ascii_whitespace();
-    first.eq_ignore_ascii_case(b"solid") && !head.iter().any(control)
+    first.eq_ignore_ascii_case(b"solid") && !has_controls(head)
+}
+
+fn has_controls(head: &[u8]) -> bool {
+    head.iter()
+        .any(|byte| *byte < b' ' && !byte.is_ascii_whitespace())
 }
 
 fn read_binary(mut input: impl BufRead, count: u32, frame: &mut Frame) -> Result<Complete, Fault> {

@@ -721,3 +721,46 @@ fn files_in_a_row_are_frames() {
         folder.error("f*.gltf")
     );
 }
+
+/// Vertices are moved some thousand at a time, and a target is passed over once.
+#[test]
+fn morph_targets_move_vertices_of_large_meshes_too() {
+    const COUNT: usize = 10_000;
+    let moved = [0, 1, 4095, 4096, 8191, 8192, 9999];
+    let floats = |row: &dyn Fn(usize) -> [f32; 3]| -> Vec<u8> {
+        let numbers = (0..COUNT).flat_map(row);
+        numbers.flat_map(f32::to_le_bytes).collect()
+    };
+    let lift = |vertex: usize| (vertex % 7) as f32;
+    let push = |vertex: usize| f32::from(u8::from(moved.contains(&vertex)));
+    let bytes = [
+        floats(&|vertex| [vertex as f32, 0.0, 0.0]),
+        floats(&|vertex| [0.0, lift(vertex), 0.0]),
+        floats(&|vertex| [0.0, 0.5 * push(vertex), push(vertex)]),
+    ];
+    let size = 12 * COUNT;
+    let accessor = |view: usize| json!({"bufferView": view, "componentType": 5126, "count": COUNT, "type": "VEC3"});
+    let view = |at: usize| json!({"buffer": 0, "byteOffset": at * size, "byteLength": size});
+    let data = STANDARD.encode(bytes.concat());
+    let file = json!({
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "weights": [2.0, 0.0, 4.0]}],
+        "meshes": [{"primitives": [{
+            "attributes": {"POSITION": 0},
+            "mode": 5,
+            "targets": [{"POSITION": 1}, {"POSITION": 1}, {"POSITION": 2}],
+        }]}],
+        "accessors": [accessor(0), accessor(1), accessor(2)],
+        "bufferViews": [view(0), view(1), view(2)],
+        "buffers": [{"byteLength": 3 * size, "uri": format!("data:;base64,{data}")}],
+    });
+    let folder = Folder::new();
+    folder.write("large.gltf", file.to_string());
+    let frames = all_frames(&mut folder.open("large.gltf").unwrap()).unwrap();
+    let expected = (0..COUNT).map(|vertex| {
+        let [lift, push] = [lift(vertex), push(vertex)].map(f64::from);
+        [vertex as f64, 2.0 * (lift + push), 4.0 * push]
+    });
+    assert_eq!(frames, [expected.collect::<Vec<_>>()]);
+}

@@ -205,3 +205,201 @@ fn zigzag(difference: u16) -> u16 {
     let signed = difference as i16;
     ((signed << 1) ^ (signed >> 15)).cast_unsigned()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frames::Shape;
+    use crate::recorder::BodyLabel;
+    use flate2::read::ZlibDecoder;
+    use pliant::BodyId;
+    use std::io::Read;
+
+    /// What `web/src/data.js` does, and nothing that the packer does.
+    struct Unpacker {
+        bytes: Vec<u8>,
+        at: usize,
+    }
+
+    impl Unpacker {
+        fn new(packed: &[u8]) -> Self {
+            let mut bytes = Vec::new();
+            ZlibDecoder::new(packed).read_to_end(&mut bytes).unwrap();
+            Self { bytes, at: 0 }
+        }
+
+        fn slice(&mut self, length: usize) -> Vec<u8> {
+            self.at += length;
+            self.bytes[self.at - length..self.at].to_vec()
+        }
+
+        fn array<const N: usize>(&mut self) -> [u8; N] {
+            self.slice(N).try_into().unwrap()
+        }
+
+        fn words(&mut self, count: usize) -> Vec<u32> {
+            let planes = [(); 4].map(|()| self.slice(count));
+            let mut last = 0_u32;
+            let word = |i| {
+                last = last.wrapping_add(u32::from_le_bytes(planes.each_ref().map(|p| p[i])));
+                last
+            };
+            (0..count).map(word).collect()
+        }
+
+        /// Which prediction was taken, and the positions.
+        fn positions(&mut self, count: usize, before: &[Vec<u16>; 2]) -> (u8, Vec<u16>) {
+            let [mode] = self.array();
+            let planes = [(); 2].map(|()| self.slice(count));
+            let mut now: Vec<u16> = Vec::new();
+            for i in 0..count {
+                let folded = i32::from(u16::from_le_bytes(planes.each_ref().map(|p| p[i])));
+                let difference = (folded >> 1) ^ -(folded & 1);
+                let expected = match mode {
+                    0 => now.last().copied().map_or(0, i32::from),
+                    1 => before[0][i].into(),
+                    _ => 2 * i32::from(before[0][i]) - i32::from(before[1][i]),
+                };
+                now.push((expected + difference) as u16);
+            }
+            (mode, now)
+        }
+    }
+
+    fn body(number: u32, vertices: usize, triangles: &[[u32; 3]], parts: &[u32]) -> BodyRecord {
+        let label = BodyLabel {
+            name: String::new(),
+            faces: (number == 0).then(|| (0..triangles.len() as u32).map(|t| t / 2).collect()),
+        };
+        let levels = [vec![0; triangles.len()], parts.to_vec()];
+        BodyRecord::new(BodyId(number), label, vertices, triangles.to_vec(), &levels)
+    }
+
+    /// A heap of points that stands, then moves on evenly inside a box that stays, then jumps; beside it something that grows from
+    /// a point and is, at its largest, twice as far from the origin along x.
+    fn motion() -> Motion {
+        let heap = |frame: u32| -> Vec<[f64; 3]> {
+            let mut points = vec![[0.0; 3], [1.0, 0.5, 0.25]];
+            for point in 0..40_u32 {
+                let random = |salt: u32| {
+                    f64::from((point * 7 + salt).wrapping_mul(2_654_435_761) >> 8) / 16_777_216.0
+                };
+                let time = f64::from(frame.saturating_sub(1)) / 100.0;
+                let [x, y, z] = [random(1), random(2) / 2.0, random(3) / 4.0];
+                let far = if frame == 5 { 0.9 - 0.9 * x } else { x / 2.0 };
+                points.push([far + time * y, y, z]);
+            }
+            points
+        };
+        let grown = |frame: u32| {
+            let size = 3.0 * f64::from(frame);
+            vec![
+                [-1.0; 3],
+                [size - 1.0, -1.0, -1.0],
+                [-1.0, -1.0, size / 2.0 - 1.0],
+            ]
+        };
+        let frame = |frame: u32| Frame {
+            place: frame as usize,
+            shapes: vec![Shape::of(&heap(frame)), Shape::of(&grown(frame))],
+            hits: match frame % 3 {
+                0 => Hits::Pairs(vec![[0, 3], [0, 70_000], [1, 2], [258, 259]]),
+                1 => Hits::Triangles(vec![0, 2, 3]),
+                _ => Hits::Pairs(Vec::new()),
+            },
+            made: (0..11)
+                .map(|bit| (bit * bit + frame).is_multiple_of(3))
+                .collect(),
+        };
+        Motion {
+            sizes: [2, 45, 6],
+            bodies: vec![
+                body(
+                    0,
+                    42,
+                    &[[0, 1, 2], [41, 3, 2], [7, 8, 1], [9, 9, 9]],
+                    &[1, 0, 1, 0],
+                ),
+                body(1, 3, &[[0, 1, 2], [2, 1, 0]], &[0, 1]),
+            ],
+            numbers: (0..7).collect(),
+            pairs: vec![0; 7],
+            frames: (0..7).map(frame).collect(),
+            too_large: false,
+        }
+    }
+
+    #[test]
+    fn what_is_packed_can_be_read_back() {
+        let motion = motion();
+        let view = motion.view();
+        // The second body reaches from -1 to 17.
+        let expected = View {
+            centre: [8.0, -0.25, 3.5],
+            radius: 9.0,
+        };
+        assert_eq!(view, expected);
+        assert_eq!([motion.side(0), motion.side(1)], [1.0, 18.0]);
+
+        let mut packed = Unpacker::new(&motion.pack());
+        for body in &motion.bodies {
+            let count = body.triangles.len();
+            assert_eq!(packed.words(3 * count), body.triangles.as_flattened());
+            assert_eq!(packed.words(count), body.order);
+            for starts in &body.starts {
+                assert_eq!(packed.words(starts.len()), *starts);
+            }
+            if let Some(faces) = &body.label.faces {
+                assert_eq!(packed.words(count), *faces);
+            }
+        }
+        let mut before = [(); 2].map(|()| [Vec::new(), Vec::new()]);
+        let mut modes = Vec::new();
+        for frame in &motion.frames {
+            for (number, shape) in frame.shapes.iter().enumerate() {
+                for axis in 0..3 {
+                    let lower =
+                        f64::from_le_bytes(packed.array()) * view.radius + view.centre[axis];
+                    assert!((lower - shape.lower[axis]).abs() < 1e-12);
+                }
+                let count = shape.inside.len();
+                let (mode, now) = packed.positions(3 * count, &before[number]);
+                modes.push(mode);
+                // Half a step, and what single precision leaves of the largest.
+                let step = motion.side(number) / STEPS;
+                for (at, &steps) in now.iter().enumerate() {
+                    let truth = f64::from(shape.inside[at % count][at / count]) * shape.side;
+                    let off = (f64::from(steps) * step - truth).abs();
+                    assert!(off <= 0.500_001 * step, "{off} at {at} of {number}");
+                }
+                let [last, _] = std::mem::take(&mut before[number]);
+                before[number] = [now, last];
+            }
+            let count = u32::from_le_bytes(packed.array()) as usize;
+            match (packed.array(), &frame.hits) {
+                ([1], Hits::Pairs(pairs)) => {
+                    let [a, b] = [(); 2].map(|()| packed.words(count));
+                    let read: Vec<[u32; 2]> = a.into_iter().zip(b).map(|(a, b)| [a, b]).collect();
+                    assert_eq!(read, *pairs);
+                }
+                ([0], Hits::Triangles(triangles)) => assert_eq!(packed.words(count), *triangles),
+                (kind, hits) => panic!("{kind:?} for {hits:?}"),
+            }
+            let bytes = packed.slice(frame.made.len().div_ceil(8));
+            let bits = (0..frame.made.len()).map(|bit| bytes[bit / 8] >> (bit % 8) & 1 == 1);
+            assert!(bits.eq(frame.made.iter().copied()));
+        }
+        assert_eq!(packed.at, packed.bytes.len());
+        // The heap: nothing before it, as before, as before, evenly on, and so on; then a jump.
+        let of_heap: Vec<u8> = modes.into_iter().step_by(2).collect();
+        assert_eq!(of_heap[..2], [0, 1]);
+        assert_eq!(of_heap[3..5], [2, 2]);
+    }
+
+    #[test]
+    fn small_differences_of_either_sign_are_small_numbers() {
+        let folded = [0, -1, 1, -2, 2].map(|difference: i16| zigzag(difference.cast_unsigned()));
+        assert_eq!(folded, [0, 1, 2, 3, 4]);
+        assert_eq!(zigzag(i16::MIN.cast_unsigned()), u16::MAX);
+    }
+}

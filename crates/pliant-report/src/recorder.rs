@@ -223,6 +223,7 @@ impl Recorder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pliant::Options;
 
     /// One triangle that moves, in frames of 18 bytes and 8 for each pair; the body alone takes 20.
     fn record(budget: usize, counts: &[usize]) -> Motion {
@@ -306,7 +307,55 @@ mod tests {
                 .iter()
                 .all(|frame| frame.made.len() == motion.frames[0].made.len())
         );
+        // As many vertices as there were, whatever became of the bodies.
+        assert_eq!(motion.frames.len(), 4);
+        for frame in &motion.frames {
+            let vertices: Vec<usize> = frame.shapes.iter().map(|it| it.inside.len()).collect();
+            assert_eq!(vertices, [3, 3]);
+        }
         assert!(!motion.pack().is_empty() && motion.view().radius > 0.0);
+    }
+
+    #[test]
+    fn pairs_are_kept_in_order() {
+        let mut world = World::<f32>::new();
+        let shape = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        for triangles in [2, 3] {
+            world.add(&vec![[0, 1, 2]; triangles], &shape).unwrap();
+        }
+        let mut recorder = Recorder::new(Vec::new());
+        recorder.frame(0, &world, &[[1, 0, 1, 2], [0, 1, 1, 1], [0, 1, 1, 0]]);
+        let motion = recorder.finish();
+        assert!(
+            matches!(&motion.frames[0].hits, Hits::Pairs(pairs) if *pairs == [[1, 2], [1, 3], [2, 4]])
+        );
+    }
+
+    #[test]
+    fn the_deepest_levels_of_a_deep_tree_are_not_shown() {
+        // Each triangle half as far from the origin as the one before: every cut at the centre takes one off.
+        let corners = (0..40).map(|triangle| 0.5_f32.powi(triangle));
+        let positions: Vec<[f32; 3]> = corners
+            .flat_map(|x| [[x, 0.0, 0.0], [x, x / 8.0, 0.0], [x, 0.0, x / 8.0]])
+            .collect();
+        let triangles: Vec<[u32; 3]> = (0..40).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let mut world = World::<f32>::with_options(Options::paper());
+        let body = world.add(&triangles, &positions).unwrap();
+        assert!(world.tree_shape(body).unwrap().depth >= MOST_LEVELS);
+        let mut recorder = Recorder::new(Vec::new());
+        recorder.frame(0, &world, &[]);
+        let motion = recorder.finish();
+        let starts = &motion.bodies[0].starts;
+        assert_eq!(starts.len(), MOST_LEVELS as usize);
+        let parts: usize = starts.iter().map(Vec::len).sum();
+        assert_eq!(motion.frames[0].made.len(), parts);
+    }
+
+    #[test]
+    fn motions_of_one_page_share_it_and_each_has_room() {
+        let budget = |motions| Recorder::one_of(Vec::new(), motions).budget;
+        let shared = [0, 1, 4, 8, 1000].map(budget);
+        assert_eq!(shared, [BUDGET, BUDGET, BUDGET / 4, BUDGET / 8, BUDGET / 8]);
     }
 
     #[test]

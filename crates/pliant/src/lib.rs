@@ -49,7 +49,7 @@
 //!
 //! | for | look at |
 //! |---|---|
-//! | a first loop, step by step, and what to do with hits | `docs/guide.md` in the repository, here as [`guide`] |
+//! | a first loop, step by step, and what to do with hits | [`guide`] |
 //! | bodies | [`World::add`], [`remove`](World::remove), [`bodies`](World::bodies), [`BodyId`] |
 //! | moving them | [`World::set_positions`], [`write_positions`](World::write_positions); [`rebuild`](World::rebuild) |
 //! | all pairs | [`World::intersection_pairs`], [`intersection_pairs_between`](World::intersection_pairs_between), [`self_intersection_pairs`](World::self_intersection_pairs); [`Pair`] |
@@ -110,12 +110,12 @@ pub use pairs::Pair;
 pub use statistics::Statistics;
 pub use world::{BodyId, NodeBox, TreeShape, World};
 
-/// The example in the README is compiled and run.
+/// The example in the README is compiled and run: in the repository, for a package has it elsewhere.
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
 // A module of the documentation alone; its code is compiled and run like that of the README.
 #[cfg(any(doc, doctest))]
-#[doc = include_str!("../../../docs/guide.md")]
+#[doc = include_str!("../guide.md")]
 pub mod guide {}

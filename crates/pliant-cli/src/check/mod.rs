@@ -7,7 +7,7 @@ mod pictures;
 pub(crate) mod size;
 
 use crate::Outcome;
-use crate::report::PictureOptions;
+use crate::report::{PictureOptions, frame};
 use crate::tree_options::at_least_one;
 use anyhow::anyhow;
 use clap::{Args, ValueEnum, ValueHint};
@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "A,B", value_parser = names::two)]
     ignore: Vec<Names>,
     /// Only what is new: leave out the pairs that intersect in this frame, from 0
-    #[arg(long, value_name = "FRAME")]
+    #[arg(long, value_name = "FRAME", allow_negative_numbers = true, value_parser = frame::<usize>)]
     baseline: Option<usize>,
     /// Keep vertices apart where boundary edges coincide; seams are then intersections
     #[arg(long)]
@@ -61,7 +61,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "NAME")]
     clip: Option<String>,
     /// Frames a second at which animations of glTF files are evaluated
-    #[arg(long, value_name = "N", default_value = "30", value_parser = crate::convert::rate)]
+    #[arg(long, value_name = "N", default_value = "30", allow_negative_numbers = true, value_parser = crate::convert::rate)]
     fps: f64,
     /// How many threads share the work; no number changes an answer
     #[arg(long, value_name = "T", default_value = "1", value_parser = at_least_one::<NonZeroUsize>)]
@@ -94,7 +94,7 @@ Examples:
   pliant check walk.npz --quiet && echo clean
 
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed, as many for one that --baseline leaves out, with --hits 16 more and 300 for each triangle written, and what a glTF file says of shape and motion.";
+Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed, as many for one that --baseline leaves out, with --hits 16 more and 300 for each triangle written, and what a glTF file says of the shape and motion of bodies that move.";
 
 /// `A,B`.
 type Names = [String; 2];
@@ -124,7 +124,13 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let mut hits = arguments.hits.as_deref().map(Hits::new).transpose()?;
     let mut pictures = Pictures::new(arguments, &check)?;
     let mut output = Output::begin(arguments, &check)?;
-    let checked = frames(&mut check, hits.as_mut(), &mut pictures, &mut output);
+    let checked = frames(
+        arguments,
+        &mut check,
+        hits.as_mut(),
+        &mut pictures,
+        &mut output,
+    );
     let checked = checked.and_then(|()| hits.map_or(Ok(()), Hits::end));
     let drawn = pictures.end(arguments, &check, &checked);
     let outcome = output.end(checked)?;
@@ -139,15 +145,10 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         clip: arguments.clip.clone(),
         fps: arguments.fps,
     };
-    let kept = arguments.hits.is_some() || arguments.pictures.are_asked_for();
-    let printed = !arguments.quiet && !arguments.count;
     let mut options = Options::default();
     options.threads = arguments.threads;
     let settings = Settings {
         itself: arguments.itself,
-        // Where only the exit code is asked for, one pair says as much as all.
-        first: arguments.first || arguments.quiet && !kept,
-        listed: kept || printed && matches!(arguments.format, Format::Json | Format::Lines),
         max_list: arguments.max_memory,
         split: arguments.split.map(|split| match split {
             Split::Components => pliant_check::Split::Components,
@@ -155,19 +156,34 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         groups: arguments.groups.clone(),
         ignore: arguments.ignore.clone(),
         baseline: arguments.baseline,
-        frames: None,
         options,
+        ..Settings::default()
     };
     Check::open(&arguments.bodies, &reading, &settings)
 }
 
 fn frames(
+    arguments: &Arguments,
     check: &mut Check,
     mut hits: Option<&mut Hits>,
     pictures: &mut Pictures,
     output: &mut Output,
 ) -> anyhow::Result<()> {
-    while let Some(found) = check.next_frame().map_err(advise)? {
+    let Arguments {
+        first,
+        count,
+        quiet,
+        format,
+        ..
+    } = *arguments;
+    let printed = !quiet && !count && matches!(format, Format::Json | Format::Lines);
+    for frame in 0.. {
+        let kept = hits.is_some() || pictures.looks_at(frame);
+        // Where only the exit code is asked for, one pair says as much as all.
+        check.ask(first || quiet && !kept, kept || printed);
+        let Some(found) = check.next_frame().map_err(advise)? else {
+            break;
+        };
         output.frame(check, &found)?;
         if let Some(hits) = &mut hits {
             hits.frame(check, &found)?;

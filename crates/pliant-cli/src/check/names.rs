@@ -8,6 +8,7 @@ const OTHERWISE: &str = "a body whose name has a comma or an equals sign is name
 pub(super) fn group(text: &str) -> Result<Group, String> {
     let (name, bodies) = text
         .split_once('=')
+        .filter(|(name, _)| !name.is_empty())
         .ok_or_else(|| format!("write NAME=BODY,BODY; {OTHERWISE}"))?;
     let bodies = bodies.split(',').filter(|body| !body.is_empty());
     Ok(Group {
@@ -35,7 +36,9 @@ mod tests {
         assert_eq!(read.name, "soft");
         assert_eq!(read.bodies, ["shirt_*.obj", "2", "hair.ply#3"]);
         assert_eq!(group("soft=").unwrap().bodies, [""; 0]);
-        assert!(group("soft,hard").unwrap_err().contains("number"));
+        for text in ["soft,hard", "=soft", ""] {
+            assert!(group(text).unwrap_err().contains("number"), "{text}");
+        }
         assert_eq!(two("a.ply,b.ply"), Ok(["a.ply", "b.ply"].map(String::from)));
         for text in ["", "a", "a,", ",a", ",", "a,b,c"] {
             assert!(two(text).unwrap_err().contains("A,B"), "{text}");

@@ -16,6 +16,11 @@ impl Pictures {
         Watcher::new(&arguments.pictures, || labels(check), "frame", numbers).map(Self)
     }
 
+    /// Whether they need all pairs of this frame.
+    pub(super) fn looks_at(&self, frame: usize) -> bool {
+        self.0.looks_at(frame as u32)
+    }
+
     /// Takes the frame that was checked last.
     pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
         let number = found.frame as u32;

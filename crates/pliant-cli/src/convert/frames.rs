@@ -32,7 +32,7 @@ impl FromStr for Frames {
         };
         if end.is_some_and(|end| end <= start) {
             return Err(format!(
-                "no frame is from {start} up to, but not, {}",
+                "no frame is from {start} up to, but not, {}; write the first frame, and the one behind the last",
                 end.unwrap_or(0)
             ));
         }

@@ -23,13 +23,18 @@ pub(crate) struct Arguments {
     #[arg(value_name = "OUT")]
     to: String,
     /// Only these frames: 10..20 are 10 to 19; 10.. and ..20 are open; 10 is one
-    #[arg(long, value_name = "A..B", default_value = "..")]
+    #[arg(
+        long,
+        value_name = "A..B",
+        default_value = "..",
+        allow_negative_numbers = true
+    )]
     frames: Frames,
     /// The animation of a glTF file, by name; the first if none is named
     #[arg(long, value_name = "NAME")]
     clip: Option<String>,
     /// Frames a second: at which an animation of a glTF file is evaluated, and that an MDD file says it has
-    #[arg(long, value_name = "N", default_value = "30", value_parser = rate)]
+    #[arg(long, value_name = "N", default_value = "30", allow_negative_numbers = true, value_parser = rate)]
     fps: f64,
     /// Write over files that are there
     #[arg(long)]
@@ -76,10 +81,7 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         },
     )?;
     if arguments.clip.is_some() && body.clip().is_none() {
-        bail!(
-            "{}: has no animation, so `--clip` has no meaning here",
-            body.name()
-        );
+        bail!("{}: has no animation; leave out `--clip`", body.name());
     }
     let frames = arguments.frames.within(body.frame_count())?;
     let (vertices, triangles) = kept(&body);

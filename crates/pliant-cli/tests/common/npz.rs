@@ -1,4 +1,6 @@
-//! NPZ files by hand, honest and not.
+//! NPZ files by hand, honest and not; a surface as one, and as a GLB file.
+
+use serde_json::json;
 
 /// One entry as the directory announces it.
 pub(crate) struct Entry {
@@ -104,7 +106,7 @@ impl Surface {
         2 * (self.side - 1) * (self.side - 1)
     }
 
-    fn vertices(self) -> u32 {
+    pub(crate) fn vertices(self) -> u32 {
         if self.split {
             3 * self.triangles()
         } else {
@@ -112,8 +114,9 @@ impl Surface {
         }
     }
 
-    pub(crate) fn file(self) -> Vec<u8> {
-        let Self { side, frames, .. } = self;
+    /// For each vertex its place on the grid, and the vertices of the corners.
+    fn mesh(self) -> (Vec<u32>, Vec<u32>) {
+        let Self { side, .. } = self;
         let mut corners: Vec<u32> = Vec::new();
         for y in 0..side - 1 {
             for x in 0..side - 1 {
@@ -121,13 +124,17 @@ impl Surface {
                 corners.extend([0, 1, side, 1, side + 1, side].map(|index| corner + index));
             }
         }
-        // The place on the grid of each vertex, and the vertices of the corners.
-        let (places, corners) = if self.split {
+        if self.split {
             let own = 0..corners.len() as u32;
             (corners, own.collect())
         } else {
             ((0..side * side).collect(), corners)
-        };
+        }
+    }
+
+    pub(crate) fn file(self) -> Vec<u8> {
+        let Self { side, frames, .. } = self;
+        let (places, corners) = self.mesh();
         let mut vertices = Vec::new();
         for frame in 0..frames {
             for place in &places {
@@ -153,5 +160,86 @@ impl Surface {
             Entry::stored("vertices", array(dtype, &shape, &vertices)),
             Entry::stored("faces", array("<u4", &triangles, &faces)),
         ])
+    }
+
+    /// The same as a GLB file in f32: its shape in the first frame, held by four joints or not, moved by so many morph targets,
+    /// each everywhere. If there are either it moves, and has three frames at thirty a second.
+    pub(crate) fn glb(self, held: bool, targets: usize) -> Vec<u8> {
+        let (places, corners) = self.mesh();
+        let count = places.len();
+        let (mut data, mut views, mut accessors) = (Vec::new(), Vec::new(), Vec::new());
+        let mut array = |bytes: Vec<u8>, component: u32, count: usize, shape: &str| {
+            views.push(json!({"buffer": 0, "byteOffset": data.len(), "byteLength": bytes.len()}));
+            let view = views.len() - 1;
+            accessors.push(json!({"bufferView": view, "componentType": component, "count": count, "type": shape}));
+            data.extend(bytes);
+            view
+        };
+        let (float, long, byte) = (5126, 5125, 5121);
+        let floats =
+            |numbers: &[f32]| -> Vec<u8> { numbers.iter().flat_map(|x| x.to_le_bytes()).collect() };
+        let rest = places.iter().flat_map(|place| {
+            let (x, y) = (place % self.side, place / self.side);
+            [x, y, (x * 7 + y * 13) % 5].map(|x| x as f32)
+        });
+        let rest = floats(&rest.collect::<Vec<_>>());
+        let mut attributes = json!({"POSITION": array(rest, float, count, "VEC3")});
+        let indices: Vec<u8> = corners.iter().flat_map(|x| x.to_le_bytes()).collect();
+        let indices = array(indices, long, corners.len(), "SCALAR");
+        if held {
+            attributes["JOINTS_0"] = json!(array([0, 1, 2, 3].repeat(count), byte, count, "VEC4"));
+            let quarters = floats(&[0.25; 4]).repeat(count);
+            attributes["WEIGHTS_0"] = json!(array(quarters, float, count, "VEC4"));
+        }
+        let mut primitive = json!({"attributes": attributes, "indices": indices});
+        let mut channels = Vec::new();
+        let mut samplers = Vec::new();
+        if targets > 0 {
+            let delta = array(floats(&[0.0, 0.0, 1.0]).repeat(count), float, count, "VEC3");
+            primitive["targets"] = json!(vec![json!({"POSITION": delta}); targets]);
+            let times = array(floats(&[0.0, 2.0 / 30.0]), float, 2, "SCALAR");
+            let weights = [vec![0.0; targets], vec![1.0; targets]].concat();
+            let weights = array(floats(&weights), float, weights.len(), "SCALAR");
+            channels.push(json!({"sampler": 0, "target": {"node": 0, "path": "weights"}}));
+            samplers.push(json!({"input": times, "output": weights}));
+        }
+        let mut nodes = vec![json!({"mesh": 0})];
+        let mut skins = Vec::new();
+        if held {
+            nodes[0]["skin"] = json!(0);
+            nodes.extend(vec![json!({}); 4]);
+            skins.push(json!({"joints": [1, 2, 3, 4]}));
+            let times = array(floats(&[0.0, 2.0 / 30.0]), float, 2, "SCALAR");
+            let moves = array(floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0]), float, 2, "VEC3");
+            let target = json!({"node": 1, "path": "translation"});
+            channels.push(json!({"sampler": samplers.len(), "target": target}));
+            samplers.push(json!({"input": times, "output": moves}));
+        }
+        let mut document = json!({
+            "asset": {"version": "2.0"},
+            "scenes": [{"nodes": (0..nodes.len()).collect::<Vec<_>>()}],
+            "nodes": nodes,
+            "meshes": [{"primitives": [primitive]}],
+            "accessors": accessors,
+            "bufferViews": views,
+            "buffers": [{"byteLength": data.len()}],
+        });
+        if !channels.is_empty() {
+            document["animations"] = json!([{"channels": channels, "samplers": samplers}]);
+        }
+        if held {
+            document["skins"] = json!(skins);
+        }
+        let mut text = document.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        data.resize(data.len().next_multiple_of(4), 0);
+        let mut file = b"glTF\x02\0\0\0".to_vec();
+        file.extend((28 + text.len() as u32 + data.len() as u32).to_le_bytes());
+        for (kind, chunk) in [(b"JSON", text), (b"BIN\0", data)] {
+            file.extend((chunk.len() as u32).to_le_bytes());
+            file.extend(kind);
+            file.extend(chunk);
+        }
+        file
     }
 }

@@ -269,7 +269,7 @@ impl Reader {
     ) -> Result<Vec<(u64, [f64; 4])>, Fault> {
         if values.width > 4 {
             return Err(Reason::Unsupported(
-                "matrices in a sparse accessor are not evaluated".into(),
+                "matrices in a sparse accessor are not evaluated; export them in full".into(),
             )
             .into());
         }

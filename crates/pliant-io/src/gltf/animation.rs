@@ -93,7 +93,7 @@ impl Clip {
                 other => {
                     let other: String = other.chars().take(40).collect();
                     return Err(at(Reason::Unsupported(format!(
-                        "moves {other:?}, which is not evaluated"
+                        "moves {other:?}, which is not evaluated; export it without"
                     ))
                     .into()));
                 }

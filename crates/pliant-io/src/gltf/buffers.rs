@@ -77,7 +77,8 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
     };
     let version = number("the version", 4)?;
     if version != 2 {
-        let reason = format!("is GLB of version {version}; only version 2 can be read");
+        let reason =
+            format!("is GLB of version {version}; only version 2 can be read, so convert it");
         return Err(Reason::Unsupported(reason).into());
     }
     let announced = number("the length", 8)?;
@@ -179,12 +180,16 @@ impl Buffers {
                 return Err(Reason::Malformed("a data URI without a comma".into()).into());
             };
             if !kind.ends_with(";base64") {
-                return Err(Reason::Unsupported("a data URI that is not base64".into()).into());
+                return Err(Reason::Unsupported(
+                    "a data URI that is not base64; export the file as .glb".into(),
+                )
+                .into());
             }
             account.enter(text.len() as u64)?;
-            let bytes = STANDARD
-                .decode(text)
-                .map_err(|error| Reason::Malformed(format!("a data URI: {error}")))?;
+            let bytes = STANDARD.decode(text).map_err(|error| {
+                let error = error.to_string();
+                Reason::Malformed(format!("a data URI: {}", error.trim_end_matches('.')))
+            })?;
             return Ok(Bytes::Within(bytes));
         }
         let name = unescaped(uri);
@@ -193,7 +198,7 @@ impl Buffers {
         if name.is_empty() || name.contains([':', '\\', '\0']) || !path.components().all(plain) {
             let uri: String = uri.chars().take(60).collect();
             return Err(Reason::Unsupported(format!(
-                "its bytes are at {uri:?}; only files beside this one, and data URIs, are read"
+                "its bytes are at {uri:?}; only files beside this one, and data URIs, are read: export it as .glb"
             ))
             .into());
         }

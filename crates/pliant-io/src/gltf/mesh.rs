@@ -5,7 +5,6 @@
 //! data of the file.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use super::accessor::{Reader, Wanted, whole};
 use crate::error::{Fault, Place, Reason};
@@ -13,8 +12,7 @@ use crate::memory::{Account, bytes_of};
 
 pub(super) struct Mesh {
     pub(super) rest: Vec<[f32; 3]>,
-    /// Taken by every body of the mesh in its first frame; freed with the last.
-    pub(super) triangles: Arc<Vec<[u32; 3]>>,
+    /// Each in the order of vertices.
     pub(super) targets: Vec<Vec<Delta>>,
     /// Of the morph targets, where neither a node nor an animation says.
     pub(super) weights: Vec<f64>,
@@ -43,8 +41,12 @@ const JOINTS: [&str; 4] = ["JOINTS_0", "JOINTS_1", "JOINTS_2", "JOINTS_3"];
 const WEIGHTS: [&str; 4] = ["WEIGHTS_0", "WEIGHTS_1", "WEIGHTS_2", "WEIGHTS_3"];
 
 impl Mesh {
-    /// Reads a mesh; None where it has no triangles.
-    pub(super) fn read(reader: &mut Reader, number: usize) -> Result<Option<Self>, Fault> {
+    /// Reads a mesh and its triangles, which are needed no longer than until every body of it has its first frame; None where
+    /// it has none.
+    pub(super) fn read(
+        reader: &mut Reader,
+        number: usize,
+    ) -> Result<Option<(Self, Vec<[u32; 3]>)>, Fault> {
         let at = |fault: Fault| fault.or_at(Place::Part("mesh", number));
         let malformed = |why: &str| at(Reason::Malformed(why.into()).into());
         let Some(entry) = reader.document.meshes.get_mut(number) else {
@@ -64,7 +66,6 @@ impl Mesh {
         }
         let mut mesh = Self {
             rest: Vec::new(),
-            triangles: Arc::default(),
             targets: Vec::new(),
             weights,
             starts: Vec::new(),
@@ -89,8 +90,7 @@ impl Mesh {
             let end = mesh.influences.len() as u32;
             reader.account.push(&mut mesh.starts, end, 0)?;
         }
-        mesh.triangles = Arc::new(triangles);
-        Ok(surfaces().next().is_some().then_some(mesh))
+        Ok(surfaces().next().is_some().then_some((mesh, triangles)))
     }
 
     fn read_primitive(
@@ -141,7 +141,7 @@ impl Mesh {
     ) -> Result<(), Fault> {
         if attributes.contains_key("JOINTS_4") {
             return Err(Reason::Unsupported(
-                "more than 16 joints a vertex are not evaluated".into(),
+                "more than 16 joints a vertex are not evaluated; export it with fewer".into(),
             )
             .into());
         }

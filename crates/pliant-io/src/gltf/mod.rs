@@ -7,9 +7,10 @@
 //! no skin      the node in the world
 //! ```
 //!
-//! What is read from the file is held; a frame is evaluated in double precision when it is asked for, and handed on in single,
-//! as files have it. Frames are at 0, 1/fps, 2/fps, ... and the clip's end. A body that the clip does not move, and every body
-//! where there is no clip, has one frame. The place of a node with a skin does not matter, as the format says.
+//! What is read from the file is held: triangles until every body has its first frame, the rest where there are more frames. A
+//! frame is evaluated in double precision when it is asked for, and handed on in single, as files have it. Frames are at 0,
+//! 1/fps, 2/fps, ... and the clip's end. A body that the clip does not move, and every body where there is no clip, has one
+//! frame. The place of a node with a skin does not matter, as the format says.
 //!
 //! Source: the glTF 2.0 specification, 3.5, 3.7 and Appendix C. Sines are those of `libm`: the same bits on every machine.
 
@@ -22,6 +23,7 @@ mod mesh;
 mod scene;
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
 use crate::body::OpenOptions;
@@ -33,8 +35,11 @@ use crate::memory::Account;
 use crate::positions::Precision;
 use accessor::Reader;
 use animation::Clip;
-use mesh::Mesh;
+use mesh::{Delta, Mesh};
 use scene::{Pose, Scene};
+
+/// Vertices that are moved at a time.
+const AT_A_TIME: usize = 4096;
 
 /// The bodies of a file, with their names.
 pub(crate) struct Bodies {
@@ -47,7 +52,7 @@ pub(crate) struct Bodies {
 pub(crate) struct GltfBody {
     scene: Arc<Scene>,
     mesh: Arc<Mesh>,
-    /// Until the first frame.
+    /// Until the first frame; freed with the last body of the mesh that has one.
     triangles: Option<Arc<Vec<[u32; 3]>>>,
     node: usize,
     skin: Option<usize>,
@@ -55,8 +60,6 @@ pub(crate) struct GltfBody {
     weights: Vec<f64>,
     moves: bool,
     next: usize,
-    /// Reused: the shape that morph targets give; empty where there are none.
-    morphed: Vec<[f64; 3]>,
     /// What [`Bodies::held`] says of a body that is alone.
     held: u64,
 }
@@ -121,17 +124,20 @@ fn read(
     let names = names(reader, &nodes);
     let wanted = |at: &usize| name.is_none_or(|name| name == names[*at]);
     let moved = scene.moved();
-    let mut meshes: BTreeMap<usize, Option<Arc<Mesh>>> = BTreeMap::new();
+    let mut meshes = BTreeMap::new();
     let mut bodies = Vec::new();
     for at in (0..nodes.len()).filter(wanted) {
         let (node, number) = nodes[at];
-        let mesh = if let Some(mesh) = meshes.get(&number) {
-            mesh.clone()
-        } else {
-            let mesh = Mesh::read(reader, number)?.map(Arc::new);
-            meshes.entry(number).or_insert(mesh).clone()
+        let mesh = match meshes.entry(number) {
+            Entry::Occupied(mesh) => mesh.into_mut(),
+            Entry::Vacant(place) => {
+                let read = Mesh::read(reader, number)?;
+                place.insert(read.map(|(mesh, triangles)| (Arc::new(mesh), Arc::new(triangles))))
+            }
         };
-        let Some(mesh) = mesh else { continue };
+        let Some((mesh, triangles)) = mesh.clone() else {
+            continue;
+        };
         let entry = &reader.document.nodes[node];
         let skin = entry.skin;
         let weights = entry
@@ -149,24 +155,18 @@ fn read(
             Some(skin) => scene.moves_joints(skin, &moved),
             None => moved[node],
         };
-        let morphed = if mesh.targets.is_empty() {
-            0
-        } else {
-            size_of::<[f64; 3]>() * mesh.rest.len()
-        };
         bodies.push((
             names[at].clone(),
             GltfBody {
                 moves: places || scene.morphs(node),
                 scene: scene.clone(),
-                triangles: Some(mesh.triangles.clone()),
-                held: morphed as u64 + mesh.memory_of_alike(),
+                triangles: Some(triangles),
+                held: mesh.memory_of_alike(),
                 mesh,
                 node,
                 skin,
                 weights,
                 next: 0,
-                morphed: Vec::new(),
             },
         ));
     }
@@ -183,12 +183,14 @@ fn read(
     Ok(bodies)
 }
 
-/// The animation of this name; without a name the first, if there is one.
+/// The animation of this name; without a name the first. None in a file that has none at all.
 fn read_clip(reader: &mut Reader, name: Option<&str>) -> Result<Option<Clip>, Fault> {
     let document = &reader.document;
     let count = document.animations.len();
     let clip = match name {
         None => 0,
+        // Stands still, as a body of another format beside one that moves.
+        Some(_) if count == 0 => return Ok(None),
         Some(name) => {
             let known = (0..count).position(|clip| document.clip_name(clip) == name);
             known.ok_or_else(|| Reason::NoClip {
@@ -218,7 +220,7 @@ fn nodes_with_meshes(reader: &Reader) -> Result<Vec<(usize, usize)>, Fault> {
     let number = document.scene.unwrap_or(0);
     let Some(scene) = document.scenes.get(number) else {
         let reason = if document.scenes.is_empty() {
-            "has no scene, so it does not say where its meshes are; export it with one".into()
+            "has no scene, so it does not say where its meshes are".into()
         } else {
             format!("scene {number} does not exist")
         };
@@ -320,65 +322,63 @@ impl GltfBody {
             }
             None => frame.same_faces(),
         }
-        let mut morphed = std::mem::take(&mut self.morphed);
         self.scene
-            .with_pose(number, |pose| self.place(pose, &mut morphed, frame))
+            .with_pose(number, |pose| self.place(pose, frame))
             .map_err(at)?;
-        self.morphed = morphed;
         self.next += 1;
         frame.complete(0).map_err(|fault| fault.or_at(place))
     }
 
-    /// The positions of a pose.
-    fn place(
-        &self,
-        pose: &Pose,
-        morphed: &mut Vec<[f64; 3]>,
-        frame: &mut Frame,
-    ) -> Result<(), Reason> {
+    /// The positions of a pose: some at a time, so that what morph targets make of them takes no memory to speak of.
+    fn place(&self, pose: &Pose, frame: &mut Frame) -> Result<(), Reason> {
         let Self { mesh, .. } = self;
-        if !mesh.targets.is_empty() {
-            morphed.clear();
-            morphed.extend(mesh.rest.iter().map(|rest| rest.map(f64::from)));
-            let weights = pose.weights.get(&self.node).unwrap_or(&self.weights);
-            for (target, &weight) in mesh
-                .targets
-                .iter()
-                .zip(weights)
-                .filter(|&(_, weight)| *weight != 0.0)
-            {
-                for &(vertex, delta) in target {
-                    for (x, d) in morphed[vertex as usize].iter_mut().zip(delta) {
-                        *x += weight * f64::from(d);
+        let weights = pose.weights.get(&self.node).unwrap_or(&self.weights);
+        // Of each morph target that moves anything, its weight and what is left of it: it is in the order of vertices.
+        let mut targets: Vec<(f64, &[Delta])> = mesh
+            .targets
+            .iter()
+            .zip(weights)
+            .filter(|&(_, weight)| *weight != 0.0)
+            .map(|(target, &weight)| (weight, &target[..]))
+            .collect();
+        let mut shapes = Vec::new();
+        for (begin, rest) in (0..).step_by(AT_A_TIME).zip(mesh.rest.chunks(AT_A_TIME)) {
+            shapes.clear();
+            shapes.extend(rest.iter().map(|rest| rest.map(f64::from)));
+            for (weight, left) in &mut targets {
+                let end =
+                    left.partition_point(|&(vertex, _)| (vertex as usize) < begin + rest.len());
+                let (now, later) = left.split_at(end);
+                for &(vertex, delta) in now {
+                    for (x, d) in shapes[vertex as usize - begin].iter_mut().zip(delta) {
+                        *x += *weight * f64::from(d);
                     }
                 }
+                *left = later;
+            }
+            for (vertex, &shape) in (begin..).zip(&shapes) {
+                let position = self.position(pose, vertex, shape);
+                frame.vertex(position.map(|x| f64::from(x as f32)))?;
             }
         }
-        let joints = self.skin.and_then(|skin| pose.skins.get(skin));
-        let node = &pose.nodes[self.node];
-        for (vertex, rest) in mesh.rest.iter().enumerate() {
-            let shape = morphed
-                .get(vertex)
-                .copied()
-                .unwrap_or_else(|| rest.map(f64::from));
-            let position = match joints {
-                None => node.apply(shape),
-                Some(joints) => {
-                    let (mut sum, mut whole) = ([0.0; 3], 0.0);
-                    for influence in mesh.influences(vertex) {
-                        let weight = f64::from(influence.weight);
-                        let moved = joints[usize::from(influence.joint)].apply(shape);
-                        sum.iter_mut()
-                            .zip(moved)
-                            .for_each(|(sum, x)| *sum += weight * x);
-                        whole += weight;
-                    }
-                    sum.map(|x| x / whole)
-                }
-            };
-            frame.vertex(position.map(|x| f64::from(x as f32)))?;
-        }
         Ok(())
+    }
+
+    /// Where a vertex is that has this place at rest, morph targets included.
+    fn position(&self, pose: &Pose, vertex: usize, shape: [f64; 3]) -> [f64; 3] {
+        let Some(joints) = self.skin.and_then(|skin| pose.skins.get(skin)) else {
+            return pose.nodes[self.node].apply(shape);
+        };
+        let (mut sum, mut whole) = ([0.0; 3], 0.0);
+        for influence in self.mesh.influences(vertex) {
+            let weight = f64::from(influence.weight);
+            let moved = joints[usize::from(influence.joint)].apply(shape);
+            sum.iter_mut()
+                .zip(moved)
+                .for_each(|(sum, x)| *sum += weight * x);
+            whole += weight;
+        }
+        sum.map(|x| x / whole)
     }
 }
 

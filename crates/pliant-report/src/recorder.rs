@@ -200,7 +200,7 @@ impl Recorder {
         };
         let (mut shapes, mut made) = (Vec::with_capacity(self.bodies.len()), Vec::new());
         for body in &self.bodies {
-            let mut shape = Shape::of(world.positions(body.id).unwrap_or_default());
+            let mut shape = Shape::of(&world.positions(body.id).unwrap_or_default());
             // Whatever became of the body: as many as there were.
             shape.inside.resize(body.vertices, [0.0; 3]);
             shapes.push(shape);

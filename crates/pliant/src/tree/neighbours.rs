@@ -60,7 +60,8 @@ impl Neighbours {
         let mut all = Self {
             within: vec![0; firsts.len()],
             of_block: vec![None; firsts.len()],
-            rows: Vec::new(),
+            // On a surface one row a block, and for some a second; to double would take memory thrice.
+            rows: Vec::with_capacity(firsts.len() + firsts.len() / 8),
         };
         // Block by block, as triangles come: in the order of their triangles, which is not always that of their numbers.
         let mut later: Vec<(u32, u64)> = Vec::new();

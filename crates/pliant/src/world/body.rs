@@ -1,26 +1,18 @@
 //! One body: connectivity, the shape it has now, and what it may meet.
 
 use super::BodyId;
+use super::positions::Positions;
 use crate::error::ErrorKind;
 use crate::exec::Threads;
-use crate::geometry::{
-    Aabb, Bounds, Origin, POINTS_JOB, Points, Scalar, Shape, denormals_are_kept,
-};
-use crate::kernels::take_over::take_over as take_over_some;
+use crate::geometry::{Aabb, Bounds, Origin, Points, Scalar, Shape, denormals_are_kept};
 use crate::kernels::{Level, widest};
 use crate::mesh::{self, Mesh};
+use std::borrow::Cow;
 
 pub(super) struct Body<S> {
     id: BodyId,
     pub(super) mesh: Mesh,
-    /// The shape, as the caller orders vertices.
-    positions: Vec<[S; 3]>,
-    /// Where the next shape is written, so that a bad one never replaces a good one.
-    spare: Vec<[S; 3]>,
-    /// The shape in tree order, made when the body meets another.
-    in_tree_order: Points<S>,
-    /// Whether that is the shape that the body has now.
-    is_in_order: bool,
+    positions: Positions<S>,
     /// Of the vertices that triangles use.
     bounds: Bounds<S>,
     /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other epochs are not true.
@@ -78,10 +70,7 @@ impl<S: Scalar> Body<S> {
         Self {
             id,
             mesh,
-            positions: positions.to_vec(),
-            spare: positions.to_vec(),
-            in_tree_order: Points::with_len(positions.len()),
-            is_in_order: false,
+            positions: Positions::new(positions),
             bounds,
             epoch: 1,
             membership: u32::MAX,
@@ -104,23 +93,15 @@ impl<S: Scalar> Body<S> {
 
     /// Brings the shape into tree order, which everything that looks at it needs.
     pub(super) fn bring_into_order(&mut self, level: Level, threads: &Threads) {
-        if !self.is_in_order {
-            let order = self.mesh.vertex_ids();
-            self.in_tree_order
-                .gather(level, threads, &self.positions, order);
-            self.is_in_order = true;
-        }
+        let order = self.mesh.vertex_ids();
+        self.positions.bring_into_tree_order(level, threads, order);
     }
 
     /// The shape in tree order, whether it was brought into it or not.
     pub(super) fn in_tree_order(&self) -> Points<S> {
         let mut points = Points::with_len(self.positions.len());
-        points.gather(
-            widest(),
-            &Threads::one(),
-            &self.positions,
-            self.mesh.vertex_ids(),
-        );
+        let order = self.mesh.vertex_ids();
+        points.gather(widest(), &Threads::one(), &self.positions(), order);
         points
     }
 
@@ -129,12 +110,11 @@ impl<S: Scalar> Body<S> {
         self.mesh.triangle_ids()[triangle as usize]
     }
 
-    /// The corners of a triangle in tree order, from the shape as the caller orders vertices; exact.
+    /// The corners of a triangle in tree order, whether the shape was brought into it or not; exact.
     pub(super) fn corners_now(&self, triangle: u32) -> [[f64; 3]; 3] {
-        self.mesh.corners()[triangle as usize].map(|vertex| {
-            let vertex = self.mesh.vertex_ids()[vertex as usize];
-            self.positions[vertex as usize].map(S::to_f64)
-        })
+        let order = self.mesh.vertex_ids();
+        self.mesh.corners()[triangle as usize]
+            .map(|vertex| self.positions.get(vertex, order).map(S::to_f64))
     }
 
     pub(super) fn epoch(&self) -> u64 {
@@ -144,9 +124,8 @@ impl<S: Scalar> Body<S> {
     /// What makes boxes and decides pairs; of a body that was brought into order.
     #[inline]
     pub(super) fn shape(&self, origin: Origin) -> Shape<'_, S> {
-        debug_assert!(self.is_in_order);
         Shape {
-            positions: &self.in_tree_order,
+            positions: self.positions.in_tree_order(),
             triangles: self.mesh.corners(),
             origin,
             epoch: self.epoch,
@@ -182,7 +161,7 @@ impl<S: Scalar> Body<S> {
                 found: positions.len(),
             });
         }
-        let Some(all) = take_over(level, threads, positions, &mut self.spare) else {
+        let Some(all) = self.positions.look_at(level, threads, positions) else {
             // Which vertex it was is found out only if there was one.
             return Err(first_outside(
                 positions,
@@ -201,15 +180,15 @@ impl<S: Scalar> Body<S> {
             ));
         }
         none_is_lost(positions)?;
-        std::mem::swap(&mut self.positions, &mut self.spare);
+        let order = self.mesh.vertex_ids();
+        self.positions.accept(level, threads, positions, order);
         let used = self.mesh.used_vertices();
-        self.bounds = if used == self.positions.len() {
+        self.bounds = if used == positions.len() {
             all
         } else {
-            let used = self.mesh.vertex_ids()[..used].iter();
-            bounds_of(used.map(|&vertex| self.positions[vertex as usize]))
+            let used = order[..used].iter();
+            bounds_of(used.map(|&vertex| positions[vertex as usize]))
         };
-        self.is_in_order = false;
         self.epoch += 1;
         Ok(())
     }
@@ -225,14 +204,14 @@ impl<S: Scalar> Body<S> {
     }
 
     /// The shape as the caller orders vertices.
-    pub(super) fn positions(&self) -> &[[S; 3]] {
-        &self.positions
+    pub(super) fn positions(&self) -> Cow<'_, [[S; 3]]> {
+        self.positions.in_callers_order(self.mesh.vertex_ids())
     }
 
     /// The same body in the order of a new tree.
     pub(super) fn reorder(&mut self, mesh: Mesh) {
+        self.positions.forget_tree_order(self.mesh.vertex_ids());
         self.mesh = mesh;
-        self.is_in_order = false;
         self.epoch += 1;
     }
 
@@ -254,10 +233,10 @@ impl<S: Scalar> Body<S> {
             if !is_box {
                 return Err(ErrorKind::BadLooseBox);
             }
-            let positions = &self.positions;
+            let positions = self.positions();
             if !positions.iter().all(|&position| loose.holds(position)) {
                 return Err(first_outside(
-                    positions,
+                    &positions,
                     |&position| loose.holds(position),
                     |vertex, position| ErrorKind::OutsideLooseBox { vertex, position },
                 ));
@@ -266,25 +245,6 @@ impl<S: Scalar> Body<S> {
         self.loose = loose;
         Ok(())
     }
-}
-
-/// Copies points, and returns their bounds, or none if a coordinate is out of range. The slices are equally long.
-fn take_over<S: Scalar>(
-    level: Level,
-    threads: &Threads,
-    from: &[[S; 3]],
-    to: &mut [[S; 3]],
-) -> Option<Bounds<S>> {
-    if from.len() <= POINTS_JOB || !threads.are_many() {
-        return take_over_some(level, from, to);
-    }
-    let parts = from.chunks(POINTS_JOB).zip(to.chunks_mut(POINTS_JOB));
-    let mut jobs: Vec<_> = parts.map(|(from, to)| (from, to, None)).collect();
-    threads.run(&mut jobs, |_, (from, to, bounds)| {
-        *bounds = take_over_some(level, from, to)
-    });
-    let mut parts = jobs.iter().map(|&(_, _, bounds)| bounds);
-    parts.try_fold(Bounds::EMPTY, |all, part| Some(all.union(&part?)))
 }
 
 fn bounds_of<S: Scalar>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {

@@ -7,6 +7,7 @@ mod body;
 mod forest;
 mod parts;
 mod picture;
+mod positions;
 mod queries;
 mod step;
 mod validate;
@@ -277,7 +278,7 @@ impl<S: Scalar> World<S> {
         let mesh = self.forest.plant(
             place,
             &body_there.triangles(),
-            body_there.positions(),
+            &body_there.positions(),
             &self.options,
         );
         body_there.reorder(mesh);

@@ -32,8 +32,8 @@ impl<S: Scalar> World<S> {
     /// # Errors
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn positions(&self, body: BodyId) -> Result<&[[S; 3]], Error> {
-        Ok(self.bodies[self.place(body)?].positions())
+    pub fn positions(&self, body: BodyId) -> Result<Vec<[S; 3]>, Error> {
+        Ok(self.bodies[self.place(body)?].positions().into_owned())
     }
 
     /// The boxes of a level of a body's tree, and which of them the tree holds for the shape that the body has now: figure 2
@@ -68,13 +68,14 @@ impl<S: Scalar> World<S> {
             .iter()
             .copied()
             .chain([body.triangle_count() as u32]);
+        let positions = body.positions();
         let boxes = starts.iter().zip(ends).zip(made);
         Ok(boxes
             .map(|((&start, end), made)| {
                 let mut bounds = Bounds::EMPTY;
                 for &vertex in body.mesh.corners()[start as usize..end as usize].as_flattened() {
                     let vertex = body.mesh.vertex_ids()[vertex as usize];
-                    bounds.include(body.positions()[vertex as usize]);
+                    bounds.include(positions[vertex as usize]);
                 }
                 NodeBox {
                     lower: bounds.lo,

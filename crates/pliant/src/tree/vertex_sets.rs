@@ -18,11 +18,18 @@ const FEW: usize = 24;
 /// Indexed by node, counted level by level.
 #[derive(Debug)]
 pub(crate) struct VertexSets {
-    /// First and end of the run of vertices that the node's triangles use first.
-    runs: Vec<[u32; 2]>,
-    /// The first border vertex of each node, and the end.
-    border_starts: Vec<usize>,
+    sets: Vec<Set>,
     border: Vec<u32>,
+}
+
+/// The vertices of one node.
+#[derive(Clone, Copy, Debug)]
+struct Set {
+    /// First and end of the run of vertices that the node's triangles use first.
+    run: [u32; 2],
+    /// The first border vertex, and how many there are.
+    border: usize,
+    borders: u32,
 }
 
 impl VertexSets {
@@ -38,10 +45,8 @@ impl VertexSets {
             used_before.push(used);
         }
 
-        let mut runs = Vec::with_capacity(plan.parts.len());
-        let mut border_starts = Vec::with_capacity(plan.parts.len() + 1);
+        let mut sets = Vec::with_capacity(plan.parts.len());
         let mut border = Vec::new();
-        border_starts.push(0);
         let mut seen_by = vec![u32::MAX; mesh.used_vertices()];
         for (node, part) in plan.parts.iter().enumerate() {
             let triangles = part.triangles.start as usize..part.triangles.end as usize;
@@ -61,28 +66,31 @@ impl VertexSets {
                 border.resize(first + count.next_multiple_of(4), last);
                 run[1] = run[0];
             }
-            runs.push(run);
-            border_starts.push(border.len());
+            sets.push(Set {
+                run,
+                border: first,
+                borders: (border.len() - first) as u32,
+            });
         }
         border.shrink_to_fit();
-        Self {
-            runs,
-            border_starts,
-            border,
-        }
+        Self { sets, border }
     }
 
     /// The number of nodes.
     pub(crate) fn len(&self) -> usize {
-        self.runs.len()
+        self.sets.len()
     }
 
     /// The vertices below a node: a run and a border, in which one may be more than once.
     #[inline]
     pub(crate) fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[u32]) {
-        let [start, end] = self.runs[node];
-        let border = self.border_starts[node]..self.border_starts[node + 1];
-        (start as usize..end as usize, &self.border[border])
+        let Set {
+            run: [start, end],
+            border,
+            borders,
+        } = self.sets[node];
+        let border = &self.border[border..border + borders as usize];
+        (start as usize..end as usize, border)
     }
 
     /// The vertices below a node, run first.

@@ -3,7 +3,7 @@
     world = pliant.World()
     cloth = world.add(faces, vertices)                  # (m, 3) of any integer type, (n, 3) float32 or float64
     for positions in frames:
-        world.set_positions(cloth, positions)           # checked and taken over in one pass
+        world.set_positions(cloth, positions)           # checked and taken over
         pairs = world.self_intersection_pairs(cloth)    # (k, 2) uint32, sorted
 
 Two triangles intersect as closed sets: touching in one point counts, coplanar overlap counts, a degenerate triangle is the

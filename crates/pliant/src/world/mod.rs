@@ -1,7 +1,8 @@
 //! The world: bodies, their shapes, and the one place where the phases meet.
 //!
-//! `body` takes shapes over, `step` runs the phases for one query, `queries` are what users ask, `forest` is where the degree
-//! of the trees turns from a value into a type.
+//! `body` takes shapes over, whose `positions` are in the caller's order or in the tree's; `step` runs the phases for one query;
+//! `queries` and `parts` are what users ask, `picture` what a body looks like, `witness` the last first pair; `forest` is where the
+//! degree of the trees turns from a value into a type; `validate` looks at every invariant.
 
 mod body;
 mod forest;
@@ -206,7 +207,8 @@ impl<S: Scalar> World<S> {
 
     /// Gives a body a new shape: one position for each of its vertices, shape (n, 3), in the order in which it was added.
     ///
-    /// One pass over the positions: checked, copied, and taken over only if all are good. The body keeps its old shape if not.
+    /// The positions are checked, and taken over only if all are good; the body keeps its old shape if not. One pass that copies them,
+    /// or, if a query looked at the shape before, one that checks and one that takes them straight into the order of the tree.
     ///
     /// # Errors
     ///

@@ -155,7 +155,7 @@ impl Leaves {
     }
 }
 
-impl<'t> LeafBoxes<'t> {
+impl LeafBoxes<'_> {
     /// Cuts them in two before a leaf.
     pub(crate) fn split_before(self, leaf: u32) -> [Self; 2] {
         let block = self.runs[leaf as usize].first_block as usize;

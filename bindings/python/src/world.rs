@@ -345,8 +345,8 @@ impl World {
     fn positions<'py>(&self, py: Python<'py>, body: Body) -> Result<Bound<'py, PyAny>, Refused> {
         let positions = self.with(py, |state| {
             Ok(match &state.world {
-                Either::F32(world) => Owned::F32(world.positions(body.0)?.to_vec()),
-                Either::F64(world) => Owned::F64(world.positions(body.0)?.to_vec()),
+                Either::F32(world) => Owned::F32(world.positions(body.0)?),
+                Either::F64(world) => Owned::F64(world.positions(body.0)?),
             })
         })?;
         Ok(positions.into_array(py)?)

@@ -145,15 +145,18 @@ impl TrianglesOfVertices {
         for vertex in 1..starts.len() {
             starts[vertex] += starts[vertex - 1];
         }
+        // Each start is that of the next vertex at first, and comes down to its own.
+        starts.rotate_left(1);
         let mut triangles = vec![0; 3 * mesh.corners().len()];
-        let mut next = starts.clone();
-        for (triangle, corners) in mesh.corners().iter().enumerate() {
+        for (triangle, corners) in mesh.corners().iter().enumerate().rev() {
             for &vertex in corners {
-                let place = &mut next[vertex as usize];
+                let place = &mut starts[vertex as usize];
+                *place -= 1;
                 triangles[*place as usize] = triangle as u32;
-                *place += 1;
             }
         }
+        let last = starts.len() - 1;
+        starts[last] = triangles.len() as u32;
         Self { starts, triangles }
     }
 

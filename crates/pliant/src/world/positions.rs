@@ -12,7 +12,7 @@ use std::borrow::Cow;
 
 pub(super) struct Positions<S> {
     callers: Vec<[S; 3]>,
-    /// Where the next shape is written, so that a bad one never replaces a good one.
+    /// Where the next shape is written, so that a bad one never replaces a good one; nothing until one is copied.
     spare: Vec<[S; 3]>,
     trees: Points<S>,
     /// Which of the two hold the shape of now; one at least.
@@ -27,7 +27,7 @@ impl<S: Scalar> Positions<S> {
     pub(super) fn new(positions: &[[S; 3]]) -> Self {
         Self {
             callers: positions.to_vec(),
-            spare: positions.to_vec(),
+            spare: Vec::new(),
             trees: Points::with_len(positions.len()),
             is_callers: true,
             is_trees: false,
@@ -47,23 +47,26 @@ impl<S: Scalar> Positions<S> {
         threads: &Threads,
         new: &[[S; 3]],
     ) -> Option<Bounds<S>> {
-        let straight = self.looked_at;
-        let spare = &mut self.spare;
+        let place = if self.looked_at {
+            None
+        } else {
+            self.spare.resize(new.len(), [S::default(); 3]);
+            Some(&mut self.spare[..])
+        };
+        let look = |new: &[[S; 3]], place: Option<&mut [[S; 3]]>| match place {
+            Some(place) => take_over(level, new, place),
+            None => check(level, new),
+        };
         if new.len() <= POINTS_JOB || !threads.are_many() {
-            return if straight {
-                check(level, new)
-            } else {
-                take_over(level, new, spare)
-            };
+            return look(new, place);
         }
-        let parts = new.chunks(POINTS_JOB).zip(spare.chunks_mut(POINTS_JOB));
-        let mut jobs: Vec<_> = parts.map(|(new, spare)| (new, spare, None)).collect();
-        threads.run(&mut jobs, |_, (new, spare, bounds)| {
-            *bounds = if straight {
-                check(level, new)
-            } else {
-                take_over(level, new, spare)
-            };
+        let mut places = place.map(|place| place.chunks_mut(POINTS_JOB));
+        let parts = new.chunks(POINTS_JOB);
+        let mut jobs: Vec<_> = parts
+            .map(|new| (new, places.as_mut().and_then(Iterator::next), None))
+            .collect();
+        threads.run(&mut jobs, |_, (new, place, bounds)| {
+            *bounds = look(new, place.as_deref_mut());
         });
         let mut parts = jobs.iter().map(|&(_, _, bounds)| bounds);
         parts.try_fold(Bounds::EMPTY, |all, part| Some(all.union(&part?)))

@@ -94,7 +94,8 @@ Examples:
   pliant check walk.npz --quiet && echo clean
 
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed, as many for one that --baseline leaves out, with --hits 16 more and 300 for each triangle written, and what a glTF file says of the shape and motion of bodies that move.";
+Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it the pairs of one frame, where they are listed, left out or written, and of glTF bodies that move the rest positions, joints, deltas and keys.
+Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
 
 /// `A,B`.
 type Names = [String; 2];

@@ -121,7 +121,10 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
             arguments.bodies.len()
         ));
     }
-    let mut check = open(arguments).or_else(|error| output::annotate(arguments, advise(error)))?;
+    let mut check = open(arguments).or_else(|error| {
+        let error = advise_names(arguments, error).unwrap_or_else(advise);
+        output::annotate(arguments, error)
+    })?;
     let mut hits = arguments.hits.as_deref().map(Hits::new).transpose()?;
     let mut pictures = Pictures::new(arguments, &check)?;
     let mut output = Output::begin(arguments, &check)?;
@@ -192,6 +195,20 @@ fn frames(
         pictures.frame(check, &found)?;
     }
     Ok(())
+}
+
+/// With what to do about the name of a piece, `FILE#1`, where no file is split; the error itself where it is none.
+fn advise_names(arguments: &Arguments, error: Error) -> Result<anyhow::Error, Error> {
+    match &error {
+        Error::NoSuchName { name, .. }
+            if arguments.split.is_none() && names::is_of_a_piece(name) =>
+        {
+            Ok(anyhow!(
+                "{error}; choose one of these, or make the pieces of every file bodies with `--split components`"
+            ))
+        }
+        _ => Err(error),
+    }
 }
 
 /// With what to do, where flags of the program can help.

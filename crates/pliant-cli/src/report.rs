@@ -19,7 +19,7 @@ pub(crate) struct PictureOptions {
     /// Write a page about what was found, one file that needs no network: the bodies in motion, what intersects in red
     #[arg(long, value_name = "FILE.html", value_parser = page_name)]
     report: Option<PathBuf>,
-    /// Draw one frame as an image; with --frame
+    /// Draw one frame as an image, what intersects in red, faintly so where it is hidden; with --frame
     #[arg(long, value_name = "FILE.png", requires = "frame", value_parser = image_name)]
     png: Option<PathBuf>,
     /// The frame, or the step, that --png draws

@@ -5,6 +5,7 @@ mod common;
 use common::{check, folder, pliant};
 use serde_json::json;
 use std::fs;
+use std::path::Path;
 
 /// A right-angled triangle of side 2 in the plane z, as an OBJ file.
 fn flat(z: f64) -> String {
@@ -277,6 +278,57 @@ fn two_when_a_late_frame_cannot_be_checked_even_after_hits() {
         2,
         "{}",
         table.out
+    );
+}
+
+#[test]
+fn the_table_names_the_file_of_each_frame() {
+    let folder = folder(&[
+        ("7.obj", pair(true)),
+        ("227.obj", pair(false)),
+        ("still.obj", flat(9.0)),
+    ]);
+    let path = folder.path();
+    for (file, z) in [("one/b.obj", 1.0), ("two/b.obj", 2.0)] {
+        let file = path.join(file);
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(file, flat(z)).unwrap();
+    }
+    let rows = |arguments: &[&str]| {
+        let table = check(path, arguments).out;
+        let from_header_on = table
+            .lines()
+            .skip_while(|line| !line.trim_start().starts_with("frame"));
+        let rows = from_header_on.take_while(|line| !line.is_empty());
+        rows.map(String::from).collect::<Vec<_>>()
+    };
+    let of_numbers = [
+        "   frame  file        pairs  first pair",
+        "       0  7.obj           1  triangle 0 of body 0, triangle 1 of body 0",
+        "       1  227.obj         0",
+    ];
+    assert_eq!(rows(&["[0-9]*.obj"]), of_numbers);
+    assert_eq!(
+        rows(&["[0-9]*.obj", "--count"]),
+        of_numbers.map(|row| row.get(..27).unwrap_or(row))
+    );
+    // What all have in common is said in the line of the body.
+    let whole = path.join("[0-9]*.obj");
+    assert_eq!(rows(&[whole.to_str().unwrap()]), of_numbers);
+    let of_folders = rows(&["*/b.obj"]);
+    assert_eq!(of_folders[1..].concat().matches("b.obj").count(), 2);
+    for (row, file) in of_folders[1..].iter().zip(["one", "two"]) {
+        let file = Path::new(file).join("b.obj").display().to_string();
+        assert!(row.split_whitespace().any(|word| word == file), "{row}");
+    }
+    // Two bodies in files: the header says of which.
+    let of_two = rows(&["still.obj", "*/b.obj", "[0-9]*.obj"]);
+    assert_eq!(of_two[0], "   frame  file of body 1     pairs  first pair");
+    assert_eq!(of_two[2].find("1  two"), Some(7), "{}", of_two[2]);
+    // One file is all frames: its name stands in the head.
+    assert_eq!(
+        rows(&["still.obj", "7.obj"]),
+        ["   frame     pairs  first pair", "       0         0"]
     );
 }
 

@@ -122,6 +122,18 @@ fn every_error_says_what_to_do_next() {
             "frames of these files are 0 to 0",
         ),
         ("check a.obj --ignore c,d", "bodies: 0 = \"a.obj\""),
+        (
+            "check a.obj --ignore a.obj#1,a.obj#2",
+            "choose one of these, or make the pieces of every file bodies with `--split components`",
+        ),
+        (
+            "check a.obj --group x=a.obj#2",
+            "or make the pieces of every file bodies with `--split components`",
+        ),
+        (
+            "check a.obj --split components --ignore a.obj#1,a.obj#2",
+            "bodies: 0 = \"a.obj#1\"; choose one of these\n",
+        ),
         ("check a.obj --ignore c", "write A,B"),
         ("check a.obj --group x", "write NAME=BODY,BODY"),
         ("check a.obj --group a.obj=a.obj", "choose another name"),

@@ -326,9 +326,9 @@ fn only_what_is_new() {
     let lines: Vec<_> = table.lines().map(str::trim).collect();
     for line in [
         "checked: the bodies with each other, not with themselves; left out: pairs that frame 4 has",
-        "frame     pairs  left out  first pair",
-        "0         1         -  triangle 0 of body 0, triangle 0 of body 1",
-        "4         0         1",
+        "frame  file        pairs  left out  first pair",
+        "0  m_0.obj         1         -  triangle 0 of body 0, triangle 0 of body 1",
+        "4  m_4.obj         0         1",
     ] {
         assert!(lines.contains(&line), "{line:?} is not in {table}");
     }

@@ -1,4 +1,4 @@
-//! A frame as an image: the same bytes everywhere, the nearest in front, what intersects in red.
+//! A frame as an image: the same bytes everywhere, the nearest in front, what intersects in red, also behind others.
 
 use pliant::World;
 use pliant_report::picture::Picture;
@@ -124,6 +124,40 @@ fn the_nearer_triangle_hides_the_other() {
             is_reddish(&picture.pixels[middle..middle + 3])
         };
         assert!(red(front) && !red(1 - front), "{heights:?}");
+    }
+}
+
+#[test]
+fn what_intersects_shines_through_what_hides_it() {
+    let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    let faces = [[0, 1, 2], [0, 2, 3]];
+    // Whatever the order, and however much hides it or is hidden.
+    let sheets = [0.0, 1e-3, 2e-3, 3e-3];
+    let orders = [[0, 1, 2, 3], [3, 2, 1, 0], [2, 0, 3, 1], [1, 3, 0, 2]];
+    for order in orders {
+        let mut world = World::<f64>::new();
+        for sheet in order {
+            world.add(&faces, &square(sheets[sheet])).unwrap();
+        }
+        let centre = |red: &[usize]| {
+            let at = |sheet| order.iter().position(|&other| other == sheet).unwrap() as u32;
+            let pairs: Vec<_> = red.iter().map(|&s| [at(s), 0, at(s), 1]).collect();
+            let picture = Picture::of(&world, &pairs, [40, 40]);
+            let middle = 3 * (20 * 40 + 20);
+            let colour: [u8; 3] = picture.pixels[middle..middle + 3].try_into().unwrap();
+            colour.map(i32::from)
+        };
+        let (plain, red) = (centre(&[]), [0xd6, 0x2f, 0x2b]);
+        for hidden in [&[0][..], &[1], &[2], &[0, 1, 2]] {
+            let faint = centre(hidden);
+            for part in 0..3 {
+                let third = (2 * plain[part] + red[part]) / 3;
+                assert!((faint[part] - third).abs() <= 1, "{order:?}: {hidden:?}");
+            }
+        }
+        // In front it is as red as alone, whatever is behind.
+        assert_eq!(centre(&[3]), centre(&[0, 1, 2, 3]));
+        assert_ne!(centre(&[3]), centre(&[2]));
     }
 }
 

@@ -94,7 +94,8 @@ Examples:
   pliant check walk.npz --quiet && echo clean
 
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it 16 bytes for each pair that is listed, as many for one that --baseline leaves out, with --hits 16 more and 300 for each triangle written, and what a glTF file says of the shape and motion of bodies that move.";
+Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are; beside it the pairs of one frame, where they are listed, left out or written, and of glTF bodies that move the rest positions, joints, deltas and keys.
+Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
 
 /// `A,B`.
 type Names = [String; 2];
@@ -120,7 +121,10 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
             arguments.bodies.len()
         ));
     }
-    let mut check = open(arguments).or_else(|error| output::annotate(arguments, advise(error)))?;
+    let mut check = open(arguments).or_else(|error| {
+        let error = advise_names(arguments, error).unwrap_or_else(advise);
+        output::annotate(arguments, error)
+    })?;
     let mut hits = arguments.hits.as_deref().map(Hits::new).transpose()?;
     let mut pictures = Pictures::new(arguments, &check)?;
     let mut output = Output::begin(arguments, &check)?;
@@ -191,6 +195,20 @@ fn frames(
         pictures.frame(check, &found)?;
     }
     Ok(())
+}
+
+/// With what to do about the name of a piece, `FILE#1`, where no file is split; the error itself where it is none.
+fn advise_names(arguments: &Arguments, error: Error) -> Result<anyhow::Error, Error> {
+    match &error {
+        Error::NoSuchName { name, .. }
+            if arguments.split.is_none() && names::is_of_a_piece(name) =>
+        {
+            Ok(anyhow!(
+                "{error}; choose one of these, or make the pieces of every file bodies with `--split components`"
+            ))
+        }
+        _ => Err(error),
+    }
 }
 
 /// With what to do, where flags of the program can help.

@@ -26,9 +26,35 @@ pub(super) fn two(text: &str) -> Result<super::Names, String> {
     }
 }
 
+/// Whether a name is as those of pieces are: `FILE#1`, from 1.
+pub(super) fn is_of_a_piece(name: &str) -> bool {
+    let number = name
+        .rsplit_once('#')
+        .map(|(_, number)| number.parse::<u32>());
+    matches!(number, Some(Ok(1..)))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{group, two};
+    use super::{group, is_of_a_piece, two};
+
+    #[test]
+    fn pieces_have_numbers_from_one() {
+        for name in ["a.ply#1", "scene.glb#arm#12", "#1"] {
+            assert!(is_of_a_piece(name), "{name}");
+        }
+        for name in [
+            "a.ply",
+            "a.ply#",
+            "a.ply#0",
+            "scene.glb#arm",
+            "1",
+            "",
+            "a#1,",
+        ] {
+            assert!(!is_of_a_piece(name), "{name}");
+        }
+    }
 
     #[test]
     fn names_are_read_as_they_are_written() {

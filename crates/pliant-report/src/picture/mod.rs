@@ -1,4 +1,5 @@
-//! One frame as an image, without a browser and without a GPU: flat triangles, those that intersect in red.
+//! One frame as an image, without a browser and without a GPU: flat triangles, those that intersect in red, and faintly
+//! so where others hide them.
 //!
 //! Looks along one direction, without perspective, so that parallel edges stay so; the bodies fill the image. Four samples a
 //! pixel. Sums, products, quotients and square roots in double precision only, in a fixed order: the same bytes on every machine.
@@ -28,7 +29,8 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// The bodies of a world as they are now; red are the triangles in `pairs`: body, triangle, body, triangle.
+    /// The bodies of a world as they are now; red are the triangles in `pairs`: body, triangle, body, triangle. Behind others they
+    /// shine through.
     pub fn of<S: Scalar>(world: &World<S>, pairs: &[[u32; 4]], size: [usize; 2]) -> Self {
         let (eye, right, up) = directions();
         let seen = |position: &[S; 3]| {

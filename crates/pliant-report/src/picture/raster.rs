@@ -1,6 +1,6 @@
-//! Triangles on a grid of samples, the nearest wins.
+//! Triangles on a grid of samples: the nearest wins, and red behind it shines through.
 
-use crate::colours::Colour;
+use crate::colours::{Colour, HIT};
 
 /// Samples, row by row from the top.
 pub(super) struct Canvas {
@@ -8,6 +8,16 @@ pub(super) struct Canvas {
     colours: Vec<Colour>,
     /// How near the eye; larger is nearer.
     nearness: Vec<f64>,
+    red: Vec<Red>,
+}
+
+/// Where a sample has a triangle that intersects. However many there are and in whatever order they are drawn, it is one answer.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Red {
+    Nowhere,
+    /// Behind one that does not: it shines through.
+    Behind,
+    InFront,
 }
 
 impl Canvas {
@@ -16,12 +26,13 @@ impl Canvas {
             size,
             colours: vec![paper; size[0] * size[1]],
             nearness: vec![f64::NEG_INFINITY; size[0] * size[1]],
+            red: vec![Red::Nowhere; size[0] * size[1]],
         }
     }
 
-    /// Draws a triangle in samples, x to the right, y down, z towards the eye. Where two are equally near, `wins` decides, and
-    /// then the one before.
-    pub(super) fn triangle(&mut self, [a, b, c]: [[f64; 3]; 3], colour: Colour, wins: bool) {
+    /// Draws a triangle in samples, x to the right, y down, z towards the eye. Where two are equally near, one that intersects
+    /// wins, and then the one before.
+    pub(super) fn triangle(&mut self, [a, b, c]: [[f64; 3]; 3], colour: Colour, is_hit: bool) {
         let area = side(a, b, [c[0], c[1]]);
         if area == 0.0 || !area.is_finite() {
             return;
@@ -48,10 +59,17 @@ impl Canvas {
                 let near = of_a * a[2] + of_b * b[2] + of_c * c[2];
                 let sample = row * self.size[0] + column;
                 let before = self.nearness[sample];
-                if near > before || (near == before && wins) {
+                let in_front = near > before || (near == before && is_hit);
+                if in_front {
                     self.nearness[sample] = near;
                     self.colours[sample] = colour;
                 }
+                self.red[sample] = match (is_hit, self.red[sample]) {
+                    (true, _) if in_front => Red::InFront,
+                    (true, Red::Nowhere) => Red::Behind,
+                    (false, Red::InFront) if in_front => Red::Behind,
+                    (_, as_before) => as_before,
+                };
             }
         }
     }
@@ -67,13 +85,25 @@ impl Canvas {
                 for part in 0..3 {
                     let sum: u16 = samples
                         .iter()
-                        .map(|&sample| u16::from(self.colours[sample][part]))
+                        .map(|&sample| u16::from(self.shown(sample)[part]))
                         .sum();
                     pixels.push(((sum + 2) / 4) as u8);
                 }
             }
         }
         pixels
+    }
+
+    /// What is in front, a third of it red where red is behind.
+    fn shown(&self, sample: usize) -> Colour {
+        let front = self.colours[sample];
+        if self.red[sample] != Red::Behind {
+            return front;
+        }
+        std::array::from_fn(|part| {
+            let parts = 2 * u16::from(front[part]) + u16::from(HIT[part]);
+            ((parts + 1) / 3) as u8
+        })
     }
 }
 

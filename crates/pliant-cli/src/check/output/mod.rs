@@ -1,5 +1,6 @@
 //! What `pliant check` prints, frame by frame as it goes. Each format is a file.
 
+mod files;
 mod github;
 mod json;
 mod lines;

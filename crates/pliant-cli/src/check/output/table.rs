@@ -1,5 +1,6 @@
 //! A table for people.
 
+use super::files::Files;
 use super::{Form, Tally, counted};
 use crate::check::{Arguments, Names};
 use crate::table::grouped;
@@ -15,6 +16,8 @@ pub(super) struct Table {
     itself: bool,
     ignore: Vec<Names>,
     baseline: Option<usize>,
+    /// Known from the head on.
+    files: Option<Files>,
 }
 
 impl Table {
@@ -25,6 +28,7 @@ impl Table {
             itself: arguments.itself,
             ignore: arguments.ignore.clone(),
             baseline: arguments.baseline,
+            files: None,
         }
     }
 
@@ -88,20 +92,24 @@ impl Form for Table {
             }
             writeln!(out)?;
         }
+        self.files = Files::of(check);
+        let file = self.files.as_ref().map_or_else(String::new, Files::header);
         let left_out = self.baseline.map_or("", |_| "  left out");
         let first_pair = if self.count_only { "" } else { "  first pair" };
         writeln!(
             out,
-            "checked: {}\n\n{:>8}{:>10}{left_out}{first_pair}",
+            "checked: {}\n\n{:>8}{file}{:>10}{left_out}{first_pair}",
             self.asked(check),
             "frame",
             "pairs"
         )
     }
 
-    fn frame(&mut self, out: &mut dyn Write, _: &Check, found: &Found) -> io::Result<()> {
-        let Found { frame, count, .. } = found;
-        write!(out, "{frame:>8} {:>9}", grouped(*count as u64))?;
+    fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()> {
+        let &Found { frame, count, .. } = found;
+        let files = self.files.as_ref();
+        let file = files.map_or_else(String::new, |files| files.frame(check, frame));
+        write!(out, "{frame:>8}{file} {:>9}", grouped(count as u64))?;
         if self.baseline.is_some() {
             match found.left_out {
                 Some(left_out) => write!(out, " {:>9}", grouped(left_out as u64))?,
@@ -139,7 +147,7 @@ fn sizes(vertices: usize, triangles: usize) -> [String; 2] {
 }
 
 /// A name without characters that would steer a terminal.
-fn printable(name: &str) -> String {
+pub(super) fn printable(name: &str) -> String {
     name.chars()
         .flat_map(|c| {
             if c.is_control() {

@@ -1,0 +1,69 @@
+//! The table's column of files: where each frame is a file of its own, people look for the file, not for the number.
+
+use super::table::printable;
+use pliant_check::Check;
+use pliant_io::Body;
+use std::path::PathBuf;
+
+/// Longer names are not lined up.
+const WIDEST: usize = 40;
+
+/// The files of one source, without the folder that all of them are in; the body's line says that.
+pub(super) struct Files {
+    source: usize,
+    folder: PathBuf,
+    header: String,
+    width: usize,
+}
+
+impl Files {
+    /// Of the first source with a file for each frame, if there is one.
+    pub(super) fn of(check: &Check) -> Option<Self> {
+        let sources = check.sources();
+        let mut in_files = (0..sources.len()).filter(|&source| is_in_files(&sources[source]));
+        let source = in_files.next()?;
+        let header = match in_files.next() {
+            None => "file".to_owned(),
+            Some(_) => format!("file of body {}", check.bodies_of(source).start),
+        };
+        let paths = || (0..check.frame_count()).filter_map(|f| sources[source].frame_file(f));
+        let mut folder = paths().next()?.parent()?.to_owned();
+        for path in paths() {
+            while !path.starts_with(&folder) && folder.pop() {}
+        }
+        let mut files = Self {
+            source,
+            folder,
+            header,
+            width: 0,
+        };
+        let names = (0..check.frame_count()).map(|frame| files.name(check, frame).chars().count());
+        let widest = names.max().unwrap_or_default();
+        files.width = widest.min(WIDEST).max(files.header.len());
+        Some(files)
+    }
+
+    /// What stands above the files.
+    pub(super) fn header(&self) -> String {
+        self.cell(&self.header)
+    }
+
+    /// The file of a frame.
+    pub(super) fn frame(&self, check: &Check, frame: usize) -> String {
+        self.cell(&self.name(check, frame))
+    }
+
+    fn cell(&self, text: &str) -> String {
+        format!("  {text:<width$}", width = self.width)
+    }
+
+    fn name(&self, check: &Check, frame: usize) -> String {
+        let path = check.sources()[self.source].frame_file(frame);
+        let path = path.map(|path| path.strip_prefix(&self.folder).unwrap_or(path));
+        path.map_or_else(String::new, |path| printable(&path.display().to_string()))
+    }
+}
+
+fn is_in_files(source: &Body) -> bool {
+    source.frame_file(0) != source.frame_file(source.frame_count().saturating_sub(1))
+}

@@ -108,6 +108,7 @@ fn memory_is_a_multiple_of_two_frames() {
             return;
         };
         let multiple = multiple(peak, PROGRAM, surface);
+        println!("{what}: {multiple:.2} times two frames");
         assert!(multiple < MULTIPLE, "{what}: {multiple}");
     }
 }

@@ -16,9 +16,9 @@ use std::ops::ControlFlow;
 /// and one that wants all pairs loses nothing.
 const FIRST_BATCH: usize = 1;
 /// The longest batch of pairs of nodes: long enough for several threads, short enough that its groups stay in cache.
-const LONGEST_BATCH: usize = 16384;
+const LONGEST_BATCH: usize = 2048;
 /// The most pairs of blocks that meet before their hits are shown: this bounds memory whatever the leaf size is.
-const MOST_BLOCKS: usize = 8192;
+const MOST_BLOCKS: usize = 4096;
 /// Pairs of nodes in a job, and pairs of blocks in a job: some tens of microseconds of work.
 const EXPAND_JOB: usize = 512;
 const MEET_JOB: usize = 256;

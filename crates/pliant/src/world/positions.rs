@@ -11,6 +11,8 @@ use crate::kernels::take_over::{check, take_over};
 use std::borrow::Cow;
 
 pub(super) struct Positions<S> {
+    len: usize,
+    /// Nothing in a body that was looked at in every shape so far.
     callers: Vec<[S; 3]>,
     /// Where the next shape is written, so that a bad one never replaces a good one; nothing until one is copied.
     spare: Vec<[S; 3]>,
@@ -26,6 +28,7 @@ impl<S: Scalar> Positions<S> {
     /// Of a new body, as the caller orders them.
     pub(super) fn new(positions: &[[S; 3]]) -> Self {
         Self {
+            len: positions.len(),
             callers: positions.to_vec(),
             spare: Vec::new(),
             trees: Points::with_len(positions.len()),
@@ -36,7 +39,7 @@ impl<S: Scalar> Positions<S> {
     }
 
     pub(super) fn len(&self) -> usize {
-        self.callers.len()
+        self.len
     }
 
     /// The bounds of a new shape, as long as the old; none if a coordinate is out of range. Nothing else has changed then, nor before
@@ -95,6 +98,11 @@ impl<S: Scalar> Positions<S> {
         if !self.is_trees {
             self.trees.gather(level, threads, &self.callers, order);
             self.is_trees = true;
+            // As long as no shape was copied, none may ever be: then one of them is all that is kept.
+            if self.spare.is_empty() {
+                self.callers = Vec::new();
+                self.is_callers = false;
+            }
         }
     }
 

@@ -26,6 +26,9 @@ mod world;
 #[pyo3::pymodule]
 mod _pliant {
     #[pymodule_export]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
     use crate::check::{Check, check};
     #[pymodule_export]
     use crate::one_liners::{

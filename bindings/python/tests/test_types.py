@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import importlib.metadata
 import re
 import subprocess
 import sys
@@ -62,6 +63,10 @@ def test_everything_public_is_in_the_package() -> None:
         assert thing.__doc__, name
         if isinstance(thing, type):
             assert thing.__module__ == "pliant", name
+
+
+def test_the_package_knows_its_version() -> None:
+    assert pliant.__version__ == importlib.metadata.version("pliant")
 
 
 def test_arguments_and_defaults_agree() -> None:

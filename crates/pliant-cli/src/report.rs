@@ -19,10 +19,10 @@ pub(crate) struct PictureOptions {
     /// Write a page about what was found, one file that needs no network: the bodies in motion, what intersects in red
     #[arg(long, value_name = "FILE.html", value_parser = page_name)]
     report: Option<PathBuf>,
-    /// Draw one frame as an image, what intersects in red, faintly so where it is hidden; with --frame
-    #[arg(long, value_name = "FILE.png", requires = "frame", value_parser = image_name)]
+    /// Draw one frame as an image, what intersects in red, faintly so where it is hidden
+    #[arg(long, value_name = "FILE.png", value_parser = image_name)]
     png: Option<PathBuf>,
-    /// The frame, or the step, that --png draws
+    /// The frame, or the step, that --png draws; needed unless there is only one
     #[arg(long, value_name = "N", requires = "png", allow_negative_numbers = true, value_parser = frame::<u32>)]
     frame: Option<u32>,
 }
@@ -79,21 +79,25 @@ impl Watcher {
         along: &str,
         numbers: impl Iterator<Item = u32> + Clone,
     ) -> anyhow::Result<Self> {
-        if let Some(frame) = options.frame
-            && numbers.clone().all(|number| number != frame)
-        {
-            let first = numbers.clone().next().unwrap_or_default();
-            let last = numbers.last().unwrap_or_default();
-            bail!(
+        let mut options = options.clone();
+        let first = numbers.clone().next().unwrap_or_default();
+        let last = numbers.clone().last().unwrap_or_default();
+        match options.frame {
+            Some(frame) if numbers.clone().all(|number| number != frame) => bail!(
                 "--frame {frame}: no such {along} is looked at; the first is {first}, the last {last}"
-            );
+            ),
+            None if options.png.is_some() && first != last => bail!(
+                "--png draws one {along}: say which with --frame; the first is {first}, the last {last}"
+            ),
+            None if options.png.is_some() => options.frame = Some(first),
+            _ => {}
         }
         for path in options.report.iter().chain(&options.png) {
             prepare(path)?;
         }
         Ok(Self {
             recorder: options.report.is_some().then(|| Recorder::new(labels())),
-            options: options.clone(),
+            options,
         })
     }
 

@@ -12,7 +12,7 @@ share a vertex are left out. Surfaces only: a body wholly inside another meets n
 """
 
 from . import reference
-from ._pliant import Check, World, check, intersection_pairs, self_intersection_pairs
+from ._pliant import Check, World, __version__, check, intersection_pairs, self_intersection_pairs
 from ._types import Body, Error, Frame, Mesh, OpenMesh, Pair, Statistics, TreeBoxes, TreeShape
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "TreeBoxes",
     "TreeShape",
     "World",
+    "__version__",
     "check",
     "intersection_pairs",
     "reference",

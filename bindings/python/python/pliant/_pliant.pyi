@@ -12,12 +12,15 @@ from ._types import Body, Frame, Mesh, OpenMesh, Pair, Statistics, TreeBoxes, Tr
 __all__ = [
     "Check",
     "World",
+    "__version__",
     "check",
     "intersection_pairs",
     "reference_intersection_pairs",
     "reference_self_intersection_pairs",
     "self_intersection_pairs",
 ]
+
+__version__: str
 
 _Pairs: TypeAlias = NDArray[np.uint32]
 _Corner: TypeAlias = Sequence[float] | NDArray[np.floating[Any]]

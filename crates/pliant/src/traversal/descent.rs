@@ -51,7 +51,7 @@ pub(crate) struct Scratch {
     blocks: Vec<BlockPair>,
     met: Vec<Meet>,
     sizes: Sizes,
-    /// The pair at which a visitor broke, in tree order.
+    /// The pair at which a query stopped, in tree order.
     pub(crate) broke_at: Option<Candidate>,
 }
 
@@ -81,13 +81,17 @@ impl Scratch {
 /// What a job of looking found not true in either tree, some perhaps more than once.
 type Untrue = [Vec<u32>; 2];
 
-/// Shows the visitor every intersecting pair, until it breaks. The order is deterministic, not sorted.
+/// What is shown every pair once, some at a time, as the caller numbers triangles, until it breaks with the place of the one at
+/// which it stops.
+pub(crate) type Show<'s> = &'s mut dyn FnMut(&[[u32; 2]]) -> ControlFlow<usize>;
+
+/// Shows every intersecting pair, until `show` breaks. The order is deterministic, not sorted.
 pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     updates: Updates,
     meeting: &mut M,
     scratch: &mut Scratch,
     statistics: &mut Statistics,
-    visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
+    show: Show,
 ) -> ControlFlow<()> {
     scratch.found.clear();
     scratch.found.nodes.push([NodeId::ROOT; 2]);
@@ -107,7 +111,7 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
 
         let last = scratch.found.nodes.is_empty();
         if last || scratch.found.leaves.len() >= scratch.sizes.blocks {
-            meet_leaves(updates, meeting, scratch, statistics, visit)?;
+            meet_leaves(updates, meeting, scratch, statistics, show)?;
         }
         if last {
             return ControlFlow::Continue(());
@@ -213,13 +217,13 @@ fn expand_batch<const N: usize, M: Meeting<N>>(
     }
 }
 
-/// Decides all pairs of leaves on the list, and shows the visitor what intersects.
+/// Decides all pairs of leaves on the list, and shows what intersects.
 fn meet_leaves<const N: usize, M: Meeting<N>>(
     updates: Updates,
     meeting: &mut M,
     scratch: &mut Scratch,
     statistics: &mut Statistics,
-    visit: &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
+    show: Show,
 ) -> ControlFlow<()> {
     reach_leaves(updates, meeting, scratch, statistics);
     let Scratch {
@@ -263,11 +267,9 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
             *statistics += job.statistics;
         }
         for job in &*jobs {
-            for (&hit, &named) in job.hits.iter().zip(&job.named) {
-                if visit(named).is_break() {
-                    *broke_at = Some(hit);
-                    return ControlFlow::Break(());
-                }
+            if let ControlFlow::Break(place) = show(&job.named) {
+                *broke_at = Some(job.hits[place]);
+                return ControlFlow::Break(());
             }
         }
     }

@@ -9,7 +9,7 @@
 //!     when the list is long, or the stack empty:
 //!         reach:  make true the boxes of the triangles in these leaves
 //!         meet:   triangles whose boxes overlap: candidates; these are decided
-//!         visit:  what intersects, in order
+//!         show:   what intersects, in order
 //! ```
 //!
 //! Reaching, expanding and meeting take turns. Each is cut into jobs by size, and every job writes lists, or boxes, of its own,
@@ -29,7 +29,7 @@ mod two_trees;
 use crate::geometry::Shape;
 use crate::mesh::Mesh;
 use crate::tree::Tree;
-pub(crate) use descent::{Scratch, descend};
+pub(crate) use descent::{Scratch, Show, descend};
 pub(crate) use one_tree::OneTree;
 pub(crate) use two_trees::TwoTrees;
 

@@ -1,6 +1,7 @@
 //! What users ask: the whole world, two bodies, a body with itself; all pairs, the first, or a visitor.
 //!
-//! There is one query of each kind, the visitor. *All* collects and sorts what it is shown, *first* stops at once.
+//! There is one query of each kind, which is shown pairs some at a time: a visitor looks at them one by one, *all* collects and
+//! sorts them, *first* stops at once.
 
 use super::body::Body;
 use super::forest::{Forest, with_trees};
@@ -11,6 +12,7 @@ use crate::geometry::{Bounds, Scalar};
 use crate::pairs::{BodyPair, Pair};
 use crate::sort::sort_by_numbers;
 use crate::statistics::Statistics;
+use crate::traversal::Show;
 use std::ops::ControlFlow;
 
 /// The whole world: every two bodies that filters let meet, not a body with itself.
@@ -28,8 +30,13 @@ impl<S: Scalar> World<S> {
     pub fn intersection_pairs(&mut self) -> &[Pair] {
         let mut pairs = std::mem::take(&mut self.pairs);
         pairs.clear();
-        let _: ControlFlow<()> = self.visit_intersections(|pair| {
-            pairs.push(pair);
+        self.show_intersections(&mut |[body_a, body_b], found| {
+            pairs.extend(found.iter().map(|&[triangle_a, triangle_b]| Pair {
+                body_a,
+                triangle_a,
+                body_b,
+                triangle_b,
+            }));
             ControlFlow::Continue(())
         });
         // The bodies on the left come in order already.
@@ -100,27 +107,42 @@ impl<S: Scalar> World<S> {
         &mut self,
         mut visit: impl FnMut(Pair) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
+        let mut answer = ControlFlow::Continue(());
+        self.show_intersections(&mut |[body_a, body_b], found| {
+            let visit = |[triangle_a, triangle_b]: [u32; 2]| {
+                visit(Pair {
+                    body_a,
+                    triangle_a,
+                    body_b,
+                    triangle_b,
+                })
+            };
+            one_by_one(found, visit, &mut answer)
+        });
+        answer
+    }
+
+    /// Shows pairs of two bodies, until `show` breaks.
+    fn show_intersections(
+        &mut self,
+        show: &mut dyn FnMut([BodyId; 2], &[[u32; 2]]) -> ControlFlow<usize>,
+    ) {
         self.begin();
         self.find_body_pairs();
-        let mut answer = ControlFlow::Continue(());
         let body_pairs = std::mem::take(&mut self.body_pairs);
         // A visitor that panics takes the list with it: it is then found anew.
         self.body_pairs_hold = false;
         let (mut step, forest) = self.step();
         with_trees!(forest, trees => {
             for &places in &body_pairs {
-                let [body_a, body_b] = places.map(|place| step.bodies[place].id());
-                let flow = step.meet(trees, places, &mut |[triangle_a, triangle_b]| {
-                    keep_break(visit(Pair { body_a, triangle_a, body_b, triangle_b }), &mut answer)
-                });
-                if flow.is_break() {
+                let bodies = places.map(|place| step.bodies[place].id());
+                if step.meet(trees, places, &mut |found| show(bodies, found)).is_break() {
                     break;
                 }
             }
         });
         self.body_pairs = body_pairs;
         self.body_pairs_hold = true;
-        answer
     }
 }
 
@@ -137,7 +159,8 @@ impl<S: Scalar> World<S> {
         a: BodyId,
         b: BodyId,
     ) -> Result<&[[u32; 2]], Error> {
-        self.collect_pairs(|world, visit| world.visit_intersections_between(a, b, visit))
+        let places = self.two_bodies(a, b)?;
+        Ok(self.collect_pairs(|world, show| world.show_between(places, show)))
     }
 
     /// Some intersecting pair (triangle of `a`, triangle of `b`), if there is one.
@@ -175,13 +198,19 @@ impl<S: Scalar> World<S> {
         mut visit: impl FnMut([u32; 2]) -> ControlFlow<B>,
     ) -> Result<ControlFlow<B>, Error> {
         let places = self.two_bodies(a, b)?;
-        self.begin();
         let mut answer = ControlFlow::Continue(());
-        let (mut step, forest) = self.step();
-        with_trees!(forest, trees => {
-            let _ = step.meet(trees, places, &mut |pair| keep_break(visit(pair), &mut answer));
+        self.show_between(places, &mut |found| {
+            one_by_one(found, &mut visit, &mut answer)
         });
         Ok(answer)
+    }
+
+    fn show_between(&mut self, places: [usize; 2], show: Show) {
+        self.begin();
+        let (mut step, forest) = self.step();
+        with_trees!(forest, trees => {
+            let _ = step.meet(trees, places, show);
+        });
     }
 }
 
@@ -196,7 +225,8 @@ impl<S: Scalar> World<S> {
     #[doc(alias = "findSelfCollidingTriangles")]
     #[doc(alias = "self_intersections")]
     pub fn self_intersection_pairs(&mut self, body: BodyId) -> Result<&[[u32; 2]], Error> {
-        self.collect_pairs(|world, visit| world.visit_self_intersections(body, visit))
+        let place = self.place(body)?;
+        Ok(self.collect_pairs(|world, show| world.show_itself(place, show)))
     }
 
     /// Some intersecting pair of a body with itself, if there is one.
@@ -230,13 +260,19 @@ impl<S: Scalar> World<S> {
         mut visit: impl FnMut([u32; 2]) -> ControlFlow<B>,
     ) -> Result<ControlFlow<B>, Error> {
         let place = self.place(body)?;
-        self.begin();
         let mut answer = ControlFlow::Continue(());
-        let (mut step, forest) = self.step();
-        with_trees!(forest, trees => {
-            let _ = step.meet_itself(&mut trees[place], place, &mut |pair| keep_break(visit(pair), &mut answer));
+        self.show_itself(place, &mut |found| {
+            one_by_one(found, &mut visit, &mut answer)
         });
         Ok(answer)
+    }
+
+    fn show_itself(&mut self, place: usize, show: Show) {
+        self.begin();
+        let (mut step, forest) = self.step();
+        with_trees!(forest, trees => {
+            let _ = step.meet_itself(&mut trees[place], place, show);
+        });
     }
 }
 
@@ -444,33 +480,31 @@ impl<S: Scalar> World<S> {
         }
     }
 
-    /// All pairs of a visitor's, sorted.
-    fn collect_pairs(
-        &mut self,
-        visit: impl FnOnce(
-            &mut Self,
-            &mut dyn FnMut([u32; 2]) -> ControlFlow<()>,
-        ) -> Result<ControlFlow<()>, Error>,
-    ) -> Result<&[[u32; 2]], Error> {
+    /// All pairs of a query that is shown them, sorted.
+    fn collect_pairs(&mut self, query: impl FnOnce(&mut Self, Show)) -> &[[u32; 2]] {
         let mut pairs = std::mem::take(&mut self.pairs_of_bodies);
         pairs.clear();
-        let visited = visit(self, &mut |pair| {
-            pairs.push(pair);
+        query(self, &mut |found| {
+            pairs.extend_from_slice(found);
             ControlFlow::Continue(())
         });
         sort_by_numbers(&mut pairs, &mut self.keys, |&pair| pair, |pair| pair);
         self.pairs_of_bodies = pairs;
-        visited.map(|_: ControlFlow<()>| &*self.pairs_of_bodies)
+        &self.pairs_of_bodies
     }
 }
 
-/// Keeps what a visitor broke with, and passes on that it did.
-fn keep_break<B>(flow: ControlFlow<B>, answer: &mut ControlFlow<B>) -> ControlFlow<()> {
-    match flow {
-        ControlFlow::Continue(()) => ControlFlow::Continue(()),
-        ControlFlow::Break(value) => {
+/// Shows a visitor pairs one by one, until it breaks: keeps what it broke with, and returns where.
+fn one_by_one<B>(
+    found: &[[u32; 2]],
+    mut visit: impl FnMut([u32; 2]) -> ControlFlow<B>,
+    answer: &mut ControlFlow<B>,
+) -> ControlFlow<usize> {
+    for (place, &pair) in found.iter().enumerate() {
+        if let ControlFlow::Break(value) = visit(pair) {
             *answer = ControlFlow::Break(value);
-            ControlFlow::Break(())
+            return ControlFlow::Break(place);
         }
     }
+    ControlFlow::Continue(())
 }

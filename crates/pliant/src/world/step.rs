@@ -7,13 +7,10 @@ use crate::geometry::{Origin, Scalar};
 use crate::kernels::Level;
 use crate::options::Options;
 use crate::statistics::Statistics;
-use crate::traversal::{OneTree, Scratch, Side, TwoTrees, descend};
+use crate::traversal::{OneTree, Scratch, Show, Side, TwoTrees, descend};
 use crate::tree::Tree;
 use crate::update::Updates;
 use std::ops::ControlFlow;
-
-/// What is shown every pair, as the caller numbers triangles, until it breaks.
-pub(super) type Visit<'v> = &'v mut dyn FnMut([u32; 2]) -> ControlFlow<()>;
 
 /// What a query needs besides trees.
 pub(super) struct Step<'w, S> {
@@ -43,12 +40,12 @@ impl<'w, S: Scalar> Step<'w, S> {
         updates.refresh_ahead(tree, &shape, &mut self.scratch.groups, self.statistics);
     }
 
-    /// Two different bodies; the visitor sees (triangle of `a`, triangle of `b`).
+    /// Two different bodies; shown are (triangle of `a`, triangle of `b`).
     pub(super) fn meet<const N: usize>(
         &mut self,
         trees: &mut [Tree<N>],
         [a, b]: [usize; 2],
-        visit: Visit,
+        show: Show,
     ) -> ControlFlow<()> {
         let [box_a, box_b] = [a, b].map(|body| self.bodies[body].exact_box(self.origin));
         if !box_a.overlaps(&box_b) {
@@ -74,15 +71,15 @@ impl<'w, S: Scalar> Step<'w, S> {
                 shape: body_b.shape(self.origin),
             },
         };
-        descend(updates, &mut meeting, self.scratch, self.statistics, visit)
+        descend(updates, &mut meeting, self.scratch, self.statistics, show)
     }
 
-    /// A body with itself; the visitor sees (smaller triangle, larger triangle).
+    /// A body with itself; shown are (smaller triangle, larger triangle).
     pub(super) fn meet_itself<const N: usize>(
         &mut self,
         tree: &mut Tree<N>,
         body: usize,
-        visit: Visit,
+        show: Show,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
         self.refresh_ahead(tree, body);
@@ -96,6 +93,6 @@ impl<'w, S: Scalar> Step<'w, S> {
                 shape: body.shape(self.origin),
             },
         };
-        descend(updates, &mut meeting, self.scratch, self.statistics, visit)
+        descend(updates, &mut meeting, self.scratch, self.statistics, show)
     }
 }

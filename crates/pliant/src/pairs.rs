@@ -25,10 +25,10 @@ pub(crate) type NodePair = [NodeId; 2];
 /// Within the traversal: two leaves whose boxes overlap.
 pub(crate) type LeafPair = [u32; 2];
 
-/// Within the traversal: leaves side by side in one group of siblings that are in pairs, a bit for each lane.
+/// Within the traversal: leaves side by side that are in pairs, a bit for each of eight.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct WantedLeaves {
-    pub(crate) group: u32,
+    pub(crate) first: u32,
     pub(crate) lanes: u8,
 }
 

@@ -10,6 +10,9 @@ use fearless_simd::prelude::*;
 /// A box in two registers: its lower corner and its upper, and in each one number that means nothing.
 pub(crate) type Extent<I> = (f32x4<I>, f32x4<I>);
 
+/// As many vertices as most leaves have: eight triangles of a surface have ten to twelve.
+pub(crate) const TWELVE: usize = 12;
+
 /// Puts the first `count` of these boxes side by side.
 #[inline(always)]
 pub(crate) fn store<I: Simd, const N: usize>(
@@ -118,10 +121,14 @@ fn include<I: Simd, S: Scalar>(
 
 /// The box of twelve points: as many as most leaves have.
 #[inline(always)]
-fn of_twelve<I: Simd, S: Scalar>(i: I, shape: &Shape<S>, points: &[u32; 12]) -> Extent<I> {
+pub(crate) fn of_twelve<I: Simd, S: Scalar>(
+    i: I,
+    shape: &Shape<S>,
+    points: &[u32; TWELVE],
+) -> Extent<I> {
     let first = S::load(i, shape.positions.wide(points[0]));
     let (mut lo, mut hi) = ([first; 2], [first; 2]);
-    for which in 1..12 {
+    for which in 1..TWELVE {
         let point = S::load(i, shape.positions.wide(points[which]));
         lo[which % 2] = lo[which % 2].min(point);
         hi[which % 2] = hi[which % 2].max(point);

@@ -175,7 +175,7 @@ fn reach_leaves<const N: usize, M: Meeting<N>>(
     let Scratch { found, reached, .. } = scratch;
     for which in 0..2 {
         for wanted in found.wanted[which].as_slice() {
-            reached.note_lanes::<N>(wanted.group, wanted.lanes);
+            reached.note_eight(wanted.first, wanted.lanes);
         }
         if !M::ITSELF || which == 1 {
             let (tree, shape) = meeting.tree_mut(which);

@@ -68,12 +68,8 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
         match (a.child(node_a).below(), b.child(node_b).below()) {
             (Below::Leaf(leaf_a), Below::Leaf(leaf_b)) => {
                 leaves.push([leaf_a, leaf_b]);
-                for (wanted, node) in wanted.iter_mut().zip([node_a, node_b]) {
-                    let (group, lane) = node.group_and_lane::<N>();
-                    wanted.push(WantedLeaves {
-                        group: group as u32,
-                        lanes: 1 << lane,
-                    });
+                for (wanted, first) in wanted.iter_mut().zip([leaf_a, leaf_b]) {
+                    wanted.push(WantedLeaves { first, lanes: 1 });
                 }
             }
             (Below::Leaf(_), Below::Group(below)) => {
@@ -108,11 +104,9 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
                     *straight += (leaves.len() - before) as u64;
                     lanes[0] |= rows_of(mask);
                     lanes[1] |= columns_of(mask);
-                    for (which, group) in [below_a, below_b].into_iter().enumerate() {
-                        wanted[which].push(WantedLeaves {
-                            group,
-                            lanes: lanes[which],
-                        });
+                    for (which, first) in [first_a, first_b].into_iter().enumerate() {
+                        let lanes = lanes[which];
+                        wanted[which].push(WantedLeaves { first, lanes });
                     }
                     continue;
                 }

@@ -41,11 +41,6 @@ impl NodeId {
         Self(group * N as u32 + lane as u32)
     }
 
-    /// The node of a number: group x N + lane.
-    pub(crate) fn numbered(number: u32) -> Self {
-        Self(number)
-    }
-
     #[inline]
     pub(crate) fn group_and_lane<const N: usize>(self) -> (usize, usize) {
         (self.0 as usize / N, self.0 as usize % N)
@@ -113,7 +108,7 @@ impl<const N: usize> Tree<N> {
         Self {
             groups,
             level_starts,
-            vertices: VertexSets::new(plan, mesh),
+            vertices: VertexSets::new(plan, mesh, N),
             leaves,
             neighbours: None,
             depth,

@@ -5,11 +5,13 @@
 //! k triangles is about the square root of k, so all levels together cost little more than the lowest.
 //!
 //! A leaf has few vertices, and is made more often than anything else: it is all border, whose length is made a multiple of four,
-//! so that most leaves take equally many steps.
+//! so that most leaves take equally many steps. Most have twelve, and most groups are leaves of twelve altogether, whose lists
+//! then are one.
 //!
 //! Paper, 3.3: "we update the node's AABB by traversing the shared vertices of the faces in the node".
 
 use super::build::Plan;
+use crate::kernels::extent::TWELVE;
 use crate::mesh::Mesh;
 
 /// A leaf of so many vertices has few: eight triangles that share none have no more.
@@ -30,10 +32,12 @@ struct Set {
     /// The first border vertex, and how many there are.
     border: usize,
     borders: u32,
+    /// Whether this node and those beside it are a full group of leaves, each of twelve border vertices.
+    in_twelves: bool,
 }
 
 impl VertexSets {
-    pub(crate) fn new(plan: &Plan, mesh: &Mesh) -> Self {
+    pub(crate) fn new(plan: &Plan, mesh: &Mesh, degree: usize) -> Self {
         // How many vertices the triangles before each triangle use.
         let mut used_before = Vec::with_capacity(mesh.corners().len() + 1);
         let mut used = 0;
@@ -70,7 +74,15 @@ impl VertexSets {
                 run,
                 border: first,
                 borders: (border.len() - first) as u32,
+                in_twelves: false,
             });
+        }
+        for part in &plan.parts {
+            let group = &mut sets[part.children.start as usize..part.children.end as usize];
+            let is_twelve = |set: &Set| set.borders as usize == TWELVE && set.run[0] == set.run[1];
+            if group.len() == degree && group.iter().all(is_twelve) {
+                group[0].in_twelves = true;
+            }
         }
         border.shrink_to_fit();
         Self { sets, border }
@@ -88,9 +100,23 @@ impl VertexSets {
             run: [start, end],
             border,
             borders,
+            ..
         } = self.sets[node];
         let border = &self.border[border..border + borders as usize];
         (start as usize..end as usize, border)
+    }
+
+    /// The vertices below each of `N` nodes from the first of a group on, if these are leaves of twelve.
+    #[inline]
+    pub(crate) fn twelves<const N: usize>(&self, node: usize) -> Option<&[[u32; TWELVE]; N]> {
+        let Set {
+            border, in_twelves, ..
+        } = self.sets[node];
+        if in_twelves {
+            self.border[border..].as_chunks().0.first_chunk()
+        } else {
+            None
+        }
     }
 
     /// The vertices below a node, run first.

@@ -7,7 +7,7 @@ use super::make::Work;
 use super::top_down::Reached;
 use crate::geometry::Scalar;
 use crate::kernels::extent;
-use crate::tree::{Below, LEAF_LANES, LeafBoxes, NodeId, Tree};
+use crate::tree::{LEAF_LANES, LeafBoxes, Tree};
 use fearless_simd::dispatch;
 
 /// Leaves in a job: some ten microseconds of work.
@@ -20,15 +20,10 @@ pub(super) fn reach_leaves<const N: usize, S: Scalar>(
     reached: &mut Reached,
 ) -> u64 {
     let epoch = work.shape.epoch;
-    let (nodes, untrue) = reached.list();
+    let (leaves, untrue) = reached.list();
     untrue.clear();
-    untrue.extend(nodes.iter().filter_map(|&node| {
-        let (group, lane) = NodeId::numbered(node).group_and_lane::<N>();
-        match tree.groups[group].children[lane].below() {
-            Below::Leaf(leaf) if !tree.leaves.are_true(leaf, epoch) => Some(leaf),
-            _ => None,
-        }
-    }));
+    let is_untrue = |&leaf: &u32| !tree.leaves.are_true(leaf, epoch);
+    untrue.extend(leaves.iter().copied().filter(is_untrue));
     tree.leaves.note_reached(untrue.len());
     let make = |run: &[u32], boxes: &mut LeafBoxes| {
         let shape = work.shape;

@@ -79,6 +79,15 @@ impl<'t, const N: usize> Job<'t, N> {
             made: 0,
         }
     }
+
+    /// Keeps the first `count` of these boxes, which are those of a group.
+    #[inline(always)]
+    fn store<I: Simd>(&mut self, place: usize, boxes: [Extent<I>; 8], count: usize, epoch: u64) {
+        let siblings = &mut self.groups[place];
+        extent::store(boxes, count, &mut siblings.boxes);
+        siblings.epoch = epoch;
+        self.made += count as u64;
+    }
 }
 
 /// Cuts a job into jobs of fewer groups.
@@ -117,9 +126,16 @@ fn make_group_true<I: Simd, const N: usize, S: Scalar, const MERGE: bool>(
 ) {
     let place = group - job.first_group;
     let first_node = job.groups[place].first_node as usize;
+    let mut boxes: [Extent<I>; 8] = [extent::nothing(i); 8];
+    if let Some(twelves) = vertices.twelves::<N>(first_node) {
+        for lane in 0..N {
+            boxes[lane] = extent::of_twelve(i, shape, &twelves[lane]);
+        }
+        job.store(place, boxes, N, shape.epoch);
+        return;
+    }
     let children = job.groups[place].children;
     let count = job.groups[place].len();
-    let mut boxes: [Extent<I>; 8] = [extent::nothing(i); 8];
     for lane in 0..count {
         boxes[lane] = match children[lane].below() {
             Below::Group(below) if MERGE => extent::of_box(
@@ -135,8 +151,5 @@ fn make_group_true<I: Simd, const N: usize, S: Scalar, const MERGE: bool>(
             }
         };
     }
-    let siblings = &mut job.groups[place];
-    extent::store(boxes, count, &mut siblings.boxes);
-    siblings.epoch = shape.epoch;
-    job.made += count as u64;
+    job.store(place, boxes, count, shape.epoch);
 }

@@ -8,16 +8,29 @@ use super::make::{Work, make_groups_true};
 use crate::geometry::Scalar;
 use crate::tree::Tree;
 
-/// Groups or nodes that were reached, in the order of memory and each once, however often they were noted.
-#[derive(Debug, Default)]
+/// Groups or leaves that were reached, in the order of memory and each once, however often they were noted.
+#[derive(Debug)]
 pub(crate) struct Reached {
     /// A bit for each.
     noted: Vec<u64>,
-    /// The words in which there are any.
-    words: std::ops::Range<usize>,
+    /// The first and the last word in which there are any.
+    words: [usize; 2],
     listed: Vec<u32>,
     /// A list to work with.
     scratch: Vec<u32>,
+}
+
+const NO_WORDS: [usize; 2] = [usize::MAX, 0];
+
+impl Default for Reached {
+    fn default() -> Self {
+        Self {
+            noted: Vec::new(),
+            words: NO_WORDS,
+            listed: Vec::new(),
+            scratch: Vec::new(),
+        }
+    }
 }
 
 impl Reached {
@@ -27,11 +40,14 @@ impl Reached {
         self.note_bits(number as usize / 64, 1 << (number % 64));
     }
 
-    /// Notes nodes of one group of siblings, a bit for each lane.
+    /// Notes some of eight in a row, a bit for each.
     #[inline]
-    pub(crate) fn note_lanes<const N: usize>(&mut self, group: u32, lanes: u8) {
-        let first = group as usize * N;
-        self.note_bits(first / 64, u64::from(lanes) << (first % 64));
+    pub(crate) fn note_eight(&mut self, first: u32, which: u8) {
+        let (word, shift) = (first as usize / 64, first % 64);
+        self.note_bits(word, u64::from(which) << shift);
+        if shift > 56 {
+            self.note_bits(word + 1, u64::from(which) >> (64 - shift));
+        }
     }
 
     #[inline]
@@ -40,17 +56,15 @@ impl Reached {
             self.noted.resize(word + 1, 0);
         }
         self.noted[word] |= bits;
-        self.words = if self.words.is_empty() {
-            word..word + 1
-        } else {
-            self.words.start.min(word)..self.words.end.max(word + 1)
-        };
+        let [first, last] = self.words;
+        self.words = [first.min(word), last.max(word)];
     }
 
     /// Lists what was noted, and forgets it; also gives a list to work with.
     pub(super) fn list(&mut self) -> (&[u32], &mut Vec<u32>) {
         self.listed.clear();
-        for word in std::mem::take(&mut self.words) {
+        let [first, last] = std::mem::replace(&mut self.words, NO_WORDS);
+        for word in first..=last {
             let mut rest = std::mem::take(&mut self.noted[word]);
             while rest != 0 {
                 self.listed.push(word as u32 * 64 + rest.trailing_zeros());

@@ -18,46 +18,60 @@ use crate::pairs::Candidate;
 use crate::statistics::Statistics;
 use fearless_simd::{Simd, dispatch};
 
-/// A candidate that is not known to be apart.
-#[derive(Clone, Copy, Debug, Default)]
+/// Candidates that are not known to be apart.
+#[derive(Debug, Default)]
 pub(crate) struct Undecided {
+    /// Those of which the first step knows all signs, and the second is to decide.
+    crossing: Batch<Crossing>,
+    /// Those that are left to exact signs.
+    uncertain: Batch<Candidate>,
+}
+
+/// Two triangles that cross each other's planes.
+#[derive(Clone, Copy, Debug, Default)]
+struct Crossing {
     candidate: Candidate,
     /// Bits 0 to 2: the corners of A above the plane of B; 3 to 5: those of B above the plane of A.
     above: u8,
-    /// Whether these signs are certain.
-    certain: bool,
 }
 
-/// Decides candidates, and appends those that intersect to `hits`, in the order of the candidates.
+/// Decides candidates, and appends those that intersect to `hits`; the order depends on nothing but the candidates.
 pub(crate) fn decide<S: Scalar>(
     level: Level,
     candidates: &mut Batch<Candidate>,
     shapes: [&Shape<S>; 2],
-    undecided: &mut Batch<Undecided>,
-    hits: &mut Vec<Candidate>,
+    undecided: &mut Undecided,
+    hits: &mut Batch<Candidate>,
     statistics: &mut Statistics,
 ) {
     let count = candidates.len();
     statistics.candidate_pairs += count as u64;
     let hits_before = hits.len();
-    undecided.clear();
+    undecided.crossing.clear();
+    undecided.uncertain.clear();
     dispatch!(level, i => {
-        for (eight, number) in candidates.eights().iter().zip(lanes_used(count)) {
-            by_planes(i, eight, number, shapes, undecided);
+        for (eight, lanes) in candidates.eights().iter().zip(lanes_used(count)) {
+            by_planes(i, eight, lanes, shapes, undecided);
         }
-        let count = undecided.len();
-        for (eight, number) in undecided.eights().iter().zip(lanes_used(count)) {
-            by_lines(i, eight, number, shapes, hits, statistics);
+        let Undecided { crossing, uncertain } = undecided;
+        let count = crossing.len();
+        for (eight, lanes) in crossing.eights().iter().zip(lanes_used(count)) {
+            by_lines(i, eight, lanes, shapes, uncertain, hits);
         }
     });
+    for &[a, b] in undecided.uncertain.as_slice() {
+        if intersect::<S>(&shapes[0].corners(a), &shapes[1].corners(b), statistics) {
+            hits.push([a, b]);
+        }
+    }
     statistics.pairs += (hits.len() - hits_before) as u64;
 }
 
-/// How many of each eight lanes are used by so many items: eight, and in the last the rest.
-fn lanes_used(count: usize) -> impl Iterator<Item = usize> {
+/// Which of each eight lanes are used by so many items: all, and in the last the first few.
+fn lanes_used(count: usize) -> impl Iterator<Item = u8> {
     (0..count)
         .step_by(8)
-        .map(move |first| (count - first).min(8))
+        .map(move |first| 0xff >> (8 - (count - first).min(8)))
 }
 
 /// Leaves out the pairs of which one lies on one side of the other's plane.
@@ -65,9 +79,12 @@ fn lanes_used(count: usize) -> impl Iterator<Item = usize> {
 fn by_planes<I: Simd, S: Scalar>(
     i: I,
     candidates: &[Candidate; 8],
-    lanes: usize,
+    lanes: u8,
     shapes: [&Shape<S>; 2],
-    undecided: &mut Batch<Undecided>,
+    Undecided {
+        crossing,
+        uncertain,
+    }: &mut Undecided,
 ) {
     let mut corners = Corners {
         positions: [shapes[0].positions, shapes[1].positions],
@@ -79,20 +96,29 @@ fn by_planes<I: Simd, S: Scalar>(
         let [b0, b1, b2] = shapes[1].triangles[b as usize];
         corners.vertices[lane] = [a0, a1, a2, b0, b1, b2];
     }
-    let room = undecided.room();
+    let room = crossing.room();
     let signs = signs::plane_signs(i, &corners);
     let [a0, a1, a2, b0, b1, b2] = signs.positive;
     let positive = u64::from_le_bytes([a0, a1, a2, b0, b1, b2, 0, 0]);
-    let not_apart = !signs.apart & (0xff >> (8 - lanes));
-    room.push_bits(u64::from(not_apart), |lane| {
+    let not_apart = !signs.apart & lanes;
+    room.push_bits(u64::from(not_apart & signs.certain), |lane| {
         // Byte k of the product's factor is 0 or 1; the multiplier moves it to bit k of the highest byte.
         let bits = positive >> (lane % 8) & 0x0101_0101_0101_0101;
-        Undecided {
+        Crossing {
             candidate: candidates[lane as usize % 8],
             above: (bits.wrapping_mul(0x0102_0408_1020_4080) >> 56) as u8,
-            certain: signs.certain >> (lane % 8) & 1 == 1,
         }
     });
+    keep(candidates, not_apart & !signs.certain, uncertain);
+}
+
+/// Appends the few of eight candidates that a mask names.
+#[inline(always)]
+fn keep(candidates: &[Candidate; 8], lanes: u8, kept: &mut Batch<Candidate>) {
+    if lanes != 0 {
+        kept.room()
+            .push_bits(u64::from(lanes), |lane| candidates[lane as usize % 8]);
+    }
 }
 
 /// By which of three corners lie above a plane (not none or all, which are never asked for): the order that puts the one first
@@ -123,47 +149,57 @@ const ALONE_FIRST: [[[u8; 3]; 8]; 2] = [
 /// Bit `above` is set if the corner that is alone lies below.
 const ALONE_IS_BELOW: u8 = 1 << 3 | 1 << 5 | 1 << 6;
 
+/// By [`Crossing::above`]: which corners, of A 0, 1 and 2, of B 3, 4 and 5, are p1 q1 r1 p2 q2 r2.
+const IN_ORDER: [[u8; 6]; 64] = {
+    let mut orders = [[0; 6]; 64];
+    let mut above = 0;
+    while above < 64 {
+        let (above_a, above_b) = (above & 7, above >> 3);
+        // The corner of the other that is alone is to lie above; a triangle seen from its other side is the same triangle.
+        let order_a = ALONE_FIRST[(ALONE_IS_BELOW >> above_b & 1) as usize][above_a];
+        let order_b = ALONE_FIRST[(ALONE_IS_BELOW >> above_a & 1) as usize][above_b];
+        let mut corner = 0;
+        while corner < 3 {
+            orders[above][corner] = order_a[corner];
+            orders[above][3 + corner] = 3 + order_b[corner];
+            corner += 1;
+        }
+        above += 1;
+    }
+    orders
+};
+
 /// Decides pairs that cross each other's planes.
 #[inline(always)]
 fn by_lines<I: Simd, S: Scalar>(
     i: I,
-    undecided: &[Undecided; 8],
-    lanes: usize,
+    crossing: &[Crossing; 8],
+    lanes: u8,
     shapes: [&Shape<S>; 2],
-    hits: &mut Vec<Candidate>,
-    statistics: &mut Statistics,
+    uncertain: &mut Batch<Candidate>,
+    hits: &mut Batch<Candidate>,
 ) {
     let mut corners = Corners {
         positions: [shapes[0].positions, shapes[1].positions],
         vertices: [[0; 6]; 8],
     };
+    let mut candidates = [[0; 2]; 8];
     for lane in 0..8 {
-        let Undecided {
-            candidate: [a, b],
-            above,
-            ..
-        } = undecided[lane];
-        let (above_a, above_b) = (usize::from(above & 7), usize::from(above >> 3 & 7));
-        // The corner of the other that is alone is to lie above; a triangle seen from its other side is the same triangle.
-        let order_a = ALONE_FIRST[usize::from(ALONE_IS_BELOW >> above_b & 1)][above_a];
-        let order_b = ALONE_FIRST[usize::from(ALONE_IS_BELOW >> above_a & 1)][above_b];
-        let [a0, a1, a2] = shapes[0].triangles[a as usize];
-        let [b0, b1, b2] = shapes[1].triangles[b as usize];
-        let (a, b) = ([a0, a1, a2, 0], [b0, b1, b2, 0]);
-        for corner in 0..3 {
-            corners.vertices[lane][corner] = a[usize::from(order_a[corner] & 3)];
-            corners.vertices[lane][3 + corner] = b[usize::from(order_b[corner] & 3)];
+        let Crossing { candidate, above } = crossing[lane];
+        candidates[lane] = candidate;
+        let [a0, a1, a2] = shapes[0].triangles[candidate[0] as usize];
+        let [b0, b1, b2] = shapes[1].triangles[candidate[1] as usize];
+        let six = [a0, a1, a2, b0, b1, b2, 0, 0];
+        let order = IN_ORDER[usize::from(above) % 64];
+        for corner in 0..6 {
+            corners.vertices[lane][corner] = six[usize::from(order[corner]) % 8];
         }
     }
+    let room = hits.room();
     let signs = signs::line_signs(i, &corners);
-    for (lane, pair) in undecided.iter().enumerate().take(lanes) {
-        let is = |mask: u8| pair.certain && mask >> lane & 1 == 1;
-        let [a, b] = pair.candidate;
-        if is(signs.both_negative)
-            || !is(signs.one_positive)
-                && intersect::<S>(&shapes[0].corners(a), &shapes[1].corners(b), statistics)
-        {
-            hits.push(pair.candidate);
-        }
-    }
+    room.push_bits(u64::from(signs.both_negative & lanes), |lane| {
+        candidates[lane as usize % 8]
+    });
+    let decided = signs.both_negative | signs.one_positive;
+    keep(&candidates, !decided & lanes, uncertain);
 }

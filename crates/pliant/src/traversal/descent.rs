@@ -261,14 +261,14 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
             }
             job.named.clear();
             job.named
-                .extend(job.hits.iter().map(|&hit| meeting.name(hit)));
+                .extend(job.hits.as_slice().iter().map(|&hit| meeting.name(hit)));
         });
         for job in &*jobs {
             *statistics += job.statistics;
         }
         for job in &*jobs {
             if let ControlFlow::Break(place) = show(&job.named) {
-                *broke_at = Some(job.hits[place]);
+                *broke_at = Some(job.hits.as_slice()[place]);
                 return ControlFlow::Break(());
             }
         }

@@ -21,9 +21,9 @@ const BLOCKS_AT_ONCE: usize = 64;
 #[derive(Debug, Default)]
 pub(super) struct Meet {
     candidates: Batch<Candidate>,
-    undecided: Batch<Undecided>,
+    undecided: Undecided,
     /// Pairs that intersect, in tree order.
-    pub(super) hits: Vec<Candidate>,
+    pub(super) hits: Batch<Candidate>,
     /// The same as the caller numbers triangles.
     pub(super) named: Vec<[u32; 2]>,
     pub(super) statistics: Statistics,

@@ -1,7 +1,7 @@
 //! The lanes set in a mask, written to a list without a branch for each.
 //!
 //! How many bits a mask has cannot be predicted, and a wrong guess costs as much as ten items. So items are written four at a
-//! time whether there are so many or not, and the length is then set by the number of bits.
+//! time whether there are so many or not, none included, and the length is then set by the number of bits.
 
 /// A list with room for the items of one more mask behind its end.
 #[derive(Debug)]
@@ -107,10 +107,13 @@ impl<T: Copy> Room<'_, T> {
     pub(crate) fn push_bits(self, mask: u64, item: impl Fn(u32) -> T) {
         let mut rest = mask;
         let mut place = 0;
-        while rest != 0 {
+        loop {
             for next in 0..4 {
                 self.slots[(place + next) % ROOM] = item(rest.trailing_zeros() % u64::BITS);
                 rest &= rest.wrapping_sub(1);
+            }
+            if rest == 0 {
+                break;
             }
             place += 4;
         }

@@ -152,7 +152,12 @@ fn of_itself<I: Simd>(
             overlaps &= LATER_LANES;
         }
         match neighbours.shared(i, block_a, block_b) {
-            Some(shared) => room.push_bits(overlaps & !shared, pair),
+            Some(shared) => {
+                // Mostly none is left.
+                if overlaps & !shared != 0 {
+                    room.push_bits(overlaps & !shared, pair);
+                }
+            }
             None => room.push_bits_if(overlaps, pair, |[a, b]| !mesh.share_a_vertex(a, b)),
         }
     }

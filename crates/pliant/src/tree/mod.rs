@@ -125,6 +125,11 @@ impl<const N: usize> Tree<N> {
         start(level)..start(level + 1)
     }
 
+    /// The level of a group.
+    pub(crate) fn level_of(&self, group: u32) -> u32 {
+        self.level_starts.partition_point(|&start| start <= group) as u32 - 1
+    }
+
     /// How many nodes there are, leaves included: the boxes of a complete update.
     pub(crate) fn node_count(&self) -> usize {
         self.vertices.len()

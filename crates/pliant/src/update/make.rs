@@ -21,63 +21,100 @@ pub(super) struct Work<'w, 's, S> {
     pub(super) shape: &'w Shape<'s, S>,
 }
 
-/// A run of groups, and the part of a tree that holds their boxes.
+/// A run of groups, the part of a tree that holds their boxes, and the part below that.
 struct Job<'t, const N: usize> {
     run: &'t [u32],
     first_group: usize,
     groups: &'t mut [Siblings<N>],
+    first_below: usize,
+    below: &'t [Siblings<N>],
     made: u64,
 }
 
-/// Makes groups true from what is below them; they come in ascending order. Returns how many boxes it made.
+/// Makes groups true from the vertices below them; they come in ascending order. Returns how many boxes it made.
 pub(super) fn make_groups_true<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
     tree: &mut Tree<N>,
     run: &[u32],
 ) -> u64 {
-    let (vertices, leaves) = (&tree.vertices, &tree.leaves);
-    let make = |job: &mut Job<'_, N>| {
-        dispatch!(work.level, i => {
-            for &group in job.run {
-                make_group_true::<_, _, _, false>(i, job, group as usize, leaves, vertices, work.shape);
-            }
-        });
+    let job = Job {
+        run,
+        first_group: 0,
+        groups: &mut tree.groups,
+        first_below: 0,
+        below: &[],
+        made: 0,
     };
-    let mut whole = Job::of_all(run, &mut tree.groups);
-    if run.len() <= JOB || !work.threads.are_many() {
-        make(&mut whole);
-        return whole.made;
-    }
-    let mut jobs = cut(whole);
-    work.threads.run(&mut jobs, |_, job| make(job));
-    jobs.iter().map(|job| job.made).sum()
+    make_all::<_, _, false>(work, job, &tree.leaves, &tree.vertices)
 }
 
 /// Makes groups true from the groups below them, which are, and from the triangles in their leaves. The groups come in ascending
-/// order and are made from the last to the first, children before their parents.
+/// order and are made level by level, children before their parents.
 pub(super) fn merge_groups<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
     tree: &mut Tree<N>,
     run: &[u32],
 ) -> u64 {
-    let mut job = Job::of_all(run, &mut tree.groups);
-    dispatch!(work.level, i => {
-        for &group in run.iter().rev() {
-            make_group_true::<_, _, _, true>(i, &mut job, group as usize, &tree.leaves, &tree.vertices, work.shape);
-        }
-    });
-    job.made
+    let (mut rest, mut made) = (run, 0);
+    while let Some(&last) = rest.last() {
+        let level = tree.level(tree.level_of(last));
+        let first = rest.partition_point(|&group| group < level.start);
+        let (groups, below) = tree.groups.split_at_mut(level.end as usize);
+        let job = Job {
+            run: &rest[first..],
+            first_group: 0,
+            groups,
+            first_below: level.end as usize,
+            below,
+            made: 0,
+        };
+        made += make_all::<_, _, true>(work, job, &tree.leaves, &tree.vertices);
+        rest = &rest[..first];
+    }
+    made
+}
+
+/// Makes the groups of a job true, cut into jobs of fewer groups if there are threads for them. Returns how many boxes it made.
+fn make_all<const N: usize, S: Scalar, const MERGE: bool>(
+    work: Work<'_, '_, S>,
+    mut whole: Job<'_, N>,
+    leaves: &Leaves,
+    vertices: &VertexSets,
+) -> u64 {
+    let make = |job: &mut Job<'_, N>| {
+        dispatch!(work.level, i => {
+            for &group in job.run {
+                make_group_true::<_, _, _, MERGE>(i, job, group as usize, leaves, vertices, work.shape);
+            }
+        });
+    };
+    if whole.run.len() <= JOB || !work.threads.are_many() {
+        make(&mut whole);
+        return whole.made;
+    }
+    let mut jobs = whole.cut();
+    work.threads.run(&mut jobs, |_, job| make(job));
+    jobs.iter().map(|job| job.made).sum()
 }
 
 impl<'t, const N: usize> Job<'t, N> {
-    /// A run of groups, and all of the tree.
-    fn of_all(run: &'t [u32], groups: &'t mut [Siblings<N>]) -> Self {
-        Self {
-            run,
-            first_group: 0,
-            groups,
-            made: 0,
+    /// Jobs of fewer groups.
+    fn cut(self) -> Vec<Self> {
+        let mut groups = self.groups;
+        let mut jobs = Vec::with_capacity(self.run.len().div_ceil(JOB));
+        for run in self.run.chunks(JOB).rev() {
+            let first_group = run[0] as usize;
+            let (before, own) = groups.split_at_mut(first_group - self.first_group);
+            jobs.push(Self {
+                run,
+                first_group,
+                groups: own,
+                ..self
+            });
+            groups = before;
         }
+        jobs.reverse();
+        jobs
     }
 
     /// Keeps the first `count` of these boxes, which are those of a group.
@@ -88,30 +125,6 @@ impl<'t, const N: usize> Job<'t, N> {
         siblings.epoch = epoch;
         self.made += count as u64;
     }
-}
-
-/// Cuts a job into jobs of fewer groups.
-fn cut<const N: usize>(whole: Job<'_, N>) -> Vec<Job<'_, N>> {
-    let Job {
-        run,
-        first_group,
-        mut groups,
-        ..
-    } = whole;
-    let mut jobs = Vec::with_capacity(run.len().div_ceil(JOB));
-    for run in run.chunks(JOB).rev() {
-        let first = run[0] as usize;
-        let (before, own) = groups.split_at_mut(first - first_group);
-        jobs.push(Job {
-            run,
-            first_group: first,
-            groups: own,
-            made: 0,
-        });
-        groups = before;
-    }
-    jobs.reverse();
-    jobs
 }
 
 /// Makes one group true. If `MERGE`, the groups below are true.
@@ -140,7 +153,7 @@ fn make_group_true<I: Simd, const N: usize, S: Scalar, const MERGE: bool>(
         boxes[lane] = match children[lane].below() {
             Below::Group(below) if MERGE => extent::of_box(
                 i,
-                &job.groups[below as usize - job.first_group].boxes.union(),
+                &job.below[below as usize - job.first_below].boxes.union(),
             ),
             Below::Leaf(leaf) if !leaves.have_boxes() => {
                 extent::of_triangle(i, shape, leaves.triangles(leaf).start)

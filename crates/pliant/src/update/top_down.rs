@@ -96,3 +96,24 @@ pub(super) fn reach_groups<const N: usize, S: Scalar>(
     }
     boxes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_noted_is_listed_once_and_in_order() {
+        let mut reached = Reached::default();
+        assert!(reached.list().0.is_empty());
+        for number in [700, 3, 64, 3] {
+            reached.note(number);
+        }
+        reached.note_eight(60, 0b1001_0001);
+        reached.note_eight(56, 0b1000_0000);
+        reached.note_eight(704, 0b1000_0001);
+        assert_eq!(reached.list().0, [3, 60, 63, 64, 67, 700, 704, 711]);
+        assert!(reached.list().0.is_empty());
+        reached.note(5);
+        assert_eq!(reached.list().0, [5]);
+    }
+}

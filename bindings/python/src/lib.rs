@@ -26,6 +26,7 @@ mod world;
 #[pyo3::pymodule]
 mod _pliant {
     #[pymodule_export]
+    #[expect(non_upper_case_globals, reason = "as Python names it")]
     const __version__: &str = env!("CARGO_PKG_VERSION");
 
     #[pymodule_export]

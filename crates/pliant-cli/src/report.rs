@@ -81,9 +81,11 @@ impl Watcher {
     ) -> anyhow::Result<Self> {
         let mut options = options.clone();
         let first = numbers.clone().next().unwrap_or_default();
-        let last = numbers.clone().last().unwrap_or_default();
+        let is_there = |frame| numbers.clone().any(|number| number == frame);
+        let is_missing = options.frame.is_some_and(|frame| !is_there(frame));
+        let last = numbers.last().unwrap_or_default();
         match options.frame {
-            Some(frame) if numbers.clone().all(|number| number != frame) => bail!(
+            Some(frame) if is_missing => bail!(
                 "--frame {frame}: no such {along} is looked at; the first is {first}, the last {last}"
             ),
             None if options.png.is_some() && first != last => bail!(

@@ -97,7 +97,7 @@ fn make_all<const N: usize, S: Scalar, const MERGE: bool>(
     jobs.iter().map(|job| job.made).sum()
 }
 
-impl<'t, const N: usize> Job<'t, N> {
+impl<const N: usize> Job<'_, N> {
     /// Jobs of fewer groups.
     fn cut(self) -> Vec<Self> {
         let mut groups = self.groups;

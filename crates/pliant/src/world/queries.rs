@@ -122,7 +122,7 @@ impl<S: Scalar> World<S> {
         answer
     }
 
-    /// Shows pairs of two bodies, until `show` breaks.
+    /// Shows every intersecting pair of different bodies, those of two bodies after the other, until `show` breaks.
     fn show_intersections(
         &mut self,
         show: &mut dyn FnMut([BodyId; 2], &[[u32; 2]]) -> ControlFlow<usize>,

@@ -5,8 +5,10 @@ use crate::exec::Threads;
 use crate::kernels::Level;
 use crate::kernels::gather::{IN_A_ROW, RowBounds, gather};
 
-/// Points in a job: some ten microseconds of work; a whole number of rows.
-pub(crate) const POINTS_JOB: usize = 256 * IN_A_ROW;
+/// Points in a job: some microseconds of work; a whole number of rows.
+pub(crate) const POINTS_JOB: usize = 64 * IN_A_ROW;
+/// Fewer points than these are not worth waking a thread.
+pub(crate) const POINTS_SHARED: usize = 4 * POINTS_JOB;
 
 /// Points of three coordinates and a fourth number that means nothing, so that each fills a register of four; and the bounds of
 /// every few in a row.
@@ -43,7 +45,7 @@ impl<S: Scalar> Points<S> {
         order: &[u32],
     ) {
         let Self { points, bounds } = self;
-        if points.len() <= POINTS_JOB || !threads.are_many() {
+        if points.len() <= POINTS_SHARED || !threads.are_many() {
             gather(level, from, order, points, bounds);
             return;
         }

@@ -48,10 +48,13 @@ impl<T: Copy + Default> Batch<T> {
         self.len == 0
     }
 
-    pub(crate) fn append(&mut self, other: &Self) {
-        self.items.truncate(self.len);
-        self.items.extend_from_slice(&other.items[..other.len]);
-        self.len += other.len;
+    pub(crate) fn extend(&mut self, items: &[T]) {
+        let end = self.len + items.len();
+        if self.items.len() < end {
+            self.items.resize(end, T::default());
+        }
+        self.items[self.len..end].copy_from_slice(items);
+        self.len = end;
     }
 
     #[inline]
@@ -163,8 +166,8 @@ mod tests {
         assert_eq!(list.as_slice(), expected);
         assert_eq!(list.len(), expected.len());
         let mut twice = Batch::default();
-        twice.append(&list);
-        twice.append(&list);
+        twice.extend(list.as_slice());
+        twice.extend(list.as_slice());
         assert_eq!(twice.as_slice(), [&expected[..]; 2].concat());
         assert!(!twice.is_empty());
         let eights = list.eights().as_flattened().to_vec();

@@ -1,27 +1,33 @@
 //! The loop of the traversal, the same for two trees and for one.
 
 use super::Side;
-use super::expand::{Found, expand};
-use super::meet::{Meet, Place, block_pairs};
+use super::branch::{Branch, Stride, are_free};
 use crate::geometry::{Scalar, Shape};
-use crate::pairs::{BlockPair, Candidate, NodePair};
+use crate::kernels::bits::Batch;
+use crate::pairs::{Candidate, NodePair};
 use crate::statistics::Statistics;
-use crate::tree::{Below, NodeId, Tree};
-use crate::update::{Reached, Updates};
-use fearless_simd::dispatch;
+use crate::tree::{NodeId, Tree};
+use crate::update::{Noted, Updates};
 use std::ops::ControlFlow;
 
 /// The first batch is one pair, and batches double: a visitor that stops at the first pair has then made few boxes that it did
 /// not need (on the two spheres from contact on, 16 instead made 1,841 boxes where this makes 520, and took 1.8 times as long),
 /// and one that wants all pairs loses nothing.
 const FIRST_BATCH: usize = 1;
-/// The longest batch of pairs of nodes: long enough for several threads, short enough that its groups stay in cache.
-const LONGEST_BATCH: usize = 2048;
-/// The most pairs of blocks that meet before their hits are shown: this bounds memory whatever the leaf size is.
-const MOST_BLOCKS: usize = 4096;
-/// Pairs of nodes in a job, and pairs of blocks in a job: some tens of microseconds of work.
-const EXPAND_JOB: usize = 512;
-const MEET_JOB: usize = 256;
+/// The most pairs of nodes that a branch takes at once: short enough that their groups stay in cache.
+const LONGEST_BATCH: usize = 256;
+/// The most pairs of blocks of a branch that meet at once,
+const MOST_BLOCKS: usize = 512;
+/// and before their hits are shown. This bounds memory whatever the leaf size is.
+const MOST_BEFORE_SHOWN: usize = 8192;
+/// As soon as there are so many pairs of nodes, branches share them, whatever the number of threads is:
+const ENOUGH: usize = 128;
+/// so many branches if boxes will be made in turn with them, so that all are at work in about one place,
+const BRANCHES: usize = 8;
+/// or else so many, so that none waits long for another.
+const FREE_BRANCHES: usize = 32;
+/// So many pairs of nodes are dealt at once.
+const DEALT: usize = 512;
 
 /// What is descended: two trees, or one against itself.
 pub(crate) trait Meeting<const N: usize>: Sync {
@@ -40,22 +46,20 @@ pub(crate) trait Meeting<const N: usize>: Sync {
 /// Buffers, kept from query to query.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    /// Of refreshing ahead.
-    pub(crate) groups: Vec<u32>,
-    reached: Reached,
-    batch: Vec<NodePair>,
-    untrue: Vec<Untrue>,
-    /// The stack, and pairs of leaves that are to meet.
-    found: Found,
-    expanded: Vec<Found>,
-    blocks: Vec<BlockPair>,
-    met: Vec<Meet>,
+    /// Of making groups true.
+    pub(crate) groups: [Vec<u32>; 2],
+    pub(crate) reached: Noted,
+    /// Those that were used last are the first so many.
+    branches: Vec<Branch>,
+    used: usize,
+    reserve: Batch<NodePair>,
+    dealt: Vec<NodePair>,
     sizes: Sizes,
     /// The pair at which a query stopped, in tree order.
     pub(crate) broke_at: Option<Candidate>,
 }
 
-/// How many pairs are taken at once. They double over a query, whatever it has asked before.
+/// How many pairs a branch takes at once. They double over a query, whatever it has asked before.
 #[derive(Clone, Copy, Debug)]
 struct Sizes {
     nodes: usize,
@@ -71,15 +75,18 @@ impl Default for Sizes {
     }
 }
 
+impl Sizes {
+    fn double_blocks(&mut self) {
+        self.blocks = (2 * self.blocks).min(MOST_BEFORE_SHOWN);
+    }
+}
+
 impl Scratch {
     /// At the beginning of every query.
     pub(crate) fn begin(&mut self) {
         self.sizes = Sizes::default();
     }
 }
-
-/// What a job of looking found not true in either tree, some perhaps more than once.
-type Untrue = [Vec<u32>; 2];
 
 /// What is shown every pair once, some at a time, as the caller numbers triangles, until it breaks with the place of the one at
 /// which it stops.
@@ -93,25 +100,68 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     statistics: &mut Statistics,
     show: Show,
 ) -> ControlFlow<()> {
-    scratch.found.clear();
-    scratch.found.nodes.push([NodeId::ROOT; 2]);
+    let Scratch {
+        groups,
+        reached,
+        branches,
+        used,
+        reserve,
+        dealt,
+        sizes,
+        broke_at,
+    } = scratch;
+    // Some are left as they were if a visitor stopped, or panicked.
+    branches[..*used].iter_mut().for_each(Branch::clear);
+    reserve.clear();
+    *used = 1;
+    branches.resize_with(FREE_BRANCHES.max(branches.len()), Branch::default);
+    branches[0].found.nodes.push([NodeId::ROOT; 2]);
+    let are_free = are_free(meeting.sides());
     loop {
-        let Scratch {
-            found,
-            batch,
-            sizes,
-            ..
-        } = scratch;
-        found.nodes.take_last(sizes.nodes, batch);
-        sizes.nodes = (sizes.nodes * 2).min(LONGEST_BATCH);
-        reach_groups(updates, meeting, scratch, statistics);
-        expand_batch(updates, meeting, scratch);
-        let straight = std::mem::take(&mut scratch.found.straight);
-        statistics.node_pairs += scratch.batch.len() as u64 + straight;
-
-        let last = scratch.found.nodes.is_empty();
-        if last || scratch.found.leaves.len() >= scratch.sizes.blocks {
-            meet_leaves(updates, meeting, scratch, statistics, show)?;
+        if is_to_be_dealt(&branches[..*used], reserve) {
+            *used = if are_free { FREE_BRANCHES } else { BRANCHES };
+            deal(&mut branches[..*used], reserve, dealt);
+        }
+        let branches = &mut branches[..*used];
+        let stride = Stride {
+            nodes: sizes.nodes,
+            leaves: sizes.blocks.min(MOST_BLOCKS),
+            met: sizes.blocks,
+            stack: if branches.len() == 1 {
+                ENOUGH
+            } else {
+                usize::MAX
+            },
+        };
+        updates.threads.run(branches, |_, branch| {
+            branch.advance(updates.level, meeting, stride);
+        });
+        sizes.nodes = (2 * sizes.nodes).min(LONGEST_BATCH);
+        for branch in &*branches {
+            statistics.node_pairs += branch.found.node_pairs;
+        }
+        let working = branches.iter().filter(|branch| !branch.is_done()).count();
+        let last = reserve.is_empty() && working == 0;
+        let mut shown = ControlFlow::Continue(());
+        if are_free {
+            shown = show_hits(branches, statistics, show);
+            sizes.double_blocks();
+        } else {
+            reach_groups(updates, meeting, branches, reached, groups, statistics);
+            let leaves = |branch: &Branch| branch.found.leaves.len();
+            let leaves = branches.iter().map(leaves).sum::<usize>();
+            if last || leaves >= stride.leaves * working.max(1) {
+                reach_leaves(updates, meeting, branches, reached, statistics);
+                while shown.is_continue() && !branches.iter().all(Branch::all_met) {
+                    meet_leaves(updates, meeting, branches, sizes);
+                    shown = show_hits(branches, statistics, show);
+                }
+                branches.iter_mut().for_each(Branch::forget_leaves);
+            }
+        }
+        if let ControlFlow::Break(hit) = shown {
+            *broke_at = Some(hit);
+            return ControlFlow::Break(());
         }
         if last {
             return ControlFlow::Continue(());
@@ -119,48 +169,46 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     }
 }
 
-/// Makes true what is below the nodes of a batch.
+/// Whether some branch has nothing left that another could give.
+fn is_to_be_dealt(branches: &[Branch], reserve: &Batch<NodePair>) -> bool {
+    let stack = |branch: &Branch| branch.found.nodes.len();
+    let all: usize = branches.iter().map(stack).sum();
+    if branches.len() == 1 {
+        return all >= ENOUGH;
+    }
+    (!reserve.is_empty() || all >= branches.len()) && branches.iter().any(Branch::is_done)
+}
+
+/// Deals the last of all pairs to all branches, in order and in equal parts.
+fn deal(branches: &mut [Branch], reserve: &mut Batch<NodePair>, dealt: &mut Vec<NodePair>) {
+    for branch in &mut *branches {
+        reserve.extend(branch.found.nodes.as_slice());
+        branch.found.nodes.clear();
+    }
+    reserve.take_last(DEALT, dealt);
+    let each = dealt.len().div_ceil(branches.len());
+    for (branch, pairs) in branches.iter_mut().zip(dealt.chunks(each)) {
+        branch.found.nodes.extend(pairs);
+    }
+}
+
+/// Makes true the groups that branches ask for.
 fn reach_groups<const N: usize, M: Meeting<N>>(
     updates: Updates,
     meeting: &mut M,
-    scratch: &mut Scratch,
+    branches: &mut [Branch],
+    reached: &mut Noted,
+    lists: &mut [Vec<u32>; 2],
     statistics: &mut Statistics,
 ) {
-    let Scratch {
-        batch,
-        untrue,
-        reached,
-        ..
-    } = scratch;
-    let sides = meeting.sides();
-    if sides
-        .iter()
-        .all(|side| side.tree.complete == side.shape.epoch)
-    {
-        return;
-    }
-    let jobs = in_use(untrue, batch.len().div_ceil(EXPAND_JOB));
-    updates.threads.run(jobs, |number, found| {
-        found.iter_mut().for_each(Vec::clear);
-        for pair in part(batch, number, EXPAND_JOB) {
-            for which in 0..2 {
-                let Side { tree, shape, .. } = sides[which];
-                if let Below::Group(below) = tree.child(pair[which]).below()
-                    && tree.groups[below as usize].epoch != shape.epoch
-                {
-                    found[which].push(below);
-                }
-            }
-        }
-    });
     for which in 0..2 {
-        for &group in jobs.iter().flat_map(|found| &found[which]) {
-            reached.note(group);
+        for branch in &mut *branches {
+            reached.take(&mut branch.untrue[which]);
         }
         // Of one tree, both are noted before.
-        if !M::ITSELF || which == 1 {
+        if (!M::ITSELF || which == 1) && !reached.is_empty() {
             let (tree, shape) = meeting.tree_mut(which);
-            updates.reach(tree, shape, reached, statistics);
+            updates.reach(tree, shape, reached, lists, statistics);
         }
     }
 }
@@ -169,13 +217,13 @@ fn reach_groups<const N: usize, M: Meeting<N>>(
 fn reach_leaves<const N: usize, M: Meeting<N>>(
     updates: Updates,
     meeting: &mut M,
-    scratch: &mut Scratch,
+    branches: &mut [Branch],
+    reached: &mut Noted,
     statistics: &mut Statistics,
 ) {
-    let Scratch { found, reached, .. } = scratch;
     for which in 0..2 {
-        for wanted in found.wanted[which].as_slice() {
-            reached.note_eight(wanted.first, wanted.lanes);
+        for branch in &mut *branches {
+            reached.take(&mut branch.wanted[which]);
         }
         if !M::ITSELF || which == 1 {
             let (tree, shape) = meeting.tree_mut(which);
@@ -184,108 +232,34 @@ fn reach_leaves<const N: usize, M: Meeting<N>>(
     }
 }
 
-/// Pairs of children onto the stack, pairs of leaves onto their list.
-fn expand_batch<const N: usize, M: Meeting<N>>(
-    updates: Updates,
-    meeting: &M,
-    scratch: &mut Scratch,
-) {
-    let trees = meeting.sides().map(|side| &*side.tree);
-    let expand_some = |batch: &[NodePair], found: &mut Found| {
-        dispatch!(updates.level, i => if M::ITSELF {
-            expand::<_, N, true>(i, trees, batch, found);
-        } else {
-            expand::<_, N, false>(i, trees, batch, found);
-        });
-    };
-    let Scratch {
-        batch,
-        found,
-        expanded,
-        ..
-    } = scratch;
-    if batch.len() <= EXPAND_JOB || !updates.threads.are_many() {
-        return expand_some(batch, found);
-    }
-    let jobs = in_use(expanded, batch.len().div_ceil(EXPAND_JOB));
-    updates.threads.run(jobs, |number, found| {
-        found.clear();
-        expand_some(part(batch, number, EXPAND_JOB), found);
-    });
-    for job in &*jobs {
-        found.append(job);
-    }
-}
-
-/// Decides all pairs of leaves on the list, and shows what intersects.
+/// Lets the next pairs of leaves meet.
 fn meet_leaves<const N: usize, M: Meeting<N>>(
     updates: Updates,
-    meeting: &mut M,
-    scratch: &mut Scratch,
+    meeting: &M,
+    branches: &mut [Branch],
+    sizes: &mut Sizes,
+) {
+    let blocks = sizes.blocks.min(MOST_BLOCKS);
+    sizes.double_blocks();
+    updates.threads.run(branches, |_, branch| {
+        branch.met.clear();
+        branch.meet(updates.level, meeting, blocks);
+    });
+}
+
+/// Shows what intersects among the pairs that have met; breaks with the pair at which `show` does.
+fn show_hits(
+    branches: &[Branch],
     statistics: &mut Statistics,
     show: Show,
-) -> ControlFlow<()> {
-    reach_leaves(updates, meeting, scratch, statistics);
-    let Scratch {
-        found,
-        blocks,
-        met,
-        sizes,
-        broke_at,
-        ..
-    } = scratch;
-    let sides = meeting.sides();
-    let trees = sides.map(|side| &side.tree.leaves);
-    let leaves = found.leaves.as_slice();
-    let mut place = Place::default();
-    while place.pair < leaves.len() {
-        let pairs = if trees.iter().all(|leaves| leaves.are_blocks()) {
-            let end = leaves.len().min(place.pair + sizes.blocks);
-            &leaves[std::mem::replace(&mut place.pair, end)..end]
-        } else {
-            place = if M::ITSELF {
-                block_pairs::<true>(trees, leaves, place, sizes.blocks, blocks)
-            } else {
-                block_pairs::<false>(trees, leaves, place, sizes.blocks, blocks)
-            };
-            &*blocks
-        };
-        sizes.blocks = (sizes.blocks * 2).min(MOST_BLOCKS);
-        let jobs = in_use(met, pairs.len().div_ceil(MEET_JOB));
-        updates.threads.run(jobs, |number, job| {
-            let pairs = part(pairs, number, MEET_JOB);
-            if M::ITSELF {
-                job.meet::<N, M::Coordinate, true>(updates.level, sides, pairs);
-            } else {
-                job.meet::<N, M::Coordinate, false>(updates.level, sides, pairs);
-            }
-            job.named.clear();
-            job.named
-                .extend(job.hits.as_slice().iter().map(|&hit| meeting.name(hit)));
-        });
-        for job in &*jobs {
-            *statistics += job.statistics;
-        }
-        for job in &*jobs {
-            if let ControlFlow::Break(place) = show(&job.named) {
-                *broke_at = Some(job.hits.as_slice()[place]);
-                return ControlFlow::Break(());
-            }
+) -> ControlFlow<Candidate> {
+    for branch in branches {
+        *statistics += branch.met.statistics;
+    }
+    for branch in branches {
+        if let ControlFlow::Break(place) = show(&branch.met.named) {
+            return ControlFlow::Break(branch.met.hits.as_slice()[place]);
         }
     }
-    found.clear_leaves();
     ControlFlow::Continue(())
-}
-
-/// The first `count` of some jobs, made if there are fewer.
-fn in_use<J: Default>(jobs: &mut Vec<J>, count: usize) -> &mut [J] {
-    if jobs.len() < count {
-        jobs.resize_with(count, J::default);
-    }
-    &mut jobs[..count]
-}
-
-/// The part of a list that a job does.
-fn part<T>(list: &[T], number: usize, size: usize) -> &[T] {
-    &list[number * size..list.len().min((number + 1) * size)]
 }

@@ -24,29 +24,20 @@ pub(super) struct Found {
     pub(super) leaves: Batch<LeafPair>,
     /// The leaves in these pairs, some perhaps more than once, of either tree.
     pub(super) wanted: [Batch<WantedLeaves>; 2],
-    /// How many pairs of leaves went straight onto their list, without being pairs of nodes on the stack.
-    pub(super) straight: u64,
+    /// How many pairs of nodes were expanded, with those of leaves that went straight onto their list.
+    pub(super) node_pairs: u64,
 }
 
 impl Found {
     pub(super) fn clear(&mut self) {
         self.nodes.clear();
         self.clear_leaves();
-        self.straight = 0;
+        self.node_pairs = 0;
     }
 
     pub(super) fn clear_leaves(&mut self) {
         self.leaves.clear();
         self.wanted.iter_mut().for_each(Batch::clear);
-    }
-
-    pub(super) fn append(&mut self, other: &Self) {
-        self.nodes.append(&other.nodes);
-        self.leaves.append(&other.leaves);
-        for which in 0..2 {
-            self.wanted[which].append(&other.wanted[which]);
-        }
-        self.straight += other.straight;
     }
 }
 
@@ -62,8 +53,9 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
         nodes,
         leaves,
         wanted,
-        straight,
+        node_pairs,
     } = found;
+    *node_pairs += batch.len() as u64;
     for &[node_a, node_b] in batch {
         match (a.child(node_a).below(), b.child(node_b).below()) {
             (Below::Leaf(leaf_a), Below::Leaf(leaf_b)) => {
@@ -101,7 +93,7 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
                     let room = leaves.room();
                     let mask = overlap_mask(i, &group_a.boxes, &group_b.boxes) & asked;
                     room.push_bits(mask, |bit| [first_a + bit / 8, first_b + bit % 8]);
-                    *straight += (leaves.len() - before) as u64;
+                    *node_pairs += (leaves.len() - before) as u64;
                     lanes[0] |= rows_of(mask);
                     lanes[1] |= columns_of(mask);
                     for (which, first) in [first_a, first_b].into_iter().enumerate() {

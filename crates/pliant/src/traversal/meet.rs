@@ -76,6 +76,13 @@ pub(super) fn block_pairs<const ITSELF: bool>(
 }
 
 impl Meet {
+    /// Forgets what it found.
+    pub(super) fn clear(&mut self) {
+        self.hits.clear();
+        self.named.clear();
+        self.statistics = Statistics::default();
+    }
+
     /// Finds what intersects among pairs of blocks.
     pub(super) fn meet<const N: usize, S: Scalar, const ITSELF: bool>(
         &mut self,
@@ -83,8 +90,6 @@ impl Meet {
         [side_a, side_b]: [&Side<'_, N, S>; 2],
         pairs: &[BlockPair],
     ) {
-        self.hits.clear();
-        self.statistics = Statistics::default();
         let leaves = [&side_a.tree.leaves, &side_b.tree.leaves];
         for pairs in pairs.chunks(BLOCKS_AT_ONCE) {
             self.candidates.clear();

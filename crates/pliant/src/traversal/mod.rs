@@ -1,25 +1,32 @@
 //! From pairs of nodes to candidate pairs of triangles: tree against tree, and a tree against itself.
 //!
 //! ```text
-//! stack = [(root, root)]                                    boxes true and overlapping
-//! while the stack is not empty:
-//!     take a batch from its top                             1 pair, then 2, 4, ... up to thousands
-//!     reach:   make true the groups below the batch         only reaching writes boxes
-//!     expand:  children whose boxes overlap onto the stack, pairs of leaves onto a list
-//!     when the list is long, or the stack empty:
+//! one branch, its stack = [(root, root)]                    boxes true and overlapping
+//! while some branch has pairs of nodes:
+//!     deal:   if one has none, or there is only one yet and it has many: the last of all pairs to all branches
+//!     every branch, until it asks for boxes that are not true, or its list of leaves is long:
+//!         take a batch from the top of its stack            1 pair, then 2, 4, ... up to hundreds
+//!         expand it: children whose boxes overlap onto the stack, pairs of leaves onto the list
+//!     reach:  make true the groups that they ask for        only reaching writes boxes
+//!     when the lists are long, or the stacks empty:
 //!         reach:  make true the boxes of the triangles in these leaves
-//!         meet:   triangles whose boxes overlap: candidates; these are decided
+//!         every branch: meet: triangles whose boxes overlap: candidates; these are decided
 //!         show:   what intersects, in order
 //! ```
 //!
-//! Reaching, expanding and meeting take turns. Each is cut into jobs by size, and every job writes lists, or boxes, of its own,
-//! so threads share the work, and neither the work nor the order of what is found depends on how many there are. Batches come
-//! from the top of one stack, which bounds memory by depth x batch whatever the input is (all triangles in one place included),
-//! and needs no recursion. Batches start small, so that a visitor that wants the first pair gets it after a few nodes, and
-//! double, so that a visitor that wants all pairs soon works in long runs.
+//! Where all boxes are true, those of triangles too, branches are *free*: leaves meet on the way, and nothing is waited for. So it is
+//! for a body with itself, of which all boxes are made ahead.
+//!
+//! Branches, and jobs of reaching, are cut by size, and each writes lists, or boxes, of its own; so threads share the work, and
+//! neither the work nor the order of what is found depends on how many there are. Branches are dealt what is last of all, so
+//! that together they are at work in one place of the trees: dealt all there is, they would read from everywhere at once. Batches
+//! come from the top of a stack, which bounds memory by depth x batch whatever the input is (all triangles in one place
+//! included), and needs no recursion. Batches start small, so that a visitor that wants the first pair gets it after a few nodes,
+//! and double, so that a visitor that wants all pairs soon works in long runs.
 //!
 //! Differs from the paper, which descends pair by pair; the boxes it reaches are the same but for the order.
 
+mod branch;
 mod descent;
 mod expand;
 mod meet;

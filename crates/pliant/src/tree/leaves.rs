@@ -30,6 +30,8 @@ pub(crate) struct Leaves {
     firsts: Vec<u32>,
     /// For each leaf the epoch of the body in which the boxes of its triangles were made; 0 is before every epoch.
     epochs: Vec<u64>,
+    /// The epoch in which all of them were last made at once: in that epoch none is untrue.
+    pub(crate) complete: u64,
     /// How many of them were made since this was last asked.
     reached: usize,
 }
@@ -52,6 +54,7 @@ impl Leaves {
             blocks: Vec::new(),
             firsts: Vec::new(),
             epochs: Vec::new(),
+            complete: 0,
             reached: 0,
         }
     }

@@ -1,7 +1,8 @@
 //! How far ahead: the level down to which boxes are made before a traversal begins.
 //!
 //! Where a traversal is going to reach most of a tree anyway, it is cheapest to make all of it at once: boxes of inner nodes are
-//! then merged from their children's and never made from vertices. What it is going to reach is about what it reached last time.
+//! then merged from their children's and never made from vertices. What it is going to reach is about what it reached last time; of a
+//! body with itself, all, because every leaf meets at least itself.
 //! The paper's level n / 2 is for all other cases.
 
 use super::bottom_up::make_levels_true;
@@ -24,11 +25,12 @@ fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {
     }
 }
 
-/// Makes the upper levels true, unless they are.
+/// Makes the upper levels true, unless they are; for a query of a body with `itself`, or of two.
 pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
     tree: &mut Tree<N>,
     update: Update,
+    itself: bool,
     groups: &mut Vec<u32>,
     statistics: &mut Statistics,
 ) {
@@ -36,7 +38,8 @@ pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
     if tree.groups[0].epoch == work.shape.epoch {
         return;
     }
-    let much = tree.leaves.take_reached() * MUCH >= tree.leaves.len();
+    let reached = tree.leaves.take_reached();
+    let much = itself || reached * MUCH >= tree.leaves.len();
     let levels = level_ahead(update, tree.depth, much) + 1;
     let boxes = make_levels_true(work, tree, 0, levels, groups);
     if levels > tree.depth {

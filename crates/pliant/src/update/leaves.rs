@@ -4,54 +4,93 @@
 //! another: on two spheres in contact, half of them. So the triangles get theirs last of all.
 
 use super::make::Work;
-use super::top_down::Reached;
+use super::noted::Noted;
 use crate::geometry::Scalar;
 use crate::kernels::extent;
 use crate::tree::{LEAF_LANES, LeafBoxes, Tree};
 use fearless_simd::dispatch;
+use std::ops::Range;
 
-/// Leaves in a job: some ten microseconds of work.
-const JOB: usize = 128;
+/// Words of 64 leaves in a job: at most some microseconds of work.
+const JOB: usize = 2;
+/// Fewer leaves than these are not worth waking a thread.
+const SHARED: usize = 256;
 
-/// Makes the boxes of the triangles in leaves that were reached, unless they are true. Returns how many boxes it made.
+/// The leaves of some words, their boxes, and how many of what was made.
+struct Job<'t> {
+    words: Range<usize>,
+    boxes: LeafBoxes<'t>,
+    leaves: usize,
+    triangles: usize,
+}
+
+/// Makes the boxes of the triangles in leaves that were reached, unless they are true, and forgets what was reached. Returns how
+/// many boxes it made.
 pub(super) fn reach_leaves<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
     tree: &mut Tree<N>,
-    reached: &mut Reached,
+    reached: &mut Noted,
 ) -> u64 {
-    let epoch = work.shape.epoch;
-    let (leaves, untrue) = reached.list();
-    untrue.clear();
-    let is_untrue = |&leaf: &u32| !tree.leaves.are_true(leaf, epoch);
-    untrue.extend(leaves.iter().copied().filter(is_untrue));
-    tree.leaves.note_reached(untrue.len());
-    let make = |run: &[u32], boxes: &mut LeafBoxes| {
+    if !tree.leaves.have_boxes() {
+        reached.clear();
+        return 0;
+    }
+    let make = |job: &mut Job| {
         let shape = work.shape;
-        let mut made = 0;
         dispatch!(work.level, i => {
-            for &leaf in run {
-                let (triangles, epoch, blocks) = boxes.of(leaf);
-                made += triangles.len() as u64;
+            for leaf in reached.of(job.words.clone()) {
+                let (triangles, epoch, blocks) = job.boxes.of(leaf);
+                if *epoch == shape.epoch {
+                    continue;
+                }
                 *epoch = shape.epoch;
+                job.leaves += 1;
+                job.triangles += triangles.len();
                 for (triangles, block) in shape.triangles[triangles].chunks(LEAF_LANES).zip(blocks) {
                     extent::make_block(i, shape, triangles, block);
                 }
             }
         });
-        made
     };
-    let mut rest = tree.leaves.boxes();
-    if untrue.len() <= JOB || !work.threads.are_many() {
-        return make(untrue, &mut rest);
+    let mut whole = Job {
+        words: reached.words(),
+        boxes: tree.leaves.boxes(),
+        leaves: 0,
+        triangles: 0,
+    };
+    let (leaves, triangles) = if !work.threads.are_many() || reached.count() <= SHARED {
+        make(&mut whole);
+        (whole.leaves, whole.triangles)
+    } else {
+        let mut jobs = whole.cut(reached);
+        work.threads.run(&mut jobs, |_, job| make(job));
+        let counts = jobs.iter().map(|job| (job.leaves, job.triangles));
+        counts.fold((0, 0), |all, part| (all.0 + part.0, all.1 + part.1))
+    };
+    reached.clear();
+    tree.leaves.note_reached(leaves);
+    triangles as u64
+}
+
+impl Job<'_> {
+    /// Jobs of fewer words, those in which something was reached.
+    fn cut(self, reached: &Noted) -> Vec<Self> {
+        let Range { start, end } = self.words;
+        let mut rest = self.boxes;
+        let mut jobs = Vec::new();
+        for start in (start..end).step_by(JOB).rev() {
+            let words = start..end.min(start + JOB);
+            if reached.are_any_in(words.clone()) {
+                let [before, boxes] = rest.split_before(64 * start as u32);
+                rest = before;
+                jobs.push(Self {
+                    words,
+                    boxes,
+                    ..self
+                });
+            }
+        }
+        jobs.reverse();
+        jobs
     }
-    let mut jobs = Vec::with_capacity(untrue.len().div_ceil(JOB));
-    for run in untrue.chunks(JOB).rev() {
-        let [before, own] = rest.split_before(run[0]);
-        jobs.push((run, own, 0));
-        rest = before;
-    }
-    jobs.reverse();
-    work.threads
-        .run(&mut jobs, |_, (run, boxes, made)| *made = make(run, boxes));
-    jobs.iter().map(|&(_, _, made)| made).sum()
 }

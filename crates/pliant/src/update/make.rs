@@ -10,8 +10,10 @@ use crate::kernels::extent::{self, Extent};
 use crate::tree::{Below, Leaves, Siblings, Tree, VertexSets};
 use fearless_simd::{Simd, dispatch};
 
-/// Groups in a job: some tens of microseconds of work.
-const JOB: usize = 128;
+/// Groups in a job: some microseconds of work.
+const JOB: usize = 32;
+/// Fewer groups than these are not worth waking a thread.
+const SHARED: usize = 4 * JOB;
 
 /// Where and with what to make boxes.
 #[derive(Clone, Copy)]
@@ -88,7 +90,7 @@ fn make_all<const N: usize, S: Scalar, const MERGE: bool>(
             }
         });
     };
-    if whole.run.len() <= JOB || !work.threads.are_many() {
+    if whole.run.len() <= SHARED || !work.threads.are_many() {
         make(&mut whole);
         return whole.made;
     }

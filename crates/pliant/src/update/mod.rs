@@ -7,16 +7,17 @@
 //! bottom-up   ahead: down to the deepest leaf
 //! top-down    ahead: the root only
 //! hybrid      ahead: down to level floor(n / 2), or a given one, where n is the level of the deepest leaf;
-//!             all levels, if none is given and much of the tree was reached the last time
+//!             all levels, if none is given and much of the tree was reached the last time, or a body meets itself
 //! ```
 //!
 //! `hybrid` decides how far ahead, `bottom_up` makes some levels below a group, `top_down` makes what a traversal reaches, and
-//! `make` makes the boxes, for all of them; `leaves` makes those of single triangles. Boxes made are counted, so that the strategies can be compared by their work.
+//! `make` makes the boxes, for all of them; `leaves` makes those of single triangles; `noted` is what was reached. Boxes made are counted, so that the strategies can be compared by their work.
 
 mod bottom_up;
 mod hybrid;
 mod leaves;
 mod make;
+mod noted;
 mod top_down;
 
 use crate::exec::Threads;
@@ -26,7 +27,7 @@ use crate::options::Update;
 use crate::statistics::Statistics;
 use crate::tree::Tree;
 use make::Work;
-pub(crate) use top_down::Reached;
+pub(crate) use noted::Noted;
 
 /// What updates work with.
 #[derive(Clone, Copy)]
@@ -37,28 +38,37 @@ pub(crate) struct Updates<'w> {
 }
 
 impl Updates<'_> {
-    /// Makes the upper levels true, unless they are. `groups` is scratch.
+    /// Makes the upper levels true, unless they are, for a query of a body with `itself` or of two. `groups` is scratch.
     pub(crate) fn refresh_ahead<const N: usize, S: Scalar>(
         &self,
         tree: &mut Tree<N>,
         shape: &Shape<S>,
+        itself: bool,
         groups: &mut Vec<u32>,
         statistics: &mut Statistics,
     ) {
-        hybrid::refresh_ahead(self.work(shape), tree, self.update, groups, statistics);
+        hybrid::refresh_ahead(
+            self.work(shape),
+            tree,
+            self.update,
+            itself,
+            groups,
+            statistics,
+        );
     }
 
-    /// Makes groups true that a traversal has reached; they are not true.
+    /// Makes groups true that a traversal has reached; they are not true. The lists are scratch.
     pub(crate) fn reach<const N: usize, S: Scalar>(
         &self,
         tree: &mut Tree<N>,
         shape: &Shape<S>,
-        reached: &mut Reached,
+        reached: &mut Noted,
+        lists: &mut [Vec<u32>; 2],
         statistics: &mut Statistics,
     ) {
         let levels = self.update.levels_at_once();
         let work = self.work(shape);
-        statistics.boxes_top_down += top_down::reach_groups(work, tree, reached, levels);
+        statistics.boxes_top_down += top_down::reach_groups(work, tree, reached, levels, lists);
     }
 
     /// Makes true the boxes of triangles in leaves that a traversal has reached; some may be true.
@@ -66,10 +76,25 @@ impl Updates<'_> {
         &self,
         tree: &mut Tree<N>,
         shape: &Shape<S>,
-        reached: &mut Reached,
+        reached: &mut Noted,
         statistics: &mut Statistics,
     ) {
         statistics.triangle_boxes += leaves::reach_leaves(self.work(shape), tree, reached);
+    }
+
+    /// Makes true the boxes of the triangles in all leaves. `reached` is scratch.
+    pub(crate) fn make_leaves<const N: usize, S: Scalar>(
+        &self,
+        tree: &mut Tree<N>,
+        shape: &Shape<S>,
+        reached: &mut Noted,
+        statistics: &mut Statistics,
+    ) {
+        if tree.leaves.complete != shape.epoch {
+            reached.note_below(tree.leaves.len());
+            self.reach_leaves(tree, shape, reached, statistics);
+            tree.leaves.complete = shape.epoch;
+        }
     }
 
     fn work<'w, 's, S>(&'w self, shape: &'w Shape<'s, S>) -> Work<'w, 's, S> {

@@ -5,7 +5,7 @@
 //! looked at again: it is only checked, and then *taken straight into tree order*, without a copy between.
 
 use crate::exec::Threads;
-use crate::geometry::{Bounds, POINTS_JOB, Points, Scalar};
+use crate::geometry::{Bounds, POINTS_JOB, POINTS_SHARED, Points, Scalar};
 use crate::kernels::Level;
 use crate::kernels::take_over::{check, take_over};
 use std::borrow::Cow;
@@ -60,7 +60,7 @@ impl<S: Scalar> Positions<S> {
             Some(place) => take_over(level, new, place),
             None => check(level, new),
         };
-        if new.len() <= POINTS_JOB || !threads.are_many() {
+        if new.len() <= POINTS_SHARED || !threads.are_many() {
             return look(new, place);
         }
         let mut places = place.map(|place| place.chunks_mut(POINTS_JOB));

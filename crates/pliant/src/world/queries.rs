@@ -287,7 +287,7 @@ impl<S: Scalar> World<S> {
         self.early(|step, forest| {
             with_trees!(forest, trees => {
                 for &place in body_pairs.as_flattened() {
-                    step.refresh_ahead(&mut trees[place], place);
+                    step.refresh_ahead(&mut trees[place], place, false);
                 }
             });
         });
@@ -303,7 +303,7 @@ impl<S: Scalar> World<S> {
     pub fn update_body(&mut self, body: BodyId) -> Result<(), Error> {
         let place = self.place(body)?;
         self.settle_origin();
-        self.early(|step, forest| with_trees!(forest, trees => step.refresh_ahead(&mut trees[place], place)));
+        self.early(|step, forest| with_trees!(forest, trees => step.refresh_ahead(&mut trees[place], place, false)));
         Ok(())
     }
 

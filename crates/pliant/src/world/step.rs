@@ -32,12 +32,18 @@ impl<'w, S: Scalar> Step<'w, S> {
         }
     }
 
-    /// Makes the upper levels of a tree true for this frame.
-    pub(super) fn refresh_ahead<const N: usize>(&mut self, tree: &mut Tree<N>, body: usize) {
+    /// Makes the upper levels of a tree true for this frame, for a query of a body with `itself` or of two.
+    pub(super) fn refresh_ahead<const N: usize>(
+        &mut self,
+        tree: &mut Tree<N>,
+        body: usize,
+        itself: bool,
+    ) {
         self.bodies[body].bring_into_order(self.level, self.threads);
         let updates = self.updates();
         let shape = self.bodies[body].shape(self.origin);
-        updates.refresh_ahead(tree, &shape, &mut self.scratch.groups, self.statistics);
+        let groups = &mut self.scratch.groups[0];
+        updates.refresh_ahead(tree, &shape, itself, groups, self.statistics);
     }
 
     /// Two different bodies; shown are (triangle of `a`, triangle of `b`).
@@ -55,8 +61,8 @@ impl<'w, S: Scalar> Step<'w, S> {
         let [tree_a, tree_b] = trees
             .get_disjoint_mut([a, b])
             .expect("two different bodies, one tree each");
-        self.refresh_ahead(tree_a, a);
-        self.refresh_ahead(tree_b, b);
+        self.refresh_ahead(tree_a, a, false);
+        self.refresh_ahead(tree_b, b, false);
         let (body_a, body_b) = (&self.bodies[a], &self.bodies[b]);
         let updates = self.updates();
         let mut meeting = TwoTrees {
@@ -82,15 +88,20 @@ impl<'w, S: Scalar> Step<'w, S> {
         show: Show,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
-        self.refresh_ahead(tree, body);
+        self.refresh_ahead(tree, body, true);
         let body = &self.bodies[body];
         tree.know_neighbours(&body.mesh);
         let updates = self.updates();
+        let shape = body.shape(self.origin);
+        if tree.complete == shape.epoch {
+            // Every leaf is going to meet at least itself.
+            updates.make_leaves(tree, &shape, &mut self.scratch.reached, self.statistics);
+        }
         let mut meeting = OneTree {
             side: Side {
                 tree,
                 mesh: &body.mesh,
-                shape: body.shape(self.origin),
+                shape,
             },
         };
         descend(updates, &mut meeting, self.scratch, self.statistics, show)

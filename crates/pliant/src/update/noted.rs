@@ -41,7 +41,7 @@ impl Noted {
         for word in 0..end / 64 {
             self.note_bits(word, u64::MAX);
         }
-        if end % 64 > 0 {
+        if !end.is_multiple_of(64) {
             self.note_bits(end / 64, (1 << (end % 64)) - 1);
         }
     }

@@ -12,6 +12,11 @@ use crate::tree::Below;
 use crate::update::Noted;
 use fearless_simd::dispatch;
 
+/// Pairs of blocks that meet on the way before a branch looks at what it has found,
+const BLOCKS_ON_THE_WAY: usize = 128;
+/// and how many hits are enough: what all branches have found and not yet shown is to take little memory.
+const MOST_HITS: usize = 2048;
+
 /// Buffers, kept from query to query.
 #[derive(Debug, Default)]
 pub(super) struct Branch {
@@ -37,7 +42,7 @@ pub(super) struct Stride {
     pub(super) nodes: usize,
     /// Pairs of leaves that are enough,
     pub(super) leaves: usize,
-    /// pairs of leaves that have met on the way, or that intersect among their triangles, that are,
+    /// pairs of their blocks that are when they have met on the way,
     pub(super) met: usize,
     /// and pairs of nodes on the stack that are.
     pub(super) stack: usize,
@@ -46,9 +51,7 @@ pub(super) struct Stride {
 /// Whether all boxes are true, so that branches need not wait for any, and pairs of leaves can meet as soon as they are found.
 pub(super) fn are_free<const N: usize, S>(sides: [&Side<'_, N, S>; 2]) -> bool {
     sides.iter().all(|Side { tree, shape, .. }| {
-        tree.complete == shape.epoch
-            && tree.leaves.complete == shape.epoch
-            && tree.leaves.are_blocks()
+        tree.complete == shape.epoch && tree.leaves.complete == shape.epoch
     })
 }
 
@@ -67,8 +70,8 @@ impl Branch {
         self.batch.is_empty() && self.found.nodes.is_empty()
     }
 
-    /// Goes on until it asks for boxes that are not true, has found enough, or no pair of nodes is left. What it asked for before is
-    /// true now. Where no boxes will be asked for, pairs of leaves meet on the way.
+    /// Goes on until it asks for boxes that are not true, has found enough, or nothing is left. What it asked for before is true now.
+    /// Where it is free, leaves meet on the way.
     pub(super) fn advance<const N: usize, M: Meeting<N>>(
         &mut self,
         level: Level,
@@ -77,21 +80,20 @@ impl Branch {
     ) {
         self.found.node_pairs = 0;
         self.met.clear();
-        let mut left = stride.met;
-        loop {
-            self.descend(level, meeting, stride);
-            if !are_free(meeting.sides()) {
-                return;
+        if !are_free(meeting.sides()) {
+            return self.descend(level, meeting, stride);
+        }
+        let mut met = 0;
+        while met < stride.met && self.met.hits.len() < MOST_HITS {
+            if self.all_met() {
+                self.forget_leaves();
+                self.descend(level, meeting, stride);
             }
-            let leaves = self.found.leaves.len();
-            self.meet::<N, M>(level, meeting, leaves);
-            self.forget_leaves();
-            left = left.saturating_sub(leaves);
-            if left == 0
-                || self.met.hits.len() >= stride.met
-                || self.found.nodes.is_empty()
-                || self.found.nodes.len() >= stride.stack
-            {
+            let blocks = stride.leaves.min(BLOCKS_ON_THE_WAY);
+            self.meet::<N, M>(level, meeting, blocks);
+            met += blocks;
+            let stack = self.found.nodes.len();
+            if self.all_met() && (stack == 0 || stack >= stride.stack) {
                 return;
             }
         }

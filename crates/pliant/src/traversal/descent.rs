@@ -18,7 +18,7 @@ const FIRST_BATCH: usize = 1;
 const LONGEST_BATCH: usize = 256;
 /// The most pairs of blocks of a branch that meet at once,
 const MOST_BLOCKS: usize = 512;
-/// and before their hits are shown. This bounds memory whatever the leaf size is.
+/// and on the way before their hits are shown. This bounds memory whatever the leaf size is.
 const MOST_BEFORE_SHOWN: usize = 8192;
 /// As soon as there are so many pairs of nodes, branches share them, whatever the number of threads is:
 const ENOUGH: usize = 128;
@@ -141,9 +141,10 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
             statistics.node_pairs += branch.found.node_pairs;
         }
         let working = branches.iter().filter(|branch| !branch.is_done()).count();
-        let last = reserve.is_empty() && working == 0;
+        let mut last = reserve.is_empty() && working == 0;
         let mut shown = ControlFlow::Continue(());
         if are_free {
+            last &= branches.iter().all(Branch::all_met);
             shown = show_hits(branches, statistics, show);
             sizes.double_blocks();
         } else {

@@ -108,6 +108,7 @@ impl Branch {
     ) {
         let sides = meeting.sides();
         let trees = sides.map(|side| &*side.tree);
+        let free = are_free(sides);
         let complete = sides
             .iter()
             .all(|side| side.tree.complete == side.shape.epoch);
@@ -120,7 +121,8 @@ impl Branch {
             });
             self.batch.clear();
             for (noted, wanted) in self.wanted.iter_mut().zip(&mut self.found.wanted) {
-                for leaves in wanted.as_slice() {
+                let asked_for = if free { &[] } else { wanted.as_slice() };
+                for leaves in asked_for {
                     noted.note_eight(leaves.first, leaves.lanes);
                 }
                 wanted.clear();

@@ -7,7 +7,7 @@ use crate::kernels::gather::{IN_A_ROW, RowBounds, gather};
 
 /// Points in a job: some microseconds of work; a whole number of rows.
 pub(crate) const POINTS_JOB: usize = 64 * IN_A_ROW;
-/// Fewer points than these are not worth waking a thread.
+/// So many points, or fewer, are not worth waking a thread.
 pub(crate) const POINTS_SHARED: usize = 4 * POINTS_JOB;
 
 /// Points of three coordinates and a fourth number that means nothing, so that each fills a register of four; and the bounds of

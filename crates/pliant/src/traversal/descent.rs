@@ -46,12 +46,14 @@ pub(crate) trait Meeting<const N: usize>: Sync {
 /// Buffers, kept from query to query.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    /// Of making groups true.
+    /// Lists of groups, for the update.
     pub(crate) groups: [Vec<u32>; 2],
+    /// Groups or leaves of one tree that are to be made true, of all branches together.
     pub(crate) reached: Noted,
-    /// Those that were used last are the first so many.
     branches: Vec<Branch>,
+    /// How many of them, from the first on, are in use.
     used: usize,
+    /// Pairs of nodes that were not dealt yet, and those that are being dealt.
     reserve: Batch<NodePair>,
     dealt: Vec<NodePair>,
     sizes: Sizes,

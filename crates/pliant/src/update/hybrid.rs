@@ -1,9 +1,8 @@
 //! How far ahead: the level down to which boxes are made before a traversal begins.
 //!
 //! Where a traversal is going to reach most of a tree anyway, it is cheapest to make all of it at once: boxes of inner nodes are
-//! then merged from their children's and never made from vertices. What it is going to reach is about what it reached last time; of a
-//! body with itself, all, because every leaf meets at least itself.
-//! The paper's level n / 2 is for all other cases.
+//! then merged from their children's and never made from vertices. What it is going to reach is about what it reached last time;
+//! in a body that meets itself it is all, because every leaf meets at least itself. The paper's level n / 2 is for all other cases.
 
 use super::bottom_up::make_levels_true;
 use super::make::Work;

@@ -1,7 +1,8 @@
 //! Boxes of the triangles in leaves that are about to meet others.
 //!
 //! The paper's leaves are single triangles. Here a leaf holds several, and many leaves whose own boxes a traversal needs never meet
-//! another: on two spheres in contact, half of them. So the triangles get theirs last of all.
+//! another: on two spheres in contact, half of them. So the triangles get theirs last of all, but in a body that meets itself, where
+//! every leaf meets at least itself: there they are made ahead.
 
 use super::make::Work;
 use super::noted::Noted;
@@ -13,7 +14,7 @@ use std::ops::Range;
 
 /// Words of 64 leaves in a job: at most some microseconds of work.
 const JOB: usize = 2;
-/// Fewer leaves than these are not worth waking a thread.
+/// So many leaves, or fewer, are not worth waking a thread.
 const SHARED: usize = 256;
 
 /// The leaves of some words, their boxes, and how many of what was made.

@@ -12,7 +12,7 @@ use fearless_simd::{Simd, dispatch};
 
 /// Groups in a job: some microseconds of work.
 const JOB: usize = 32;
-/// Fewer groups than these are not worth waking a thread.
+/// So many groups, or fewer, are not worth waking a thread.
 const SHARED: usize = 4 * JOB;
 
 /// Where and with what to make boxes.

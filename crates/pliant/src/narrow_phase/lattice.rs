@@ -28,17 +28,15 @@ pub(super) fn on_lattice(a: &Triangle, b: &Triangle) -> Option<[Triangle; 2]> {
     let scale = f64::from_bits(exponent << 52);
     let step = f64::from_bits((2 * 1023 - exponent) << 52);
     let mut are_integers = true;
-    let scaled = [a, b].map(|triangle| {
-        triangle.map(|point| {
-            // What is smaller is no integer, and might be taken for zero.
-            are_integers &= are_from(step, &point);
-            point.map(|x| {
-                let scaled = x * scale;
-                are_integers &= scaled as i64 as f64 == scaled;
-                scaled
-            })
-        })
-    });
+    let mut scaled = [*a, *b];
+    for point in scaled.as_flattened_mut() {
+        // What is smaller is no integer, and might be taken for zero.
+        are_integers &= are_from(step, point);
+        for x in point {
+            *x *= scale;
+            are_integers &= *x as i64 as f64 == *x;
+        }
+    }
     are_integers.then_some(scaled)
 }
 
@@ -50,7 +48,8 @@ pub(super) struct Lattice;
 impl Orientation for Lattice {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        let difference = |p: &Point| -> [i128; 3] { std::array::from_fn(|i| whole(p[i] - a[i])) };
+        let along = |p: &Point, axis: usize| whole(p[axis] - a[axis]);
+        let difference = |p: &Point| [along(p, 0), along(p, 1), along(p, 2)];
         let (e1, e2, t) = (difference(b), difference(c), difference(d));
         let normal = |i: usize, j: usize| e1[i] * e2[j] - e1[j] * e2[i];
         (normal(1, 2) * t[0] + normal(2, 0) * t[1] + normal(0, 1) * t[2]).signum() as Sign

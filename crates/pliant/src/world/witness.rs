@@ -37,38 +37,45 @@ impl Witnesses {
     }
 }
 
-/// How many triangles in a row are looked at, on either side: the one, its leaf, its leaf's siblings.
-const NEIGHBOURS: [usize; 3] = [1, 8, 64];
-
-/// A pair that intersects among the neighbours of a pair, of two bodies or of one with itself. In tree order, as everything here.
+/// A pair that intersects among the neighbours of a pair, of two bodies or of one with itself: on either side the one, its leaf,
+/// its leaf's siblings. In tree order, as everything here.
 pub(super) fn near<S: Scalar>(
+    both: [&Body<S>; 2],
+    last: Candidate,
+    statistics: &mut Statistics,
+) -> Option<Candidate> {
+    among::<1, S>(both, last, statistics)
+        .or_else(|| among::<8, S>(both, last, statistics))
+        .or_else(|| among::<64, S>(both, last, statistics))
+}
+
+/// The same, so many triangles on either side.
+fn among<const N: usize, S: Scalar>(
     [a, b]: [&Body<S>; 2],
     [near_a, near_b]: Candidate,
     statistics: &mut Statistics,
 ) -> Option<Candidate> {
-    NEIGHBOURS.into_iter().find_map(|count| {
-        let of_a = Row::around(a, near_a, count);
-        let of_b = Row::around(b, near_b, count);
-        of_a.meet(&of_b, a.id() == b.id(), statistics)
-    })
+    let of_a = Row::<N, S>::around(a, near_a);
+    let of_b = Row::<N, S>::around(b, near_b);
+    of_a.meet(&of_b, a.id() == b.id(), statistics)
 }
 
-/// Some triangles in a row.
-struct Row<'b, S> {
+/// Up to N triangles in a row.
+struct Row<'b, const N: usize, S> {
     body: &'b Body<S>,
     first: u32,
     count: usize,
-    corners: [Triangle; NEIGHBOURS[2]],
-    boxes: [Bounds<f64>; NEIGHBOURS[2]],
+    corners: [Triangle; N],
+    boxes: [Bounds<f64>; N],
     all: Bounds<f64>,
 }
 
-impl<'b, S: Scalar> Row<'b, S> {
-    fn around(body: &'b Body<S>, triangle: u32, count: usize) -> Self {
-        let first = triangle as usize / count * count;
-        let count = count.min(body.triangle_count() - first);
-        let mut corners = [[[0.0; 3]; 3]; NEIGHBOURS[2]];
-        let mut boxes = [Bounds::EMPTY; NEIGHBOURS[2]];
+impl<'b, const N: usize, S: Scalar> Row<'b, N, S> {
+    fn around(body: &'b Body<S>, triangle: u32) -> Self {
+        let first = triangle as usize / N * N;
+        let count = N.min(body.triangle_count() - first);
+        let mut corners = [[[0.0; 3]; 3]; N];
+        let mut boxes = [Bounds::EMPTY; N];
         let mut all = Bounds::EMPTY;
         for place in 0..count {
             corners[place] = body.corners_now((first + place) as u32);
@@ -81,9 +88,9 @@ impl<'b, S: Scalar> Row<'b, S> {
             body,
             first: first as u32,
             count,
-            all,
             corners,
             boxes,
+            all,
         }
     }
 

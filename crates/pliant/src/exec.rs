@@ -9,13 +9,15 @@
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// More than there are jobs in the largest of batches.
 const MOST: usize = 256;
 /// How long a thread looks for more to do before it sleeps: longer than what one thread alone does in the middle of a query.
 const AWAKE: Duration = Duration::from_micros(200);
+/// How many pairs of things are looked at for one whose things are not busy.
+const LOOKED_AT: usize = 256;
 /// How often it looks before it lets others have its core in between.
 const LOOKS: u32 = 100;
 
@@ -60,6 +62,12 @@ impl Threads {
         self.others.is_some()
     }
 
+    /// How many there are, the calling one included.
+    pub(crate) fn count(&self) -> usize {
+        let others = self.others.as_ref();
+        1 + others.map_or(0, |others| others.pool.current_num_threads())
+    }
+
     /// Does all jobs; returns when all are done.
     pub(crate) fn run<J: Send>(&self, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
         match &self.others {
@@ -71,6 +79,107 @@ impl Threads {
             }
         }
     }
+}
+
+impl Threads {
+    /// Does a job for every pair of things, given its number, such that no thing is in two jobs at once. Each worker does one
+    /// after the other; which it does, nobody knows.
+    pub(crate) fn run_apart<W: Send>(
+        &self,
+        pairs: &[[usize; 2]],
+        things: usize,
+        workers: &mut [W],
+        work: impl Fn(&mut W, usize) + Sync,
+    ) {
+        let apart = Mutex::new(Apart {
+            pairs,
+            is_taken: vec![false; pairs.len()],
+            first: 0,
+            is_busy: vec![false; things],
+        });
+        self.run(workers, |_, worker| {
+            let mut patience = Patience::default();
+            loop {
+                let next = locked(&apart).take();
+                match next {
+                    Next::Job(number) => {
+                        let _busy = Busy {
+                            apart: &apart,
+                            number,
+                        };
+                        work(worker, number);
+                        patience = Patience::default();
+                    }
+                    Next::Later => {
+                        patience.is_left();
+                    }
+                    Next::Nothing => break,
+                }
+            }
+        });
+    }
+}
+
+/// Pairs of things that are in no job yet, and the things that are in one.
+struct Apart<'p> {
+    pairs: &'p [[usize; 2]],
+    is_taken: Vec<bool>,
+    /// Before it, all are taken.
+    first: usize,
+    is_busy: Vec<bool>,
+}
+
+enum Next {
+    Job(usize),
+    /// What is left must wait for things that are busy.
+    Later,
+    Nothing,
+}
+
+impl Apart<'_> {
+    /// The next pair whose things are not busy; they are then.
+    fn take(&mut self) -> Next {
+        while self.first < self.pairs.len() && self.is_taken[self.first] {
+            self.first += 1;
+        }
+        if self.first == self.pairs.len() {
+            return Next::Nothing;
+        }
+        let last = self.pairs.len().min(self.first + LOOKED_AT);
+        let is_free = |&pair: &usize| {
+            !self.is_taken[pair] && self.pairs[pair].iter().all(|&thing| !self.is_busy[thing])
+        };
+        let Some(pair) = (self.first..last).find(is_free) else {
+            return Next::Later;
+        };
+        self.is_taken[pair] = true;
+        for thing in self.pairs[pair] {
+            self.is_busy[thing] = true;
+        }
+        Next::Job(pair)
+    }
+
+    fn give_back(&mut self, pair: usize) {
+        for thing in self.pairs[pair] {
+            self.is_busy[thing] = false;
+        }
+    }
+}
+
+/// The things of a job, until it is done, or has panicked: others would wait for them.
+struct Busy<'a, 'p> {
+    apart: &'a Mutex<Apart<'p>>,
+    number: usize,
+}
+
+impl Drop for Busy<'_, '_> {
+    fn drop(&mut self) {
+        locked(self.apart).give_back(self.number);
+    }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Others {
@@ -156,10 +265,7 @@ fn do_all<J>(shares: &[Mutex<Share<'_, J>>], own: usize, work: &impl Fn(usize, &
     let (before, after) = shares.split_at(own.min(shares.len()));
     for (which, share) in after.iter().chain(before).enumerate() {
         // Not in the condition of the loop: the lock would be held while the job is done.
-        let take = || {
-            let mut share = share.lock().unwrap_or_else(PoisonError::into_inner);
-            share.take(which == 0)
-        };
+        let take = || locked(share).take(which == 0);
         while let Some((number, job)) = take() {
             work(number, job);
         }
@@ -224,6 +330,29 @@ mod tests {
                 .enumerate()
                 .all(|(number, &job)| job == 2_000 * number as u64)
         );
+    }
+
+    #[test]
+    fn no_thing_is_in_two_jobs_at_once() {
+        // One thing in a third of all pairs, and pairs in rows.
+        let pairs: Vec<[usize; 2]> = (1..600)
+            .map(|at| if at % 3 == 0 { [0, at] } else { [at, at + 1] })
+            .collect();
+        for count in [1, 2, 7] {
+            let threads = Threads::new(NonZeroUsize::new(count).unwrap());
+            assert_eq!(threads.count(), count);
+            let things: Vec<Mutex<u32>> = (0..601).map(|_| Mutex::new(0)).collect();
+            let mut workers = vec![Vec::new(); count];
+            threads.run_apart(&pairs, things.len(), &mut workers, |done, number| {
+                let mut both = pairs[number].map(|thing| things[thing].try_lock().unwrap());
+                both.iter_mut().for_each(|thing| **thing += 1);
+                std::thread::yield_now();
+                done.push(number);
+            });
+            let mut done = workers.concat();
+            done.sort_unstable();
+            assert!(done.into_iter().eq(0..pairs.len()), "{count} threads");
+        }
     }
 
     #[test]

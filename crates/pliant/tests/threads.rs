@@ -46,8 +46,8 @@ fn play(scene: &Scene, steps: &[u32], mut options: Options, threads: usize) -> V
         .collect()
 }
 
-#[test]
-fn pairs_order_and_counters_do_not_depend_on_threads() {
+/// Different trees and updates.
+fn all_options() -> [Options; 4] {
     let two_at_once = Update::Hybrid {
         level: Some(1),
         levels_at_once: NonZeroU32::new(2).unwrap(),
@@ -58,15 +58,73 @@ fn pairs_order_and_counters_do_not_depend_on_threads() {
     (binary.degree, binary.update) = (Degree::Two, two_at_once);
     let mut complete = Options::default();
     complete.update = Update::BottomUp;
+    [Options::default(), complete, connectivity, binary]
+}
+
+#[test]
+fn pairs_order_and_counters_do_not_depend_on_threads() {
     for (name, triangles, steps) in [("spheres", 5120, [120, 200]), ("cloth", 5000, [40, 50])] {
         let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
-        for options in [Options::default(), complete, connectivity, binary] {
+        for options in all_options() {
             let alone = play(&scene, &steps, options, 1);
             let pairs = alone.iter().map(|seen| seen.0.len() + seen.1.len());
             assert!(pairs.sum::<usize>() > 100, "{name} has contacts");
             for threads in [2, 3, 7] {
                 assert!(
                     play(&scene, &steps, options, threads) == alone,
+                    "{name}, {threads} threads, {options:?}"
+                );
+            }
+        }
+    }
+}
+
+/// All pairs of many bodies, and what it took; some steps without a body that was there before, or with a much larger one.
+fn play_crowd(scene: &Scene, large: &Scene, options: Options) -> Vec<(Vec<Pair>, Statistics)> {
+    let mut world = World::<f32>::with_options(options);
+    let mut positions = Vec::new();
+    let mut add = |world: &mut World<f32>, scene: &Scene, body: usize| {
+        scene.positions(body, 1, &mut positions);
+        world.add(scene.triangles(body), &positions).unwrap()
+    };
+    let mut bodies: Vec<_> = (0..scene.body_count())
+        .map(|body| add(&mut world, scene, body))
+        .collect();
+    let mut positions = Vec::new();
+    let mut see = |world: &mut World<f32>, bodies: &[pliant::BodyId], step: u32| {
+        for (body, &id) in bodies.iter().enumerate() {
+            scene.positions(body, step, &mut positions);
+            world.set_positions(id, &positions).unwrap();
+        }
+        let pairs = world.intersection_pairs().to_vec();
+        (pairs, *world.statistics())
+    };
+    let mut seen = vec![see(&mut world, &bodies, 150), see(&mut world, &bodies, 160)];
+    world.remove(bodies.pop().unwrap()).unwrap();
+    seen.push(see(&mut world, &bodies, 170));
+    let large = add(&mut world, large, 0);
+    seen.push(see(&mut world, &bodies, 180));
+    assert!(seen[3].0.iter().any(|pair| pair.body_b == large));
+    seen.push(see(&mut world, &bodies, 200));
+    seen
+}
+
+#[test]
+fn many_bodies_at_once_are_as_one_after_the_other() {
+    let seed = Scene::DEFAULT_SEED;
+    let large = Scene::new("spheres", Some(20_480), seed).unwrap();
+    for name in ["crowd", "arms"] {
+        let scene = Scene::new(name, Some(1_280), seed).unwrap();
+        for mut options in all_options() {
+            let alone = play_crowd(&scene, &large, options);
+            for (pairs, statistics) in &alone {
+                assert!(pairs.is_sorted() && statistics.body_pairs > 50);
+                assert_eq!(pairs.len() as u64, statistics.pairs);
+            }
+            for threads in [2, 3, 7] {
+                options.threads = NonZeroUsize::new(threads).unwrap();
+                assert!(
+                    play_crowd(&scene, &large, options) == alone,
                     "{name}, {threads} threads, {options:?}"
                 );
             }

@@ -1,10 +1,11 @@
 //! The world: bodies, their shapes, and the one place where the phases meet.
 //!
-//! `body` takes shapes over, whose `positions` are in the caller's order or in the tree's; `step` runs the phases for one query;
-//! `queries` and `parts` are what users ask, `picture` what a body looks like, `witness` the last first pair; `forest` is where the
+//! `body` takes shapes over, whose `positions` are in the caller's order or in the tree's; `step` runs the phases for one query,
+//! `crowd` for many pairs of bodies at once; `queries` and `parts` are what users ask, `picture` what a body looks like, `witness` the last first pair; `forest` is where the
 //! degree of the trees turns from a value into a type; `validate` looks at every invariant.
 
 mod body;
+mod crowd;
 mod forest;
 mod parts;
 mod picture;
@@ -26,6 +27,7 @@ use crate::statistics::Statistics;
 use crate::traversal::Scratch;
 use body::Body;
 pub(crate) use body::validate as validate_body;
+use crowd::Crowd;
 use forest::{Forest, with_trees};
 pub use picture::NodeBox;
 use std::collections::{BTreeMap, BTreeSet};
@@ -82,6 +84,7 @@ pub struct World<S> {
     /// What `write_positions` lends.
     lent: Vec<[S; 3]>,
     scratch: Scratch,
+    crowd: Crowd,
     witnesses: Witnesses,
     boxes: Vec<Aabb>,
     /// Bodies that may meet, by their places, in the order of their ids; as the broad phase found them.
@@ -118,6 +121,7 @@ impl<S: Scalar> World<S> {
             moves: 0,
             lent: Vec::new(),
             scratch: Scratch::default(),
+            crowd: Crowd::default(),
             witnesses: Witnesses::default(),
             boxes: Vec::new(),
             body_pairs: Vec::new(),

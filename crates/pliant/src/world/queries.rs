@@ -4,8 +4,9 @@
 //! sorts them, *first* stops at once.
 
 use super::body::Body;
+use super::crowd;
 use super::forest::{Forest, with_trees};
-use super::step::Step;
+use super::step::{Planted, Step};
 use super::{BodyId, World, witness};
 use crate::error::Error;
 use crate::geometry::{Bounds, Scalar};
@@ -30,7 +31,7 @@ impl<S: Scalar> World<S> {
     pub fn intersection_pairs(&mut self) -> &[Pair] {
         let mut pairs = std::mem::take(&mut self.pairs);
         pairs.clear();
-        self.show_intersections(&mut |[body_a, body_b], found| {
+        self.show_intersections(true, &mut |[body_a, body_b], found| {
             pairs.extend(found.iter().map(|&[triangle_a, triangle_b]| Pair {
                 body_a,
                 triangle_a,
@@ -108,7 +109,7 @@ impl<S: Scalar> World<S> {
         mut visit: impl FnMut(Pair) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
         let mut answer = ControlFlow::Continue(());
-        self.show_intersections(&mut |[body_a, body_b], found| {
+        self.show_intersections(false, &mut |[body_a, body_b], found| {
             let visit = |[triangle_a, triangle_b]: [u32; 2]| {
                 visit(Pair {
                     body_a,
@@ -122,9 +123,11 @@ impl<S: Scalar> World<S> {
         answer
     }
 
-    /// Shows every intersecting pair of different bodies, those of two bodies after the other, until `show` breaks.
+    /// Shows every intersecting pair of different bodies, those of two bodies after the other, until `show` breaks; if it wants
+    /// `all`, it never does.
     fn show_intersections(
         &mut self,
+        all: bool,
         show: &mut dyn FnMut([BodyId; 2], &[[u32; 2]]) -> ControlFlow<usize>,
     ) {
         self.begin();
@@ -132,15 +135,26 @@ impl<S: Scalar> World<S> {
         let body_pairs = std::mem::take(&mut self.body_pairs);
         // A visitor that panics takes the list with it: it is then found anew.
         self.body_pairs_hold = false;
-        let (mut step, forest) = self.step();
+        let mut crowd = std::mem::take(&mut self.crowd);
+        let (mut step, bodies, forest) = self.step();
         with_trees!(forest, trees => {
-            for &places in &body_pairs {
-                let bodies = places.map(|place| step.bodies[place].id());
-                if step.meet(trees, places, &mut |found| show(bodies, found)).is_break() {
-                    break;
+            if all && crowd::is_worth_it(step.threads, bodies, &body_pairs) {
+                crowd.meet(&mut step, bodies, trees, &body_pairs);
+                for (pair, found) in crowd.found() {
+                    let ids = body_pairs[pair].map(|place| bodies[place].id());
+                    let _ = show(ids, found);
+                }
+            } else {
+                for &places in &body_pairs {
+                    let ids = places.map(|place| bodies[place].id());
+                    let both = Planted::both(bodies, trees, places);
+                    if step.meet(both, &mut |found| show(ids, found)).is_break() {
+                        break;
+                    }
                 }
             }
         });
+        self.crowd = crowd;
         self.body_pairs = body_pairs;
         self.body_pairs_hold = true;
     }
@@ -207,9 +221,9 @@ impl<S: Scalar> World<S> {
 
     fn show_between(&mut self, places: [usize; 2], show: Show) {
         self.begin();
-        let (mut step, forest) = self.step();
+        let (mut step, bodies, forest) = self.step();
         with_trees!(forest, trees => {
-            let _ = step.meet(trees, places, show);
+            let _ = step.meet(Planted::both(bodies, trees, places), show);
         });
     }
 }
@@ -269,9 +283,9 @@ impl<S: Scalar> World<S> {
 
     fn show_itself(&mut self, place: usize, show: Show) {
         self.begin();
-        let (mut step, forest) = self.step();
+        let (mut step, bodies, forest) = self.step();
         with_trees!(forest, trees => {
-            let _ = step.meet_itself(&mut trees[place], place, show);
+            let _ = step.meet_itself(Planted::at(bodies, trees, place), show);
         });
     }
 }
@@ -284,13 +298,7 @@ impl<S: Scalar> World<S> {
         self.settle_origin();
         self.find_body_pairs();
         let body_pairs = std::mem::take(&mut self.body_pairs);
-        self.early(|step, forest| {
-            with_trees!(forest, trees => {
-                for &place in body_pairs.as_flattened() {
-                    step.refresh_ahead(&mut trees[place], place, false);
-                }
-            });
-        });
+        self.early(body_pairs.as_flattened());
         self.body_pairs = body_pairs;
     }
 
@@ -303,7 +311,7 @@ impl<S: Scalar> World<S> {
     pub fn update_body(&mut self, body: BodyId) -> Result<(), Error> {
         let place = self.place(body)?;
         self.settle_origin();
-        self.early(|step, forest| with_trees!(forest, trees => step.refresh_ahead(&mut trees[place], place, false)));
+        self.early(&[place]);
         Ok(())
     }
 
@@ -354,58 +362,29 @@ impl<S: Scalar> World<S> {
         self.statistics = std::mem::take(&mut self.done_early);
     }
 
-    /// A query of bodies named by their places, and the trees it works on.
-    fn step(&mut self) -> (Step<'_, S>, &mut Forest) {
-        let Self {
-            options,
-            level,
-            threads,
-            bodies,
-            forest,
-            origin,
-            scratch,
-            statistics,
-            ..
-        } = self;
-        (
-            Step {
-                options,
-                level: *level,
-                threads,
-                bodies,
-                origin: *origin,
-                scratch,
-                statistics,
-            },
-            forest,
-        )
+    /// A query, and the bodies and trees it works on.
+    fn step(&mut self) -> (Step<'_>, &mut [Body<S>], &mut Forest) {
+        let step = Step {
+            update: self.options.update,
+            level: self.level,
+            threads: &self.threads,
+            origin: self.origin,
+            scratch: &mut self.scratch,
+            statistics: &mut self.statistics,
+        };
+        (step, &mut self.bodies, &mut self.forest)
     }
 
-    /// Does work before a query, and keeps account of it for that query.
-    fn early(&mut self, work: impl FnOnce(&mut Step<'_, S>, &mut Forest)) {
-        let Self {
-            options,
-            level,
-            threads,
-            bodies,
-            forest,
-            origin,
-            scratch,
-            done_early,
-            ..
-        } = self;
-        work(
-            &mut Step {
-                options,
-                level: *level,
-                threads,
-                bodies,
-                origin: *origin,
-                scratch,
-                statistics: done_early,
-            },
-            forest,
-        );
+    /// Makes the upper levels of some trees true before a query, and keeps account of it for that query.
+    fn early(&mut self, places: &[usize]) {
+        let before = std::mem::replace(&mut self.statistics, self.done_early);
+        let (mut step, bodies, forest) = self.step();
+        with_trees!(forest, trees => {
+            for &place in places {
+                step.refresh_ahead(&mut Planted::at(bodies, trees, place), false);
+            }
+        });
+        self.done_early = std::mem::replace(&mut self.statistics, before);
     }
 
     /// The broad phase: bodies whose boxes overlap and that filters let meet, into `body_pairs`, the smaller id first, in the

@@ -5,105 +5,128 @@ use super::body::Body;
 use crate::exec::Threads;
 use crate::geometry::{Origin, Scalar};
 use crate::kernels::Level;
-use crate::options::Options;
+use crate::options::Update;
 use crate::statistics::Statistics;
 use crate::traversal::{OneTree, Scratch, Show, Side, TwoTrees, descend};
 use crate::tree::Tree;
 use crate::update::Updates;
 use std::ops::ControlFlow;
 
-/// What a query needs besides trees.
-pub(super) struct Step<'w, S> {
-    pub(super) options: &'w Options,
+/// What a query needs besides bodies and their trees.
+pub(super) struct Step<'w> {
+    pub(super) update: Update,
     pub(super) level: Level,
     pub(super) threads: &'w Threads,
-    pub(super) bodies: &'w mut [Body<S>],
     pub(super) origin: Origin,
     pub(super) scratch: &'w mut Scratch,
     pub(super) statistics: &'w mut Statistics,
 }
 
-impl<'w, S: Scalar> Step<'w, S> {
+/// A body and its tree.
+pub(super) struct Planted<'w, const N: usize, S> {
+    pub(super) body: &'w mut Body<S>,
+    pub(super) tree: &'w mut Tree<N>,
+}
+
+impl<'w, const N: usize, S> Planted<'w, N, S> {
+    /// The body at a place.
+    pub(super) fn at(bodies: &'w mut [Body<S>], trees: &'w mut [Tree<N>], place: usize) -> Self {
+        Self {
+            body: &mut bodies[place],
+            tree: &mut trees[place],
+        }
+    }
+
+    /// The bodies at two places.
+    pub(super) fn both(
+        bodies: &'w mut [Body<S>],
+        trees: &'w mut [Tree<N>],
+        places: [usize; 2],
+    ) -> [Self; 2] {
+        let different = "two different bodies, one tree each";
+        let [body_a, body_b] = bodies.get_disjoint_mut(places).expect(different);
+        let [tree_a, tree_b] = trees.get_disjoint_mut(places).expect(different);
+        [(body_a, tree_a), (body_b, tree_b)].map(|(body, tree)| Self { body, tree })
+    }
+
+    /// The same for a while.
+    pub(super) fn again(&mut self) -> Planted<'_, N, S> {
+        Planted {
+            body: self.body,
+            tree: self.tree,
+        }
+    }
+
+    fn side(self, origin: Origin) -> Side<'w, N, S>
+    where
+        S: Scalar,
+    {
+        let body = &*self.body;
+        Side {
+            tree: self.tree,
+            mesh: &body.mesh,
+            shape: body.shape(origin),
+        }
+    }
+}
+
+impl<'w> Step<'w> {
     fn updates(&self) -> Updates<'w> {
         Updates {
             threads: self.threads,
             level: self.level,
-            update: self.options.update,
+            update: self.update,
         }
     }
 
     /// Makes the upper levels of a tree true for this frame, for a query of a body with `itself` or of two.
-    pub(super) fn refresh_ahead<const N: usize>(
+    pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
         &mut self,
-        tree: &mut Tree<N>,
-        body: usize,
+        Planted { body, tree }: &mut Planted<N, S>,
         itself: bool,
     ) {
-        self.bodies[body].bring_into_order(self.level, self.threads);
+        body.bring_into_order(self.level, self.threads);
+        let shape = body.shape(self.origin);
         let updates = self.updates();
-        let shape = self.bodies[body].shape(self.origin);
         let groups = &mut self.scratch.groups[0];
         updates.refresh_ahead(tree, &shape, itself, groups, self.statistics);
     }
 
-    /// Two different bodies; shown are (triangle of `a`, triangle of `b`).
-    pub(super) fn meet<const N: usize>(
+    /// Two different bodies; shown are (triangle of the first, triangle of the second).
+    pub(super) fn meet<const N: usize, S: Scalar>(
         &mut self,
-        trees: &mut [Tree<N>],
-        [a, b]: [usize; 2],
+        mut both: [Planted<N, S>; 2],
         show: Show,
     ) -> ControlFlow<()> {
-        let [box_a, box_b] = [a, b].map(|body| self.bodies[body].exact_box(self.origin));
+        let [box_a, box_b] = both.each_ref().map(|one| one.body.exact_box(self.origin));
         if !box_a.overlaps(&box_b) {
             return ControlFlow::Continue(());
         }
         self.statistics.body_pairs += 1;
-        let [tree_a, tree_b] = trees
-            .get_disjoint_mut([a, b])
-            .expect("two different bodies, one tree each");
-        self.refresh_ahead(tree_a, a, false);
-        self.refresh_ahead(tree_b, b, false);
-        let (body_a, body_b) = (&self.bodies[a], &self.bodies[b]);
-        let updates = self.updates();
-        let mut meeting = TwoTrees {
-            a: Side {
-                tree: tree_a,
-                mesh: &body_a.mesh,
-                shape: body_a.shape(self.origin),
-            },
-            b: Side {
-                tree: tree_b,
-                mesh: &body_b.mesh,
-                shape: body_b.shape(self.origin),
-            },
-        };
-        descend(updates, &mut meeting, self.scratch, self.statistics, show)
+        both.iter_mut()
+            .for_each(|one| self.refresh_ahead(one, false));
+        let [a, b] = both.map(|one| one.side(self.origin));
+        let meeting = &mut TwoTrees { a, b };
+        descend(self.updates(), meeting, self.scratch, self.statistics, show)
     }
 
     /// A body with itself; shown are (smaller triangle, larger triangle).
-    pub(super) fn meet_itself<const N: usize>(
+    pub(super) fn meet_itself<const N: usize, S: Scalar>(
         &mut self,
-        tree: &mut Tree<N>,
-        body: usize,
+        mut one: Planted<N, S>,
         show: Show,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
-        self.refresh_ahead(tree, body, true);
-        let body = &self.bodies[body];
-        tree.know_neighbours(&body.mesh);
+        self.refresh_ahead(&mut one, true);
+        let side = one.side(self.origin);
+        side.tree.know_neighbours(side.mesh);
         let updates = self.updates();
-        let shape = body.shape(self.origin);
-        if tree.complete == shape.epoch {
+        if side.tree.complete == side.shape.epoch {
             // Every leaf is going to meet at least itself.
-            updates.make_leaves(tree, &shape, &mut self.scratch.reached, self.statistics);
+            let reached = &mut self.scratch.reached;
+            updates.make_leaves(side.tree, &side.shape, reached, self.statistics);
         }
-        let mut meeting = OneTree {
-            side: Side {
-                tree,
-                mesh: &body.mesh,
-                shape,
-            },
-        };
-        descend(updates, &mut meeting, self.scratch, self.statistics, show)
+        let meeting = &mut OneTree { side };
+        descend(updates, meeting, self.scratch, self.statistics, show)
     }
 }

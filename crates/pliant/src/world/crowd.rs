@@ -1,0 +1,169 @@
+//! Many pairs of bodies at once, each met by one thread.
+//!
+//! Where bodies are small there is little to share within one pair of them. So, for a query that wants all there is, every thread
+//! takes pairs whose bodies no other has at that moment. Which boxes a step needs does not depend on the order in which bodies
+//! meet, so neither do the counters; and what was found is shown in the order of the pairs. A pair that is much of all the work is
+//! met by all threads together.
+
+use super::body::Body;
+use super::step::{Planted, Step};
+use crate::exec::Threads;
+use crate::geometry::Scalar;
+use crate::statistics::Statistics;
+use crate::traversal::Scratch;
+use crate::tree::Tree;
+use std::ops::{ControlFlow, Range};
+use std::sync::{Mutex, PoisonError};
+
+/// Pairs of bodies of fewer triangles, all together, are not worth waking a thread.
+const SHARED: usize = 1 << 16;
+/// So many times what a thread would have to do, a pair is much of all the work.
+const MUCH: usize = 4;
+
+/// Buffers, kept from query to query.
+#[derive(Debug, Default)]
+pub(super) struct Crowd {
+    workers: Vec<Worker>,
+    /// The numbers of pairs that are met by one thread, and the places of their bodies.
+    small: Vec<usize>,
+    apart: Vec<[usize; 2]>,
+    /// What all of them found: by worker.
+    met: Vec<(usize, Met)>,
+}
+
+/// What one thread works with, and what it has found.
+#[derive(Debug, Default)]
+struct Worker {
+    scratch: Scratch,
+    statistics: Statistics,
+    found: Found,
+}
+
+/// What pairs of bodies have in common, one after the other.
+#[derive(Debug, Default)]
+struct Found {
+    triangles: Vec<[u32; 2]>,
+    met: Vec<Met>,
+}
+
+/// A pair of bodies by its number, and where among the pairs of triangles those of these bodies are.
+#[derive(Clone, Debug)]
+struct Met {
+    pair: usize,
+    triangles: Range<usize>,
+}
+
+impl Found {
+    fn clear(&mut self) {
+        self.triangles.clear();
+        self.met.clear();
+    }
+
+    /// Meets a pair of bodies and keeps what is found.
+    fn meet<const N: usize, S: Scalar>(
+        &mut self,
+        step: &mut Step,
+        pair: usize,
+        both: [Planted<N, S>; 2],
+    ) {
+        let first = self.triangles.len();
+        let _ = step.meet(both, &mut |found| {
+            self.triangles.extend_from_slice(found);
+            ControlFlow::Continue(())
+        });
+        let triangles = first..self.triangles.len();
+        self.met.push(Met { pair, triangles });
+    }
+}
+
+/// Whether pairs of bodies, by their places, are worth it.
+pub(super) fn is_worth_it<S: Scalar>(
+    threads: &Threads,
+    bodies: &[Body<S>],
+    pairs: &[[usize; 2]],
+) -> bool {
+    threads.are_many() && pairs.len() > 1 && triangles_of(bodies, pairs) >= SHARED
+}
+
+/// The triangles of both bodies of all pairs.
+fn triangles_of<S: Scalar>(bodies: &[Body<S>], pairs: &[[usize; 2]]) -> usize {
+    let places = pairs.as_flattened().iter();
+    places.map(|&place| bodies[place].triangle_count()).sum()
+}
+
+impl Crowd {
+    /// Meets all pairs of bodies, given by their places.
+    pub(super) fn meet<const N: usize, S: Scalar>(
+        &mut self,
+        step: &mut Step,
+        bodies: &mut [Body<S>],
+        trees: &mut [Tree<N>],
+        pairs: &[[usize; 2]],
+    ) {
+        let Self {
+            workers,
+            small,
+            apart,
+            met,
+        } = self;
+        let threads = step.threads;
+        workers.resize_with(threads.count(), Worker::default);
+        for worker in &mut *workers {
+            worker.scratch.begin();
+            worker.statistics = Statistics::default();
+            worker.found.clear();
+        }
+        small.clear();
+        apart.clear();
+        let much = triangles_of(bodies, pairs) / (MUCH * threads.count());
+        for (pair, &places) in pairs.iter().enumerate() {
+            if triangles_of(bodies, &[places]) < much {
+                small.push(pair);
+                apart.push(places);
+            } else {
+                let both = Planted::both(bodies, trees, places);
+                workers[0].found.meet(step, pair, both);
+            }
+        }
+
+        let all = bodies.iter_mut().zip(trees);
+        let all: Vec<_> = all
+            .map(|(body, tree)| Mutex::new(Planted { body, tree }))
+            .collect();
+        let alone = Threads::one();
+        let (update, level, origin) = (step.update, step.level, step.origin);
+        threads.run_apart(apart, all.len(), workers, |worker, at| {
+            let mut step = Step {
+                update,
+                level,
+                threads: &alone,
+                origin,
+                scratch: &mut worker.scratch,
+                statistics: &mut worker.statistics,
+            };
+            // No other thread has these bodies: it never waits.
+            let mut both = apart[at].map(|place| {
+                let one = &all[place];
+                one.lock().unwrap_or_else(PoisonError::into_inner)
+            });
+            let both = both.each_mut().map(|one| one.again());
+            worker.found.meet(&mut step, small[at], both);
+        });
+
+        met.clear();
+        for (number, worker) in workers.iter().enumerate() {
+            *step.statistics += worker.statistics;
+            met.extend(worker.found.met.iter().map(|met| (number, met.clone())));
+        }
+        met.sort_unstable_by_key(|(_, met)| met.pair);
+    }
+
+    /// What was found then: a pair of bodies by its number, and the pairs of triangles of these; in the order of the pairs.
+    pub(super) fn found(&self) -> impl Iterator<Item = (usize, &[[u32; 2]])> {
+        let found = |(worker, met): &(usize, Met)| {
+            let triangles = met.triangles.clone();
+            (met.pair, &self.workers[*worker].found.triangles[triangles])
+        };
+        self.met.iter().map(found)
+    }
+}

@@ -16,8 +16,8 @@ use std::time::{Duration, Instant};
 const MOST: usize = 256;
 /// How long a thread looks for more to do before it sleeps: longer than what one thread alone does in the middle of a query.
 const AWAKE: Duration = Duration::from_micros(200);
-/// How many pairs of things are looked at for one whose things are not busy.
-const LOOKED_AT: usize = 256;
+/// How many jobs are looked at for one whose things are not busy.
+const LOOKED_AT: usize = 64;
 /// How often it looks before it lets others have its core in between.
 const LOOKS: u32 = 100;
 
@@ -82,32 +82,37 @@ impl Threads {
 }
 
 impl Threads {
-    /// Does a job for every pair of things, given its number, such that no thing is in two jobs at once. Each worker does one
-    /// after the other; which it does, nobody knows.
-    pub(crate) fn run_apart<W: Send>(
+    /// Does all jobs, each of which needs some things, such that no thing is in two jobs at once. Every worker does one after the
+    /// other; which it does, nobody knows.
+    pub(crate) fn run_apart<'t, J: Sync, W: Send>(
         &self,
-        pairs: &[[usize; 2]],
+        jobs: &[J],
+        things_of: impl Fn(&J) -> &'t [usize] + Sync,
         things: usize,
         workers: &mut [W],
-        work: impl Fn(&mut W, usize) + Sync,
+        work: impl Fn(&mut W, &J) + Sync,
     ) {
         let apart = Mutex::new(Apart {
-            pairs,
-            is_taken: vec![false; pairs.len()],
+            is_taken: vec![false; jobs.len()],
             first: 0,
             is_busy: vec![false; things],
         });
         self.run(workers, |_, worker| {
+            let mut busy = Busy {
+                apart: &apart,
+                things: &[],
+            };
             let mut patience = Patience::default();
             loop {
-                let next = locked(&apart).take();
+                let next = {
+                    let mut apart = locked(&apart);
+                    apart.set_busy(std::mem::take(&mut busy.things), false);
+                    apart.take(jobs, &things_of)
+                };
                 match next {
-                    Next::Job(number) => {
-                        let _busy = Busy {
-                            apart: &apart,
-                            number,
-                        };
-                        work(worker, number);
+                    Next::Job(job) => {
+                        busy.things = things_of(job);
+                        work(worker, job);
                         patience = Patience::default();
                     }
                     Next::Later => {
@@ -120,61 +125,65 @@ impl Threads {
     }
 }
 
-/// Pairs of things that are in no job yet, and the things that are in one.
-struct Apart<'p> {
-    pairs: &'p [[usize; 2]],
+/// Which jobs are taken, and which things are in one that is not done.
+struct Apart {
     is_taken: Vec<bool>,
     /// Before it, all are taken.
     first: usize,
     is_busy: Vec<bool>,
 }
 
-enum Next {
-    Job(usize),
+enum Next<'j, J> {
+    Job(&'j J),
     /// What is left must wait for things that are busy.
     Later,
     Nothing,
 }
 
-impl Apart<'_> {
-    /// The next pair whose things are not busy; they are then.
-    fn take(&mut self) -> Next {
-        while self.first < self.pairs.len() && self.is_taken[self.first] {
+impl Apart {
+    /// The next job whose things are not busy; they are then.
+    fn take<'j, 't, J>(
+        &mut self,
+        jobs: &'j [J],
+        things_of: &impl Fn(&J) -> &'t [usize],
+    ) -> Next<'j, J> {
+        while self.first < jobs.len() && self.is_taken[self.first] {
             self.first += 1;
         }
-        if self.first == self.pairs.len() {
+        if self.first == jobs.len() {
             return Next::Nothing;
         }
-        let last = self.pairs.len().min(self.first + LOOKED_AT);
-        let is_free = |&pair: &usize| {
-            !self.is_taken[pair] && self.pairs[pair].iter().all(|&thing| !self.is_busy[thing])
+        let last = jobs.len().min(self.first + LOOKED_AT);
+        let is_free = |&job: &usize| {
+            !self.is_taken[job]
+                && things_of(&jobs[job])
+                    .iter()
+                    .all(|&thing| !self.is_busy[thing])
         };
-        let Some(pair) = (self.first..last).find(is_free) else {
+        let Some(job) = (self.first..last).find(is_free) else {
             return Next::Later;
         };
-        self.is_taken[pair] = true;
-        for thing in self.pairs[pair] {
-            self.is_busy[thing] = true;
-        }
-        Next::Job(pair)
+        self.is_taken[job] = true;
+        self.set_busy(things_of(&jobs[job]), true);
+        Next::Job(&jobs[job])
     }
 
-    fn give_back(&mut self, pair: usize) {
-        for thing in self.pairs[pair] {
-            self.is_busy[thing] = false;
+    fn set_busy(&mut self, things: &[usize], are: bool) {
+        for &thing in things {
+            self.is_busy[thing] = are;
         }
     }
 }
 
-/// The things of a job, until it is done, or has panicked: others would wait for them.
-struct Busy<'a, 'p> {
-    apart: &'a Mutex<Apart<'p>>,
-    number: usize,
+/// The things of a job that is being done. If it panics they are let go, because others wait for them.
+struct Busy<'a, 't> {
+    apart: &'a Mutex<Apart>,
+    things: &'t [usize],
 }
 
 impl Drop for Busy<'_, '_> {
     fn drop(&mut self) {
-        locked(self.apart).give_back(self.number);
+        locked(self.apart).set_busy(self.things, false);
     }
 }
 
@@ -338,20 +347,30 @@ mod tests {
         let pairs: Vec<[usize; 2]> = (1..600)
             .map(|at| if at % 3 == 0 { [0, at] } else { [at, at + 1] })
             .collect();
+        let mut sorted = pairs.clone();
+        sorted.sort_unstable();
         for count in [1, 2, 7] {
             let threads = Threads::new(NonZeroUsize::new(count).unwrap());
             assert_eq!(threads.count(), count);
             let things: Vec<Mutex<u32>> = (0..601).map(|_| Mutex::new(0)).collect();
             let mut workers = vec![Vec::new(); count];
-            threads.run_apart(&pairs, things.len(), &mut workers, |done, number| {
-                let mut both = pairs[number].map(|thing| things[thing].try_lock().unwrap());
+            let work = |done: &mut Vec<_>, pair: &[usize; 2]| {
+                let mut both = pair.map(|thing| things[thing].try_lock().unwrap());
                 both.iter_mut().for_each(|thing| **thing += 1);
                 std::thread::yield_now();
-                done.push(number);
-            });
+                done.push(*pair);
+            };
+            let jobs: Vec<_> = pairs.iter().collect();
+            threads.run_apart(
+                &jobs,
+                |pair| &pair[..],
+                things.len(),
+                &mut workers,
+                |done, pair| work(done, pair),
+            );
             let mut done = workers.concat();
             done.sort_unstable();
-            assert!(done.into_iter().eq(0..pairs.len()), "{count} threads");
+            assert!(done.iter().eq(&sorted), "{count} threads");
         }
     }
 

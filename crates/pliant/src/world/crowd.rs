@@ -17,6 +17,10 @@ use std::sync::{Mutex, PoisonError};
 
 /// Pairs of bodies of fewer triangles, all together, are not worth waking a thread.
 const SHARED: usize = 1 << 16;
+/// One thread meets pairs of at least so many triangles before it asks for more,
+const JOB: usize = 1 << 13;
+/// but not more pairs than this.
+const LONGEST_JOB: usize = 16;
 /// So many times what a thread would have to do, a pair is much of all the work.
 const MUCH: usize = 4;
 
@@ -24,9 +28,10 @@ const MUCH: usize = 4;
 #[derive(Debug, Default)]
 pub(super) struct Crowd {
     workers: Vec<Worker>,
-    /// The numbers of pairs that are met by one thread, and the places of their bodies.
+    /// The numbers of pairs that are met by one thread, the places of their bodies, and some of them in a row.
     small: Vec<usize>,
-    apart: Vec<[usize; 2]>,
+    places: Vec<[usize; 2]>,
+    jobs: Vec<Range<usize>>,
     /// What all of them found: by worker.
     met: Vec<(usize, Met)>,
 }
@@ -103,7 +108,8 @@ impl Crowd {
         let Self {
             workers,
             small,
-            apart,
+            places,
+            jobs,
             met,
         } = self;
         let threads = step.threads;
@@ -114,16 +120,27 @@ impl Crowd {
             worker.found.clear();
         }
         small.clear();
-        apart.clear();
+        places.clear();
+        jobs.clear();
+        let mut in_job = JOB;
         let much = triangles_of(bodies, pairs) / (MUCH * threads.count());
-        for (pair, &places) in pairs.iter().enumerate() {
-            if triangles_of(bodies, &[places]) < much {
-                small.push(pair);
-                apart.push(places);
-            } else {
-                let both = Planted::both(bodies, trees, places);
+        for (pair, &both) in pairs.iter().enumerate() {
+            let triangles = triangles_of(bodies, &[both]);
+            if triangles >= much {
+                let both = Planted::both(bodies, trees, both);
                 workers[0].found.meet(step, pair, both);
+                continue;
             }
+            match jobs.last_mut() {
+                Some(job) if in_job < JOB && job.len() < LONGEST_JOB => job.end += 1,
+                _ => {
+                    jobs.push(small.len()..small.len() + 1);
+                    in_job = 0;
+                }
+            }
+            in_job += triangles;
+            small.push(pair);
+            places.push(both);
         }
 
         let all = bodies.iter_mut().zip(trees);
@@ -132,7 +149,8 @@ impl Crowd {
             .collect();
         let alone = Threads::one();
         let (update, level, origin) = (step.update, step.level, step.origin);
-        threads.run_apart(apart, all.len(), workers, |worker, at| {
+        let bodies_of = |job: &Range<usize>| places[job.clone()].as_flattened();
+        threads.run_apart(jobs, bodies_of, all.len(), workers, |worker, job| {
             let mut step = Step {
                 update,
                 level,
@@ -141,13 +159,15 @@ impl Crowd {
                 scratch: &mut worker.scratch,
                 statistics: &mut worker.statistics,
             };
-            // No other thread has these bodies: it never waits.
-            let mut both = apart[at].map(|place| {
-                let one = &all[place];
-                one.lock().unwrap_or_else(PoisonError::into_inner)
-            });
-            let both = both.each_mut().map(|one| one.again());
-            worker.found.meet(&mut step, small[at], both);
+            for at in job.clone() {
+                // No other thread has these bodies: it never waits.
+                let mut both = places[at].map(|place| {
+                    let one = &all[place];
+                    one.lock().unwrap_or_else(PoisonError::into_inner)
+                });
+                let both = both.each_mut().map(|one| one.again());
+                worker.found.meet(&mut step, small[at], both);
+            }
         });
 
         met.clear();

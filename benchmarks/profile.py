@@ -24,8 +24,8 @@ PHASES = [
     ("boxes made", ["make_block", "reach_leaves", "make_group_true", "make_groups", "merge_groups", "make_levels"], "boxes"),
     ("positions checked and copied", ["take_over"], "steps"),
     ("positions into tree order", ["bring_into_order", "gather"], "steps"),
-    ("what is reached", ["reach", "Reached", "descend"], "node_pairs"),
-    ("pairs sorted and named", ["sort", "meet_leaves", "visit_", "intersection_pairs", "name"], "pairs"),
+    ("what is reached", ["reach", "Noted", "descend", "asks_for_untrue", "Branch"], "node_pairs"),
+    ("pairs sorted and named", ["sort", "show_", "intersection_pairs", "name"], "pairs"),
 ]
 
 

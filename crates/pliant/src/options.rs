@@ -25,9 +25,10 @@ pub struct Options {
     pub update: Update,
     /// How pairs of bodies that may meet are found. Default: by the number of bodies.
     pub broad_phase: BroadPhase,
-    /// How many threads share the work of a query, the calling one included. Default: 1; more pay from about a millisecond of
-    /// work on, and more than 256 are 256. For a fifth of a millisecond after a query they look for more to do before they sleep.
-    /// Where the system gives none, the calling thread does it all.
+    /// How many threads share the work of a query, the calling one included: that of two bodies, or, where many meet and all pairs
+    /// are asked for, the pairs of bodies. Default: 1; more pay from about a millisecond of work on, and more than 256 are 256. For
+    /// a fifth of a millisecond after a query they look for more to do before they sleep. Where the system gives none, the calling
+    /// thread does it all.
     pub threads: NonZeroUsize,
 }
 

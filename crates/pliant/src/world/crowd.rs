@@ -7,13 +7,13 @@
 
 use super::body::Body;
 use super::step::{Planted, Step};
-use crate::exec::Threads;
+use crate::exec::{Threads, locked};
 use crate::geometry::Scalar;
 use crate::statistics::Statistics;
 use crate::traversal::Scratch;
 use crate::tree::Tree;
 use std::ops::{ControlFlow, Range};
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 /// Pairs of bodies of fewer triangles, all together, are not worth waking a thread.
 const SHARED: usize = 1 << 16;
@@ -21,14 +21,16 @@ const SHARED: usize = 1 << 16;
 const JOB: usize = 1 << 13;
 /// but not more pairs than this.
 const LONGEST_JOB: usize = 16;
-/// So many times what a thread would have to do, a pair is much of all the work.
-const MUCH: usize = 4;
+/// A pair of more triangles than a thread's part of them all, divided by this, is met by all threads together.
+const PARTS: usize = 4;
 
 /// Buffers, kept from query to query.
 #[derive(Debug, Default)]
 pub(super) struct Crowd {
     workers: Vec<Worker>,
-    /// The numbers of pairs that are met by one thread, the places of their bodies, and some of them in a row.
+    /// The numbers of pairs that are met by all threads,
+    large: Vec<usize>,
+    /// and of those that are met by one; the places of their bodies; and some of them in a row.
     small: Vec<usize>,
     places: Vec<[usize; 2]>,
     jobs: Vec<Range<usize>>,
@@ -58,12 +60,16 @@ struct Met {
     triangles: Range<usize>,
 }
 
-impl Found {
-    fn clear(&mut self) {
-        self.triangles.clear();
-        self.met.clear();
+impl Worker {
+    fn begin(&mut self) {
+        self.scratch.begin();
+        self.statistics = Statistics::default();
+        self.found.triangles.clear();
+        self.found.met.clear();
     }
+}
 
+impl Found {
     /// Meets a pair of bodies and keeps what is found.
     fn meet<const N: usize, S: Scalar>(
         &mut self,
@@ -105,42 +111,21 @@ impl Crowd {
         trees: &mut [Tree<N>],
         pairs: &[[usize; 2]],
     ) {
+        let threads = step.threads;
+        self.workers.resize_with(threads.count(), Worker::default);
+        self.workers.iter_mut().for_each(Worker::begin);
+        self.cut(bodies, pairs);
         let Self {
             workers,
+            large,
             small,
             places,
             jobs,
             met,
         } = self;
-        let threads = step.threads;
-        workers.resize_with(threads.count(), Worker::default);
-        for worker in &mut *workers {
-            worker.scratch.begin();
-            worker.statistics = Statistics::default();
-            worker.found.clear();
-        }
-        small.clear();
-        places.clear();
-        jobs.clear();
-        let mut in_job = JOB;
-        let much = triangles_of(bodies, pairs) / (MUCH * threads.count());
-        for (pair, &both) in pairs.iter().enumerate() {
-            let triangles = triangles_of(bodies, &[both]);
-            if triangles >= much {
-                let both = Planted::both(bodies, trees, both);
-                workers[0].found.meet(step, pair, both);
-                continue;
-            }
-            match jobs.last_mut() {
-                Some(job) if in_job < JOB && job.len() < LONGEST_JOB => job.end += 1,
-                _ => {
-                    jobs.push(small.len()..small.len() + 1);
-                    in_job = 0;
-                }
-            }
-            in_job += triangles;
-            small.push(pair);
-            places.push(both);
+        for &pair in &*large {
+            let both = Planted::both(bodies, trees, pairs[pair]);
+            workers[0].found.meet(step, pair, both);
         }
 
         let all = bodies.iter_mut().zip(trees);
@@ -161,10 +146,7 @@ impl Crowd {
             };
             for at in job.clone() {
                 // No other thread has these bodies: it never waits.
-                let mut both = places[at].map(|place| {
-                    let one = &all[place];
-                    one.lock().unwrap_or_else(PoisonError::into_inner)
-                });
+                let mut both = places[at].map(|place| locked(&all[place]));
                 let both = both.each_mut().map(|one| one.again());
                 worker.found.meet(&mut step, small[at], both);
             }
@@ -176,6 +158,34 @@ impl Crowd {
             met.extend(worker.found.met.iter().map(|met| (number, met.clone())));
         }
         met.sort_unstable_by_key(|(_, met)| met.pair);
+    }
+
+    /// Cuts small pairs into jobs. How it does changes no answer, so it may look at the number of threads.
+    fn cut<S: Scalar>(&mut self, bodies: &[Body<S>], pairs: &[[usize; 2]]) {
+        self.large.clear();
+        self.small.clear();
+        self.places.clear();
+        self.jobs.clear();
+        let much = triangles_of(bodies, pairs) / (PARTS * self.workers.len());
+        let mut in_job = 0;
+        for (pair, &places) in pairs.iter().enumerate() {
+            let triangles = triangles_of(bodies, &[places]);
+            if triangles >= much {
+                self.large.push(pair);
+                continue;
+            }
+            let at = self.small.len();
+            match self.jobs.last_mut() {
+                Some(job) if in_job < JOB && job.len() < LONGEST_JOB => job.end += 1,
+                _ => {
+                    self.jobs.push(at..at + 1);
+                    in_job = 0;
+                }
+            }
+            in_job += triangles;
+            self.small.push(pair);
+            self.places.push(places);
+        }
     }
 
     /// What was found then: a pair of bodies by its number, and the pairs of triangles of these; in the order of the pairs.

@@ -1,4 +1,4 @@
-//! One thread or many: the only file that names a thread pool.
+//! One thread or many: the only folder that names a thread pool.
 //!
 //! Work is cut into jobs by its size, never by the number of threads; every job writes what is its own, and what the jobs have
 //! found is put together in their order. So answers, their order and all counters are the same for any number of threads.
@@ -6,6 +6,8 @@
 //! A step is some dozens of such parts, each shorter than it takes to wake a thread. So threads that were woken stay awake from one
 //! part to the next, and a little longer. Each begins with jobs of its own, side by side, and helps others when these are done:
 //! what a thread wrote in one part it is likely to read in the next.
+
+mod apart;
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -16,8 +18,6 @@ use std::time::{Duration, Instant};
 const MOST: usize = 256;
 /// How long a thread looks for more to do before it sleeps: longer than what one thread alone does in the middle of a query.
 const AWAKE: Duration = Duration::from_micros(200);
-/// How many jobs are looked at for one whose things are not busy.
-const LOOKED_AT: usize = 64;
 /// How often it looks before it lets others have its core in between.
 const LOOKS: u32 = 100;
 
@@ -81,113 +81,8 @@ impl Threads {
     }
 }
 
-impl Threads {
-    /// Does all jobs, each of which needs some things, such that no thing is in two jobs at once. Every worker does one after the
-    /// other; which it does, nobody knows.
-    pub(crate) fn run_apart<'t, J: Sync, W: Send>(
-        &self,
-        jobs: &[J],
-        things_of: impl Fn(&J) -> &'t [usize] + Sync,
-        things: usize,
-        workers: &mut [W],
-        work: impl Fn(&mut W, &J) + Sync,
-    ) {
-        let apart = Mutex::new(Apart {
-            is_taken: vec![false; jobs.len()],
-            first: 0,
-            is_busy: vec![false; things],
-        });
-        self.run(workers, |_, worker| {
-            let mut busy = Busy {
-                apart: &apart,
-                things: &[],
-            };
-            let mut patience = Patience::default();
-            loop {
-                let next = {
-                    let mut apart = locked(&apart);
-                    apart.set_busy(std::mem::take(&mut busy.things), false);
-                    apart.take(jobs, &things_of)
-                };
-                match next {
-                    Next::Job(job) => {
-                        busy.things = things_of(job);
-                        work(worker, job);
-                        patience = Patience::default();
-                    }
-                    Next::Later => {
-                        patience.is_left();
-                    }
-                    Next::Nothing => break,
-                }
-            }
-        });
-    }
-}
-
-/// Which jobs are taken, and which things are in one that is not done.
-struct Apart {
-    is_taken: Vec<bool>,
-    /// Before it, all are taken.
-    first: usize,
-    is_busy: Vec<bool>,
-}
-
-enum Next<'j, J> {
-    Job(&'j J),
-    /// What is left must wait for things that are busy.
-    Later,
-    Nothing,
-}
-
-impl Apart {
-    /// The next job whose things are not busy; they are then.
-    fn take<'j, 't, J>(
-        &mut self,
-        jobs: &'j [J],
-        things_of: &impl Fn(&J) -> &'t [usize],
-    ) -> Next<'j, J> {
-        while self.first < jobs.len() && self.is_taken[self.first] {
-            self.first += 1;
-        }
-        if self.first == jobs.len() {
-            return Next::Nothing;
-        }
-        let last = jobs.len().min(self.first + LOOKED_AT);
-        let is_free = |&job: &usize| {
-            !self.is_taken[job]
-                && things_of(&jobs[job])
-                    .iter()
-                    .all(|&thing| !self.is_busy[thing])
-        };
-        let Some(job) = (self.first..last).find(is_free) else {
-            return Next::Later;
-        };
-        self.is_taken[job] = true;
-        self.set_busy(things_of(&jobs[job]), true);
-        Next::Job(&jobs[job])
-    }
-
-    fn set_busy(&mut self, things: &[usize], are: bool) {
-        for &thing in things {
-            self.is_busy[thing] = are;
-        }
-    }
-}
-
-/// The things of a job that is being done. If it panics they are let go, because others wait for them.
-struct Busy<'a, 't> {
-    apart: &'a Mutex<Apart>,
-    things: &'t [usize],
-}
-
-impl Drop for Busy<'_, '_> {
-    fn drop(&mut self) {
-        locked(self.apart).set_busy(self.things, false);
-    }
-}
-
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+/// Locks a mutex, whatever happened to others that had it.
+pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -339,39 +234,6 @@ mod tests {
                 .enumerate()
                 .all(|(number, &job)| job == 2_000 * number as u64)
         );
-    }
-
-    #[test]
-    fn no_thing_is_in_two_jobs_at_once() {
-        // One thing in a third of all pairs, and pairs in rows.
-        let pairs: Vec<[usize; 2]> = (1..600)
-            .map(|at| if at % 3 == 0 { [0, at] } else { [at, at + 1] })
-            .collect();
-        let mut sorted = pairs.clone();
-        sorted.sort_unstable();
-        for count in [1, 2, 7] {
-            let threads = Threads::new(NonZeroUsize::new(count).unwrap());
-            assert_eq!(threads.count(), count);
-            let things: Vec<Mutex<u32>> = (0..601).map(|_| Mutex::new(0)).collect();
-            let mut workers = vec![Vec::new(); count];
-            let work = |done: &mut Vec<_>, pair: &[usize; 2]| {
-                let mut both = pair.map(|thing| things[thing].try_lock().unwrap());
-                both.iter_mut().for_each(|thing| **thing += 1);
-                std::thread::yield_now();
-                done.push(*pair);
-            };
-            let jobs: Vec<_> = pairs.iter().collect();
-            threads.run_apart(
-                &jobs,
-                |pair| &pair[..],
-                things.len(),
-                &mut workers,
-                |done, pair| work(done, pair),
-            );
-            let mut done = workers.concat();
-            done.sort_unstable();
-            assert!(done.iter().eq(&sorted), "{count} threads");
-        }
     }
 
     #[test]

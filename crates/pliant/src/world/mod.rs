@@ -1,8 +1,9 @@
 //! The world: bodies, their shapes, and the one place where the phases meet.
 //!
 //! `body` takes shapes over, whose `positions` are in the caller's order or in the tree's; `step` runs the phases for one query,
-//! `crowd` for many pairs of bodies at once; `queries` and `parts` are what users ask, `picture` what a body looks like, `witness` the last first pair; `forest` is where the
-//! degree of the trees turns from a value into a type; `validate` looks at every invariant.
+//! `crowd` for many pairs of bodies at once; `queries` and `parts` are what users ask, `picture` what a body looks like, `witness`
+//! the last first pair; `forest` is where the degree of the trees turns from a value into a type; `validate` looks at every
+//! invariant.
 
 mod body;
 mod crowd;

@@ -158,13 +158,23 @@ impl Branch {
         self.place.pair == self.found.leaves.len()
     }
 
-    /// Lets pairs of leaves meet, or the next so many of their blocks. The boxes of the triangles in them are true.
-    pub(super) fn meet<const N: usize, M: Meeting<N>>(
+    /// Lets pairs of leaves meet until all have, or many, or enough was found.
+    pub(super) fn meet_some<const N: usize, M: Meeting<N>>(
         &mut self,
         level: Level,
         meeting: &M,
-        blocks: usize,
+        stride: Stride,
     ) {
+        self.met.clear();
+        let mut met = 0;
+        while met < stride.met && self.met.hits.len() < MOST_HITS && !self.all_met() {
+            self.meet(level, meeting, stride.leaves);
+            met += stride.leaves;
+        }
+    }
+
+    /// Lets pairs of leaves meet, or the next so many of their blocks. The boxes of the triangles in them are true.
+    fn meet<const N: usize, M: Meeting<N>>(&mut self, level: Level, meeting: &M, blocks: usize) {
         let sides = meeting.sides();
         let trees = sides.map(|side| &side.tree.leaves);
         let leaves = self.found.leaves.as_slice();

@@ -10,9 +10,18 @@ use crate::tree::{NodeId, Tree};
 use crate::update::{Noted, Updates};
 use std::ops::ControlFlow;
 
-/// The first batch is one pair, and batches double: a visitor that stops at the first pair has then made few boxes that it did
-/// not need (on the two spheres from contact on, 16 instead made 1,841 boxes where this makes 520, and took 1.8 times as long),
-/// and one that wants all pairs loses nothing.
+/// How much of what intersects a query wants.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// All of it.
+    All,
+    /// As much as its visitor looks at, which may be the first pair.
+    #[default]
+    UntilBreak,
+}
+
+/// Of a visitor, the first batch is one pair, and batches double: if it stops at the first pair, few boxes were made that it did
+/// not need (on the two spheres from contact on, 16 instead made 1,841 boxes where this makes 520, and took 1.8 times as long).
 const FIRST_BATCH: usize = 1;
 /// The most pairs of nodes that a branch takes at once: short enough that their groups stay in cache.
 const LONGEST_BATCH: usize = 256;
@@ -56,37 +65,57 @@ pub(crate) struct Scratch {
     /// Pairs of nodes that were not dealt yet, and those that are being dealt.
     reserve: Batch<NodePair>,
     dealt: Vec<NodePair>,
+    wanted: Wanted,
     sizes: Sizes,
     /// The pair at which a query stopped, in tree order.
     pub(crate) broke_at: Option<Candidate>,
 }
 
-/// How many pairs a branch takes at once. They double over a query, whatever it has asked before.
+/// How many pairs a branch takes at once. For a visitor they double over a query, whatever it has asked before.
 #[derive(Clone, Copy, Debug)]
 struct Sizes {
     nodes: usize,
     blocks: usize,
 }
 
-impl Default for Sizes {
-    fn default() -> Self {
-        Self {
-            nodes: FIRST_BATCH,
-            blocks: FIRST_BATCH,
+impl Sizes {
+    fn new(wanted: Wanted) -> Self {
+        let [nodes, blocks] = match wanted {
+            Wanted::All => [LONGEST_BATCH, MOST_BEFORE_SHOWN],
+            Wanted::UntilBreak => [FIRST_BATCH; 2],
+        };
+        Self { nodes, blocks }
+    }
+
+    fn stride(&self) -> Stride {
+        Stride {
+            nodes: self.nodes,
+            leaves: self.blocks.min(MOST_BLOCKS),
+            met: self.blocks,
+            stack: usize::MAX,
         }
     }
-}
 
-impl Sizes {
+    fn double_nodes(&mut self) {
+        self.nodes = (2 * self.nodes).min(LONGEST_BATCH);
+    }
+
     fn double_blocks(&mut self) {
         self.blocks = (2 * self.blocks).min(MOST_BEFORE_SHOWN);
     }
 }
 
+impl Default for Sizes {
+    fn default() -> Self {
+        Self::new(Wanted::default())
+    }
+}
+
 impl Scratch {
     /// At the beginning of every query.
-    pub(crate) fn begin(&mut self) {
-        self.sizes = Sizes::default();
+    pub(crate) fn begin(&mut self, wanted: Wanted) {
+        self.wanted = wanted;
+        self.sizes = Sizes::new(wanted);
     }
 }
 
@@ -109,6 +138,7 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
         used,
         reserve,
         dealt,
+        wanted,
         sizes,
         broke_at,
     } = scratch;
@@ -116,29 +146,31 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     branches[..*used].iter_mut().for_each(Branch::clear);
     reserve.clear();
     *used = 1;
-    branches.resize_with(FREE_BRANCHES.max(branches.len()), Branch::default);
-    branches[0].found.nodes.push([NodeId::ROOT; 2]);
     let are_free = are_free(meeting.sides());
+    let most = if are_free {
+        FREE_BRANCHES
+    } else if *wanted == Wanted::All {
+        // What is found is the same in another order.
+        BRANCHES.max(2 * updates.threads.count())
+    } else {
+        BRANCHES
+    };
+    branches.resize_with(most.max(branches.len()), Branch::default);
+    branches[0].found.nodes.push([NodeId::ROOT; 2]);
     loop {
         if is_to_be_dealt(&branches[..*used], reserve) {
-            *used = if are_free { FREE_BRANCHES } else { BRANCHES };
+            *used = most;
             deal(&mut branches[..*used], reserve, dealt);
         }
         let branches = &mut branches[..*used];
-        let stride = Stride {
-            nodes: sizes.nodes,
-            leaves: sizes.blocks.min(MOST_BLOCKS),
-            met: sizes.blocks,
-            stack: if branches.len() == 1 {
-                ENOUGH
-            } else {
-                usize::MAX
-            },
-        };
+        let mut stride = sizes.stride();
+        if branches.len() == 1 {
+            stride.stack = ENOUGH;
+        }
         updates.threads.run(branches, |_, branch| {
             branch.advance(updates.level, meeting, stride);
         });
-        sizes.nodes = (2 * sizes.nodes).min(LONGEST_BATCH);
+        sizes.double_nodes();
         for branch in &*branches {
             statistics.node_pairs += branch.found.node_pairs;
         }
@@ -242,11 +274,10 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
     branches: &mut [Branch],
     sizes: &mut Sizes,
 ) {
-    let blocks = sizes.blocks.min(MOST_BLOCKS);
+    let stride = sizes.stride();
     sizes.double_blocks();
     updates.threads.run(branches, |_, branch| {
-        branch.met.clear();
-        branch.meet(updates.level, meeting, blocks);
+        branch.meet_some(updates.level, meeting, stride);
     });
 }
 

@@ -36,7 +36,7 @@ mod two_trees;
 use crate::geometry::Shape;
 use crate::mesh::Mesh;
 use crate::tree::Tree;
-pub(crate) use descent::{Scratch, Show, descend};
+pub(crate) use descent::{Scratch, Show, Wanted, descend};
 pub(crate) use one_tree::OneTree;
 pub(crate) use two_trees::TwoTrees;
 

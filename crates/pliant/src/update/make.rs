@@ -11,9 +11,9 @@ use crate::tree::{Below, Leaves, Siblings, Tree, VertexSets};
 use fearless_simd::{Simd, dispatch};
 
 /// Groups in a job: some microseconds of work.
-const JOB: usize = 32;
+const JOB: usize = 16;
 /// So many groups, or fewer, are not worth waking a thread.
-const SHARED: usize = 4 * JOB;
+const SHARED: usize = 2 * JOB;
 
 /// Where and with what to make boxes.
 #[derive(Clone, Copy)]

@@ -10,7 +10,7 @@ use super::step::{Planted, Step};
 use crate::exec::{Threads, locked};
 use crate::geometry::Scalar;
 use crate::statistics::Statistics;
-use crate::traversal::Scratch;
+use crate::traversal::{Scratch, Wanted};
 use crate::tree::Tree;
 use std::ops::{ControlFlow, Range};
 use std::sync::Mutex;
@@ -62,7 +62,7 @@ struct Met {
 
 impl Worker {
     fn begin(&mut self) {
-        self.scratch.begin();
+        self.scratch.begin(Wanted::All);
         self.statistics = Statistics::default();
         self.found.triangles.clear();
         self.found.met.clear();

@@ -13,7 +13,7 @@ use crate::geometry::{Bounds, Scalar};
 use crate::pairs::{BodyPair, Pair};
 use crate::sort::sort_by_numbers;
 use crate::statistics::Statistics;
-use crate::traversal::Show;
+use crate::traversal::{Show, Wanted};
 use std::ops::ControlFlow;
 
 /// The whole world: every two bodies that filters let meet, not a body with itself.
@@ -31,7 +31,7 @@ impl<S: Scalar> World<S> {
     pub fn intersection_pairs(&mut self) -> &[Pair] {
         let mut pairs = std::mem::take(&mut self.pairs);
         pairs.clear();
-        self.show_intersections(true, &mut |[body_a, body_b], found| {
+        self.show_intersections(Wanted::All, &mut |[body_a, body_b], found| {
             pairs.extend(found.iter().map(|&[triangle_a, triangle_b]| Pair {
                 body_a,
                 triangle_a,
@@ -109,7 +109,7 @@ impl<S: Scalar> World<S> {
         mut visit: impl FnMut(Pair) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
         let mut answer = ControlFlow::Continue(());
-        self.show_intersections(false, &mut |[body_a, body_b], found| {
+        self.show_intersections(Wanted::UntilBreak, &mut |[body_a, body_b], found| {
             let visit = |[triangle_a, triangle_b]: [u32; 2]| {
                 visit(Pair {
                     body_a,
@@ -123,14 +123,14 @@ impl<S: Scalar> World<S> {
         answer
     }
 
-    /// Shows every intersecting pair of different bodies, those of two bodies after the other, until `show` breaks; if it wants
-    /// `all`, it never does.
+    /// Shows every intersecting pair of different bodies, those of two bodies after the other, until `show` breaks; if all
+    /// are wanted, it never does.
     fn show_intersections(
         &mut self,
-        all: bool,
+        wanted: Wanted,
         show: &mut dyn FnMut([BodyId; 2], &[[u32; 2]]) -> ControlFlow<usize>,
     ) {
-        self.begin();
+        self.begin(wanted);
         self.find_body_pairs();
         let body_pairs = std::mem::take(&mut self.body_pairs);
         // A visitor that panics takes the list with it: it is then found anew.
@@ -138,7 +138,7 @@ impl<S: Scalar> World<S> {
         let mut crowd = std::mem::take(&mut self.crowd);
         let (mut step, bodies, forest) = self.step();
         with_trees!(forest, trees => {
-            if all && crowd::is_worth_it(step.threads, bodies, &body_pairs) {
+            if wanted == Wanted::All && crowd::is_worth_it(step.threads, bodies, &body_pairs) {
                 crowd.meet(&mut step, bodies, trees, &body_pairs);
                 for (pair, found) in crowd.found() {
                     let ids = body_pairs[pair].map(|place| bodies[place].id());
@@ -174,7 +174,7 @@ impl<S: Scalar> World<S> {
         b: BodyId,
     ) -> Result<&[[u32; 2]], Error> {
         let places = self.two_bodies(a, b)?;
-        Ok(self.collect_pairs(|world, show| world.show_between(places, show)))
+        Ok(self.collect_pairs(|world, show| world.show_between(places, Wanted::All, show)))
     }
 
     /// Some intersecting pair (triangle of `a`, triangle of `b`), if there is one.
@@ -213,14 +213,14 @@ impl<S: Scalar> World<S> {
     ) -> Result<ControlFlow<B>, Error> {
         let places = self.two_bodies(a, b)?;
         let mut answer = ControlFlow::Continue(());
-        self.show_between(places, &mut |found| {
+        self.show_between(places, Wanted::UntilBreak, &mut |found| {
             one_by_one(found, &mut visit, &mut answer)
         });
         Ok(answer)
     }
 
-    fn show_between(&mut self, places: [usize; 2], show: Show) {
-        self.begin();
+    fn show_between(&mut self, places: [usize; 2], wanted: Wanted, show: Show) {
+        self.begin(wanted);
         let (mut step, bodies, forest) = self.step();
         with_trees!(forest, trees => {
             let _ = step.meet(Planted::both(bodies, trees, places), show);
@@ -240,7 +240,7 @@ impl<S: Scalar> World<S> {
     #[doc(alias = "self_intersections")]
     pub fn self_intersection_pairs(&mut self, body: BodyId) -> Result<&[[u32; 2]], Error> {
         let place = self.place(body)?;
-        Ok(self.collect_pairs(|world, show| world.show_itself(place, show)))
+        Ok(self.collect_pairs(|world, show| world.show_itself(place, Wanted::All, show)))
     }
 
     /// Some intersecting pair of a body with itself, if there is one.
@@ -275,14 +275,14 @@ impl<S: Scalar> World<S> {
     ) -> Result<ControlFlow<B>, Error> {
         let place = self.place(body)?;
         let mut answer = ControlFlow::Continue(());
-        self.show_itself(place, &mut |found| {
+        self.show_itself(place, Wanted::UntilBreak, &mut |found| {
             one_by_one(found, &mut visit, &mut answer)
         });
         Ok(answer)
     }
 
-    fn show_itself(&mut self, place: usize, show: Show) {
-        self.begin();
+    fn show_itself(&mut self, place: usize, wanted: Wanted, show: Show) {
+        self.begin(wanted);
         let (mut step, bodies, forest) = self.step();
         with_trees!(forest, trees => {
             let _ = step.meet_itself(Planted::at(bodies, trees, place), show);
@@ -356,9 +356,9 @@ impl<S: Scalar> World<S> {
 /// What the queries have in common.
 impl<S: Scalar> World<S> {
     /// At the beginning of every query.
-    fn begin(&mut self) {
+    fn begin(&mut self, wanted: Wanted) {
         self.settle_origin();
-        self.scratch.begin();
+        self.scratch.begin(wanted);
         self.statistics = std::mem::take(&mut self.done_early);
     }
 

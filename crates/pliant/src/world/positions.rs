@@ -2,7 +2,8 @@
 //!
 //! Two ways lead to a new shape, and either leaves the old one as it is if something is wrong with the new. A body that nobody looked
 //! at since its last shape is *copied* while it is checked, which is one pass as fast as memory. A body that was looked at will be
-//! looked at again: it is only checked, and then *taken straight into tree order*, without a copy between.
+//! looked at again: it is only checked, and then *taken straight into tree order*, without a copy between. But where there are
+//! several threads a small one is copied as well: shapes come one after the other, and threads bring them into order side by side.
 
 use crate::exec::Threads;
 use crate::geometry::{Bounds, POINTS_JOB, POINTS_SHARED, Points, Scalar};
@@ -50,7 +51,7 @@ impl<S: Scalar> Positions<S> {
         threads: &Threads,
         new: &[[S; 3]],
     ) -> Option<Bounds<S>> {
-        let place = if self.looked_at {
+        let place = if self.goes_straight(threads) {
             None
         } else {
             self.spare.resize(new.len(), [S::default(); 3]);
@@ -75,6 +76,11 @@ impl<S: Scalar> Positions<S> {
         parts.try_fold(Bounds::EMPTY, |all, part| Some(all.union(&part?)))
     }
 
+    /// Whether the next shape is taken straight into tree order.
+    fn goes_straight(&self, threads: &Threads) -> bool {
+        self.looked_at && (self.len > POINTS_SHARED || !threads.are_many())
+    }
+
     /// The new shape that was looked at last is that of now.
     pub(super) fn accept(
         &mut self,
@@ -83,7 +89,8 @@ impl<S: Scalar> Positions<S> {
         new: &[[S; 3]],
         order: &[u32],
     ) {
-        let straight = std::mem::take(&mut self.looked_at);
+        let straight = self.goes_straight(threads);
+        self.looked_at = false;
         if straight {
             self.trees.gather(level, threads, new, order);
         } else {

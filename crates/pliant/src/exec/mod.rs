@@ -2,7 +2,8 @@
 //!
 //! Work is cut into jobs by its size, never by the number of threads; every job writes what is its own, and what the jobs have
 //! found is put together in their order. So answers, their order and all counters are the same for any number of threads. Only
-//! jobs whose result depends on no order, those of `apart`, may be cut as the threads are.
+//! jobs whose result depends on no order may be cut as the threads are: those of `apart`, and branches of a descent of which all
+//! pairs are wanted, which are then sorted.
 //!
 //! A step is some dozens of such parts, each shorter than it takes to wake a thread. So threads that were woken stay awake from one
 //! part to the next, and a little longer. Each begins with jobs of its own, side by side, and helps others when these are done:
@@ -15,7 +16,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// More than there are jobs in the largest of batches.
+/// More than anyone has.
 const MOST: usize = 256;
 /// How long a thread looks for more to do before it sleeps: longer than what one thread alone does in the middle of a query.
 const AWAKE: Duration = Duration::from_micros(200);

@@ -33,6 +33,8 @@ const MOST_BEFORE_SHOWN: usize = 8192;
 const ENOUGH: usize = 128;
 /// so many branches if boxes will be made in turn with them, so that all are at work in about one place,
 const BRANCHES: usize = 8;
+/// (and so many a thread, if that is more, where all pairs are wanted: the same are found and the same boxes made in any order)
+const BRANCHES_A_THREAD: usize = 2;
 /// or else so many, so that none waits long for another.
 const FREE_BRANCHES: usize = 32;
 /// So many pairs of nodes are dealt at once.
@@ -150,8 +152,7 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     let most = if are_free {
         FREE_BRANCHES
     } else if *wanted == Wanted::All {
-        // What is found is the same in another order.
-        BRANCHES.max(2 * updates.threads.count())
+        BRANCHES.max(BRANCHES_A_THREAD * updates.threads.count())
     } else {
         BRANCHES
     };

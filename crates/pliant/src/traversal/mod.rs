@@ -5,7 +5,7 @@
 //! while some branch has pairs of nodes:
 //!     deal:   if one has none, or there is only one yet and it has many: the last of all pairs to all branches
 //!     every branch, until it asks for boxes that are not true, or its list of leaves is long:
-//!         take a batch from the top of its stack            1 pair, then 2, 4, ... up to hundreds
+//!         take a batch from the top of its stack            hundreds; of a visitor 1 pair, then 2, 4, ...
 //!         expand it: children whose boxes overlap onto the stack, pairs of leaves onto the list
 //!     reach:  make true the groups that they ask for        only reaching writes boxes
 //!     when the lists are long, or the stacks empty:
@@ -18,11 +18,11 @@
 //! for a body with itself, of which all boxes are made ahead.
 //!
 //! Branches, and jobs of reaching, are cut by size, and each writes lists, or boxes, of its own; so threads share the work, and
-//! neither the work nor the order of what is found depends on how many there are. Branches are dealt what is last of all, so
-//! that together they are at work in one place of the trees: dealt all there is, they would read from everywhere at once. Batches
+//! neither the work nor the order of what a visitor is shown depends on how many there are. Branches are dealt what is last of all,
+//! so that together they are at work in one place of the trees: dealt all there is, they would read from everywhere at once. Batches
 //! come from the top of a stack, which bounds memory by depth x batch whatever the input is (all triangles in one place
-//! included), and needs no recursion. Batches start small, so that a visitor that wants the first pair gets it after a few nodes,
-//! and double, so that a visitor that wants all pairs soon works in long runs.
+//! included), and needs no recursion. Batches are long from the beginning where all pairs are wanted: each ends in waiting for
+//! the last branch. For a visitor they start small, so that one that wants the first pair gets it after a few nodes, and double.
 //!
 //! Differs from the paper, which descends pair by pair; the boxes it reaches are the same but for the order.
 

@@ -212,8 +212,9 @@ impl<S: Scalar> World<S> {
 
     /// Gives a body a new shape: one position for each of its vertices, shape (n, 3), in the order in which it was added.
     ///
-    /// The positions are checked, and taken over only if all are good; the body keeps its old shape if not. One pass that copies them,
-    /// or, if a query looked at the shape before, one that checks and one that takes them straight into the order of the tree.
+    /// The positions are checked, and taken over only if all are good; the body keeps its old shape if not. One pass that copies them;
+    /// or, if a query looked at the shape before, and the body is large or there is one thread, one that checks and one that takes
+    /// them straight into the order of the tree.
     ///
     /// # Errors
     ///

@@ -27,6 +27,8 @@ const FIRST_BATCH: usize = 1;
 const LONGEST_BATCH: usize = 256;
 /// The most pairs of blocks of a branch that meet at once,
 const MOST_BLOCKS: usize = 512;
+/// (more where threads share branches: each has a cache of its own, and all wait for the last)
+const MOST_BLOCKS_SHARED: usize = 2048;
 /// and on the way before their hits are shown. This bounds memory whatever the leaf size is.
 const MOST_BEFORE_SHOWN: usize = 8192;
 /// As soon as there are so many pairs of nodes, branches share them, whatever the number of threads is:
@@ -89,10 +91,11 @@ impl Sizes {
         Self { nodes, blocks }
     }
 
-    fn stride(&self) -> Stride {
+    /// At most so many blocks meet at once.
+    fn stride(&self, blocks: usize) -> Stride {
         Stride {
             nodes: self.nodes,
-            leaves: self.blocks.min(MOST_BLOCKS),
+            leaves: self.blocks.min(blocks),
             met: self.blocks,
             stack: usize::MAX,
         }
@@ -149,22 +152,23 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     reserve.clear();
     *used = 1;
     let are_free = are_free(meeting.sides());
-    let most = if are_free {
-        FREE_BRANCHES
-    } else if *wanted == Wanted::All {
-        BRANCHES.max(BRANCHES_A_THREAD * updates.threads.count())
+    let (most_branches, most_blocks) = if are_free {
+        (FREE_BRANCHES, MOST_BLOCKS)
+    } else if *wanted == Wanted::All && updates.threads.are_many() {
+        let for_threads = BRANCHES_A_THREAD * updates.threads.count();
+        (BRANCHES.max(for_threads), MOST_BLOCKS_SHARED)
     } else {
-        BRANCHES
+        (BRANCHES, MOST_BLOCKS)
     };
-    branches.resize_with(most.max(branches.len()), Branch::default);
+    branches.resize_with(most_branches.max(branches.len()), Branch::default);
     branches[0].found.nodes.push([NodeId::ROOT; 2]);
     loop {
         if is_to_be_dealt(&branches[..*used], reserve) {
-            *used = most;
+            *used = most_branches;
             deal(&mut branches[..*used], reserve, dealt);
         }
         let branches = &mut branches[..*used];
-        let mut stride = sizes.stride();
+        let mut stride = sizes.stride(most_blocks);
         if branches.len() == 1 {
             stride.stack = ENOUGH;
         }
@@ -189,7 +193,8 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
             if last || leaves >= stride.leaves * working.max(1) {
                 reach_leaves(updates, meeting, branches, reached, statistics);
                 while shown.is_continue() && !branches.iter().all(Branch::all_met) {
-                    meet_leaves(updates, meeting, branches, sizes);
+                    meet_leaves(updates, meeting, branches, sizes.stride(most_blocks));
+                    sizes.double_blocks();
                     shown = show_hits(branches, statistics, show);
                 }
                 branches.iter_mut().for_each(Branch::forget_leaves);
@@ -273,10 +278,8 @@ fn meet_leaves<const N: usize, M: Meeting<N>>(
     updates: Updates,
     meeting: &M,
     branches: &mut [Branch],
-    sizes: &mut Sizes,
+    stride: Stride,
 ) {
-    let stride = sizes.stride();
-    sizes.double_blocks();
     updates.threads.run(branches, |_, branch| {
         branch.meet_some(updates.level, meeting, stride);
     });

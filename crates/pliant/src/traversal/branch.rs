@@ -12,8 +12,8 @@ use crate::tree::Below;
 use crate::update::Noted;
 use fearless_simd::dispatch;
 
-/// Pairs of blocks that meet on the way before a branch looks at what it has found,
-const BLOCKS_ON_THE_WAY: usize = 128;
+/// Pairs of blocks that meet before a branch looks at what it has found,
+const BLOCKS_BEFORE_LOOK: usize = 128;
 /// and how many hits are enough: what all branches have found and not yet shown is to take little memory.
 const MOST_HITS: usize = 2048;
 
@@ -89,7 +89,7 @@ impl Branch {
                 self.forget_leaves();
                 self.descend(level, meeting, stride);
             }
-            let blocks = stride.leaves.min(BLOCKS_ON_THE_WAY);
+            let blocks = stride.leaves.min(BLOCKS_BEFORE_LOOK);
             self.meet::<N, M>(level, meeting, blocks);
             met += blocks;
             let stack = self.found.nodes.len();
@@ -166,10 +166,11 @@ impl Branch {
         stride: Stride,
     ) {
         self.met.clear();
+        let blocks = stride.leaves.min(BLOCKS_BEFORE_LOOK);
         let mut met = 0;
         while met < stride.met && self.met.hits.len() < MOST_HITS && !self.all_met() {
-            self.meet(level, meeting, stride.leaves);
-            met += stride.leaves;
+            self.meet(level, meeting, blocks);
+            met += blocks;
         }
     }
 

@@ -25,11 +25,11 @@ pub(crate) enum Wanted {
 const FIRST_BATCH: usize = 1;
 /// The most pairs of nodes that a branch takes at once: short enough that their groups stay in cache.
 const LONGEST_BATCH: usize = 256;
-/// The most pairs of blocks of a branch that meet at once,
-const MOST_BLOCKS: usize = 512;
+/// So many pairs of leaves of a branch, or a few more, are enough to let them meet,
+const MOST_LEAVES: usize = 512;
 /// (more where threads share branches: each has a cache of its own, and all wait for the last)
-const MOST_BLOCKS_SHARED: usize = 2048;
-/// and on the way before their hits are shown. This bounds memory whatever the leaf size is.
+const MOST_LEAVES_SHARED: usize = 2048;
+/// and the most pairs of their blocks before their hits are shown. This bounds memory whatever the leaf size is.
 const MOST_BEFORE_SHOWN: usize = 8192;
 /// As soon as there are so many pairs of nodes, branches share them, whatever the number of threads is:
 const ENOUGH: usize = 128;
@@ -91,11 +91,11 @@ impl Sizes {
         Self { nodes, blocks }
     }
 
-    /// At most so many blocks meet at once.
-    fn stride(&self, blocks: usize) -> Stride {
+    /// Of at most so many pairs of leaves.
+    fn stride(&self, leaves: usize) -> Stride {
         Stride {
             nodes: self.nodes,
-            leaves: self.blocks.min(blocks),
+            leaves: self.blocks.min(leaves),
             met: self.blocks,
             stack: usize::MAX,
         }
@@ -152,13 +152,13 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     reserve.clear();
     *used = 1;
     let are_free = are_free(meeting.sides());
-    let (most_branches, most_blocks) = if are_free {
-        (FREE_BRANCHES, MOST_BLOCKS)
+    let (most_branches, most_leaves) = if are_free {
+        (FREE_BRANCHES, MOST_LEAVES)
     } else if *wanted == Wanted::All && updates.threads.are_many() {
         let for_threads = BRANCHES_A_THREAD * updates.threads.count();
-        (BRANCHES.max(for_threads), MOST_BLOCKS_SHARED)
+        (BRANCHES.max(for_threads), MOST_LEAVES_SHARED)
     } else {
-        (BRANCHES, MOST_BLOCKS)
+        (BRANCHES, MOST_LEAVES)
     };
     branches.resize_with(most_branches.max(branches.len()), Branch::default);
     branches[0].found.nodes.push([NodeId::ROOT; 2]);
@@ -168,7 +168,7 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
             deal(&mut branches[..*used], reserve, dealt);
         }
         let branches = &mut branches[..*used];
-        let mut stride = sizes.stride(most_blocks);
+        let mut stride = sizes.stride(most_leaves);
         if branches.len() == 1 {
             stride.stack = ENOUGH;
         }
@@ -193,7 +193,7 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
             if last || leaves >= stride.leaves * working.max(1) {
                 reach_leaves(updates, meeting, branches, reached, statistics);
                 while shown.is_continue() && !branches.iter().all(Branch::all_met) {
-                    meet_leaves(updates, meeting, branches, sizes.stride(most_blocks));
+                    meet_leaves(updates, meeting, branches, sizes.stride(most_leaves));
                     sizes.double_blocks();
                     shown = show_hits(branches, statistics, show);
                 }

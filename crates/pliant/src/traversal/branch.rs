@@ -42,7 +42,7 @@ pub(super) struct Stride {
     pub(super) nodes: usize,
     /// Pairs of leaves that are enough,
     pub(super) leaves: usize,
-    /// pairs of their blocks that are when they have met on the way,
+    /// pairs of their blocks that are when they have met,
     pub(super) met: usize,
     /// and pairs of nodes on the stack that are.
     pub(super) stack: usize,

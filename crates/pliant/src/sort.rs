@@ -3,11 +3,19 @@
 //! Triangle numbers are dense, so pairs of triangles differ in few bits: the numbers, less the smallest of each, side by side
 //! make one key, and two or three passes over digits of up to eleven bits put thousands of pairs in order without a
 //! comparison, for a tenth of the work of a comparison sort. The keys of few items are compared.
+//!
+//! Several threads sort a run each. Then some keys of every run, evenly spaced, say where to cut all runs, so that what lies between
+//! two cuts is about as much for each thread to merge (Shi and Schaeffer 1992, parallel sorting by regular sampling). Items of
+//! equal keys are equal: the result does not depend on the number of threads.
+
+use crate::exec::Threads;
 
 /// Below this, counting costs more than comparing.
 const FEW: usize = 192;
 /// Digits of at most so many bits: counts of all its values stay in the nearest cache.
 const DIGIT: u32 = 11;
+/// Items of a run, at least; fewer than two runs are not worth waking a thread.
+const RUN: usize = 1024;
 
 /// Scratch.
 #[derive(Debug, Default)]
@@ -17,59 +25,177 @@ pub(crate) struct Keys {
 }
 
 /// Sorts items that are `K` numbers, the first the most significant.
-pub(crate) fn sort_by_numbers<T: Copy, const K: usize>(
+pub(crate) fn sort_by_numbers<T: Copy + Send + Sync, const K: usize>(
+    threads: &Threads,
     items: &mut [T],
     Keys { keys, spare }: &mut Keys,
-    numbers: impl Fn(&T) -> [u32; K],
-    item: impl Fn([u32; K]) -> T,
+    numbers: impl Fn(&T) -> [u32; K] + Sync,
+    item: impl Fn([u32; K]) -> T + Sync,
 ) {
     if items.len() < 2 {
         return;
     }
-    let (mut least, mut most) = ([u32::MAX; K], [0; K]);
-    for item in &*items {
-        let numbers = numbers(item);
-        for k in 0..K {
-            least[k] = least[k].min(numbers[k]);
-            most[k] = most[k].max(numbers[k]);
-        }
-    }
-    let mut widths = [0; K];
-    for k in 0..K {
-        widths[k] = u32::BITS - (most[k] - least[k]).leading_zeros();
-    }
-    let bits = widths.iter().sum::<u32>();
-    if bits > u64::BITS || items.len() > u32::MAX as usize {
+    let packing = Packing::of(items.iter().map(&numbers));
+    if packing.bits() > u64::BITS || items.len() > u32::MAX as usize {
         items.sort_unstable_by_key(numbers);
         return;
     }
-    keys.clear();
-    keys.extend(items.iter().map(|item| {
-        let numbers = numbers(item);
-        (0..K).fold(0, |key: u64, k| {
-            key << widths[k] | u64::from(numbers[k] - least[k])
-        })
-    }));
-    if keys.len() < FEW {
-        keys.sort_unstable();
-    } else {
-        spare.resize(keys.len(), 0);
-        let passes = bits.div_ceil(DIGIT);
-        for pass in 0..passes {
-            // Equal digits, or nearly, rather than full ones and a rest.
-            let (low, high) = (bits * pass / passes, bits * (pass + 1) / passes);
-            distribute(keys, spare, low, high - low);
-            std::mem::swap(keys, spare);
+    keys.resize(items.len(), 0);
+    spare.resize(items.len(), 0);
+    let sort_run = |run: &mut Run<T>| {
+        let keys = run.items.iter().map(|item| packing.key(numbers(item)));
+        sort_keys(keys, run.keys, run.spare, packing.bits());
+    };
+    let unpack = |keys: &[u64], items: &mut [T]| {
+        for (place, &key) in items.iter_mut().zip(keys) {
+            *place = item(packing.numbers(key));
         }
+    };
+
+    let runs = threads.count().min(items.len() / RUN);
+    if runs < 2 {
+        sort_run(&mut Run { items, keys, spare });
+        unpack(keys, items);
+        return;
     }
-    for (place, &key) in items.iter_mut().zip(&*keys) {
-        let mut numbers = least;
+    let size = items.len().div_ceil(runs);
+    let each = items.chunks(size);
+    let scratch = keys.chunks_mut(size).zip(spare.chunks_mut(size));
+    let mut sorts: Vec<_> = each
+        .zip(scratch)
+        .map(|(items, (keys, spare))| Run { items, keys, spare })
+        .collect();
+    threads.run(&mut sorts, |_, run| sort_run(run));
+    let mut merges = cut(keys.chunks(size).collect(), spare, items);
+    threads.run(&mut merges, |_, merge| {
+        merge.put_in_order();
+        unpack(merge.keys, merge.items);
+    });
+}
+
+/// Items that one thread sorts: their keys will be in order.
+struct Run<'k, T> {
+    items: &'k [T],
+    keys: &'k mut [u64],
+    spare: &'k mut [u64],
+}
+
+/// The same range of keys of all runs, where they will be in order, and the items that they will be.
+struct Merge<'k, T> {
+    of_runs: Vec<&'k [u64]>,
+    keys: &'k mut [u64],
+    items: &'k mut [T],
+}
+
+/// Cuts runs of keys that are in order into as many ranges.
+fn cut<'k, T>(
+    mut runs: Vec<&'k [u64]>,
+    mut keys: &'k mut [u64],
+    mut items: &'k mut [T],
+) -> Vec<Merge<'k, T>> {
+    let count = runs.len();
+    let sample = |sample: usize| runs.iter().map(move |run| run[run.len() * sample / count]);
+    let mut samples: Vec<u64> = (1..count).flat_map(sample).collect();
+    samples.sort_unstable();
+    let merge = |range: usize| {
+        let end = samples.get((range + 1) * (count - 1));
+        let cut = |run: &mut &'k [u64]| {
+            let len = end.map_or(run.len(), |end| run.partition_point(|key| key < end));
+            run.split_off(..len).unwrap_or_default()
+        };
+        let of_runs: Vec<_> = runs.iter_mut().map(cut).collect();
+        let len = of_runs.iter().map(|run| run.len()).sum();
+        Merge {
+            of_runs,
+            keys: keys.split_off_mut(..len).unwrap_or_default(),
+            items: items.split_off_mut(..len).unwrap_or_default(),
+        }
+    };
+    (0..count).map(merge).collect()
+}
+
+impl<T> Merge<'_, T> {
+    fn put_in_order(&mut self) {
+        let mut rest = &mut *self.keys;
+        for run in &self.of_runs {
+            let (place, after) = rest.split_at_mut(run.len());
+            place.copy_from_slice(run);
+            rest = after;
+        }
+        // It finds the runs and merges them.
+        self.keys.sort();
+    }
+}
+
+/// How `K` numbers make one key.
+#[derive(Clone, Copy)]
+struct Packing<const K: usize> {
+    least: [u32; K],
+    widths: [u32; K],
+}
+
+impl<const K: usize> Packing<K> {
+    /// For all of these.
+    fn of(all: impl Iterator<Item = [u32; K]>) -> Self {
+        let (mut least, mut most) = ([u32::MAX; K], [0; K]);
+        for numbers in all {
+            for k in 0..K {
+                least[k] = least[k].min(numbers[k]);
+                most[k] = most[k].max(numbers[k]);
+            }
+        }
+        let mut widths = [0; K];
+        for k in 0..K {
+            widths[k] = u32::BITS - (most[k] - least[k]).leading_zeros();
+        }
+        Self { least, widths }
+    }
+
+    fn bits(&self) -> u32 {
+        self.widths.iter().sum()
+    }
+
+    fn key(&self, numbers: [u32; K]) -> u64 {
+        (0..K).fold(0, |key: u64, k| {
+            key << self.widths[k] | u64::from(numbers[k] - self.least[k])
+        })
+    }
+
+    fn numbers(&self, key: u64) -> [u32; K] {
+        let mut numbers = self.least;
         let mut rest = key;
         for k in (0..K).rev() {
-            numbers[k] += (rest & ((1 << widths[k]) - 1)) as u32;
-            rest >>= widths[k];
+            numbers[k] += (rest & ((1 << self.widths[k]) - 1)) as u32;
+            rest >>= self.widths[k];
         }
-        *place = item(numbers);
+        numbers
+    }
+}
+
+/// Puts keys of some bits into `sorted`, in order; the slices are as long as there are keys.
+fn sort_keys(keys: impl Iterator<Item = u64>, sorted: &mut [u64], spare: &mut [u64], bits: u32) {
+    let passes = if sorted.len() < FEW {
+        0
+    } else {
+        bits.div_ceil(DIGIT)
+    };
+    // Every pass goes from one to the other, the last to `sorted`.
+    let (mut from, mut to) = if passes % 2 == 0 {
+        (sorted, spare)
+    } else {
+        (spare, sorted)
+    };
+    for (place, key) in from.iter_mut().zip(keys) {
+        *place = key;
+    }
+    if passes == 0 {
+        from.sort_unstable();
+    }
+    for pass in 0..passes {
+        // Equal digits, or nearly, rather than full ones and a rest.
+        let (low, high) = (bits * pass / passes, bits * (pass + 1) / passes);
+        distribute(from, to, low, high - low);
+        std::mem::swap(&mut from, &mut to);
     }
 }
 
@@ -96,6 +222,7 @@ fn distribute(from: &[u64], to: &mut [u64], low: u32, width: u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::num::NonZeroUsize;
 
     #[test]
     fn any_numbers_in_any_number() {
@@ -121,13 +248,21 @@ mod tests {
             (4000, 1, 32),
             (70_000, 16, 17),
         ] {
-            let mut items: Vec<[u32; 2]> = (0..count)
+            let items: Vec<[u32; 2]> = (0..count)
                 .map(|_| [next(first_bits), next(second_bits)])
                 .collect();
             let mut expected = items.clone();
             expected.sort_unstable();
-            sort_by_numbers(&mut items, &mut keys, |&pair| pair, |pair| pair);
-            assert!(items == expected, "{count} {first_bits} {second_bits}");
+            for threads in [1, 2, 7] {
+                let threads = Threads::new(NonZeroUsize::new(threads).unwrap());
+                let mut items = items.clone();
+                sort_by_numbers(&threads, &mut items, &mut keys, |&pair| pair, |pair| pair);
+                let threads = threads.count();
+                assert!(
+                    items == expected,
+                    "{count} {first_bits} {second_bits} {threads}"
+                );
+            }
         }
     }
 }

@@ -44,6 +44,7 @@ impl<S: Scalar> World<S> {
         for of_one_body in pairs.chunk_by_mut(|p, q| p.body_a == q.body_a) {
             let body_a = of_one_body[0].body_a;
             sort_by_numbers(
+                &self.threads,
                 of_one_body,
                 &mut self.keys,
                 |pair| [pair.triangle_a, pair.body_b.0, pair.triangle_b],
@@ -467,7 +468,13 @@ impl<S: Scalar> World<S> {
             pairs.extend_from_slice(found);
             ControlFlow::Continue(())
         });
-        sort_by_numbers(&mut pairs, &mut self.keys, |&pair| pair, |pair| pair);
+        sort_by_numbers(
+            &self.threads,
+            &mut pairs,
+            &mut self.keys,
+            |&pair| pair,
+            |pair| pair,
+        );
         self.pairs_of_bodies = pairs;
         &self.pairs_of_bodies
     }

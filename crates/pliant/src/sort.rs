@@ -94,8 +94,8 @@ fn cut<'k, T>(
     mut items: &'k mut [T],
 ) -> Vec<Merge<'k, T>> {
     let count = runs.len();
-    let sample = |sample: usize| runs.iter().map(move |run| run[run.len() * sample / count]);
-    let mut samples: Vec<u64> = (1..count).flat_map(sample).collect();
+    let keys_at = |part: usize| runs.iter().map(move |run| run[run.len() * part / count]);
+    let mut samples: Vec<u64> = (1..count).flat_map(keys_at).collect();
     samples.sort_unstable();
     let merge = |range: usize| {
         let end = samples.get((range + 1) * (count - 1));
@@ -115,6 +115,11 @@ fn cut<'k, T>(
 }
 
 impl<T> Merge<'_, T> {
+    /// Puts its keys in order.
+    #[expect(
+        clippy::stable_sort_primitive,
+        reason = "the stable sort finds runs that are in order and merges them"
+    )]
     fn put_in_order(&mut self) {
         let mut rest = &mut *self.keys;
         for run in &self.of_runs {
@@ -122,7 +127,6 @@ impl<T> Merge<'_, T> {
             place.copy_from_slice(run);
             rest = after;
         }
-        // It finds the runs and merges them.
         self.keys.sort();
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Work is cut into jobs by its size, never by the number of threads; every job writes what is its own, and what the jobs have
 //! found is put together in their order. So answers, their order and all counters are the same for any number of threads. Only
-//! jobs whose result depends on no order may be cut as the threads are: those of `apart`, and branches of a descent of which all
-//! pairs are wanted, which are then sorted.
+//! jobs whose result depends on no order may be cut as the threads are: those of `apart`, branches of a descent of which all
+//! pairs are wanted, which are then sorted, and runs of what is sorted.
 //!
 //! A step is some dozens of such parts, each shorter than it takes to wake a thread. So threads that were woken stay awake from one
 //! part to the next, and a little longer. Each begins with jobs of its own, side by side, and helps others when these are done:

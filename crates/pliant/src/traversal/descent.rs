@@ -2,6 +2,7 @@
 
 use super::Side;
 use super::branch::{Branch, Stride, are_free};
+use crate::exec::Threads;
 use crate::geometry::{Scalar, Shape};
 use crate::kernels::bits::Batch;
 use crate::pairs::{Candidate, NodePair};
@@ -152,14 +153,7 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
     reserve.clear();
     *used = 1;
     let are_free = are_free(meeting.sides());
-    let (most_branches, most_leaves) = if are_free {
-        (FREE_BRANCHES, MOST_LEAVES)
-    } else if *wanted == Wanted::All && updates.threads.are_many() {
-        let for_threads = BRANCHES_A_THREAD * updates.threads.count();
-        (BRANCHES.max(for_threads), MOST_LEAVES_SHARED)
-    } else {
-        (BRANCHES, MOST_LEAVES)
-    };
+    let (most_branches, most_leaves) = shares(are_free, *wanted, updates.threads);
     branches.resize_with(most_branches.max(branches.len()), Branch::default);
     branches[0].found.nodes.push([NodeId::ROOT; 2]);
     loop {
@@ -207,6 +201,18 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
         if last {
             return ControlFlow::Continue(());
         }
+    }
+}
+
+/// How many branches a query is dealt to, and how many pairs of leaves of one are enough to let them meet.
+fn shares(are_free: bool, wanted: Wanted, threads: &Threads) -> (usize, usize) {
+    if are_free {
+        (FREE_BRANCHES, MOST_LEAVES)
+    } else if wanted == Wanted::All && threads.are_many() {
+        let for_threads = BRANCHES_A_THREAD * threads.count();
+        (BRANCHES.max(for_threads), MOST_LEAVES_SHARED)
+    } else {
+        (BRANCHES, MOST_LEAVES)
     }
 }
 

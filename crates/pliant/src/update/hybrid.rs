@@ -4,6 +4,7 @@
 //! then merged from their children's and never made from vertices. What it is going to reach is about what it reached last time;
 //! in a body that meets itself it is all, because every leaf meets at least itself. The paper's level n / 2 is for all other cases.
 
+use super::Meets;
 use super::bottom_up::make_levels_true;
 use super::make::Work;
 use crate::Update;
@@ -24,12 +25,12 @@ fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {
     }
 }
 
-/// Makes the upper levels true, unless they are; for a query of a body with `itself`, or of two.
+/// Makes the upper levels true, unless they are.
 pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
     work: Work<'_, '_, S>,
     tree: &mut Tree<N>,
     update: Update,
-    itself: bool,
+    meets: Meets,
     groups: &mut Vec<u32>,
     statistics: &mut Statistics,
 ) {
@@ -38,7 +39,7 @@ pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
         return;
     }
     let reached = tree.leaves.take_reached();
-    let much = itself || reached * MUCH >= tree.leaves.len();
+    let much = meets == Meets::Itself || reached * MUCH >= tree.leaves.len();
     let levels = level_ahead(update, tree.depth, much) + 1;
     let boxes = make_levels_true(work, tree, 0, levels, groups);
     if levels > tree.depth {

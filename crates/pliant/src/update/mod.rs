@@ -29,6 +29,14 @@ use crate::tree::Tree;
 use make::Work;
 pub(crate) use noted::Noted;
 
+/// What a body meets in a query: of how much of its tree boxes are made ahead depends on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Meets {
+    Another,
+    /// Then every leaf meets at least itself.
+    Itself,
+}
+
 /// What updates work with.
 #[derive(Clone, Copy)]
 pub(crate) struct Updates<'w> {
@@ -38,12 +46,12 @@ pub(crate) struct Updates<'w> {
 }
 
 impl Updates<'_> {
-    /// Makes the upper levels true, unless they are, for a query of a body with `itself` or of two. `groups` is scratch.
+    /// Makes the upper levels true, unless they are. `groups` is scratch.
     pub(crate) fn refresh_ahead<const N: usize, S: Scalar>(
         &self,
         tree: &mut Tree<N>,
         shape: &Shape<S>,
-        itself: bool,
+        meets: Meets,
         groups: &mut Vec<u32>,
         statistics: &mut Statistics,
     ) {
@@ -51,7 +59,7 @@ impl Updates<'_> {
             self.work(shape),
             tree,
             self.update,
-            itself,
+            meets,
             groups,
             statistics,
         );

@@ -14,6 +14,7 @@ use crate::pairs::{BodyPair, Pair};
 use crate::sort::sort_by_numbers;
 use crate::statistics::Statistics;
 use crate::traversal::{Show, Wanted};
+use crate::update::Meets;
 use std::ops::ControlFlow;
 
 /// The whole world: every two bodies that filters let meet, not a body with itself.
@@ -382,7 +383,7 @@ impl<S: Scalar> World<S> {
         let (mut step, bodies, forest) = self.step();
         with_trees!(forest, trees => {
             for &place in places {
-                step.refresh_ahead(&mut Planted::at(bodies, trees, place), false);
+                step.refresh_ahead(&mut Planted::at(bodies, trees, place), Meets::Another);
             }
         });
         self.done_early = std::mem::replace(&mut self.statistics, before);

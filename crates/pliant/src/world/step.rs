@@ -9,7 +9,7 @@ use crate::options::Update;
 use crate::statistics::Statistics;
 use crate::traversal::{OneTree, Scratch, Show, Side, TwoTrees, descend};
 use crate::tree::Tree;
-use crate::update::Updates;
+use crate::update::{Meets, Updates};
 use std::ops::ControlFlow;
 
 /// What a query needs besides bodies and their trees.
@@ -79,17 +79,17 @@ impl<'w> Step<'w> {
         }
     }
 
-    /// Makes the upper levels of a tree true for this frame, for a query of a body with `itself` or of two.
+    /// Makes the upper levels of a tree true for this frame.
     pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
         &mut self,
         Planted { body, tree }: &mut Planted<N, S>,
-        itself: bool,
+        meets: Meets,
     ) {
         body.bring_into_order(self.level, self.threads);
         let shape = body.shape(self.origin);
         let updates = self.updates();
         let groups = &mut self.scratch.groups[0];
-        updates.refresh_ahead(tree, &shape, itself, groups, self.statistics);
+        updates.refresh_ahead(tree, &shape, meets, groups, self.statistics);
     }
 
     /// Two different bodies; shown are (triangle of the first, triangle of the second).
@@ -104,7 +104,7 @@ impl<'w> Step<'w> {
         }
         self.statistics.body_pairs += 1;
         both.iter_mut()
-            .for_each(|one| self.refresh_ahead(one, false));
+            .for_each(|one| self.refresh_ahead(one, Meets::Another));
         let [a, b] = both.map(|one| one.side(self.origin));
         let meeting = &mut TwoTrees { a, b };
         descend(self.updates(), meeting, self.scratch, self.statistics, show)
@@ -117,7 +117,7 @@ impl<'w> Step<'w> {
         show: Show,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
-        self.refresh_ahead(&mut one, true);
+        self.refresh_ahead(&mut one, Meets::Itself);
         let side = one.side(self.origin);
         side.tree.know_neighbours(side.mesh);
         let updates = self.updates();

@@ -5,8 +5,10 @@ use pliant_scenes::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
 
-/// What a visitor saw in order, the first pair, and what it took; of bodies with each other and with themselves.
-type Seen = (Vec<Pair>, Vec<[u32; 2]>, Option<Pair>, Vec<Statistics>);
+/// What a visitor saw in order, of bodies with each other and of one with itself.
+type Visited = (Vec<Pair>, Vec<[u32; 2]>);
+/// That, all pairs of either kind, the first pair, and what each took.
+type Seen = (Visited, Visited, Option<Pair>, Vec<Statistics>);
 
 fn play(scene: &Scene, steps: &[u32], mut options: Options, threads: usize) -> Vec<Seen> {
     options.threads = NonZeroUsize::new(threads).unwrap();
@@ -17,8 +19,15 @@ fn play(scene: &Scene, steps: &[u32], mut options: Options, threads: usize) -> V
         scene.positions(body, 1, &mut positions);
         bodies.push(world.add(scene.triangles(body), &positions).unwrap());
     }
-    let see = |world: &mut World<f32>| {
+    let mut move_to = |world: &mut World<f32>, step: u32| {
+        for (body, &id) in bodies.iter().enumerate() {
+            scene.positions(body, step, &mut positions);
+            world.set_positions(id, &positions).unwrap();
+        }
+    };
+    let mut see = |world: &mut World<f32>, step: u32| {
         let mut statistics = Vec::new();
+        move_to(world, step);
         let (mut between, mut itself) = (Vec::new(), Vec::new());
         let _ = world.visit_intersections(|pair| {
             between.push(pair);
@@ -32,18 +41,15 @@ fn play(scene: &Scene, steps: &[u32], mut options: Options, threads: usize) -> V
         statistics.push(*world.statistics());
         let first = world.first_intersection();
         statistics.push(*world.statistics());
-        (between, itself, first, statistics)
+        // No box is true any more.
+        move_to(world, step);
+        let all = world.intersection_pairs().to_vec();
+        statistics.push(*world.statistics());
+        let all_of_itself = world.self_intersection_pairs(bodies[0]).unwrap().to_vec();
+        statistics.push(*world.statistics());
+        ((between, itself), (all, all_of_itself), first, statistics)
     };
-    steps
-        .iter()
-        .map(|&step| {
-            for (body, &id) in bodies.iter().enumerate() {
-                scene.positions(body, step, &mut positions);
-                world.set_positions(id, &positions).unwrap();
-            }
-            see(&mut world)
-        })
-        .collect()
+    steps.iter().map(|&step| see(&mut world, step)).collect()
 }
 
 /// Different trees and updates.
@@ -67,7 +73,7 @@ fn pairs_order_and_counters_do_not_depend_on_threads() {
         let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
         for options in all_options() {
             let alone = play(&scene, &steps, options, 1);
-            let pairs = alone.iter().map(|seen| seen.0.len() + seen.1.len());
+            let pairs = alone.iter().map(|seen| seen.1.0.len() + seen.1.1.len());
             assert!(pairs.sum::<usize>() > 100, "{name} has contacts");
             for threads in [2, 3, 7] {
                 assert!(

@@ -62,6 +62,11 @@ impl<T: Copy + Default> Batch<T> {
         self.len
     }
 
+    /// Keeps the first `len` items, or all there are.
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.len = self.len.min(len);
+    }
+
     /// Takes the last `count` items, or all there are, and puts them into `taken` in their order.
     pub(crate) fn take_last(&mut self, count: usize, taken: &mut Vec<T>) {
         let rest = self.len.saturating_sub(count);

@@ -186,6 +186,10 @@ pub(crate) fn descend<const N: usize, M: Meeting<N>>(
             let leaves = branches.iter().map(leaves).sum::<usize>();
             if last || leaves >= stride.leaves * working.max(1) {
                 reach_leaves(updates, meeting, branches, reached, statistics);
+                if *wanted == Wanted::All && updates.threads.are_many() {
+                    // The same are found in any order.
+                    even_out(branches);
+                }
                 while shown.is_continue() && !branches.iter().all(Branch::all_met) {
                     meet_leaves(updates, meeting, branches, sizes.stride(most_leaves));
                     sizes.double_blocks();
@@ -236,6 +240,24 @@ fn deal(branches: &mut [Branch], reserve: &mut Batch<NodePair>, dealt: &mut Vec<
     let each = dealt.len().div_ceil(branches.len());
     for (branch, pairs) in branches.iter_mut().zip(dealt.chunks(each)) {
         branch.found.nodes.extend(pairs);
+    }
+}
+
+/// Gives branches that have found few pairs of leaves some of those of others that have found many.
+fn even_out(branches: &mut [Branch]) {
+    let leaves = |branch: &Branch| branch.found.leaves.len();
+    let all: usize = branches.iter().map(leaves).sum();
+    let each = all.div_ceil(branches.len());
+    let mut more = Vec::new();
+    for branch in &mut *branches {
+        let leaves = &mut branch.found.leaves;
+        more.extend_from_slice(leaves.as_slice().get(each..).unwrap_or_default());
+        leaves.truncate(each);
+    }
+    for branch in branches {
+        let rest = more.len().saturating_sub(each - leaves(branch));
+        branch.found.leaves.extend(&more[rest..]);
+        more.truncate(rest);
     }
 }
 

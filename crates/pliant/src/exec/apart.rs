@@ -1,6 +1,7 @@
 //! Jobs that need things, no thing in two jobs at once.
 //!
-//! Which thread does a job, and when, is left open; so jobs are for work whose result does not depend on its order.
+//! Which thread does a job, and when, is left open; so jobs are for work whose result does not depend on its order. Each thread begins
+//! with jobs side by side, whose things it is likely to need again, and then takes what is left of others' from the back.
 
 use super::{Patience, Threads, locked};
 use std::sync::Mutex;
@@ -21,10 +22,10 @@ impl Threads {
     ) {
         let apart = Mutex::new(Apart {
             is_taken: vec![false; jobs.len()],
-            first: 0,
+            passed: vec![0; workers.len()],
             is_busy: vec![false; things],
         });
-        self.run(workers, |_, worker| {
+        self.run(workers, |number, worker| {
             let mut busy = Busy {
                 apart: &apart,
                 things: &[],
@@ -34,7 +35,7 @@ impl Threads {
                 let next = {
                     let mut apart = locked(&apart);
                     apart.set_busy(std::mem::take(&mut busy.things), false);
-                    apart.take(jobs, &things_of)
+                    apart.take(number, jobs, &things_of)
                 };
                 match next {
                     Next::Job(job) => {
@@ -55,8 +56,8 @@ impl Threads {
 /// Which jobs are taken, and which things are in one that is not done.
 struct Apart {
     is_taken: Vec<bool>,
-    /// Before it, all are taken.
-    first: usize,
+    /// How many jobs, in an order of its own, every worker has passed because they are taken.
+    passed: Vec<usize>,
     is_busy: Vec<bool>,
 }
 
@@ -68,26 +69,38 @@ enum Next<'j, J> {
 }
 
 impl Apart {
-    /// The next job whose things are not busy; they are then.
+    /// The next job of a worker whose things are not busy; they are then.
     fn take<'j, 't, J>(
         &mut self,
+        worker: usize,
         jobs: &'j [J],
         things_of: &impl Fn(&J) -> &'t [usize],
     ) -> Next<'j, J> {
-        while self.first < jobs.len() && self.is_taken[self.first] {
-            self.first += 1;
+        // Those of its own, and then, backwards, all before them and all behind.
+        let [first, end] = [worker, worker + 1].map(|at| at * jobs.len() / self.passed.len());
+        let own = end - first;
+        let job_at = |passed: usize| {
+            if passed < own {
+                first + passed
+            } else {
+                (first + jobs.len() - 1 - (passed - own)) % jobs.len()
+            }
+        };
+        let passed = &mut self.passed[worker];
+        while *passed < jobs.len() && self.is_taken[job_at(*passed)] {
+            *passed += 1;
         }
-        if self.first == jobs.len() {
+        if *passed == jobs.len() {
             return Next::Nothing;
         }
-        let last = jobs.len().min(self.first + LOOKED_AT);
+        let next = *passed..jobs.len().min(*passed + LOOKED_AT);
         let is_free = |&job: &usize| {
             !self.is_taken[job]
                 && things_of(&jobs[job])
                     .iter()
                     .all(|&thing| !self.is_busy[thing])
         };
-        let Some(job) = (self.first..last).find(is_free) else {
+        let Some(job) = next.map(job_at).find(is_free) else {
             return Next::Later;
         };
         self.is_taken[job] = true;

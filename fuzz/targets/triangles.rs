@@ -2,7 +2,7 @@
 #![no_main]
 
 use arbitrary::Arbitrary;
-use pliant::{Scalar, World, reference};
+use pliant::{Scalar, Selection, World, reference};
 use pliant_fuzz::places::Grid;
 use pliant_oracle::intersect;
 
@@ -89,8 +89,14 @@ fn check<S: Scalar>(corners: [[S; 3]; 6]) {
         reference::intersection_pairs(&ONE, b, &ONE, a).as_ref(),
         Ok(&pairs)
     );
-    assert_eq!(world.intersection_pairs_between(one, other), Ok(&pairs[..]));
-    assert_eq!(world.intersection_pairs_between(other, one), Ok(&pairs[..]));
+    assert_eq!(triangles(&mut world, Selection::Between(one, other)), pairs);
+    assert_eq!(triangles(&mut world, Selection::Between(other, one)), pairs);
     let own = if expected { vec![[0, 1]] } else { vec![] };
-    assert_eq!(world.self_intersection_pairs(both), Ok(&own[..]));
+    assert_eq!(triangles(&mut world, Selection::Within(both)), own);
+}
+
+/// All pairs, without their bodies.
+fn triangles<S: Scalar>(world: &mut World<S>, of: Selection) -> Vec<[u32; 2]> {
+    let pairs = world.intersections(of).all().expect("the bodies are there");
+    pairs.iter().map(pliant::Pair::triangles).collect()
 }

@@ -7,7 +7,8 @@ use std::ops::ControlFlow;
 
 use arbitrary::Arbitrary;
 use pliant::{
-    BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Update, World, reference,
+    BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Selection, Update, World,
+    reference,
 };
 use pliant_fuzz::places::Grid;
 
@@ -121,7 +122,7 @@ struct Known<S> {
     loose: Option<([S; 3], [S; 3])>,
 }
 
-struct Lived<S> {
+struct Lived<S: Scalar> {
     world: World<S>,
     known: Vec<Known<S>>,
     removed: Vec<BodyId>,
@@ -293,10 +294,11 @@ impl<S: Scalar> Lived<S> {
                 } else {
                     self.world.unignore(pair[0], pair[1])
                 };
-                assert_eq!(done.is_ok(), a != b);
+                // A body with itself, perhaps.
+                done.expect("both are there");
                 self.ignored
                     .retain(|&[a, b]| [a, b] != pair && [b, a] != pair);
-                self.ignored.extend((ignore && a != b).then_some(pair));
+                self.ignored.extend(ignore.then_some(pair));
             }
             Call::Loose(number, corners) => {
                 let Some(body) = self.body(number) else {
@@ -384,36 +386,69 @@ impl<S: Scalar> Lived<S> {
                     assert!(self.world.rebuild(id).is_err());
                     assert!(self.world.set_filter(id, 1, 1).is_err());
                     assert!(self.world.set_loose_box(id, None).is_err());
-                    assert!(self.world.update_body(id).is_err());
-                    assert!(self.world.self_intersection_pairs(id).is_err());
-                    assert!(self.world.first_self_intersection(id).is_err());
+                    assert!(
+                        self.world
+                            .intersections(Selection::Within(id))
+                            .prepare()
+                            .is_err()
+                    );
+                    assert!(
+                        self.world
+                            .intersections(Selection::Within(id))
+                            .all()
+                            .is_err()
+                    );
+                    assert!(
+                        self.world
+                            .intersections(Selection::Within(id))
+                            .first()
+                            .is_err()
+                    );
                     for other in self.known.iter().map(|body| body.id).chain([id]) {
                         assert!(self.world.ignore(id, other).is_err());
                         assert!(self.world.unignore(other, id).is_err());
-                        assert!(self.world.intersection_pairs_between(other, id).is_err());
-                        assert!(self.world.first_intersection_between(id, other).is_err());
+                        assert!(
+                            self.world
+                                .intersections(Selection::Between(other, id))
+                                .all()
+                                .is_err()
+                        );
+                        assert!(
+                            self.world
+                                .intersections(Selection::Between(id, other))
+                                .first()
+                                .is_err()
+                        );
                     }
                 }
             }
-            Call::Update => self.world.update(),
+            Call::Update => self
+                .world
+                .intersections(Selection::World)
+                .prepare()
+                .unwrap(),
             Call::UpdateBody(number) => {
                 let Some(body) = self.body(number) else {
                     return;
                 };
                 self.world
-                    .update_body(self.known[body].id)
+                    .intersections(Selection::Within(self.known[body].id))
+                    .prepare()
                     .expect("the body is there");
             }
             Call::All => self.all(),
             Call::First => {
-                let (first, expected) = (self.world.first_intersection(), self.expected());
+                let (first, expected) = (
+                    self.world.intersections(Selection::World).first().unwrap(),
+                    self.expected(),
+                );
                 assert_eq!(first.is_some(), !expected.is_empty());
                 assert!(first.is_none_or(|pair| expected.contains(&pair)));
             }
             Call::Visit(budget) => {
                 let (mut seen, budget, expected) =
                     (Vec::new(), usize::from(budget) + 1, self.expected());
-                let flow = self.world.visit_intersections(|pair| {
+                let flow = self.world.intersections(Selection::World).visit(|pair| {
                     seen.push(pair);
                     if seen.len() == budget {
                         ControlFlow::Break(())
@@ -421,7 +456,10 @@ impl<S: Scalar> Lived<S> {
                         ControlFlow::Continue(())
                     }
                 });
-                assert_eq!(flow.is_break(), expected.len() >= budget);
+                assert_eq!(
+                    flow.expect("nothing interrupts it").is_break(),
+                    expected.len() >= budget
+                );
                 assert_eq!(seen.len(), expected.len().min(budget));
                 seen.sort_unstable();
                 seen.dedup();
@@ -449,39 +487,62 @@ impl<S: Scalar> Lived<S> {
 
     fn all(&mut self) {
         let expected = self.expected();
-        assert_eq!(self.world.intersection_pairs(), expected);
+        assert_eq!(
+            self.world.intersections(Selection::World).all().unwrap(),
+            expected
+        );
         assert_eq!(self.world.statistics().pairs, expected.len() as u64);
+        // The same, and each body that meets itself.
+        let mut everything = expected;
+        for known in &self.known {
+            let meets_itself =
+                known.membership & known.mask != 0 && !self.ignored.contains(&[known.id; 2]);
+            if meets_itself {
+                let within = self.world.intersections(Selection::Within(known.id)).all();
+                everything.extend_from_slice(within.expect("the body is there"));
+            }
+        }
+        everything.sort_unstable();
+        let found = self.world.intersections(Selection::Everything).all();
+        assert_eq!(found.expect("nothing interrupts it"), everything);
     }
 
     fn between(&mut self, a: usize, b: usize) {
         let (one, other) = (&self.known[a], &self.known[b]);
-        let answer = self.world.intersection_pairs_between(one.id, other.id);
+        let answer = self
+            .world
+            .intersections(Selection::Between(one.id, other.id))
+            .all();
         if a == b {
             assert!(answer.is_err());
             return;
         }
         let expected = pairs(one, other);
-        assert_eq!(answer.expect("both are there"), expected);
+        let found = answer.expect("both are there").iter();
+        assert!(found.map(Pair::triangles).eq(expected.iter().copied()));
         let first = self
             .world
-            .first_intersection_between(other.id, one.id)
+            .intersections(Selection::Between(other.id, one.id))
+            .first()
             .expect("both are there");
         assert_eq!(first.is_some(), !expected.is_empty());
-        assert!(first.is_none_or(|[of_other, of_one]| expected.contains(&[of_one, of_other])));
+        assert!(first.is_none_or(|pair| expected.contains(&[pair.triangle_b, pair.triangle_a])));
     }
 
     fn itself(&mut self, body: usize) {
         let known = &self.known[body];
         let expected = reference::self_intersection_pairs(&known.triangles, &known.positions)
             .expect("the body was taken");
-        let answer = self.world.self_intersection_pairs(known.id);
-        assert_eq!(answer.expect("the body is there"), expected);
+        let answer = self.world.intersections(Selection::Within(known.id)).all();
+        let found = answer.expect("the body is there").iter();
+        assert!(found.map(Pair::triangles).eq(expected.iter().copied()));
         let first = self
             .world
-            .first_self_intersection(known.id)
+            .intersections(Selection::Within(known.id))
+            .first()
             .expect("the body is there");
         assert_eq!(first.is_some(), !expected.is_empty());
-        assert!(first.is_none_or(|pair| expected.contains(&pair)));
+        assert!(first.is_none_or(|pair| expected.contains(&pair.triangles())));
     }
 
     /// The pairs of the whole world, by the reference.

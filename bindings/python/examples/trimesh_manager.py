@@ -76,9 +76,9 @@ class CollisionManager:
     def in_collision_internal(self, return_names: bool = False, return_data: bool = False) -> Any:
         """Whether any two objects intersect; with the pairs of names, and all contacts, if asked for."""
         if not return_names and not return_data:
-            return self._world.first_intersection() is not None
-        pairs = self._world.intersection_pairs().tolist()
-        contacts = [Contact((self._names[a], self._names[b]), (i, j)) for a, i, b, j in pairs]
+            return self._world.intersections().first() is not None
+        hits = self._world.intersections().all().tolist()
+        contacts = [Contact((self._names[a], self._names[b]), (i, j)) for a, i, b, j in hits]
         names = {(min(contact.names), max(contact.names)) for contact in contacts}
         return answer(contacts, names, return_names, return_data)
 
@@ -92,7 +92,7 @@ class CollisionManager:
             Contact((name, EXTERNAL), (i, j))
             for name, body in self._bodies.items()
             if body != single
-            for i, j in self._world.intersection_pairs_between(body, single).tolist()
+            for _, i, _, j in self._world.intersections(pliant.Selection.between(body, single)).all().tolist()
         ]
         self.remove_object(EXTERNAL)
         return answer(contacts, {contact.names[0] for contact in contacts}, return_names, return_data)

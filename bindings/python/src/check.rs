@@ -1,7 +1,7 @@
 //! Files, frame by frame: what `pliant check --format json` says, as an iterator of frames. The loop is the program's.
 
 use crate::arrays;
-use crate::error::{Fact, Refused, alone_with, named_tuple};
+use crate::error::{Fact, Refused, after_checking, alone_with, named_tuple};
 use crate::options::with_threads;
 use numpy::IntoPyArray;
 use pliant_check::{Error, Found, Frames, Group, Settings, Split};
@@ -222,7 +222,8 @@ fn facts<'py>(py: Python<'py>, check: &pliant_check::Check) -> PyResult<Bound<'p
 impl From<Error> for Refused {
     fn from(error: Error) -> Self {
         let message = error.to_string();
-        match error {
+        let advice = after_checking(&error);
+        let refused = match error {
             Error::Read(error) => error.into(),
             Error::Refused {
                 source_name,
@@ -241,6 +242,7 @@ impl From<Error> for Refused {
                 .with("limit", most)
                 .with("frame", frame),
             _ => Self::new("BadOption", message),
-        }
+        };
+        refused.advising(advice)
     }
 }

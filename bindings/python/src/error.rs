@@ -1,8 +1,10 @@
-//! Every refusal as a `pliant.Error`, with the facts that the Rust error has, as attributes.
+//! Every refusal as a `pliant.Error`, with the facts that the Rust error has, as attributes, and behind its message the keyword of
+//! Python that helps, where there is one.
 //!
 //! The class itself is Python's, in `_types.py`: there it is a few lines, and can be pickled.
 
 use pliant::{BodyId, ErrorKind};
+use pliant_io::Reason;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
 use std::fmt::{Debug, Display};
@@ -17,7 +19,7 @@ pub(crate) enum Refused {
         message: String,
         facts: Vec<(&'static str, Fact)>,
     },
-    /// What a visitor, or an object that was to be an array, raised.
+    /// What a visitor, a signal handler, or an object that was to be an array, raised.
     Python(PyErr),
 }
 
@@ -67,6 +69,15 @@ impl Refused {
         self
     }
 
+    /// With what to do, where there is something.
+    pub(crate) fn advising(mut self, advice: Option<&str>) -> Self {
+        if let (Self::Error { message, .. }, Some(advice)) = (&mut self, advice) {
+            message.push_str("; ");
+            message.push_str(advice);
+        }
+        self
+    }
+
     /// About an array that was given for a body, or for a new one.
     pub(crate) fn of_body(self, body: Option<BodyId>) -> Self {
         match body {
@@ -112,15 +123,43 @@ impl From<pliant::Error> for Refused {
             ErrorKind::NeedsSubnormals { vertex } | ErrorKind::NotWritten { vertex } => {
                 refused.with("vertex", vertex)
             }
+            ErrorKind::TooManyHits { limit } => refused.with("limit", limit),
             // The kind, and the body, say it all.
             _ => refused,
         }
     }
 }
 
+/// What to do about a file that `pliant.check` cannot read, in Python's words; the message says only what is wrong.
+fn after_reading(reason: &Reason) -> Option<&'static str> {
+    match reason {
+        // Python has no say in how much memory a frame may take.
+        Reason::TooLarge { .. } => Some("split the mesh"),
+        Reason::SeamsTooLarge { .. } => Some("split the mesh, or give weld=False"),
+        Reason::SeamOpened { .. } => Some("give weld=False"),
+        Reason::BadRate { .. } => Some("give another fps="),
+        Reason::ClipTooLong { .. } => Some("ask for fewer with fps="),
+        Reason::MeshMoves { .. } => Some("write one frame of it to a file, and name that"),
+        Reason::NoClip { .. } => Some("choose one of these with clip="),
+        _ => None,
+    }
+}
+
+/// What to do about a check that cannot begin or go on, in Python's words.
+pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str> {
+    use pliant_check::Error;
+    match error {
+        Error::NoClip => Some("leave out clip="),
+        Error::EmptyGroup { .. } => Some("give each group a list of its bodies"),
+        Error::TooManyPairs { .. } => Some("ask for one pair of each frame with first=True"),
+        _ => None,
+    }
+}
+
 impl From<pliant_io::Error> for Refused {
     fn from(error: pliant_io::Error) -> Self {
         let refused = Self::new("CannotRead", error.to_string())
+            .advising(after_reading(error.reason()))
             .with("file", Fact::Text(error.file().display().to_string()));
         // Displayed behind a file's name, a place begins with a comma.
         let place = error.place().to_string();

@@ -4,14 +4,16 @@
 //! |---|---|
 //! | `arrays.rs` | numpy arrays read where they lie, and made |
 //! | `state.rs` | a world whose precision the first body fixes |
-//! | `world.rs` | `World`, as Python sees it |
+//! | `world.rs`, `query.rs` | `World`, `Selection` and `Query`, as Python sees them |
+//! | `signals.rs` | Ctrl-C while a query computes |
 //! | `options.rs` | its keyword arguments |
 //! | `one_liners.rs` | questions that need no world to be made, and `pliant.reference` |
 //! | `check.rs` | files, frame by frame |
 //! | `error.rs` | every refusal as a `pliant.Error` |
 //! | `../python/pliant/` | the package: what is easier said in Python (named tuples, the exception), and the types |
 //!
-//! What always holds: the interpreter lock is released while anything is computed; only the calls of a visitor take it back. A
+//! What always holds: the interpreter lock is released while anything is computed; only the calls of a visitor,
+//! and looks for signals, take it back. A
 //! world or a check is in use by one call at a time, and another is refused, not left waiting, so that nothing here can wait
 //! for ever.
 
@@ -20,6 +22,8 @@ mod check;
 mod error;
 mod one_liners;
 mod options;
+mod query;
+mod signals;
 mod state;
 mod world;
 
@@ -36,6 +40,8 @@ mod _pliant {
         intersection_pairs, reference_intersection_pairs, reference_self_intersection_pairs,
         self_intersection_pairs,
     };
+    #[pymodule_export]
+    use crate::query::{Query, Selection};
     #[pymodule_export]
     use crate::world::World;
 }

@@ -3,9 +3,11 @@
 use crate::arrays::{self, Coordinates, Faces};
 use crate::error::Refused;
 use crate::options::with_threads;
-use crate::state::{State, precision_of, widen, with_world};
+use crate::signals::interruptible;
+use crate::state::{State, precision_of};
 use numpy::PyArray2;
-use pliant::reference;
+use pliant::{Pair, Selection, reference};
+use pliant_check::{double, with_world};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -61,6 +63,15 @@ fn wrong_number(wanted: &str) -> Refused {
     Refused::Python(PyTypeError::new_err(format!("give {wanted}")))
 }
 
+/// All hits, without their bodies, which are known.
+fn triangles_of_all(state: &mut State, of: Selection) -> Result<Vec<[u32; 2]>, Refused> {
+    interruptible(|question| {
+        let query = with_world!(&mut state.world, world => world.intersections(of));
+        let pairs = query.interrupt_if(question).all()?;
+        Ok(pairs.iter().map(Pair::triangles).collect())
+    })
+}
+
 /// intersection_pairs(va, fa, vb, fb, *, threads=1), or intersection_pairs(mesh_a, mesh_b, *, threads=1)
 ///
 /// All intersecting pairs of two meshes, sorted: (k, 2) uint32, triangle of a, triangle of b. Decided as in a world; if one is
@@ -86,10 +97,7 @@ pub(crate) fn intersection_pairs<'py>(
         let b = state
             .add(faces[1], positions[1])
             .map_err(|refused| refused.about("b"))?;
-        Ok::<_, Refused>(
-            with_world!(&mut state.world, world => world.intersection_pairs_between(a, b))?
-                .to_vec(),
-        )
+        triangles_of_all(&mut state, Selection::Between(a, b))
     })?;
     Ok(arrays::rows_of(py, pairs)?)
 }
@@ -110,10 +118,10 @@ pub(crate) fn self_intersection_pairs<'py>(
     let (positions, faces) = (mesh.positions.get()?, mesh.faces.get()?);
     let pairs = py.detach(|| {
         let mut state = State::new(options);
-        let body = state.add(faces, positions)?;
-        Ok::<_, Refused>(
-            with_world!(&mut state.world, world => world.self_intersection_pairs(body))?.to_vec(),
-        )
+        let body = state
+            .add(faces, positions)
+            .map_err(|refused| refused.about("mesh"))?;
+        triangles_of_all(&mut state, Selection::Within(body))
     })?;
     Ok(arrays::rows_of(py, pairs)?)
 }
@@ -135,9 +143,9 @@ pub(crate) fn reference_intersection_pairs<'py>(
         let [wide_a, wide_b] = &mut wide;
         reference::intersection_pairs(
             faces[0],
-            widen(positions[0], wide_a),
+            double(positions[0], wide_a),
             faces[1],
-            widen(positions[1], wide_b),
+            double(positions[1], wide_b),
         )
     });
     Ok(arrays::rows_of(py, pairs.map_err(Refused::from)?)?)
@@ -155,6 +163,6 @@ pub(crate) fn reference_self_intersection_pairs<'py>(
     let mesh = Mesh::one(mesh)?;
     let (positions, faces) = (mesh.positions.get()?, mesh.faces.get()?);
     let pairs =
-        py.detach(|| reference::self_intersection_pairs(faces, widen(positions, &mut Vec::new())));
+        py.detach(|| reference::self_intersection_pairs(faces, double(positions, &mut Vec::new())));
     Ok(arrays::rows_of(py, pairs.map_err(Refused::from)?)?)
 }

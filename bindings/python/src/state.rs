@@ -1,33 +1,14 @@
 //! A world whose precision the first body fixes: float32 or float64.
-//!
-//! 32-bit positions in a 64-bit world are widened, which changes none. 64-bit positions in a 32-bit world would have to be
-//! rounded, and are refused.
 
 use crate::error::Refused;
-use pliant::{BodyId, Options, World};
+use pliant::{BodyId, Options};
+use pliant_check::{AnyWorld, NotTaken, double, single};
 use pliant_io::{Positions, Precision};
-
-/// A world of either precision.
-pub(crate) enum Either {
-    F32(World<f32>),
-    F64(World<f64>),
-}
-
-/// Does the same to a world of either precision.
-macro_rules! with_world {
-    ($either:expr, $world:ident => $work:expr) => {
-        match $either {
-            $crate::state::Either::F32($world) => $work,
-            $crate::state::Either::F64($world) => $work,
-        }
-    };
-}
-pub(crate) use with_world;
 
 /// A world, and whether its precision is fixed.
 pub(crate) struct State {
     /// Of any precision while it never had a body; questions then have the same answers.
-    pub(crate) world: Either,
+    pub(crate) world: AnyWorld,
     options: Options,
     precision_is_fixed: bool,
     /// 32-bit positions, widened.
@@ -37,7 +18,7 @@ pub(crate) struct State {
 impl State {
     pub(crate) fn new(options: Options) -> Self {
         Self {
-            world: Either::F64(World::with_options(options)),
+            world: AnyWorld::new(Precision::F64, options),
             options,
             precision_is_fixed: false,
             widened: Vec::new(),
@@ -46,20 +27,14 @@ impl State {
 
     /// The precision, once it is fixed.
     pub(crate) fn precision(&self) -> Option<Precision> {
-        self.precision_is_fixed.then_some(match self.world {
-            Either::F32(_) => Precision::F32,
-            Either::F64(_) => Precision::F64,
-        })
+        self.precision_is_fixed.then(|| self.world.precision())
     }
 
     /// Fixes the precision of a world that never had a body.
     pub(crate) fn fix_precision(&mut self, precision: Precision) {
         if !self.precision_is_fixed {
             self.precision_is_fixed = true;
-            self.world = match precision {
-                Precision::F32 => Either::F32(World::with_options(self.options)),
-                Precision::F64 => Either::F64(World::with_options(self.options)),
-            };
+            self.world = AnyWorld::new(precision, self.options);
         }
     }
 
@@ -76,10 +51,7 @@ impl State {
             *self = fixed;
             return Ok(body);
         }
-        Ok(match &mut self.world {
-            Either::F32(world) => world.add(triangles, narrow(positions, None)?)?,
-            Either::F64(world) => world.add(triangles, widen(positions, &mut self.widened))?,
-        })
+        Ok(self.world.add(triangles, positions, &mut self.widened)?)
     }
 
     /// Gives a body a new shape.
@@ -88,11 +60,8 @@ impl State {
         body: BodyId,
         positions: Positions<'_>,
     ) -> Result<(), Refused> {
-        match &mut self.world {
-            Either::F32(world) => world.set_positions(body, narrow(positions, Some(body))?)?,
-            Either::F64(world) => world.set_positions(body, widen(positions, &mut self.widened))?,
-        }
-        Ok(())
+        let taken = self.world.set_positions(body, positions, &mut self.widened);
+        taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
     /// Gives a body the shape that somebody wrote, or did not.
@@ -106,12 +75,12 @@ impl State {
             to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
         }
         match &mut self.world {
-            Either::F32(world) => {
-                let written = narrow(written, Some(body))?;
+            AnyWorld::F32(world) => {
+                let written = single(written).map_err(|not_taken| of_body(body, not_taken))?;
                 world.write_positions(body, |lent| copy(written, lent))?;
             }
-            Either::F64(world) => {
-                let written = widen(written, &mut self.widened);
+            AnyWorld::F64(world) => {
+                let written = double(written, &mut self.widened);
                 world.write_positions(body, |lent| copy(written, lent))?;
             }
         }
@@ -125,12 +94,12 @@ impl State {
         corners: Option<([f64; 3], [f64; 3])>,
     ) -> Result<(), pliant::Error> {
         match &mut self.world {
-            Either::F32(world) => {
+            AnyWorld::F32(world) => {
                 let rounded = |corner: [f64; 3]| corner.map(|x| x as f32);
                 let corners = corners.map(|(lo, hi)| (rounded(lo), rounded(hi)));
                 world.set_loose_box(body, corners)
             }
-            Either::F64(world) => world.set_loose_box(body, corners),
+            AnyWorld::F64(world) => world.set_loose_box(body, corners),
         }
     }
 }
@@ -142,27 +111,26 @@ pub(crate) fn precision_of(positions: Positions<'_>) -> Precision {
     }
 }
 
-/// 64-bit positions, as they are or widened into `buffer`.
-pub(crate) fn widen<'a>(positions: Positions<'a>, buffer: &'a mut Vec<[f64; 3]>) -> &'a [[f64; 3]] {
-    match positions {
-        Positions::F64(positions) => positions,
-        Positions::F32(positions) => {
-            buffer.clear();
-            buffer.extend(positions.iter().map(|position| position.map(f64::from)));
-            buffer
-        }
+/// About positions that were given for a body, which the library names by itself where it is the one that refuses.
+fn of_body(body: BodyId, not_taken: NotTaken) -> Refused {
+    let is_named = matches!(not_taken, NotTaken::Refused(_));
+    let refused = Refused::from(not_taken);
+    if is_named {
+        refused
+    } else {
+        refused.of_body(Some(body))
     }
 }
 
-/// 32-bit positions; others are refused.
-fn narrow(positions: Positions<'_>, body: Option<BodyId>) -> Result<&[[f32; 3]], Refused> {
-    match positions {
-        Positions::F32(positions) => Ok(positions),
-        Positions::F64(_) => Err(Refused::new(
-            "Precision",
-            "positions are float64 in a world of float32, which its first body made it; rounding them may change answers: if \
-             that is meant, give positions.astype(numpy.float32), else begin the world with a body of float64",
-        )
-        .of_body(body)),
+impl From<NotTaken> for Refused {
+    fn from(not_taken: NotTaken) -> Self {
+        match not_taken {
+            NotTaken::Refused(error) => error.into(),
+            NotTaken::WouldBeRounded => Self::new(
+                "Precision",
+                "positions are float64 in a world of float32, which its first body made it; rounding them may change answers: \
+                 if that is meant, give positions.astype(numpy.float32), else begin the world with a body of float64",
+            ),
+        }
     }
 }

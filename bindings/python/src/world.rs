@@ -3,20 +3,21 @@
 use crate::arrays::{self, Coordinates, Faces};
 use crate::error::{Refused, alone_with, named_tuple};
 use crate::options::Keywords;
-use crate::state::{Either, State, with_world};
+use crate::query::{Query, Selection};
+use crate::state::State;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
-use pliant::{BodyId, Error, ErrorKind, NodeBox, Pair};
+use pliant::{BodyId, ErrorKind};
+use pliant_check::with_world;
 use pliant_io::Precision;
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 /// Bodies that change their shape, and the questions which of their triangles intersect.
 ///
 /// The first body fixes the precision, float32 or float64. Moving a body is `set_positions`; there is nothing else to call:
-/// every query brings up to date what it touches, and none can answer for old positions. A call that is refused raises
+/// every query refits what is stale of what it touches, and none can answer for old positions. A call that is refused raises
 /// `pliant.Error` and leaves the world as it was.
 ///
 /// No option changes an answer; the defaults measured best. The paper's trees are partition="centre", leaf_size=1.
@@ -40,7 +41,7 @@ pub(crate) struct World {
 
 /// A body: its number. A number that no body can have is no body of any world.
 #[derive(Clone, Copy)]
-struct Body(BodyId);
+pub(crate) struct Body(pub(crate) BodyId);
 
 impl<'py> FromPyObject<'_, 'py> for Body {
     type Error = PyErr;
@@ -64,6 +65,18 @@ enum Owned {
     F64(Vec<[f64; 3]>),
 }
 
+impl From<Vec<[f32; 3]>> for Owned {
+    fn from(rows: Vec<[f32; 3]>) -> Self {
+        Self::F32(rows)
+    }
+}
+
+impl From<Vec<[f64; 3]>> for Owned {
+    fn from(rows: Vec<[f64; 3]>) -> Self {
+        Self::F64(rows)
+    }
+}
+
 impl Owned {
     fn into_array(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         Ok(match self {
@@ -73,44 +86,16 @@ impl Owned {
     }
 }
 
-fn made<S>(boxes: &[NodeBox<S>]) -> Vec<bool> {
-    boxes.iter().map(|node| node.made).collect()
-}
-
 impl World {
     /// Does `work` on the world, without the interpreter lock.
-    fn with<T: Send>(
+    pub(crate) fn with<T: Send>(
         &self,
         py: Python<'_>,
         work: impl FnOnce(&mut State) -> Result<T, Refused> + Send,
     ) -> Result<T, Refused> {
         alone_with(py, &self.state, work)
     }
-
-    /// Shows a visitor of Python's all pairs that `ask` finds.
-    fn visit<P: Send>(
-        &self,
-        py: Python<'_>,
-        ask: impl FnOnce(&mut State, &mut Visitor<'_, P>) -> Result<ControlFlow<PyResult<()>>, Error>
-        + Send,
-        show: impl Fn(Python<'_>, P) -> PyResult<bool> + Sync,
-    ) -> Result<bool, Refused> {
-        self.with(py, |state| {
-            let mut visitor = |pair| match Python::attach(|py| show(py, pair)) {
-                Ok(false) => ControlFlow::Continue(()),
-                Ok(true) => ControlFlow::Break(Ok(())),
-                Err(raised) => ControlFlow::Break(Err(raised)),
-            };
-            match ask(state, &mut visitor)? {
-                ControlFlow::Continue(()) => Ok(false),
-                ControlFlow::Break(stopped) => Ok(stopped.map(|()| true)?),
-            }
-        })
-    }
 }
-
-/// Is shown pairs until it breaks, or raises.
-type Visitor<'a, P> = dyn FnMut(P) -> ControlFlow<PyResult<()>> + 'a;
 
 #[pymethods]
 impl World {
@@ -180,7 +165,9 @@ impl World {
         let positions = positions.get()?;
         let faces = Faces::read(&faces, positions.len()).map_err(of_new)?;
         let faces = faces.get()?;
-        self.with(py, |state| Ok(state.add(faces, positions)?.0))
+        self.with(py, |state| {
+            Ok(state.add(faces, positions).map_err(of_new)?.0)
+        })
     }
 
     /// Removes a body. Its number will not be used again.
@@ -245,7 +232,8 @@ impl World {
     }
 
     /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
-    /// common with the mask of the other. At first both are all ones, 0xFFFFFFFF.
+    /// common with the mask of the other. At first both are all ones, 0xFFFFFFFF. A query that names its bodies does not look at
+    /// them.
     fn set_filter(
         &self,
         py: Python<'_>,
@@ -258,7 +246,8 @@ impl World {
         })
     }
 
-    /// From now on two bodies do not meet in queries of the whole world.
+    /// From now on two bodies do not meet in queries of the whole world, or a body with itself if it is named twice. A query that
+    /// names its bodies does not look at this.
     fn ignore(&self, py: Python<'_>, a: Body, b: Body) -> Result<(), Refused> {
         self.with(
             py,
@@ -317,14 +306,14 @@ impl World {
     }
 
     /// For each triangle of a body, the part it is in when its tree is cut at a level, the root being level 0: (m,) uint32.
-    fn tree_parts<'py>(
+    fn tree_cut<'py>(
         &self,
         py: Python<'py>,
         body: Body,
         level: u32,
     ) -> Result<Bound<'py, PyArray1<u32>>, Refused> {
         let parts = self.with(py, |state| {
-            Ok(with_world!(&state.world, world => world.tree_parts(body.0, level))?)
+            Ok(with_world!(&state.world, world => world.tree_cut(body.0, level))?)
         })?;
         Ok(parts.into_pyarray(py))
     }
@@ -336,7 +325,7 @@ impl World {
         body: Body,
     ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
         let triangles = self.with(py, |state| {
-            Ok(with_world!(&state.world, world => world.triangles(body.0))?)
+            Ok(with_world!(&state.world, world => world.triangles(body.0))?.to_vec())
         })?;
         Ok(arrays::rows_of(py, triangles)?)
     }
@@ -344,52 +333,33 @@ impl World {
     /// The shape that a body has now, the positions that it was given last: a new array (n, 3) of the world's type.
     fn positions<'py>(&self, py: Python<'py>, body: Body) -> Result<Bound<'py, PyAny>, Refused> {
         let positions = self.with(py, |state| {
-            Ok(match &state.world {
-                Either::F32(world) => Owned::F32(world.positions(body.0)?),
-                Either::F64(world) => Owned::F64(world.positions(body.0)?),
-            })
+            Ok(with_world!(&state.world, world => Owned::from(world.positions(body.0)?)))
         })?;
         Ok(positions.into_array(py)?)
     }
 
-    /// The boxes of a level of a body's tree, the root being level 0, and which of them the tree holds for the shape that the
-    /// body has now: TreeBoxes(lower, upper, made), (k, 3), (k, 3) and (k,), one row a part of tree_parts. Makes no box.
+    /// The boxes of a level of a body's tree, the root being level 0, and which of them are valid, that is, held by the tree for the
+    /// shape that the body has now: TreeBoxes(lower, upper, valid), (k, 3), (k, 3) and (k,), one row a part of tree_cut. Makes no
+    /// box, and reads none.
     fn tree_boxes<'py>(
         &self,
         py: Python<'py>,
         body: Body,
         level: u32,
     ) -> Result<Bound<'py, PyAny>, Refused> {
-        let (lower, upper, made) = self.with(py, |state| {
-            Ok(match &state.world {
-                Either::F32(world) => {
-                    let boxes = world.tree_boxes(body.0, level)?;
-                    let corners = |corner: fn(&NodeBox<f32>) -> [f32; 3]| {
-                        Owned::F32(boxes.iter().map(corner).collect())
-                    };
-                    (
-                        corners(|node| node.lower),
-                        corners(|node| node.upper),
-                        made(&boxes),
-                    )
-                }
-                Either::F64(world) => {
-                    let boxes = world.tree_boxes(body.0, level)?;
-                    let corners = |corner: fn(&NodeBox<f64>) -> [f64; 3]| {
-                        Owned::F64(boxes.iter().map(corner).collect())
-                    };
-                    (
-                        corners(|node| node.lower),
-                        corners(|node| node.upper),
-                        made(&boxes),
-                    )
-                }
-            })
+        let (lower, upper, valid) = self.with(py, |state| {
+            Ok(with_world!(&state.world, world => {
+                let boxes = world.tree_boxes(body.0, level)?;
+                let lower: Vec<_> = boxes.iter().map(|node| node.lower).collect();
+                let upper: Vec<_> = boxes.iter().map(|node| node.upper).collect();
+                let valid: Vec<_> = boxes.iter().map(|node| node.valid).collect();
+                (Owned::from(lower), Owned::from(upper), valid)
+            }))
         })?;
         let fields = [
             ("lower", lower.into_array(py)?),
             ("upper", upper.into_array(py)?),
-            ("made", made.into_pyarray(py).into_any()),
+            ("valid", valid.into_pyarray(py).into_any()),
         ];
         Ok(named_tuple(py, "TreeBoxes", fields)?)
     }
@@ -407,164 +377,17 @@ impl World {
         Ok(order.into_pyarray(py))
     }
 
-    /// All intersecting pairs of triangles of different bodies, sorted: (k, 4) uint32, body, triangle, body, triangle.
-    fn intersection_pairs<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
-        let pairs = self.with(py, |state| {
-            Ok(with_world!(&mut state.world, world => {
-                world.intersection_pairs().iter().copied().map(row).collect()
-            }))
-        })?;
-        Ok(arrays::rows_of::<_, 4>(py, pairs)?)
+    /// Asks which triangles intersect, of different bodies or of one: pairs of them, as closed sets. Touching counts. The Selection
+    /// says who is asked about; the Query that comes back, how much is wanted: all(), first(), visit(...) or prepare().
+    ///
+    /// Within a body, triangles that share a vertex of the mesh are left out: they always touch. Surfaces only: a body wholly inside
+    /// another meets none of its triangles.
+    #[pyo3(signature = (of=Selection::WORLD))]
+    fn intersections(slf: Py<Self>, of: Selection) -> Query {
+        Query::new(slf, of)
     }
 
-    /// Some intersecting pair of triangles of different bodies, or None if there is none. Which one may depend on options and
-    /// history; whether there is one never does.
-    fn first_intersection<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> Result<Option<Bound<'py, PyAny>>, Refused> {
-        let pair = self.with(py, |state| {
-            Ok(with_world!(&mut state.world, world => world.first_intersection()))
-        })?;
-        Ok(pair.map(|pair| pair_of_python(py, pair)).transpose()?)
-    }
-
-    /// Calls visit(pair) for every intersecting pair of triangles of different bodies once, until it returns True (or
-    /// anything true). Returns whether it did. The order is deterministic, not sorted; visit may not ask this world.
-    fn visit_intersections(
-        &self,
-        py: Python<'_>,
-        visit: &Bound<'_, PyAny>,
-    ) -> Result<bool, Refused> {
-        let visit = visit.as_unbound();
-        self.visit(
-            py,
-            |state, visitor| {
-                Ok(with_world!(&mut state.world, world => world.visit_intersections(visitor)))
-            },
-            |py, pair| {
-                visit
-                    .bind(py)
-                    .call1((pair_of_python(py, pair)?,))?
-                    .is_truthy()
-            },
-        )
-    }
-
-    /// All intersecting pairs of two bodies, whatever filters say, sorted: (k, 2) uint32, triangle of a, triangle of b.
-    fn intersection_pairs_between<'py>(
-        &self,
-        py: Python<'py>,
-        a: Body,
-        b: Body,
-    ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
-        let pairs = self.with(py, |state| {
-            Ok(
-                with_world!(&mut state.world, world => world.intersection_pairs_between(a.0, b.0))?
-                    .to_vec(),
-            )
-        })?;
-        Ok(arrays::rows_of(py, pairs)?)
-    }
-
-    /// Some intersecting pair (triangle of a, triangle of b), or None if there is none.
-    fn first_intersection_between(
-        &self,
-        py: Python<'_>,
-        a: Body,
-        b: Body,
-    ) -> Result<Option<(u32, u32)>, Refused> {
-        self.with(py, |state| {
-            Ok(
-                with_world!(&mut state.world, world => world.first_intersection_between(a.0, b.0))?
-                    .map(Into::into),
-            )
-        })
-    }
-
-    /// Calls visit((triangle of a, triangle of b)) for every intersecting pair once, until it returns True. Returns whether
-    /// it did.
-    fn visit_intersections_between(
-        &self,
-        py: Python<'_>,
-        a: Body,
-        b: Body,
-        visit: &Bound<'_, PyAny>,
-    ) -> Result<bool, Refused> {
-        let visit = visit.as_unbound();
-        self.visit(
-            py,
-            |state, visitor| with_world!(&mut state.world, world => world.visit_intersections_between(a.0, b.0, visitor)),
-            |py, [a, b]: [u32; 2]| visit.bind(py).call1(((a, b),))?.is_truthy(),
-        )
-    }
-
-    /// All intersecting pairs of a body with itself, sorted: (k, 2) uint32, smaller triangle, larger triangle. Triangles that
-    /// share a vertex are left out: they always touch.
-    fn self_intersection_pairs<'py>(
-        &self,
-        py: Python<'py>,
-        body: Body,
-    ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
-        let pairs = self.with(py, |state| {
-            Ok(
-                with_world!(&mut state.world, world => world.self_intersection_pairs(body.0))?
-                    .to_vec(),
-            )
-        })?;
-        Ok(arrays::rows_of(py, pairs)?)
-    }
-
-    /// Some intersecting pair of a body with itself, or None if there is none.
-    fn first_self_intersection(
-        &self,
-        py: Python<'_>,
-        body: Body,
-    ) -> Result<Option<(u32, u32)>, Refused> {
-        self.with(py, |state| {
-            Ok(
-                with_world!(&mut state.world, world => world.first_self_intersection(body.0))?
-                    .map(Into::into),
-            )
-        })
-    }
-
-    /// Calls visit((triangle, triangle)) for every intersecting pair of a body with itself once, until it returns True.
-    /// Returns whether it did.
-    fn visit_self_intersections(
-        &self,
-        py: Python<'_>,
-        body: Body,
-        visit: &Bound<'_, PyAny>,
-    ) -> Result<bool, Refused> {
-        let visit = visit.as_unbound();
-        self.visit(
-            py,
-            |state, visitor| with_world!(&mut state.world, world => world.visit_self_intersections(body.0, visitor)),
-            |py, [a, b]: [u32; 2]| visit.bind(py).call1(((a, b),))?.is_truthy(),
-        )
-    }
-
-    /// Does early what a query of the whole world would do first. Never needed for right answers.
-    fn update(&self, py: Python<'_>) -> Result<(), Refused> {
-        self.with(py, |state| {
-            with_world!(&mut state.world, world => world.update());
-            Ok(())
-        })
-    }
-
-    /// Does early what a query that names a body would do first. Never needed for right answers.
-    fn update_body(&self, py: Python<'_>, body: Body) -> Result<(), Refused> {
-        self.with(
-            py,
-            |state| with_world!(&mut state.world, world => Ok(world.update_body(body.0)?)),
-        )
-    }
-
-    /// What the last query did, and the calls of update and update_body before it.
+    /// What the last query did, with what Query.prepare did before it.
     fn statistics<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyAny>, Refused> {
         let statistics = self.with(py, |state| {
             Ok(with_world!(&state.world, world => *world.statistics()))
@@ -602,24 +425,4 @@ impl World {
             })
         })
     }
-}
-
-/// A pair as a row of an array.
-fn row(pair: Pair) -> [u32; 4] {
-    [
-        pair.body_a.0,
-        pair.triangle_a,
-        pair.body_b.0,
-        pair.triangle_b,
-    ]
-}
-
-fn pair_of_python(py: Python<'_>, pair: Pair) -> PyResult<Bound<'_, PyAny>> {
-    let fields = [
-        ("body_a", pair.body_a.0),
-        ("triangle_a", pair.triangle_a),
-        ("body_b", pair.body_b.0),
-        ("triangle_b", pair.triangle_b),
-    ];
-    named_tuple(py, "Pair", fields)
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pliant
 import pytest
 from numpy.typing import NDArray
 
@@ -34,3 +35,17 @@ def fold(positions: NDArray[np.float64], amount: float) -> NDArray[np.float64]:
     """The sheet in waves, which meet themselves when the amount is large."""
     x, y, _ = positions.T
     return np.stack([x + 0.35 * amount * np.sin(9 * x + y), y, 0.2 * np.cos(9 * x) + 0.05 * amount * np.sin(7 * y)], axis=1)
+
+
+def pairs_between(world: pliant.World, a: int, b: int) -> NDArray[np.uint32]:
+    """The triangles of all hits of two bodies, (k, 2) as the reference has them; each hit names the bodies in the order asked."""
+    hits = world.intersections(pliant.Selection.between(a, b)).all()
+    assert hits.dtype == np.uint32 and (hits[:, [0, 2]] == [a, b]).all()
+    return hits[:, [1, 3]]
+
+
+def pairs_within(world: pliant.World, body: int) -> NDArray[np.uint32]:
+    """The triangles of all hits of a body with itself, (k, 2) as the reference has them."""
+    hits = world.intersections(pliant.Selection.within(body)).all()
+    assert hits.dtype == np.uint32 and (hits[:, [0, 2]] == body).all()
+    return hits[:, [1, 3]]

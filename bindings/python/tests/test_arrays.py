@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pliant
 import pytest
-from conftest import fold, grid
+from conftest import fold, grid, pairs_between, pairs_within
 from numpy.typing import NDArray
 
 FACES, FLAT = grid(12)
@@ -46,7 +46,7 @@ def test_every_layout_has_the_same_answer(layout: Callable[[NDArray[Any]], Any],
     body = world.add(layout(FACES), layout(FLAT))
     assert world.dtype == np.float64
     world.set_positions(body, layout(SHAPE.astype(dtype)))
-    assert world.self_intersection_pairs(body).tolist() == EXPECTED[dtype]
+    assert pairs_within(world, body).tolist() == EXPECTED[dtype]
     assert len(EXPECTED[dtype]) > 10
 
 
@@ -119,9 +119,9 @@ def test_float32_in_a_float64_world_changes_no_coordinate() -> None:
     world = pliant.World()
     a = world.add(faces, plane)
     b = world.add(faces, point)
-    assert world.intersection_pairs_between(a, b).tolist() == [[0, 0]]
+    assert pairs_between(world, a, b).tolist() == [[0, 0]]
     world.set_positions(b, np.full((3, 3), 0.1))
-    assert world.intersection_pairs_between(a, b).tolist() == []
+    assert pairs_between(world, a, b).tolist() == []
     assert pliant.intersection_pairs(plane, faces, point, faces).tolist() == [[0, 0]]
     assert pliant.intersection_pairs(point, faces, plane, faces).tolist() == [[0, 0]]
 
@@ -162,7 +162,7 @@ def test_anything_with_vertices_and_faces_is_a_mesh(names: tuple[str, str]) -> N
     a, b = mesh(0.0), mesh(0.05)
     world = pliant.World()
     assert world.add(a) == 0
-    assert world.self_intersection_pairs(0).tolist() == EXPECTED["f8"]
+    assert pairs_within(world, 0).tolist() == EXPECTED["f8"]
     assert pliant.self_intersection_pairs(a).tolist() == EXPECTED["f8"]
     assert pliant.reference.self_intersection_pairs(a).tolist() == EXPECTED["f8"]
     between = pliant.intersection_pairs(a, b).tolist()
@@ -193,19 +193,19 @@ def test_a_mesh_of_open3d() -> None:
     world = pliant.World()
     bodies = [world.add(a), world.add(a)]
     world.set_positions(bodies[1], b.vertices)
-    assert world.intersection_pairs_between(bodies[0], bodies[1]).tolist() == expected
+    assert pairs_between(world, bodies[0], bodies[1]).tolist() == expected
 
 
 def test_answers_belong_to_the_caller() -> None:
     world = pliant.World()
     body = world.add(FACES, SHAPE)
-    pairs = world.self_intersection_pairs(body)
+    itself = world.intersections(pliant.Selection.within(body))
+    hits = itself.all()
     world.set_positions(body, FLAT)
-    assert world.self_intersection_pairs(body).shape == (0, 2)
-    assert world.intersection_pairs().shape == (0, 4)
-    del world
-    pairs[:] += 0
-    assert pairs.tolist() == EXPECTED["f8"]
+    assert itself.all().shape == (0, 4)
+    del world, itself
+    hits[:] += 0
+    assert hits[:, [1, 3]].tolist() == EXPECTED["f8"]
 
 
 def test_an_iterable_that_raises_raises() -> None:
@@ -230,6 +230,10 @@ def test_the_one_liners_say_which_mesh_is_wrong() -> None:
         pliant.intersection_pairs(FLAT, FACES, FLAT[0], FACES)
     bad = FLAT.copy()
     bad[3, 2] = np.nan
-    with pytest.raises(pliant.Error, match="^a: new body: vertex 3 is at") as refused:
+    with pytest.raises(pliant.Error, match="^a: vertex 3 is at") as refused:
         pliant.intersection_pairs(bad, FACES, FLAT, FACES)
     assert refused.value.kind == "BadPosition" and refused.value.vertex == 3
+    with pytest.raises(pliant.Error, match="^mesh: vertex 3 is at"):
+        pliant.self_intersection_pairs(bad, FACES)
+    with pytest.raises(pliant.Error, match="^new body: vertex 3 is at"):
+        pliant.World().add(FACES, bad)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import struct
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -103,6 +104,32 @@ def test_seams_are_welded_unless_told_otherwise(tmp_path: Path) -> None:
     assert apart.bodies[0].welded == 0 and next(apart).count > 0
 
 
+def test_advice_is_in_keywords_of_python(tmp_path: Path) -> None:
+    # Two triangles whose edges coincide in the first frame, and not in the second.
+    closed = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 0], [0, -1, 0]], np.float32)
+    opened = closed.copy()
+    opened[4, 0] = 0.25
+    np.savez(tmp_path / "seam.npz", vertices=np.stack([closed, opened]), faces=np.arange(6).reshape(-1, 3))
+    with pytest.raises(pliant.Error, match="vertices 0 and 4 were welded, .* but are apart here; give weld=False$") as refused:
+        list(pliant.check(tmp_path / "seam.npz"))
+    assert (refused.value.kind, refused.value.place) == ("CannotRead", "frame 1")
+    assert len(list(pliant.check(tmp_path / "seam.npz", weld=False))) == 2
+
+    # A mesh of two frames beside positions of one.
+    (tmp_path / "one.mdd").write_bytes(struct.pack(">iif", 1, 6, 0) + closed.astype(">f4").tobytes())
+    message = "has 2 frames; the mesh beside positions must have one; write one frame of it to a file, and name that$"
+    with pytest.raises(pliant.Error, match=message):
+        pliant.check(f"{tmp_path / 'seam.npz'}+{tmp_path / 'one.mdd'}")
+
+    # A header of more than a frame may take.
+    rows = 2**32 - 1
+    header = f"ply\nformat binary_little_endian 1.0\nelement vertex {rows}\nproperty double x\nproperty double y\nproperty double z\n"
+    header += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    (tmp_path / "large.ply").write_text(header)
+    with pytest.raises(pliant.Error, match="a frame needs at least .* of memory, 4 GiB are allowed; split the mesh$"):
+        pliant.check(tmp_path / "large.ply")
+
+
 def test_polygons_are_named(tmp_path: Path) -> None:
     (tmp_path / "square.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
     faces = pliant.check(tmp_path / "square.obj").bodies[0].faces
@@ -194,14 +221,16 @@ def test_gltf_is_evaluated() -> None:
     # 0.7 seconds at 10 a second, both ends.
     assert [frame.frame for frame in checked] == list(range(8)) and checked.frame_count == 8
     assert pliant.check(f"{fixtures / 'hierarchy.gltf'}#ground").bodies[0].vertices == 4
-    with pytest.raises(pliant.Error, match='there is no clip "fly"; there is: turn, steps'):
+    with pytest.raises(pliant.Error, match='there is no clip "fly"; there is: turn, steps, .*; choose one of these with clip=$'):
         pliant.check(fixtures / "hierarchy.gltf", clip="fly")
-    with pytest.raises(pliant.Error, match="fps"):
+    with pytest.raises(pliant.Error, match="0 frames a second cannot be evaluated; .*above 0; give another fps=$"):
         pliant.check(fixtures / "hierarchy.gltf", fps=0)
+    with pytest.raises(pliant.Error, match="more than 16777216 frames at 1.* a second; ask for fewer with fps=$"):
+        pliant.check(fixtures / "hierarchy.gltf", fps=1e300)
 
 
 def test_a_clip_of_what_has_none(folder: Path) -> None:
-    with pytest.raises(pliant.Error, match="no body has an animation") as refused:
+    with pytest.raises(pliant.Error, match="no body has an animation, .*; leave out clip=$") as refused:
         pliant.check(folder / "cloth.npz", clip="walk")
     assert refused.value.kind == "BadOption"
 
@@ -257,6 +286,8 @@ def test_groups_and_pairs_that_are_ignored(pieces: Path) -> None:
         with pytest.raises(pliant.Error) as refused:
             pliant.check(*paths, **options)
         assert refused.value.kind == "BadOption"
+    with pytest.raises(pliant.Error, match='no bodies are named for the group "g"; give each group a list of its bodies$'):
+        pliant.check(*paths, groups={"g": []})
     with pytest.raises(pliant.Error, match='no body or group is called "hat"; bodies: 0 = '):
         pliant.check(*paths, ignore=[("hat", 0)])
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pliant
+from conftest import pairs_between, pairs_within
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
@@ -98,10 +99,9 @@ class World(RuleBasedStateMachine):
         self.filters[body] = (membership, mask)
 
     @rule(data=st.data(), back=st.booleans())
-    @precondition(lambda self: len(self.shapes) > 1)
+    @precondition(lambda self: self.shapes)
     def ignore(self, data: st.DataObject, back: bool) -> None:
-        a = self.body(data)
-        b = data.draw(st.sampled_from(sorted(set(self.shapes) - {a})))
+        a, b = self.body(data), self.body(data)
         if back:
             self.world.unignore(a, b)
             self.ignored.discard((min(a, b), max(a, b)))
@@ -109,9 +109,14 @@ class World(RuleBasedStateMachine):
             self.world.ignore(a, b)
             self.ignored.add((min(a, b), max(a, b)))
 
-    @rule()
-    def update(self) -> None:
-        self.world.update()
+    @rule(of=st.sampled_from([pliant.Selection.WORLD, pliant.Selection.EVERYTHING]))
+    def prepare(self, of: pliant.Selection) -> None:
+        self.world.intersections(of).prepare()
+
+    @rule(data=st.data())
+    @precondition(lambda self: self.shapes)
+    def prepare_a_body(self, data: st.DataObject) -> None:
+        self.world.intersections(pliant.Selection.within(self.body(data))).prepare()
 
     def meet(self, a: int, b: int) -> bool:
         (in_a, of_a), (in_b, of_b) = self.filters[a], self.filters[b]
@@ -122,18 +127,22 @@ class World(RuleBasedStateMachine):
         if not hasattr(self, "world"):
             return
         assert self.world.bodies() == sorted(self.shapes)
-        expected = []
+        of_world, of_itself = [], []
         for a, b in combinations(sorted(self.shapes), 2):
             pairs = pliant.reference.intersection_pairs(self.shapes[a], self.faces[a], self.shapes[b], self.faces[b])
-            np.testing.assert_array_equal(self.world.intersection_pairs_between(a, b), pairs)
+            np.testing.assert_array_equal(pairs_between(self.world, a, b), pairs)
             if self.meet(a, b):
-                expected += [[a, i, b, j] for i, j in pairs.tolist()]
-        first = self.world.first_intersection()
-        assert list(first) in expected if first is not None else expected == []
-        assert self.world.intersection_pairs().tolist() == sorted(expected)
+                of_world += [[a, i, b, j] for i, j in pairs.tolist()]
         for body, shape in self.shapes.items():
             itself = pliant.reference.self_intersection_pairs(shape, self.faces[body])
-            np.testing.assert_array_equal(self.world.self_intersection_pairs(body), itself)
+            np.testing.assert_array_equal(pairs_within(self.world, body), itself)
+            if self.meet(body, body):
+                of_itself += [[body, i, body, j] for i, j in itself.tolist()]
+        for of, expected in ((pliant.Selection.WORLD, of_world), (pliant.Selection.EVERYTHING, of_world + of_itself)):
+            query = self.world.intersections(of)
+            first = query.first()
+            assert list(first) in expected if first is not None else expected == []
+            assert query.all().tolist() == sorted(expected)
         self.world.validate()
 
 

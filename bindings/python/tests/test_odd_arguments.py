@@ -27,6 +27,8 @@ ODD: list[Any] = [
     lambda *_: True,
     lambda out: np.copyto(out, SHAPE),
     pliant.World(),
+    *(pliant.Selection.WORLD, pliant.Selection.EVERYTHING, pliant.Selection.between(0, 1), pliant.Selection.between(1, 1)),
+    *(pliant.Selection.within(2), pliant.Selection.within(2**32 - 1), pliant.Selection, pliant.World().intersections()),
     range(3),
     int,
     pliant,
@@ -36,7 +38,12 @@ ODD: list[Any] = [
 SAID = (pliant.Error, TypeError, OverflowError, ValueError)
 
 METHODS = sorted(name for name in vars(pliant.World) if name[0] != "_" and name != "dtype")
+ASKED = sorted(name for name in vars(pliant.Query) if name[0] != "_")
 FUNCTIONS = [
+    pliant.Selection.between,
+    pliant.Selection.within,
+    pliant.Selection,
+    pliant.Query,
     pliant.check,
     pliant.intersection_pairs,
     pliant.self_intersection_pairs,
@@ -46,6 +53,20 @@ FUNCTIONS = [
 ]
 
 KEYWORDS = ["threads", "frames", "split", "groups", "ignore", "baseline", "weld", "first", "itself", "degree", "partition", "level", "leaf_size", "update", "broad"]
+
+
+def three_bodies() -> pliant.World:
+    world = pliant.World()
+    for shape in (FLAT, SHAPE, FLAT):
+        world.add(FACES, shape)
+    return world
+
+
+def is_in_order(world: pliant.World) -> None:
+    world.validate()
+    for body in world.bodies():
+        world.intersections(pliant.Selection.within(body)).all()
+    world.intersections().all()
 
 
 def is_answered(call: Callable[..., Any], arguments: Iterable[Any], **keywords: Any) -> None:
@@ -58,24 +79,23 @@ def is_answered(call: Callable[..., Any], arguments: Iterable[Any], **keywords: 
 
 @pytest.mark.parametrize("name", METHODS)
 def test_methods(name: str) -> None:
-    def three_bodies() -> pliant.World:
-        world = pliant.World()
-        for shape in (FLAT, SHAPE, FLAT):
-            world.add(FACES, shape)
-        return world
-
-    def is_in_order(world: pliant.World) -> None:
-        world.validate()
-        for body in world.bodies():
-            world.self_intersection_pairs(body)
-        world.intersection_pairs()
-
     world = three_bodies()
     for arguments in chain([()], product(ODD), product(ODD, ODD), product([0], [1], ODD), product([0], ODD, ODD)):
         is_answered(getattr(world, name), arguments)
         if world.bodies() != [0, 1, 2]:
             is_in_order(world)
             world = three_bodies()
+    is_in_order(world)
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_queries(name: str) -> None:
+    world = three_bodies()
+    for of in (odd for odd in ODD if isinstance(odd, pliant.Selection)):
+        for arguments in chain([()], product(ODD), product(ODD[:9], ODD[:9])):
+            is_answered(getattr(world.intersections(of), name), arguments)
+    for odd in ODD:
+        is_answered(world.intersections().all, (), at_most=odd)
     is_in_order(world)
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from typing import Any
 
 import exact
 import numpy as np
 import pliant
 import pytest
-from conftest import fold, grid
+from conftest import fold, grid, pairs_between, pairs_within
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
@@ -43,29 +45,35 @@ any_float64 = soups(st.floats(allow_nan=False, min_value=-3e38, max_value=3e38),
 
 def ask_in_every_way(world: pliant.World, a: int, b: int) -> None:
     """Asks for all pairs, the first, and with a visitor, and holds the answers against each other and the reference."""
-    between = world.intersection_pairs_between(a, b).tolist()
-    whole = world.intersection_pairs().tolist()
+    between, itself = pairs_between(world, a, b).tolist(), pairs_within(world, a).tolist()
+    whole = world.intersections().all().tolist()
     assert whole == [[a, i, b, j] for i, j in between]
-    assert [[j, i] for i, j in between] == sorted(world.intersection_pairs_between(b, a).tolist(), key=lambda p: p[::-1])
-    itself = world.self_intersection_pairs(a).tolist()
+    assert [[j, i] for i, j in between] == sorted(pairs_between(world, b, a).tolist(), key=lambda p: p[::-1])
+    of_itself = [[a, i, a, j] for i, j in itself]
+    everything = sorted(whole + of_itself + [[b, i, b, j] for i, j in pairs_within(world, b).tolist()])
 
-    shown: list[Any] = []
-    assert not world.visit_intersections(shown.append)
-    assert sorted(list(pair) for pair in shown) == whole
-    assert all(isinstance(pair, pliant.Pair) for pair in shown)
-    shown.clear()
-    assert not world.visit_intersections_between(a, b, shown.append)
-    assert sorted(list(pair) for pair in shown) == between
-    shown.clear()
-    assert not world.visit_self_intersections(a, shown.append)
-    assert sorted(list(pair) for pair in shown) == itself
-
-    first = world.first_intersection()
-    assert list(first) in whole if first is not None else whole == []
-    one = world.first_intersection_between(a, b)
-    assert list(one) in between if one is not None else between == []
-    own = world.first_self_intersection(a)
-    assert list(own) in itself if own is not None else itself == []
+    expected: dict[pliant.Selection, list[list[int]]] = {
+        pliant.Selection.WORLD: whole,
+        pliant.Selection.EVERYTHING: everything,
+        pliant.Selection.between(a, b): whole,
+        pliant.Selection.between(b, a): sorted([b, j, a, i] for i, j in between),
+        pliant.Selection.within(a): of_itself,
+    }
+    for of, hits in expected.items():
+        query = world.intersections(of)
+        shown: list[Any] = []
+        assert not query.visit(shown.append)
+        assert sorted(list(pair) for pair in shown) == hits
+        assert all(isinstance(pair, pliant.Pair) for pair in shown)
+        first = query.first()
+        assert list(first) in hits if first is not None else hits == []
+        assert first is None or isinstance(first, pliant.Pair)
+        query.prepare()
+        assert query.all().tolist() == hits == query.all(at_most=len(hits)).tolist()
+        if hits:
+            with pytest.raises(pliant.Error, match=f"more hits than the {len(hits) - 1} that were allowed") as refused:
+                query.all(at_most=len(hits) - 1)
+            assert (refused.value.kind, refused.value.limit, refused.value.body) == ("TooManyHits", len(hits) - 1, None)
     world.validate()
 
 
@@ -93,9 +101,9 @@ def test_every_option_equals_the_reference(options: dict[str, Any], soup: st.Sea
         for _ in range(2):
             for body, (faces, _) in zip(bodies, (a, b)):
                 expected = pliant.reference.self_intersection_pairs(shapes[body], faces)
-                np.testing.assert_array_equal(world.self_intersection_pairs(body), expected)
+                np.testing.assert_array_equal(pairs_within(world, body), expected)
             expected = pliant.reference.intersection_pairs(shapes[0], a[0], shapes[1], b[0])
-            np.testing.assert_array_equal(world.intersection_pairs_between(*bodies), expected)
+            np.testing.assert_array_equal(pairs_between(world, *bodies), expected)
             ask_in_every_way(world, *bodies)
             # Another shape for the first body: rows of a soup, as often as needed.
             shapes[0] = np.resize(moved[1], a[1].shape)
@@ -114,14 +122,15 @@ def test_a_visitor_stops_where_it_says_so_and_what_it_raises_arrives() -> None:
         shown.append(pair)
         return len(shown) == 3
 
-    assert world.visit_intersections(third)
+    of_two = world.intersections(pliant.Selection.between(*bodies))
+    assert world.intersections().visit(third)
     assert len(shown) == 3
-    assert world.visit_intersections_between(bodies[0], bodies[1], lambda pair: True)
-    assert not world.visit_self_intersections(0, lambda pair: True)
+    assert of_two.visit(lambda pair: True)
+    assert not world.intersections(pliant.Selection.within(0)).visit(lambda pair: True)
     with pytest.raises(ZeroDivisionError):
-        world.visit_intersections(lambda pair: 1 / 0)
+        world.intersections().visit(lambda pair: 1 / 0)
     with pytest.raises(ZeroDivisionError):
-        world.visit_intersections_between(0, 1, lambda pair: 1 / 0)
+        of_two.visit(lambda pair: 1 / 0)
     # A visit that was broken off leaves the world in order.
     ask_in_every_way(world, *bodies)
 
@@ -134,7 +143,7 @@ def test_a_folding_sheet_of_ten_thousand_triangles() -> None:
     for step in range(5):
         shape = fold(flat, step / 4)
         world.set_positions(cloth, shape)
-        pairs = world.self_intersection_pairs(cloth)
+        pairs = pairs_within(world, cloth)
         assert pairs.dtype == np.uint32 and pairs.shape[1] == 2
         np.testing.assert_array_equal(pairs, pliant.self_intersection_pairs(shape, faces))
         assert (np.diff(pairs.astype(np.int64) @ [1 << 32, 1]) > 0).all(), "sorted, each once"
@@ -148,7 +157,7 @@ def test_a_folding_sheet_of_ten_thousand_triangles() -> None:
     np.testing.assert_array_equal(part[expected], pairs)
 
 
-def test_rebuild_and_updates_do_their_work() -> None:
+def test_rebuild_and_prepare_do_their_work() -> None:
     """None changes an answer; trees and counters show that they were done."""
     faces, flat = grid(16)
     turned = flat[:, [1, 2, 0]] * [1.0, 1.0, 0.01]
@@ -156,29 +165,30 @@ def test_rebuild_and_updates_do_their_work() -> None:
     body = world.add(faces, flat)
     fresh = pliant.World()
     fresh.add(faces, turned)
-    before = world.tree_parts(body, 1).tolist()
+    before = world.tree_cut(body, 1).tolist()
     world.set_positions(body, turned)
-    assert world.tree_parts(body, 1).tolist() == before != fresh.tree_parts(0, 1).tolist()
+    assert world.tree_cut(body, 1).tolist() == before != fresh.tree_cut(0, 1).tolist()
     world.rebuild(body)
-    assert world.tree_parts(body, 1).tolist() == fresh.tree_parts(0, 1).tolist()
+    assert world.tree_cut(body, 1).tolist() == fresh.tree_cut(0, 1).tolist()
 
-    # A first pair that is still there is found without a box; those counted then were made by the update before.
+    # A first pair that is still there is found without a box; those counted then were made early.
     world = pliant.World()
     shape = fold(flat, 1.0)
     bodies = [world.add(faces, shape), world.add(faces, shape)]
-    for update in (False, True):
-        assert world.first_intersection() and world.first_self_intersection(bodies[0])
+    for early in (False, True):
+        of_world, itself = world.intersections(), world.intersections(pliant.Selection.within(bodies[0]))
+        assert of_world.first() and itself.first()
         for body in bodies:
             world.set_positions(body, shape)
-        if update:
-            world.update()
-        assert world.first_intersection()
-        assert (world.statistics().boxes_bottom_up > 0) == update
+        if early:
+            of_world.prepare()
+        assert of_world.first()
+        assert (world.statistics().boxes_bottom_up > 0) == early
         world.set_positions(bodies[0], shape)
-        if update:
-            world.update_body(bodies[0])
-        assert world.first_self_intersection(bodies[0])
-        assert (world.statistics().boxes_bottom_up > 0) == update
+        if early:
+            itself.prepare()
+        assert itself.first()
+        assert (world.statistics().boxes_bottom_up > 0) == early
 
 
 def test_the_order_of_vertices_is_one_that_a_body_can_be_stored_in() -> None:
@@ -190,3 +200,43 @@ def test_the_order_of_vertices_is_one_that_a_body_can_be_stored_in() -> None:
     new_number = np.argsort(order)
     stored = world.add(new_number[faces], vertices[order])
     assert list(world.vertex_order(stored)) == list(range(10))
+
+
+def test_selections_are_values() -> None:
+    world, everything = pliant.Selection.WORLD, pliant.Selection.EVERYTHING
+    between, within = pliant.Selection.between, pliant.Selection.within
+    selections = [world, everything, between(0, 1), between(1, 0), within(0), within(np.uint8(1))]
+    assert len(set(selections)) == len(selections)
+    assert [repr(of) for of in selections] == [
+        "Selection.WORLD",
+        "Selection.EVERYTHING",
+        "Selection.between(0, 1)",
+        "Selection.between(1, 0)",
+        "Selection.within(0)",
+        "Selection.within(1)",
+    ]
+    for of in selections:
+        assert of == eval(repr(of), vars(pliant)) == pickle.loads(pickle.dumps(of)) == copy.deepcopy(of)
+        assert hash(of) == hash(copy.copy(of)) and of != 0
+    assert repr(pliant.World().intersections(between(0, 1))) == "<pliant.Query of Selection.between(0, 1)>"
+    with pytest.raises(AttributeError):
+        setattr(world, "of", everything)
+    with pytest.raises(TypeError):
+        pliant.World().intersections(0)  # type: ignore[arg-type]
+
+
+def test_a_query_may_be_asked_again_and_answers_for_the_shapes_of_then() -> None:
+    faces, flat = grid(12)
+    world = pliant.World()
+    body = world.add(faces, flat)
+    itself = world.intersections(pliant.Selection.within(body))
+    world.intersections().all()
+    assert len(itself.all()) == 0 and itself.first() is None
+    shape = fold(flat, 1.0)
+    world.set_positions(body, shape)
+    expected = pliant.reference.self_intersection_pairs(shape, faces)
+    np.testing.assert_array_equal(itself.all()[:, [1, 3]], expected)
+    assert len(expected) > 0
+    world.remove(body)
+    with pytest.raises(pliant.Error, match="body 0: not in this world"):
+        itself.all()

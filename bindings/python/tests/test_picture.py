@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pliant
 import pytest
-from conftest import fold, grid
+from conftest import fold, grid, pairs_between
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -23,7 +23,7 @@ def test_faces_and_positions_come_back(dtype: type[np.floating]) -> None:
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_boxes_are_those_of_the_parts_and_made_when_they_are_needed(dtype: type[np.floating]) -> None:
+def test_boxes_are_those_of_the_parts_and_valid_when_they_were_needed(dtype: type[np.floating]) -> None:
     faces, flat = grid(16)
     world = pliant.World(update="top-down")
     body = world.add(faces, flat.astype(dtype))
@@ -32,13 +32,13 @@ def test_boxes_are_those_of_the_parts_and_made_when_they_are_needed(dtype: type[
     world.set_positions(body, shape)
     depth = world.tree_shape(body).depth
     for level in range(depth + 1):
-        boxes, parts = world.tree_boxes(body, level), world.tree_parts(body, level)
-        assert boxes.lower.dtype == dtype and not boxes.made.any()
+        boxes, parts = world.tree_boxes(body, level), world.tree_cut(body, level)
+        assert boxes.lower.dtype == dtype and not boxes.valid.any()
         for part, (lower, upper) in enumerate(zip(boxes.lower, boxes.upper, strict=True)):
             corners = shape[faces[parts == part]].reshape(-1, 3)
             assert (lower == corners.min(axis=0)).all() and (upper == corners.max(axis=0)).all()
-    assert len(world.intersection_pairs_between(body, needle)) > 0
-    made = [world.tree_boxes(body, level).made for level in range(depth + 1)]
-    assert made[0].all() and 0 < made[-1].sum() < len(made[-1])
+    assert len(pairs_between(world, body, needle)) > 0
+    valid = [world.tree_boxes(body, level).valid for level in range(depth + 1)]
+    assert valid[0].all() and 0 < valid[-1].sum() < len(valid[-1])
     world.set_positions(body, shape)
-    assert not any(world.tree_boxes(body, level).made.any() for level in range(depth + 1))
+    assert not any(world.tree_boxes(body, level).valid.any() for level in range(depth + 1))

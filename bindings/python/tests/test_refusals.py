@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pliant
 import pytest
-from conftest import grid
+from conftest import grid, pairs_between
 
 FACES, FLAT = grid(3)
 MAX = float(np.finfo(np.float32).max)
@@ -44,15 +45,20 @@ REFUSALS: list[tuple[Callable[[pliant.World], Any], dict[str, Any]]] = [
     (lambda w: w.remove(7), {"kind": "NoSuchBody", "body": 7}),
     (lambda w: w.remove(-1), {"kind": "NoSuchBody", "body": None}),
     (lambda w: w.triangle_count(2**32), {"kind": "NoSuchBody", "body": None}),
-    (lambda w: w.intersection_pairs_between(1, 1), {"kind": "SameBody", "body": 1}),
-    (lambda w: w.ignore(0, 0), {"kind": "SameBody", "body": 0}),
+    (lambda w: w.ignore(0, 2), {"kind": "NoSuchBody", "body": 2}),
+    (lambda w: w.intersections(pliant.Selection.between(1, 1)).all(), {"kind": "SameBody", "body": 1}),
+    (lambda w: w.intersections(pliant.Selection.between(1, 1)).prepare(), {"kind": "SameBody", "body": 1}),
+    (lambda w: w.intersections(pliant.Selection.between(0, -1)), {"kind": "NoSuchBody", "body": None}),
+    (lambda w: w.intersections(pliant.Selection.within(2**32)), {"kind": "NoSuchBody", "body": None}),
+    (lambda w: w.intersections().all(at_most=0), {"kind": "TooManyHits", "body": None, "limit": 0}),
+    (lambda w: w.intersections().all(at_most=7), {"kind": "TooManyHits", "limit": 7}),
 ]
 
 
 @pytest.mark.parametrize(("call", "facts"), REFUSALS, ids=range(len(REFUSALS)))
 def test_refusals_have_facts_and_change_nothing(call: Callable[[pliant.World], Any], facts: dict[str, Any]) -> None:
     world = two_sheets()
-    before = world.intersection_pairs().tolist()
+    before = world.intersections().all().tolist()
     with pytest.raises(pliant.Error) as refused:
         call(world)
     error = refused.value
@@ -60,7 +66,7 @@ def test_refusals_have_facts_and_change_nothing(call: Callable[[pliant.World], A
     assert {name: getattr(error, name) for name in facts} == facts
     assert str(error)
     assert world.bodies() == [0, 1]
-    assert world.intersection_pairs().tolist() == before
+    assert world.intersections().all().tolist() == before
     world.validate()
     # Facts travel between processes.
     again = pickle.loads(pickle.dumps(error))
@@ -70,6 +76,8 @@ def test_refusals_have_facts_and_change_nothing(call: Callable[[pliant.World], A
 def test_every_method_that_names_a_body_refuses_one_that_is_not_there() -> None:
     world = two_sheets()
     world.remove(0)
+    selections = [pliant.Selection.between(1, 0), pliant.Selection.between(0, 1), pliant.Selection.within(0)]
+    queries = [world.intersections(of) for of in selections]
     calls: list[Callable[[], Any]] = [
         lambda: world.remove(0),
         lambda: world.set_positions(0, FLAT),
@@ -82,18 +90,15 @@ def test_every_method_that_names_a_body_refuses_one_that_is_not_there() -> None:
         lambda: world.triangle_count(0),
         lambda: world.vertex_count(0),
         lambda: world.tree_shape(0),
-        lambda: world.tree_parts(0, 0),
+        lambda: world.tree_cut(0, 0),
         lambda: world.vertex_order(0),
         lambda: world.triangles(0),
         lambda: world.positions(0),
         lambda: world.tree_boxes(0, 0),
-        lambda: world.intersection_pairs_between(1, 0),
-        lambda: world.first_intersection_between(0, 1),
-        lambda: world.visit_intersections_between(0, 1, lambda pair: True),
-        lambda: world.self_intersection_pairs(0),
-        lambda: world.first_self_intersection(0),
-        lambda: world.visit_self_intersections(0, lambda pair: True),
-        lambda: world.update_body(0),
+        *(query.all for query in queries),
+        *(query.first for query in queries),
+        *(partial(query.visit, lambda pair: True) for query in queries),
+        *(query.prepare for query in queries),
     ]
     for call in calls:
         with pytest.raises(pliant.Error, match="body 0: not in this world") as refused:
@@ -149,37 +154,59 @@ def test_options_reach_the_library() -> None:
     for options in every:
         world = pliant.World(leaf_size=1, **options)
         world.add(faces, flat)
-        world.update_body(0)
-        world.self_intersection_pairs(0)
+        world.add(faces, flat)
+        world.intersections(pliant.Selection.between(0, 1)).prepare()
+        world.intersections(pliant.Selection.within(0)).all()
         statistics = world.statistics()
         work[str(options)] = (statistics.boxes_bottom_up, statistics.boxes_top_down)
     bottom_up, top_down, hybrid, level_0, level_1 = work.values()
     assert bottom_up[1] == 0 and top_down[0] == 0 < top_down[1]
     assert level_0[0] < level_1[0] < bottom_up[0] and level_1 == hybrid
+    # A body that meets itself is refitted as a whole, unless a level is asked for.
+    world = pliant.World(leaf_size=1)
+    world.add(faces, flat)
+    world.intersections(pliant.Selection.within(0)).prepare()
+    world.intersections(pliant.Selection.within(0)).all()
+    assert (2 * world.statistics().boxes_bottom_up, world.statistics().boxes_top_down) == bottom_up
     centre, mean, connectivity = (pliant.World(partition=p, leaf_size=1) for p in ("centre", "mean", "connectivity"))
     skewed = flat**3
-    parts = [w.tree_parts(w.add(faces, skewed), 1).tolist() for w in (centre, mean, connectivity, pliant.World())]
+    parts = [w.tree_cut(w.add(faces, skewed), 1).tolist() for w in (centre, mean, connectivity, pliant.World())]
     assert all(a != b for i, a in enumerate(parts) for b in parts[:i])
 
 
 def test_filters_boxes_and_small_questions() -> None:
     world = two_sheets()
-    every = world.intersection_pairs()
+    of_world, everything = world.intersections(), world.intersections(pliant.Selection.EVERYTHING)
+    every = of_world.all()
     assert every.shape == (len(every), 4) and len(every) > 0
     assert (world.triangle_count(0), world.vertex_count(np.uint32(1))) == (18, 16)
     world.ignore(0, 1)
-    assert len(world.intersection_pairs()) == 0 and world.first_intersection() is None
-    assert len(world.intersection_pairs_between(0, 1)) == len(every)
+    assert len(of_world.all()) == 0 and of_world.first() is None
+    assert len(pairs_between(world, 0, 1)) == len(every)
     world.unignore(1, 0)
     world.set_filter(0, 1, 0xFFFFFFFF)
     world.set_filter(1, 2, 2)
-    assert len(world.intersection_pairs()) == 0
+    assert len(of_world.all()) == 0
     world.set_filter(1, 2, 1)
-    assert len(world.intersection_pairs()) == len(every)
+    assert len(of_world.all()) == len(every)
     world.set_loose_box(1, None)
+    # A sheet that is folded onto itself: bodies meet themselves unless their filter or ignore says no.
+    world.set_positions(1, np.abs(FLAT - 0.4) + 5)
+    assert len(of_world.all()) == 0
+    world.set_filter(1, 2, 3)
+    itself = world.intersections(pliant.Selection.within(1)).all().tolist()
+    assert everything.all().tolist() == itself and itself
+    world.ignore(1, 1)
+    assert len(everything.all()) == 0 and everything.first() is None
+    world.unignore(1, 1)
+    world.set_filter(1, 2, 1)
+    assert len(everything.all()) == 0
+    world.set_filter(1, 2, 2)
+    assert everything.all().tolist() == itself
+    assert world.intersections(pliant.Selection.within(1)).all().tolist() == itself
     world.set_positions(1, FLAT + 5)
-    assert len(world.intersection_pairs()) == 0
-    parts = world.tree_parts(0, 1)
+    assert len(everything.all()) == 0
+    parts = world.tree_cut(0, 1)
     assert parts.dtype == np.uint32 and parts.shape == (18,)
     assert world.statistics()._fields[-1] == "pairs" and world.statistics().pairs == 0
 
@@ -201,8 +228,11 @@ def test_arguments_of_a_wrong_type(call: Callable[[pliant.World], Any]) -> None:
 
 def test_questions_to_a_world_without_bodies() -> None:
     world = pliant.World()
-    world.update()
     world.validate()
-    assert world.bodies() == [] and world.first_intersection() is None
-    assert world.intersection_pairs().shape == (0, 4)
+    assert world.bodies() == []
+    for of in (pliant.Selection.WORLD, pliant.Selection.EVERYTHING):
+        query = world.intersections(of)
+        query.prepare()
+        assert query.first() is None and not query.visit(lambda pair: True)
+        assert query.all().shape == (0, 4) and query.all(at_most=0).dtype == np.uint32
     assert sum(world.statistics()) == 0

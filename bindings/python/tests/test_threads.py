@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pliant
 import pytest
-from conftest import fold, grid
+from conftest import fold, grid, pairs_between, pairs_within
 
 FACES, FLAT = grid(60)
 SHAPE = fold(FLAT, 1.0)
@@ -55,6 +55,8 @@ def test_others_run_while_a_call_computes() -> None:
     body = world.add(faces, shape)
     other = world.add(faces, shape)
 
+    of_world, itself = world.intersections(), world.intersections(pliant.Selection.within(body))
+
     def ask_anew(ask: Callable[[], object]) -> Callable[[], object]:
         def call() -> None:
             world.set_positions(body, shape)
@@ -66,10 +68,12 @@ def test_others_run_while_a_call_computes() -> None:
         "add": lambda: pliant.World().add(faces, shape),
         "set_positions": lambda: world.set_positions(body, shape),
         "rebuild": lambda: world.rebuild(body),
-        "update_body": ask_anew(lambda: world.update_body(body)),
-        "intersection_pairs": world.intersection_pairs,
-        "intersection_pairs_between": lambda: world.intersection_pairs_between(body, other),
-        "self_intersection_pairs": lambda: world.self_intersection_pairs(body),
+        "prepare": ask_anew(itself.prepare),
+        "all": of_world.all,
+        "all between": lambda: pairs_between(world, body, other),
+        "all within": itself.all,
+        "first": ask_anew(itself.first),
+        "visit": lambda: itself.visit(lambda pair: True),
         "validate": world.validate,
         "pliant.self_intersection_pairs": lambda: pliant.self_intersection_pairs(shape, faces),
         "pliant.intersection_pairs": lambda: pliant.intersection_pairs(shape, faces, flat, faces),
@@ -88,7 +92,7 @@ def test_worlds_side_by_side() -> None:
         counts = []
         for step in range(4):
             world.set_positions(body, fold(FLAT, (step + seed) / 6))
-            counts.append(len(world.self_intersection_pairs(body)))
+            counts.append(len(pairs_within(world, body)))
         return counts
 
     serial = [run(seed) for seed in range(4)]
@@ -102,17 +106,17 @@ def test_a_visitor_may_not_ask_its_world() -> None:
     body = world.add(FACES, SHAPE)
     errors = []
 
-    def visit(pair: tuple[int, int]) -> bool:
-        for call in (world.bodies, lambda: world.set_positions(body, FLAT), lambda: world.self_intersection_pairs(body)):
+    def visit(pair: pliant.Pair) -> bool:
+        for call in (world.bodies, lambda: world.set_positions(body, FLAT), lambda: pairs_within(world, body)):
             with pytest.raises(pliant.Error, match="one call at a time") as refused:
                 call()
             errors.append(refused.value.kind)
         # Another world is free.
         return bool(len(pliant.self_intersection_pairs(SHAPE, FACES)))
 
-    assert world.visit_self_intersections(body, visit)
+    assert world.intersections(pliant.Selection.within(body)).visit(visit)
     assert errors == ["Busy"] * 3
-    assert len(world.self_intersection_pairs(body)) > 0
+    assert len(pairs_within(world, body)) > 0
 
 
 def test_a_second_thread_is_refused_not_left_waiting() -> None:
@@ -120,10 +124,10 @@ def test_a_second_thread_is_refused_not_left_waiting() -> None:
     body = world.add(FACES, SHAPE)
     outcomes = []
 
-    def visit(pair: tuple[int, int]) -> bool:
+    def visit(pair: pliant.Pair) -> bool:
         def ask() -> None:
             try:
-                world.intersection_pairs()
+                world.intersections().all()
             except pliant.Error as error:
                 outcomes.append(error.kind)
 
@@ -133,7 +137,7 @@ def test_a_second_thread_is_refused_not_left_waiting() -> None:
         assert not thread.is_alive()
         return True
 
-    assert world.visit_self_intersections(body, visit)
+    assert world.intersections(pliant.Selection.within(body)).visit(visit)
     assert outcomes == ["Busy"]
 
 

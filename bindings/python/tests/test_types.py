@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import importlib.metadata
+import inspect
 import re
 import subprocess
 import sys
@@ -29,27 +30,57 @@ def names(members: list[ast.stmt]) -> set[str]:
     return {member.name for member in members if isinstance(member, ast.FunctionDef | ast.ClassDef)}
 
 
+def constants(members: list[ast.stmt]) -> set[str]:
+    return {member.target.id for member in members if isinstance(member, ast.AnnAssign) and isinstance(member.target, ast.Name)}
+
+
 def test_stub_and_module_have_the_same_names() -> None:
     stub = ast.parse((PACKAGE / "_pliant.pyi").read_text()).body
     public = {name for name in dir(pliant._pliant) if not name.startswith("_")}
     assert {name for name in names(stub) if not name.startswith("_")} == public
     classes = {member.name: member.body for member in stub if isinstance(member, ast.ClassDef)}
-    for name in ("World", "Check"):
+    for name in ("World", "Query", "Selection", "Check"):
         members = {member for member in vars(getattr(pliant, name)) if member in ("__iter__", "__next__") or member[0] != "_"}
-        assert names(classes[name]) - {"__new__"} == members
+        assert {member for member in names(classes[name]) | constants(classes[name]) if member in members or member[:2] != "__"} == members
 
 
-def test_a_world_has_the_methods_of_the_rust_librarys() -> None:
-    source = HERE.parents[2] / "crates" / "pliant" / "src" / "world"
-    if not source.is_dir():
+def source_of(*path: str) -> str:
+    """A file, or all files of a folder, of the Rust library's worlds."""
+    source = (HERE.parents[2] / "crates" / "pliant" / "src" / "world").joinpath(*path)
+    if not source.exists():
         pytest.skip("these tests are not in a checkout of the whole project")
-    text = "".join(file.read_text() for file in source.glob("*.rs"))
-    visible = re.sub(r"#\[doc\(hidden\)\]\s+pub fn \w+", "", text)
-    methods = set(re.findall(r"^    pub fn (\w+)", visible, re.MULTILINE)) - {"new", "with_options"}
-    assert {"write_positions", "tree_parts", "visit_self_intersections", "validate"} < methods
-    assert methods - set(dir(pliant.World)) == set()
-    # What is here alone.
-    assert {name for name in vars(pliant.World) if name[0] != "_"} - methods == {"dtype"}
+    return "".join(file.read_text() for file in source.glob("*.rs")) if source.is_dir() else source.read_text()
+
+
+def public_methods(source: str) -> set[str]:
+    visible = re.sub(r"#\[doc\(hidden\)\]\s+pub fn \w+", "", source)
+    return set(re.findall(r"^    pub fn (\w+)", visible, re.MULTILINE))
+
+
+def of_class(kind: type) -> set[str]:
+    return {name for name in vars(kind) if name[0] != "_"}
+
+
+def test_worlds_and_queries_have_the_methods_of_the_rust_librarys() -> None:
+    of_world, of_query = public_methods(source_of("mod.rs")), public_methods(source_of("query.rs"))
+    assert {"write_positions", "tree_cut", "intersections", "validate"} < of_world
+    assert {"all", "first", "visit", "prepare", "at_most", "interrupt_if"} <= of_query
+    # Nothing is public elsewhere.
+    assert public_methods(source_of()) == of_world | of_query
+    # A pool of threads is nothing of Python's, and what makes a world has one name there.
+    of_world -= {"new", "with_options", "with_pool"}
+    assert of_class(pliant.World) == of_world | {"dtype"}
+    # How much is wanted at most is an argument, and what interrupts a query are signals.
+    of_query -= {"at_most", "interrupt_if"}
+    assert of_class(pliant.Query) == of_query
+    assert "at_most" in inspect.signature(pliant.Query.all).parameters
+
+
+def test_selections_have_the_names_of_the_rust_librarys() -> None:
+    source = source_of("selection.rs")
+    variants = re.findall(r"^    (\w+)(\(.*\))?,$", source[source.index("pub enum Selection") :], re.MULTILINE)
+    assert len(variants) == 4
+    assert of_class(pliant.Selection) == {name.lower() if bodies else name.upper() for name, bodies in variants}
 
 
 def test_everything_public_is_in_the_package() -> None:
@@ -84,15 +115,22 @@ def test_tests_and_examples_have_the_right_types() -> None:
     [
         ("world.add(faces, positions)", None),
         ("world.add(faces, positions).bit_length()", None),
-        ("world.intersection_pairs().sum()", None),
+        ("world.intersections().all().sum()", None),
         ("pliant.self_intersection_pairs(positions, faces, threads=2)", None),
         ("[frame.pairs[0] for frame in pliant.check('a.npz', frames=range(3))]", None),
         ("pliant.World(degree=3)", "degree"),
         ("pliant.World(partition='octree')", "partition"),
         ("world.set_positions(positions)", "positions"),
         ("world.add(faces)", "No overload"),
-        ("world.first_self_intersection(0)[0]", "not indexable"),
-        ("world.visit_intersections(lambda: True)", "visit_intersections"),
+        ("world.intersections(pliant.Selection.EVERYTHING).all(at_most=3)[0]", None),
+        ("{pliant.Selection.within(0): pliant.Selection.between(0, np.uint32(1)) == pliant.Selection.WORLD}", None),
+        ("world.intersections(0)", "Selection"),
+        ("world.intersections(pliant.Selection.between(0))", "between"),
+        ("world.intersections(pliant.Selection.EVERY)", "EVERY"),
+        ("world.intersections(pliant.Selection.within(0)).first().body_a", "None"),
+        ("world.intersections().all(3)", "Too many positional"),
+        ("world.intersections().visit(lambda: True)", "visit"),
+        ("world.intersections().visit(lambda pair: pair.triangle_c)", "triangle_c"),
         ("pliant.intersection_pairs(positions, faces)", "No overload"),
         ("pliant.check('a.npz', frames=3)", "frames"),
         ("pliant.check('a.npz', split='components', groups={'g': ['a.npz', 1]}, ignore=[('g', 0)], baseline=0)", None),

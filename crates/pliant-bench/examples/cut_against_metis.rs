@@ -53,7 +53,7 @@ fn ours(triangles: &[[u32; 3]], positions: &[[f32; 3]], degree: Degree) -> Vec<u
     let body = world
         .add(triangles, positions)
         .expect("a scene's bodies are good");
-    world.tree_parts(body, 1).expect("the body is there")
+    world.tree_cut(body, 1).expect("the body is there")
 }
 
 /// Triangles, and which of them meet in each edge.

@@ -7,7 +7,7 @@
 //! cargo run --release -p pliant-bench --example windows -- [NAME ...] [--rounds R]
 //! ```
 
-use pliant::{BodyId, World};
+use pliant::{BodyId, Selection, World};
 use pliant_bench::motion::{Motion, Placed};
 use pliant_scenes::Scene;
 use std::time::Instant;
@@ -28,12 +28,13 @@ enum Ask {
     Itself,
 }
 
-const WINDOWS: [Window; 9] = [
+const WINDOWS: [Window; 10] = [
     ("easy", "spheres", 20_480, 1..=50, Ask::All),
     ("hard", "spheres", 20_480, 150..=200, Ask::All),
     ("deepest", "spheres", 20_480, 200..=200, Ask::All),
     ("first", "spheres", 20_480, 60..=200, Ask::First),
     ("crowd", "crowd", 5_120, 150..=200, Ask::All),
+    ("flat", "cloth", 79_202, 1..=20, Ask::Itself),
     ("cloth", "cloth", 79_202, 35..=50, Ask::Itself),
     ("small", "spheres", 1_280, 1..=200, Ask::First),
     ("large", "spheres", 327_680, 190..=200, Ask::All),
@@ -130,12 +131,23 @@ fn one_step(
     }
     let moved = start.elapsed().as_secs_f64();
     let found = match ask {
-        Ask::All => world.intersection_pairs().len(),
-        Ask::First => usize::from(world.first_intersection().is_some()),
+        Ask::All => all(world, Selection::World),
+        Ask::First => {
+            let first = world.intersections(Selection::World).first();
+            usize::from(first.expect("the world is there").is_some())
+        }
         Ask::Itself => bodies
             .iter()
-            .map(|&body| world.self_intersection_pairs(body).expect("there").len())
+            .map(|&body| all(world, Selection::Within(body)))
             .sum(),
     };
     (moved, start.elapsed().as_secs_f64(), found)
+}
+
+fn all(world: &mut World<f32>, of: Selection) -> usize {
+    world
+        .intersections(of)
+        .all()
+        .expect("the bodies are there")
+        .len()
 }

@@ -1,13 +1,14 @@
 //! The loop: frames of several sources, one after another, and the pairs of each.
 
+use crate::any_world::AnyWorld;
 use crate::bodies::{Bodies, BodyFacts};
 use crate::error::Error;
+use crate::filter::Filter;
 use crate::found::{Found, Row, Stop, Taker};
-use crate::meeting::Meeting;
 use crate::sequence::Sequence;
 use crate::settings::{Frames, Settings};
-use crate::world::WorldOf;
-use pliant::Pair;
+use crate::with_world;
+use pliant::{Pair, Selection};
 use pliant_io::{Body as Source, OpenOptions};
 use std::ops::{ControlFlow, Range};
 
@@ -15,8 +16,10 @@ use std::ops::{ControlFlow, Range};
 pub struct Check {
     sequence: Sequence,
     bodies: Bodies,
-    meeting: Meeting,
+    filter: Filter,
     asked: Settings,
+    /// Who of the world is asked about, once its bodies are there.
+    of: Selection,
     /// Those that are left.
     frames: Frames,
     baseline: Option<Baseline>,
@@ -60,7 +63,7 @@ impl Check {
     pub fn new(sources: Vec<Source>, settings: &Settings) -> Result<Self, Error> {
         let sequence = Sequence::new(sources, settings.options)?;
         let bodies = Bodies::of(&sequence.sources, settings.split);
-        let meeting = Meeting::new(
+        let filter = Filter::new(
             &sequence.sources,
             &bodies,
             &settings.groups,
@@ -96,9 +99,10 @@ impl Check {
                 .baseline
                 .map(|frame| Baseline { frame, pairs: None }),
             failed: false,
+            of: Selection::World,
             sequence,
             bodies,
-            meeting,
+            filter,
         })
     }
 
@@ -108,8 +112,8 @@ impl Check {
     }
 
     /// The world in the frame checked last, as the queries left it; empty before the first.
-    pub fn world(&self) -> WorldOf<'_> {
-        self.sequence.world.get()
+    pub fn world(&self) -> &AnyWorld {
+        &self.sequence.world
     }
 
     /// How many frames the sources have, checked or not.
@@ -198,15 +202,25 @@ impl Check {
         Ok(())
     }
 
-    /// Sources none of whose bodies meet are kept apart in the world, so that no time is spent on them.
+    /// Sources none of whose bodies meet are kept apart in the world, and so are sources from themselves, so that no time is spent on
+    /// them.
     fn part_sources(&mut self) -> Result<(), pliant::Error> {
+        let with_themselves = self.sources_with_themselves();
         let Sequence { world, ids, .. } = &mut self.sequence;
+        if !with_themselves.is_empty() {
+            self.of = Selection::Everything;
+            for (source, &id) in ids.iter().enumerate() {
+                if with_themselves.binary_search(&source).is_err() {
+                    with_world!(world, world => world.ignore(id, id))?;
+                }
+            }
+        }
         for b in 0..ids.len() {
             for a in 0..b {
                 let bodies = [a, b].map(|source| self.bodies.of_source(source));
                 let [of_a, of_b] = bodies;
-                if !self.meeting.any_meet(of_a, of_b) {
-                    world.ignore(ids[a], ids[b])?;
+                if !self.filter.any_meet(of_a, of_b) {
+                    with_world!(world, world => world.ignore(ids[a], ids[b]))?;
                 }
             }
         }
@@ -235,34 +249,28 @@ impl Check {
 
     /// Any pair will do: the world knows a shorter way.
     fn take_first(&mut self, taker: &mut Taker) -> Result<ControlFlow<Stop>, pliant::Error> {
-        let with_themselves = self.sources_with_themselves();
-        let Sequence { world, ids, .. } = &mut self.sequence;
-        let mut first = world.first().map(row);
-        for id in with_themselves.into_iter().map(|source| ids[source]) {
-            if first.is_none() {
-                first = world.first_of(id)?.map(|[a, b]| [id.0, a, id.0, b]);
-            }
-        }
-        Ok(first.map_or(ControlFlow::Continue(()), |row| taker.take(row)))
+        let of = self.of;
+        let world = &mut self.sequence.world;
+        let first = with_world!(world, world => world.intersections(of).first())?;
+        Ok(first.map_or(ControlFlow::Continue(()), |pair| taker.take(pair.into())))
     }
 
     /// Shows `taker` all pairs of bodies that meet, until it has enough.
     fn take_all(&mut self, taker: &mut Taker) -> Result<ControlFlow<Stop>, pliant::Error> {
-        let with_themselves = self.sources_with_themselves();
         let Self {
+            of,
             sequence,
             bodies,
-            meeting,
+            filter,
             asked: Settings { itself, .. },
             ..
         } = self;
-        let Sequence { world, ids, .. } = sequence;
         let mut stop = ControlFlow::Continue(());
-        let mut take = |row: Row| {
-            let row = bodies.row(row);
+        let take = |pair: Pair| {
+            let row = bodies.row(pair.into());
             let [body_a, _, body_b, _] = row;
             // The world knows sources only.
-            let is_asked = (body_a != body_b || *itself) && meeting.meet(body_a, body_b);
+            let is_asked = (body_a != body_b || *itself) && filter.meet(body_a, body_b);
             if is_asked {
                 stop = taker.take(row);
             }
@@ -272,12 +280,8 @@ impl Check {
                 ControlFlow::Continue(())
             }
         };
-        let mut flow = world.visit(|pair| take(row(pair)));
-        for id in with_themselves.into_iter().map(|source| ids[source]) {
-            if flow.is_continue() {
-                flow = world.visit_of(id, |[a, b]| take([id.0, a, id.0, b]))?;
-            }
-        }
+        let world = &mut sequence.world;
+        let _ = with_world!(world, world => world.intersections(*of).visit(take))?;
         Ok(stop)
     }
 
@@ -286,7 +290,7 @@ impl Check {
         let is_asked = |&source: &usize| {
             let of_source = self.bodies.of_source(source);
             (self.asked.itself || of_source.len() > 1)
-                && self.meeting.any_meet(of_source.clone(), of_source)
+                && self.filter.any_meet(of_source.clone(), of_source)
         };
         (0..self.sequence.sources.len()).filter(is_asked).collect()
     }
@@ -300,13 +304,4 @@ impl Check {
             error,
         }
     }
-}
-
-fn row(pair: Pair) -> Row {
-    [
-        pair.body_a.0,
-        pair.triangle_a,
-        pair.body_b.0,
-        pair.triangle_b,
-    ]
 }

@@ -1,4 +1,5 @@
-//! Why a check could not begin, or could not go on. Each message is one line.
+//! Why a check could not begin, or could not go on. Each message is one line, and names no option as a program or Python writes
+//! it: whoever shows the message adds what to do.
 
 use thiserror::Error;
 
@@ -84,6 +85,12 @@ pub enum Error {
         name: String,
         /// Why not.
         why: &'static str,
+    },
+    /// A group has no bodies.
+    #[error("no bodies are named for the group {name:?}")]
+    EmptyGroup {
+        /// The name.
+        name: String,
     },
     /// An earlier frame could not be checked.
     #[error("an earlier frame could not be checked, so the frames after it are not")]

@@ -37,25 +37,25 @@
 //! |---|---|
 //! | `settings.rs` | what is asked |
 //! | `check.rs` | the loop |
-//! | `sequence.rs`, `world.rs` | sources side by side; the world in a frame of theirs |
+//! | `sequence.rs`, `any_world.rs` | sources side by side; the world, of either precision, in a frame of theirs |
 //! | `bodies.rs`, `pieces.rs` | what an answer calls a body; connected pieces of a mesh |
-//! | `meeting.rs` | names and groups; who may meet whom |
+//! | `filter.rs` | names and groups; who may meet whom |
 //! | `found.rs` | the pairs of one frame |
 //! | `error.rs` | one type, one line |
 
+mod any_world;
 mod bodies;
 mod check;
 mod error;
+mod filter;
 mod found;
-mod meeting;
 mod pieces;
 mod sequence;
 mod settings;
-mod world;
 
+pub use any_world::{AnyWorld, NotTaken, double, single};
 pub use bodies::BodyFacts;
 pub use check::Check;
 pub use error::Error;
 pub use found::{Found, Row};
 pub use settings::{Frames, Group, Settings, Split};
-pub use world::WorldOf;

@@ -1,8 +1,8 @@
 //! Sources read side by side, and the world brought to a frame of theirs. In memory are the reader's frame and the world's (its
 //! shape and the one before it, whose memory the next is written into); where a source is widened to f64, that too.
 
+use crate::any_world::{AnyWorld, NotTaken};
 use crate::error::Error;
-use crate::world::World;
 use pliant::{BodyId, Options};
 use pliant_io::{Body as Source, Precision};
 
@@ -10,7 +10,9 @@ use pliant_io::{Body as Source, Precision};
 pub(crate) struct Sequence {
     pub(crate) sources: Vec<Source>,
     pub(crate) frame_count: usize,
-    pub(crate) world: World,
+    pub(crate) world: AnyWorld,
+    /// Positions of single precision, widened.
+    widened: Vec<[f64; 3]>,
     /// The body of the world that each source is; empty before the first frame.
     pub(crate) ids: Vec<BodyId>,
     /// The frame behind the one read last.
@@ -40,7 +42,8 @@ impl Sequence {
         Ok(Self {
             sources,
             frame_count,
-            world: World::new(precision.unwrap_or(Precision::F64), options),
+            world: AnyWorld::new(precision.unwrap_or(Precision::F64), options),
+            widened: Vec::new(),
             ids: Vec::new(),
             next: 0,
             shown: None,
@@ -83,16 +86,28 @@ impl Sequence {
             }
             let positions = source.positions();
             let taken = if makes {
-                let added = self.world.add(source.triangles(), positions);
+                let triangles = source.triangles();
+                let added = self.world.add(triangles, positions, &mut self.widened);
                 added.map(|id| self.ids.push(id))
             } else {
-                self.world.set_positions(self.ids[place], positions)
+                self.world
+                    .set_positions(self.ids[place], positions, &mut self.widened)
             };
-            taken.map_err(|error| Error::Refused {
-                source_name: source.name().to_owned(),
-                frame,
-                error,
-            })?;
+            match taken {
+                Ok(()) => {}
+                Err(NotTaken::Refused(error)) => {
+                    return Err(Error::Refused {
+                        source_name: source.name().to_owned(),
+                        frame,
+                        error,
+                    });
+                }
+                // A world is of double precision if any source is.
+                Err(NotTaken::WouldBeRounded) => {
+                    let source_name = source.name().to_owned();
+                    return Err(Error::Missing { source_name, frame });
+                }
+            }
         }
         Ok(())
     }

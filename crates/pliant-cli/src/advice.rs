@@ -1,15 +1,18 @@
 //! What to do next, after a message that says only what is wrong. Messages that say it themselves get nothing.
+//!
+//! The libraries name no flags, since Python shows their messages too: every flag that can help is named here, or by the verb
+//! that knows what else was asked.
 
 use pliant_check::Error as CheckError;
 use pliant_io::{Place, Reason};
 use std::io::{self, ErrorKind};
 
-/// `"; "` and what to do, or nothing.
-pub(crate) fn after(error: &anyhow::Error) -> String {
-    error
-        .chain()
-        .find_map(advice)
-        .map_or_else(String::new, |advice| format!("; {advice}"))
+/// All that is said of an error, wherever it is shown: what is wrong, `"; "` and what to do.
+pub(crate) fn with_advice(error: &anyhow::Error) -> String {
+    match error.chain().find_map(advice) {
+        Some(advice) => format!("{error:#}; {advice}"),
+        None => format!("{error:#}"),
+    }
 }
 
 fn advice(error: &(dyn std::error::Error + 'static)) -> Option<&'static str> {
@@ -43,6 +46,9 @@ fn reading(error: &pliant_io::Error) -> Option<&'static str> {
         | Reason::NoFrames => "mend it, or export it again",
         Reason::Truncated(_) | Reason::Checksum { .. } => "copy it or export it again",
         Reason::TooMany { .. } => "split the mesh",
+        Reason::TooLarge { .. } => "allow more with `--max-memory`, or split the mesh",
+        Reason::SeamsTooLarge { .. } => "allow more with `--max-memory`, or use `--no-weld`",
+        Reason::SeamOpened { .. } => "use `--no-weld`",
         Reason::ManyCorners { .. } => "triangulate the mesh first",
         Reason::OutOfMemory => "split the mesh, or free some memory",
         Reason::FacesDiffer { .. } | Reason::FaceCount { .. } | Reason::VertexCount { .. } => {
@@ -50,6 +56,13 @@ fn reading(error: &pliant_io::Error) -> Option<&'static str> {
         }
         Reason::NoBody { .. } => "choose one of these",
         Reason::NoClip { .. } => "choose one of these with `--clip`",
+        Reason::BadRate { .. } => "choose another with `--fps`",
+        Reason::ClipTooLong { .. } => "ask for fewer with `--fps`",
+        Reason::MeshMoves { .. } => "write it to a file with `pliant convert --frames 0`",
+        Reason::Exists => "use `--force` to write over it",
+        Reason::HoldsOneFrame { .. } => {
+            "name a file a frame ('name_%04d.obj'), or choose one with `--frames`"
+        }
         Reason::Write(error) => return writing(error.kind()),
         _ => return None,
     })
@@ -64,6 +77,11 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::Missing { .. } => Some("wait until it is written, then check again"),
         CheckError::NoSuchFrame { .. } | CheckError::NoSuchName { .. } => {
             Some("choose one of these")
+        }
+        CheckError::NoClip => Some("leave out `--clip`"),
+        CheckError::EmptyGroup { .. } => Some("write NAME=BODY,BODY"),
+        CheckError::TooManyPairs { .. } => {
+            Some("allow more with `--max-memory`, or ask for less with `--count` or `--first`")
         }
         _ => None,
     }

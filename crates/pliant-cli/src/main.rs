@@ -83,7 +83,7 @@ fn main() -> ExitCode {
         Err(error) => {
             // Whoever reads has gone (`| head`): nobody to tell.
             if !is_broken_pipe(&error) {
-                complain(&format!("pliant: {error:#}{}", advice::after(&error)));
+                complain(&format!("pliant: {}", advice::with_advice(&error)));
             }
             ExitCode::from(2)
         }

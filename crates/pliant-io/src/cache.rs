@@ -63,10 +63,7 @@ pub(crate) fn open(
         .map_err(in_mesh)?;
     let frames = source.frame_count();
     if frames != 1 {
-        let reason = format!(
-            "has {frames} frames; the mesh beside positions must have one: write it to a file with `pliant convert --frames 0`"
-        );
-        return Err(in_mesh(Reason::Unsupported(reason).into()));
+        return Err(in_mesh(Reason::MeshMoves { frames }.into()));
     }
     let mut input = BufReader::with_capacity(1 << 16, positions.open()?);
     let length = input.get_ref().length();

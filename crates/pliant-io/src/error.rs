@@ -1,4 +1,8 @@
-//! One error type whose message is one line: which file, where in it, what is wrong, what to do.
+//! One error type whose message is one line: which file, where in it, what is wrong.
+//!
+//! What to do is said here only where the file itself is to be changed, or named otherwise. A remedy that is an option of the
+//! caller has another name in a program than in Python, so a message names none: it says what the limit was, and whoever shows the
+//! message chooses the advice by its [`Reason`].
 //!
 //! A reader knows *where* and *why* but not the name of its file; it returns a `Fault`, and the
 //! body, which opened the file, makes an [`Error`] of it. Vertices, faces and frames are numbered
@@ -89,11 +93,11 @@ pub enum Reason {
     #[error("holds more than 4294967295 {what}, more than can be numbered")]
     TooMany { what: &'static str },
     #[error(
-        "a frame needs at least {} of memory, {} are allowed; allow more with `--max-memory`, or split the mesh", Size(*needed), Size(*limit)
+        "a frame needs at least {} of memory, {} are allowed", Size(*needed), Size(*limit)
     )]
     TooLarge { needed: u64, limit: u64 },
     #[error(
-        "a frame needs at least {} of memory while its seams are found, {} are allowed; allow more with `--max-memory`, or use `--no-weld`", Size(*needed), Size(*limit)
+        "a frame needs at least {} of memory while its seams are found, {} are allowed", Size(*needed), Size(*limit)
     )]
     SeamsTooLarge { needed: u64, limit: u64 },
     #[error("holds {count} bodies: {names}; name one: '{example}'")]
@@ -106,8 +110,16 @@ pub enum Reason {
     NoBody { name: String, names: String },
     #[error("there is no clip {name:?}; there is: {names}")]
     NoClip { name: String, names: String },
-    #[error("is there already; use `--force` to write over it")]
+    #[error("{fps} frames a second cannot be evaluated; a rate must be finite and above 0")]
+    BadRate { fps: f64 },
+    #[error("its clip lasts {seconds:e} s, more than {most} frames at {fps} a second")]
+    ClipTooLong { seconds: f64, most: u32, fps: f64 },
+    #[error("has {frames} frames; the mesh beside positions must have one")]
+    MeshMoves { frames: usize },
+    #[error("is there already")]
     Exists,
+    #[error("holds one frame, there are {frames}")]
+    HoldsOneFrame { frames: usize },
     #[error("cannot be written: {0}")]
     Write(io::Error),
     #[error("a polygon of more than {most} corners")]
@@ -131,7 +143,7 @@ pub enum Reason {
     #[error("holds 64-bit coordinates, but the body began with 32-bit ones in {}; convert the frames to one type", than.display())]
     Precision { than: PathBuf },
     #[error(
-        "vertices {a} and {b} were welded, since edges of theirs coincide in the first frame, but are apart here; use `--no-weld`"
+        "vertices {a} and {b} were welded, since edges of theirs coincide in the first frame, but are apart here"
     )]
     SeamOpened { a: u32, b: u32 },
     #[error("changed while it was being read; wait until it is written, or copy it first")]

@@ -156,10 +156,10 @@ impl Recorder {
                 faces: None,
             });
             let vertices = world.vertex_count(id).unwrap_or_default();
-            let triangles = world.triangles(id).unwrap_or_default();
+            let triangles = world.triangles(id).unwrap_or_default().to_vec();
             let depth = world.tree_shape(id).map_or(0, |shape| shape.depth);
             let levels: Vec<Vec<u32>> = (0..=depth.min(MOST_LEVELS - 1))
-                .map(|level| world.tree_parts(id, level).unwrap_or_default())
+                .map(|level| world.tree_cut(id, level).unwrap_or_default())
                 .collect();
             self.bodies
                 .push(BodyRecord::new(id, label, vertices, triangles, &levels));
@@ -207,7 +207,7 @@ impl Recorder {
             for (level, starts) in body.starts.iter().enumerate() {
                 let boxes = world.tree_boxes(body.id, level as u32).unwrap_or_default();
                 let end = made.len() + starts.len();
-                made.extend(boxes.iter().map(|node| node.made));
+                made.extend(boxes.iter().map(|node| node.valid));
                 made.resize(end, false);
             }
         }

@@ -11,7 +11,7 @@
 //! ```
 
 use glam::Vec3;
-use pliant::{BodyId, Error, World};
+use pliant::{BodyId, Error, Pair, Selection, World};
 use std::collections::BTreeSet;
 use std::{env, fs, io, io::Write};
 
@@ -140,9 +140,16 @@ impl Simulation {
         // ... the library answers ...
         cloth.show(world)?;
         ball.show(world)?;
-        let pairs = world.intersection_pairs_between(cloth.body, ball.body)?;
+        let pairs = world
+            .intersections(Selection::Between(cloth.body, ball.body))
+            .all()?;
         // ... and the application reacts.
-        for &[of_cloth, of_ball] in pairs {
+        for &Pair {
+            triangle_a: of_cloth,
+            triangle_b: of_ball,
+            ..
+        } in pairs
+        {
             let [a, b, c] =
                 ball.triangles[of_ball as usize].map(|corner| ball.points[corner as usize]);
             let normal = (b - a).cross(c - a).normalize_or(Vec3::Z);

@@ -1,12 +1,12 @@
 //! What was refused: which body, which triangle, which vertex, and why.
 
-use crate::BodyId;
+use crate::ids::BodyId;
 use std::fmt;
 
 /// A call that was refused. The world is as it was before the call.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
-    /// The body the call was about; `None` for a body that was to be added.
+    /// The body the call was about; `None` for one that was to be added, and for a query that failed as a whole.
     pub body: Option<BodyId>,
     /// What was wrong.
     pub kind: ErrorKind,
@@ -74,8 +74,25 @@ pub enum ErrorKind {
     BadLooseBox,
     /// No body of this world has this id: it was removed, or it belongs to another world.
     NoSuchBody,
-    /// A query between two bodies was given one body twice; ask for its self-intersections instead.
+    /// A query between two bodies was given one body twice; ask [`Within`](crate::Selection::Within) it instead.
     SameBody,
+    /// The list that a query was to make would have more hits than [`at_most`](crate::Query::at_most) allows.
+    TooManyHits {
+        /// How many are allowed.
+        limit: usize,
+    },
+    /// [`interrupt_if`](crate::Query::interrupt_if) ended the query.
+    Interrupted,
+}
+
+impl ErrorKind {
+    /// As the error of a query that failed as a whole.
+    pub(crate) fn of_query(self) -> Error {
+        Error {
+            body: None,
+            kind: self,
+        }
+    }
 }
 
 impl std::error::Error for Error {}
@@ -84,7 +101,7 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.body {
             Some(body) => write!(f, "{body}: {}", self.kind),
-            None => write!(f, "new body: {}", self.kind),
+            None => write!(f, "{}", self.kind),
         }
     }
 }
@@ -140,8 +157,13 @@ impl fmt::Display for ErrorKind {
             ),
             Self::SameBody => write!(
                 f,
-                "asked against itself; ask for its self-intersections instead"
+                "asked against itself, as if it were two bodies; ask within it instead"
             ),
+            Self::TooManyHits { limit } => write!(
+                f,
+                "more hits than the {limit} that were allowed; allow more, or visit them one by one"
+            ),
+            Self::Interrupted => write!(f, "the query was interrupted"),
         }
     }
 }

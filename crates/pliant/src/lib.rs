@@ -3,7 +3,7 @@
 //! intersect, between bodies and within one.
 //!
 //! ```
-//! use pliant::World;
+//! use pliant::{Selection, World};
 //!
 //! let triangles = [[0, 1, 2], [0, 2, 3]];
 //! let sheet = |z: f32| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, -z], [0.0, 1.0, -z]];
@@ -14,12 +14,12 @@
 //! for step in 0..4 {
 //!     let height = 3.0 - step as f32;
 //!     world.set_positions(cloth, &sheet(2.0).map(|[x, y, z]| [x, y, z + height]))?;
-//!     for pair in world.intersection_pairs() {
+//!     for pair in world.intersections(Selection::Everything).all()? {
 //!         println!("step {step}: {pair:?}");
 //!     }
 //! }
-//! assert!(world.self_intersection_pairs(cloth)?.is_empty());
-//! # assert!(!world.intersection_pairs_between(ground, cloth)?.is_empty());
+//! assert!(world.intersections(Selection::Within(cloth)).all()?.is_empty());
+//! # assert!(!world.intersections(Selection::Between(ground, cloth)).all()?.is_empty());
 //! # Ok::<(), pliant::Error>(())
 //! ```
 //!
@@ -32,7 +32,8 @@
 //!   numbers are different, wherever they are.
 //! - **Surfaces only**: a body wholly inside another meets no triangle of it.
 //! - **All pairs** are one set, sorted. **The first pair** is some member of it: whether there is one never depends on options
-//!   or history, which one it is may.
+//!   or history, which one it is may. An answer is an error if a body is not there, if the caller interrupts the query, or if a list
+//!   would be longer than the caller allows.
 //! - **Range**: coordinates are finite and at most `f32::MAX` in magnitude, or they are refused. All others are decided exactly,
 //!   `f32` and `f64`, down to the smallest subnormal.
 //! - **Floating-point environment**: exactness rests on IEEE 754 rounding to nearest. In a thread in which flush-to-zero or
@@ -42,7 +43,7 @@
 //! # Never stale
 //!
 //! [`World::set_positions`] takes a shape over in one checked pass, or refuses it, naming body and vertex, and keeps the last
-//! good one. Every query then makes true just the boxes that it reads: there is no refit to call and none to forget.
+//! good one. Every query then refits just the boxes that it reads: there is no refit to call and none to forget.
 //! Replaying the same motion on one thread allocates nothing.
 //!
 //! # Map
@@ -52,14 +53,15 @@
 //! | a first loop, step by step, and what to do with hits | [`guide`] |
 //! | bodies | [`World::add`], [`remove`](World::remove), [`bodies`](World::bodies), [`BodyId`] |
 //! | moving them | [`World::set_positions`], [`write_positions`](World::write_positions); [`rebuild`](World::rebuild) |
-//! | all pairs | [`World::intersection_pairs`], [`intersection_pairs_between`](World::intersection_pairs_between), [`self_intersection_pairs`](World::self_intersection_pairs); [`Pair`] |
-//! | the first pair | [`World::first_intersection`], [`first_intersection_between`](World::first_intersection_between), [`first_self_intersection`](World::first_self_intersection) |
-//! | pairs one by one, until you stop | [`World::visit_intersections`], [`visit_intersections_between`](World::visit_intersections_between), [`visit_self_intersections`](World::visit_self_intersections) |
+//! | asking: what | [`World::intersections`]; [`Pair`] |
+//! | of whom | [`Selection`]: the whole world, each body with itself too, two bodies, one with itself |
+//! | and how much | [`Query::all`], [`first`](Query::first), [`visit`](Query::visit); [`at_most`](Query::at_most), [`interrupt_if`](Query::interrupt_if) |
 //! | who may meet whom | [`World::set_filter`], [`ignore`](World::ignore), [`unignore`](World::unignore) |
 //! | the broad phase | [`BroadPhase`], [`World::set_loose_box`] |
 //! | what was refused, and why | [`Error`], [`ErrorKind`] |
-//! | time and work | [`World::update`], [`update_body`](World::update_body), [`statistics`](World::statistics), [`Statistics`] |
-//! | how trees are built and updated, threads | [`Options`], [`Degree`], [`Partition`], [`Update`]; [`World::tree_shape`], [`tree_parts`](World::tree_parts), [`vertex_order`](World::vertex_order) |
+//! | time and work | [`Query::prepare`], [`World::statistics`], [`Statistics`] |
+//! | how trees are built and updated | [`Options`], [`Degree`], [`Partition`], [`Update`]; [`World::tree_shape`], [`tree_cut`](World::tree_cut), [`vertex_order`](World::vertex_order) |
+//! | threads | [`Options::threads`], or your own pool: [`World::with_pool`] |
 //! | single or double precision | [`Scalar`] |
 //! | the answer without any tree, to compare with | [`reference`](mod@reference) |
 //! | what a body looks like, for pictures | [`World::triangles`], [`positions`](World::positions), [`tree_boxes`](World::tree_boxes), [`NodeBox`] |
@@ -75,40 +77,46 @@
 //!
 //! ```text
 //! world         bodies and their shapes; the one place where the phases meet
-//! mesh          connectivity, in tree order; never moves
+//! mesh          what the caller said, and how a tree orders it; never moves
 //! geometry      f32 or f64 coordinates, boxes in f32, rounded outward
-//! tree          boxes of degree 2, 4, 8; building: by shape, by mesh, balanced
-//! update        bottom-up, top-down, hybrid
+//! tree          nodes of degree 2, 4, 8, and sets of their boxes; building: by shape, by mesh, balanced
+//! update        which boxes are made when: bottom-up, top-down, hybrid
 //! broad_phase   brute force; sweep and prune
-//! traversal     tree against tree, tree against itself
-//! narrow_phase  triangle against triangle, exact
+//! traversal     tree against tree, tree against itself, for any kind of query
+//! queries       one room a kind: what two leaves do to each other
+//! predicates    triangle against triangle, exact
 //! kernels       the inner loops, over boxes side by side
+//! threads       one or many, private or lent
 //! reference     slow and obviously right
 //! ```
 
 mod broad_phase;
 mod error;
-mod exec;
 mod geometry;
+mod hits;
+mod ids;
 mod kernels;
 mod mesh;
-mod narrow_phase;
 mod options;
-mod pairs;
+mod predicates;
+mod queries;
 pub mod reference;
 mod sort;
 mod statistics;
+mod threads;
 mod traversal;
 mod tree;
 mod update;
 mod world;
 
 pub use error::{Error, ErrorKind};
-pub use geometry::Scalar;
+pub use hits::Pair;
+pub use ids::BodyId;
+#[doc(hidden)]
+pub use kernels::Instructions;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
-pub use pairs::Pair;
 pub use statistics::Statistics;
-pub use world::{BodyId, NodeBox, TreeShape, World};
+pub use world::{NodeBox, Query, Scalar, Selection, TreeShape, World};
 
 /// The example in the README is compiled and run: in the repository, for a package has it elsewhere.
 #[cfg(doctest)]

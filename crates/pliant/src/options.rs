@@ -26,9 +26,9 @@ pub struct Options {
     /// How pairs of bodies that may meet are found. Default: by the number of bodies.
     pub broad_phase: BroadPhase,
     /// How many threads share the work of a query, the calling one included: that of two bodies, or, where many meet and all pairs
-    /// are asked for, the pairs of bodies. Default: 1; more pay from about a millisecond of work on, and more than 256 are 256. For
-    /// a fifth of a millisecond after a query they look for more to do before they sleep. Where the system gives none, the calling
-    /// thread does it all.
+    /// are asked for, the pairs of bodies. They are the world's own, or those of [a pool](crate::World::with_pool). Default: 1; more
+    /// pay from about a millisecond of work on, and more than 256 are 256. For a fifth of a millisecond after a query threads of the
+    /// world look for more to do before they sleep. Where the system gives none, the calling thread does it all.
     pub threads: NonZeroUsize,
 }
 
@@ -84,22 +84,24 @@ pub enum Update {
     Hybrid {
         /// The level down to which boxes are made bottom-up, the root being level 0; levels that a tree does not have are
         /// its last. `None`: floor(n / 2), where n is the level of the deepest leaf, which the paper found "an efficient choice";
-        /// but all levels after a query that looked at the triangles of many leaves (one in ten; never where leaves hold one).
+        /// but all levels in a body that meets itself, where every leaf meets at least itself, and after a query that looked at
+        /// the triangles of many leaves (one in ten; never where leaves hold one).
         level: Option<u32>,
-        /// How many levels are made at once, bottom-up, where a box that is not true is reached. The paper found one level,
+        /// How many levels are made at once, bottom-up, where a stale box is reached. The paper found one level,
         /// which is top-down, the fastest.
         levels_at_once: NonZeroU32,
     },
 }
 
 impl Update {
-    /// The paper's hybrid: down to level n / 2 bottom-up, then a level at a time.
+    /// The paper's hybrid: down to level n / 2 bottom-up, then a level at a time; with the two
+    /// exceptions that stand at `level`.
     pub const HYBRID: Self = Self::Hybrid {
         level: None,
         levels_at_once: NonZeroU32::MIN,
     };
 
-    /// How many levels are made where a box that is not true is reached.
+    /// How many levels are made where a stale box is reached.
     pub(crate) fn levels_at_once(self) -> u32 {
         match self {
             Self::Hybrid { levels_at_once, .. } => levels_at_once.get(),
@@ -135,7 +137,7 @@ impl Default for Options {
 
 impl Options {
     /// The configuration of the paper's experiments: 8-ary initial shape trees cut at the box centre, one triangle a leaf,
-    /// hybrid update at level n / 2.
+    /// hybrid update at level n / 2. The paper has no bodies that meet themselves; in those all levels are made ahead.
     pub fn paper() -> Self {
         Self {
             partition: Partition::Centre,

@@ -2,10 +2,10 @@
 //!
 //! Every configuration of [`World`](crate::World) must give these pairs. O(m^2) or O(m_a m_b) exact decisions.
 
+use crate::Scalar;
 use crate::error::Error;
-use crate::geometry::Scalar;
 use crate::mesh::share_a_vertex;
-use crate::narrow_phase::{Exact, Triangle, triangles_intersect};
+use crate::predicates::{Exact, Triangle, triangles_intersect};
 
 /// The pairs (triangle of a, triangle of b) that intersect, sorted.
 ///
@@ -23,6 +23,10 @@ pub fn intersection_pairs<S: Scalar>(
         corners(triangles_a, positions_a)?,
         corners(triangles_b, positions_b)?,
     );
+    Ok(pairs_of_two(&a, &b))
+}
+
+fn pairs_of_two(a: &[Triangle], b: &[Triangle]) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for (i, a) in a.iter().enumerate() {
         for (j, b) in b.iter().enumerate() {
@@ -31,7 +35,7 @@ pub fn intersection_pairs<S: Scalar>(
             }
         }
     }
-    Ok(pairs)
+    pairs
 }
 
 /// The pairs (smaller triangle, larger triangle) of one body that intersect and share no vertex, sorted.
@@ -44,6 +48,10 @@ pub fn self_intersection_pairs<S: Scalar>(
     positions: &[[S; 3]],
 ) -> Result<Vec<[u32; 2]>, Error> {
     let all = corners(triangles, positions)?;
+    Ok(pairs_of_one(triangles, &all))
+}
+
+fn pairs_of_one(triangles: &[[u32; 3]], all: &[Triangle]) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for (i, a) in all.iter().enumerate() {
         for (j, b) in all.iter().enumerate().skip(i + 1) {
@@ -53,7 +61,7 @@ pub fn self_intersection_pairs<S: Scalar>(
             }
         }
     }
-    Ok(pairs)
+    pairs
 }
 
 fn corners<S: Scalar>(
@@ -61,7 +69,7 @@ fn corners<S: Scalar>(
     positions: &[[S; 3]],
 ) -> Result<Vec<Triangle>, Error> {
     crate::world::validate_body(triangles, positions).map_err(|kind| Error { body: None, kind })?;
-    let corner = |vertex: u32| positions[vertex as usize].map(S::to_f64);
+    let corner = |vertex: u32| positions[vertex as usize].map(Scalar::to_f64);
     Ok(triangles
         .iter()
         .map(|triangle| triangle.map(corner))

@@ -1,21 +1,25 @@
-//! Items in the order of a few numbers, by counting digits.
+//! Hits in the order of their numbers, by counting digits.
 //!
 //! Triangle numbers are dense, so pairs of triangles differ in few bits: the numbers, less the smallest of each, side by side
 //! make one key, and two or three passes over digits of up to eleven bits put thousands of pairs in order without a
 //! comparison, for a tenth of the work of a comparison sort. The keys of few items are compared.
 //!
-//! Several threads sort a run each. Then some keys of every run, evenly spaced, say where to cut all runs, so that what lies between
-//! two cuts is about as much for each thread to merge (Shi and Schaeffer 1992, parallel sorting by regular sampling). Items of
-//! equal keys are equal: the result does not depend on the number of threads.
+//! Several threads sort a run each; one thread sorts several runs if there are very many items, because it can be interrupted between
+//! runs. Then some keys of every run, evenly spaced, say where to cut all runs, so that what lies between two cuts is about as much
+//! for each thread to merge (Shi and Schaeffer 1992, parallel sorting by regular sampling). Items of equal keys are equal: the result
+//! does not depend on the number of threads.
 
-use crate::exec::Threads;
+use crate::hits::Hit;
+use crate::threads::Executor;
 
 /// Below this, counting costs more than comparing.
 const FEW: usize = 192;
 /// Digits of at most so many bits: counts of all its values stay in the nearest cache.
 const DIGIT: u32 = 11;
 /// Items of a run, at least; fewer than two runs are not worth waking a thread.
-const RUN: usize = 1024;
+const SHORTEST_RUN: usize = 1024;
+/// Items of a run, at most: some milliseconds of work.
+const LONGEST_RUN: usize = 1 << 17;
 
 /// Scratch.
 #[derive(Debug, Default)]
@@ -24,35 +28,35 @@ pub(crate) struct Keys {
     spare: Vec<u64>,
 }
 
-/// Sorts items that are `K` numbers, the first the most significant.
-pub(crate) fn sort_by_numbers<T: Copy + Send + Sync, const K: usize>(
-    threads: &Threads,
-    items: &mut [T],
-    Keys { keys, spare }: &mut Keys,
-    numbers: impl Fn(&T) -> [u32; K] + Sync,
-    item: impl Fn([u32; K]) -> T + Sync,
-) {
+/// Sorts hits that have one first number, by the others. Interrupted, it leaves them in any state.
+pub(crate) fn sort<T: Hit>(executor: Executor, items: &mut [T], Keys { keys, spare }: &mut Keys) {
     if items.len() < 2 {
         return;
     }
-    let packing = Packing::of(items.iter().map(&numbers));
+    let packing = Packing::of(items);
     if packing.bits() > u64::BITS || items.len() > u32::MAX as usize {
-        items.sort_unstable_by_key(numbers);
+        items.sort_unstable_by_key(T::numbers);
         return;
     }
-    keys.resize(items.len(), 0);
-    spare.resize(items.len(), 0);
+    // With millions of items each of these takes milliseconds.
+    for scratch in [&mut *keys, &mut *spare] {
+        if executor.is_interrupted() {
+            return;
+        }
+        scratch.resize(items.len(), 0);
+    }
     let sort_run = |run: &mut Run<T>| {
-        let keys = run.items.iter().map(|item| packing.key(numbers(item)));
+        let keys = run.items.iter().map(|item| packing.key(item.numbers()));
         sort_keys(keys, run.keys, run.spare, packing.bits());
     };
     let unpack = |keys: &[u64], items: &mut [T]| {
         for (place, &key) in items.iter_mut().zip(keys) {
-            *place = item(packing.numbers(key));
+            *place = T::of_numbers(packing.numbers(key));
         }
     };
 
-    let runs = threads.count().min(items.len() / RUN);
+    let most = executor.count().min(items.len() / SHORTEST_RUN);
+    let runs = most.max(items.len().div_ceil(LONGEST_RUN));
     if runs < 2 {
         sort_run(&mut Run { items, keys, spare });
         unpack(keys, items);
@@ -65,9 +69,9 @@ pub(crate) fn sort_by_numbers<T: Copy + Send + Sync, const K: usize>(
         .zip(scratch)
         .map(|(items, (keys, spare))| Run { items, keys, spare })
         .collect();
-    threads.run(&mut sorts, |_, run| sort_run(run));
+    executor.run(&mut sorts, |_, run| sort_run(run));
     let mut merges = cut(keys.chunks(size).collect(), spare, items);
-    threads.run(&mut merges, |_, merge| {
+    executor.run(&mut merges, |_, merge| {
         merge.put_in_order();
         unpack(merge.keys, merge.items);
     });
@@ -131,48 +135,58 @@ impl<T> Merge<'_, T> {
     }
 }
 
-/// How `K` numbers make one key.
+/// How three numbers make one key, behind a first that all have in common.
 #[derive(Clone, Copy)]
-struct Packing<const K: usize> {
-    least: [u32; K],
-    widths: [u32; K],
+struct Packing {
+    first: u32,
+    least: [u32; 3],
+    widths: [u32; 3],
 }
 
-impl<const K: usize> Packing<K> {
+impl Packing {
     /// For all of these.
-    fn of(all: impl Iterator<Item = [u32; K]>) -> Self {
-        let (mut least, mut most) = ([u32::MAX; K], [0; K]);
-        for numbers in all {
-            for k in 0..K {
-                least[k] = least[k].min(numbers[k]);
-                most[k] = most[k].max(numbers[k]);
+    fn of<T: Hit>(all: &[T]) -> Self {
+        let (mut least, mut most) = ([u32::MAX; 3], [0; 3]);
+        let mut first = 0;
+        for numbers in all.iter().map(T::numbers) {
+            first = numbers[0];
+            for k in 0..3 {
+                least[k] = least[k].min(numbers[k + 1]);
+                most[k] = most[k].max(numbers[k + 1]);
             }
         }
-        let mut widths = [0; K];
-        for k in 0..K {
+        let mut widths = [0; 3];
+        for k in 0..3 {
             widths[k] = u32::BITS - (most[k] - least[k]).leading_zeros();
         }
-        Self { least, widths }
+        Self {
+            first,
+            least,
+            widths,
+        }
     }
 
     fn bits(&self) -> u32 {
         self.widths.iter().sum()
     }
 
-    fn key(&self, numbers: [u32; K]) -> u64 {
-        (0..K).fold(0, |key: u64, k| {
-            key << self.widths[k] | u64::from(numbers[k] - self.least[k])
+    fn key(&self, numbers: [u32; 4]) -> u64 {
+        (0..3).fold(0, |key: u64, k| {
+            key << self.widths[k] | u64::from(numbers[k + 1] - self.least[k])
         })
     }
 
-    fn numbers(&self, key: u64) -> [u32; K] {
-        let mut numbers = self.least;
+    fn numbers(&self, key: u64) -> [u32; 4] {
+        let [mut a, mut b, mut c] = self.least;
         let mut rest = key;
-        for k in (0..K).rev() {
-            numbers[k] += (rest & ((1 << self.widths[k]) - 1)) as u32;
-            rest >>= self.widths[k];
+        for (number, width) in [&mut c, &mut b, &mut a]
+            .into_iter()
+            .zip(self.widths.iter().rev())
+        {
+            *number += (rest & ((1 << width) - 1)) as u32;
+            rest >>= width;
         }
-        numbers
+        [self.first, a, b, c]
     }
 }
 
@@ -226,6 +240,8 @@ fn distribute(from: &[u64], to: &mut [u64], low: u32, width: u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Pair;
+    use crate::threads::{Interrupt, Threads};
     use std::num::NonZeroUsize;
 
     #[test]
@@ -251,17 +267,23 @@ mod tests {
             (4000, 32, 32),
             (4000, 1, 32),
             (70_000, 16, 17),
+            (LONGEST_RUN + 9, 16, 17),
         ] {
-            let items: Vec<[u32; 2]> = (0..count)
-                .map(|_| [next(first_bits), next(second_bits)])
+            let items: Vec<Pair> = (0..count)
+                .map(|_| [5, next(first_bits), 7, next(second_bits)])
+                .map(Pair::of_numbers)
                 .collect();
             let mut expected = items.clone();
             expected.sort_unstable();
             for threads in [1, 2, 7] {
-                let threads = Threads::new(NonZeroUsize::new(threads).unwrap());
+                let interrupt = &Interrupt::default();
+                let pool = &Threads::private(NonZeroUsize::new(threads).unwrap());
+                let executor = Executor {
+                    threads: pool,
+                    interrupt,
+                };
                 let mut items = items.clone();
-                sort_by_numbers(&threads, &mut items, &mut keys, |&pair| pair, |pair| pair);
-                let threads = threads.count();
+                sort(executor, &mut items, &mut keys);
                 assert!(
                     items == expected,
                     "{count} {first_bits} {second_bits} {threads}"

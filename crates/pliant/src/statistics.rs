@@ -1,7 +1,6 @@
 //! Counters: what a query did. They explain its cost on any machine; time is never read inside the library.
 
-/// The work of one query, together with that of calls of [`update`](crate::World::update) and
-/// [`update_body`](crate::World::update_body) since the query before it.
+/// The work of one query, together with what [`prepare`](crate::Query::prepare) has done since the query before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Statistics {
@@ -11,7 +10,7 @@ pub struct Statistics {
     pub boxes_bottom_up: u64,
     /// Boxes made when a traversal reached them.
     pub boxes_top_down: u64,
-    /// Boxes of single triangles in leaves of several, made when a leaf met another.
+    /// Boxes of single triangles in leaves of several, made when a leaf met another, or ahead in a body that meets itself.
     pub triangle_boxes: u64,
     /// Pairs of nodes with overlapping boxes.
     pub node_pairs: u64,

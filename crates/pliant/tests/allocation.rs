@@ -1,6 +1,6 @@
 //! Replaying the same steps a second time on one thread allocates nothing in the library.
 
-use pliant::{BroadPhase, Degree, Options, Partition, World};
+use pliant::{BroadPhase, Degree, Options, Partition, Selection, World};
 use pliant_scenes::Scene;
 
 fn replay(scene: &Scene, options: Options, steps: &[u32]) {
@@ -29,12 +29,22 @@ fn replay(scene: &Scene, options: Options, steps: &[u32]) {
             world
                 .write_positions(ids[0], |buffer| buffer.copy_from_slice(&shapes[0]))
                 .unwrap();
-            world.update();
-            pairs += world.intersection_pairs().len();
-            pairs += usize::from(world.first_intersection().is_some());
-            pairs += world.self_intersection_pairs(ids[0]).unwrap().len();
+            world.intersections(Selection::World).prepare().unwrap();
+            pairs += world.intersections(Selection::World).all().unwrap().len();
+            pairs += usize::from(
+                world
+                    .intersections(Selection::World)
+                    .first()
+                    .unwrap()
+                    .is_some(),
+            );
+            let within = world.intersections(Selection::Within(ids[0]));
+            pairs += within.all().unwrap().len();
+            let everything = world.intersections(Selection::Everything);
+            pairs += everything.all().unwrap().len();
             if let [a, b, ..] = ids[..] {
-                pairs += world.intersection_pairs_between(a, b).unwrap().len();
+                let between = world.intersections(Selection::Between(a, b));
+                pairs += between.all().unwrap().len();
             }
         }
     };

@@ -4,8 +4,8 @@
 
 mod common;
 
-use common::{Lcg, every_configuration, sheet};
-use pliant::{Options, Scalar, World, reference};
+use common::{Lcg, TrianglesOf, every_configuration, sheet};
+use pliant::{Options, Scalar, Selection, World, reference};
 
 /// A crumpled sheet with all 53 bits in its coordinates.
 fn crumpled(side: u32, random: &mut Lcg) -> Vec<[f64; 3]> {
@@ -38,11 +38,11 @@ fn check(options: Options, frames: &[[Vec<[f64; 3]>; 2]], truths: &[Vec<[u32; 2]
     for (frame, truth) in frames.iter().zip(truths) {
         world.set_positions(a, &frame[0]).unwrap();
         world.set_positions(b, &frame[1]).unwrap();
-        let found = world.intersection_pairs_between(a, b).unwrap();
-        assert_eq!(found, truth, "{options:?}");
+        let found = world.triangles_of(Selection::Between(a, b));
+        assert_eq!(&found, truth, "{options:?}");
         // Every box that claims to be true is the box of its vertices and lies in its parent.
         world.validate().unwrap();
-        world.update();
+        world.intersections(Selection::World).prepare().unwrap();
         world.validate().unwrap();
     }
 }
@@ -102,7 +102,7 @@ fn touching_where_no_f32_is() {
         for (body, positions) in [(a, &left), (b, &right), (far, &away)] {
             world.set_positions(body, positions).unwrap();
         }
-        let pairs = world.intersection_pairs().len();
+        let pairs = world.intersections(Selection::World).all().unwrap().len();
         assert_eq!(pairs, usize::from(!gap), "{left:?} {right:?}");
         world.validate().unwrap();
     }

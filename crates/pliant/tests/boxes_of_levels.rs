@@ -1,6 +1,6 @@
 //! Boxes of a level are those of the triangles below its nodes, and said to be made where they were made for the shape of now.
 
-use pliant::{BodyId, Degree, Options, Partition, Update, World};
+use pliant::{BodyId, Degree, Options, Partition, Selection, Update, World};
 use std::num::NonZeroU32;
 
 /// A zigzag strip, `up` above the plane.
@@ -17,13 +17,13 @@ fn strip(up: f32) -> (Vec<[u32; 3]>, Vec<[f32; 3]>) {
 fn nodes_and_made(world: &World<f32>, body: BodyId) -> [usize; 2] {
     let mut seen = std::collections::BTreeMap::new();
     for level in 0..=world.tree_shape(body).unwrap().depth {
-        let parts = world.tree_parts(body, level).unwrap();
+        let parts = world.tree_cut(body, level).unwrap();
         let boxes = world.tree_boxes(body, level).unwrap();
         for (part, node) in boxes.iter().enumerate() {
             let below: Vec<usize> = (0..parts.len())
                 .filter(|&triangle| parts[triangle] == part as u32)
                 .collect();
-            seen.insert(below, node.made);
+            seen.insert(below, node.valid);
         }
     }
     [seen.len(), seen.values().filter(|&&made| made).count()]
@@ -43,7 +43,7 @@ fn corners_are_those_of_the_triangles_of_the_part() {
             assert_eq!(world.positions(body).unwrap(), moved);
             assert_eq!(world.triangles(body).unwrap(), triangles);
             for level in 0..=world.tree_shape(body).unwrap().depth + 1 {
-                let parts = world.tree_parts(body, level).unwrap();
+                let parts = world.tree_cut(body, level).unwrap();
                 let boxes = world.tree_boxes(body, level).unwrap();
                 assert_eq!(boxes.len(), *parts.iter().max().unwrap() as usize + 1);
                 for (part, node) in boxes.iter().enumerate() {
@@ -91,7 +91,13 @@ fn made_are_the_boxes_that_the_statistics_count() {
                 .unwrap();
             assert_eq!(nodes_and_made(&world, body), [nodes, 0]);
             world.set_positions(needle, &thorn).unwrap();
-            assert!(!world.intersection_pairs().is_empty());
+            assert!(
+                !world
+                    .intersections(Selection::World)
+                    .all()
+                    .unwrap()
+                    .is_empty()
+            );
             let statistics = *world.statistics();
             let made = [body, needle].map(|body| nodes_and_made(&world, body)[1] as u64);
             assert_eq!(

@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::{Motion, every_configuration, widened, world_of};
-use pliant::{Options, Pair, Scalar, World, reference};
+use common::{Motion, TrianglesOf, every_configuration, widened, world_of};
+use pliant::{ErrorKind, Options, Pair, Scalar, Selection, World, reference};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
 
@@ -58,7 +58,7 @@ fn check<S: Scalar>(
                 .unwrap();
         }
         if frame % 2 == 1 {
-            world.update();
+            world.intersections(Selection::World).prepare().unwrap();
         }
 
         let mut expected = Vec::new();
@@ -76,22 +76,22 @@ fn check<S: Scalar>(
 
         for ((a, b), pairs) in pairs_of_bodies(ids.len()).zip(&truth.between) {
             assert_eq!(
-                world.intersection_pairs_between(ids[a], ids[b]).unwrap(),
+                &world.triangles_of(Selection::Between(ids[a], ids[b])),
                 pairs,
                 "{options:?}"
             );
-            let first = world.first_intersection_between(ids[b], ids[a]).unwrap();
+            let first = world.first_of(Selection::Between(ids[b], ids[a]));
             assert_eq!(first.is_some(), !pairs.is_empty());
             assert!(first.is_none_or(|[of_b, of_a]| pairs.contains(&[of_a, of_b])));
         }
         for (pairs, &id) in truth.itself.iter().zip(&ids) {
             assert_eq!(
-                world.self_intersection_pairs(id).unwrap(),
+                &world.triangles_of(Selection::Within(id)),
                 pairs,
                 "{options:?}"
             );
             assert_eq!(world.statistics().pairs, pairs.len() as u64);
-            let first = world.first_self_intersection(id).unwrap();
+            let first = world.first_of(Selection::Within(id));
             assert_eq!(first.is_some(), !pairs.is_empty());
             assert!(first.is_none_or(|pair| pairs.contains(&pair)));
         }
@@ -100,15 +100,30 @@ fn check<S: Scalar>(
 }
 
 fn check_world<S: Scalar>(world: &mut World<S>, expected: &[Pair]) {
-    assert_eq!(world.intersection_pairs(), expected);
+    assert_eq!(
+        world.intersections(Selection::World).all().unwrap(),
+        expected
+    );
     assert_eq!(world.statistics().pairs, expected.len() as u64);
     assert!(world.statistics().candidate_pairs >= expected.len() as u64);
-    let first = world.first_intersection();
+    let first = world.intersections(Selection::World).first().unwrap();
     assert_eq!(first.is_some(), !expected.is_empty());
     assert!(first.is_none_or(|pair| expected.contains(&pair)));
+    // Each body with itself too: the same and no more, in one sorted list.
+    let mut everything = expected.to_vec();
+    for id in world.bodies().collect::<Vec<_>>() {
+        let within = world.intersections(Selection::Within(id)).all().unwrap();
+        everything.extend_from_slice(within);
+    }
+    everything.sort_unstable();
+    let found = world.intersections(Selection::Everything).all().unwrap();
+    assert!(found == everything);
+    let first = world.intersections(Selection::Everything).first().unwrap();
+    assert_eq!(first.is_some(), !everything.is_empty());
+    assert!(first.is_none_or(|pair| everything.contains(&pair)));
     // A visitor sees each pair once, and stops when it says so.
     let mut seen = Vec::new();
-    let flow = world.visit_intersections(|pair| {
+    let flow = world.intersections(Selection::World).visit(|pair| {
         seen.push(pair);
         if seen.len() == 3 {
             ControlFlow::Break(pair)
@@ -117,7 +132,17 @@ fn check_world<S: Scalar>(world: &mut World<S>, expected: &[Pair]) {
         }
     });
     assert_eq!(seen.len(), expected.len().min(3));
-    assert_eq!(flow.break_value(), seen.get(2).copied());
+    assert_eq!(flow.unwrap().break_value(), seen.get(2).copied());
+    // A list that is just short enough is made, and one that is not is refused.
+    let results = [expected.len(), expected.len().saturating_sub(1)].map(|hits| {
+        let query = world.intersections(Selection::World).at_most(hits);
+        query.all().map(<[_]>::len)
+    });
+    assert_eq!(results[0], Ok(expected.len()));
+    if let Some(limit) = expected.len().checked_sub(1) {
+        let refused = results[1].as_ref().unwrap_err();
+        assert_eq!(refused.kind, ErrorKind::TooManyHits { limit });
+    }
     assert!(seen.iter().all(|pair| expected.contains(pair)));
 }
 

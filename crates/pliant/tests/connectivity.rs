@@ -32,7 +32,7 @@ fn world_of(options: Options, triangles: &[[u32; 3]]) -> (World<f32>, BodyId) {
 /// The parts of a level.
 fn parts(triangles: &[[u32; 3]], degree: Degree, level: u32) -> Vec<u32> {
     let (world, body) = world_of(connectivity(degree, 8), triangles);
-    world.tree_parts(body, level).unwrap()
+    world.tree_cut(body, level).unwrap()
 }
 
 /// How many triangles the smallest and the largest part have.
@@ -86,7 +86,7 @@ fn check(triangles: &[[u32; 3]]) -> Result<(), TestCaseError> {
             world.validate().map_err(TestCaseError::fail)?;
             let depth = world.tree_shape(body).unwrap().depth;
             for level in 0..=depth {
-                let parts = world.tree_parts(body, level).unwrap();
+                let parts = world.tree_cut(body, level).unwrap();
                 let count = *parts.iter().max().unwrap();
                 prop_assert!((count as usize) < degree.get().saturating_pow(level));
                 for part in 0..=count {
@@ -102,7 +102,7 @@ fn check(triangles: &[[u32; 3]]) -> Result<(), TestCaseError> {
                 }
             }
             prop_assert!(
-                smallest_and_largest(&world.tree_parts(body, depth).unwrap())[1]
+                smallest_and_largest(&world.tree_cut(body, depth).unwrap())[1]
                     <= leaf_size as usize
             );
         }
@@ -261,7 +261,7 @@ fn small_pieces_are_equal_too() {
     // 2^11 x 10 triangles: at level 11 of a binary tree all parts could have ten.
     let scene = Scene::new("spheres", Some(20_480), Scene::DEFAULT_SEED).unwrap();
     let (world, body) = world_of(connectivity(Degree::Two, 1), scene.triangles(0));
-    let parts = world.tree_parts(body, 11).unwrap();
+    let parts = world.tree_cut(body, 11).unwrap();
     let [smallest, largest] = smallest_and_largest(&parts);
     eprintln!("level 11: {smallest} to {largest}");
     assert!(smallest >= 8 && largest <= 12, "{smallest} to {largest}");
@@ -319,7 +319,7 @@ fn trees_are_shallow_whatever_the_mesh() {
             eprintln!("{name}: {} levels", shape.depth);
             assert!(shape.depth <= depth, "{name}: {} levels", shape.depth);
             assert_eq!(shape.leaves, mesh.len());
-            let parts = world.tree_parts(body, 1).unwrap();
+            let parts = world.tree_cut(body, 1).unwrap();
             let [smallest, largest] = smallest_and_largest(&parts);
             assert!(3 * smallest >= largest, "{name}: {smallest} and {largest}");
         }
@@ -336,7 +336,7 @@ fn only_the_mesh_counts() {
     let body = world.add(&triangles, &flat).unwrap();
     let parts = |world: &World<f32>, body| {
         let depth = world.tree_shape(body).unwrap().depth;
-        world.tree_parts(body, depth).unwrap()
+        world.tree_cut(body, depth).unwrap()
     };
     let before = parts(&world, body);
     assert_eq!(before, parts(&world, elsewhere));
@@ -359,10 +359,10 @@ fn parts_of_a_level() {
         options.partition = partition;
         let (world, body) = world_of(options, &sheet(9).0);
         let shape = world.tree_shape(body).unwrap();
-        let mut above = world.tree_parts(body, 0).unwrap();
+        let mut above = world.tree_cut(body, 0).unwrap();
         assert_eq!(above, [0; 128]);
         for level in 1..=shape.depth + 1 {
-            let parts = world.tree_parts(body, level).unwrap();
+            let parts = world.tree_cut(body, level).unwrap();
             // Each is in one part of the level above, in the same order.
             let mut both: Vec<_> = parts.iter().zip(&above).collect();
             both.sort_unstable();
@@ -374,6 +374,6 @@ fn parts_of_a_level() {
             above = parts;
         }
         assert_eq!(*above.iter().max().unwrap() as usize + 1, shape.leaves);
-        assert!(world.tree_parts(BodyId(1), 0).is_err());
+        assert!(world.tree_cut(BodyId(1), 0).is_err());
     }
 }

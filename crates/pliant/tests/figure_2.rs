@@ -1,7 +1,10 @@
 //! Figure 2 of the paper: a binary tree of 31 nodes, levels 0 to 2 made bottom-up, and of the rest only what is reached:
 //! "There are 31 nodes in this small example tree, but only 11 of them are updated."
 
-use pliant::{Degree, Options, TreeShape, World};
+mod common;
+
+use common::TrianglesOf;
+use pliant::{Degree, Options, Selection, TreeShape, World};
 
 #[test]
 fn eleven_of_31_boxes() {
@@ -37,7 +40,7 @@ fn eleven_of_31_boxes() {
     assert_eq!(world.tree_shape(needle).unwrap().nodes, 1);
 
     assert_eq!(
-        world.intersection_pairs_between(row, needle).unwrap(),
+        world.triangles_of(Selection::Between(row, needle)),
         [[5, 0]]
     );
     let statistics = *world.statistics();
@@ -47,7 +50,7 @@ fn eleven_of_31_boxes() {
     assert_eq!(statistics.boxes_top_down, 4);
 
     // A second query without movement makes nothing.
-    world.intersection_pairs_between(row, needle).unwrap();
+    world.triangles_of(Selection::Between(row, needle));
     assert_eq!(
         (
             world.statistics().boxes_bottom_up,

@@ -4,7 +4,7 @@
 //! exact arithmetic and boxes are made so that what they compute is not subnormal, or that losing it is paid for. Smaller
 //! coordinates are zero in such a thread before anything of ours runs.
 
-use pliant::{Error, ErrorKind, Scalar, World, reference};
+use pliant::{Error, ErrorKind, Scalar, Selection, World, reference};
 use pliant_oracle::{Class, Random, Triangle, fits_f32, intersect, subnormals_flushed};
 
 /// Zero, or not below 2^exponent.
@@ -21,7 +21,7 @@ fn answers<S: Scalar>(pairs: &[[[[S; 3]; 3]; 2]]) -> Vec<[bool; 2]> {
     let answer = |[a, b]: &[[[S; 3]; 3]; 2]| {
         world.set_positions(bodies[0], a).unwrap();
         world.set_positions(bodies[1], b).unwrap();
-        let found = world.intersection_pairs().len();
+        let found = world.intersections(Selection::World).all().unwrap().len();
         let exact = reference::intersection_pairs(&[[0, 1, 2]], a, &[[0, 1, 2]], b).unwrap();
         [found == 1, exact.len() == 1]
     };

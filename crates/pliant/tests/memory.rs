@@ -4,7 +4,10 @@
 //! cargo test --release -p pliant --test memory -- --include-ignored --nocapture    # prints the figures; a million triangles too
 //! ```
 
-use pliant::{Options, Scalar, World};
+mod common;
+
+use common::TrianglesOf;
+use pliant::{Options, Scalar, Selection, World};
 use pliant_scenes::{Asks, Scene};
 use std::ops::ControlFlow;
 
@@ -39,24 +42,34 @@ fn bytes_a_triangle<S: Scalar>(scene: &Scene, convert: fn(f32) -> S) -> f64 {
                     .unwrap();
                 world.set_positions(id, positions).unwrap();
             }
-            world.update();
-            found += world.intersection_pairs().len();
-            found += usize::from(world.first_intersection().is_some());
-            let _ = world.visit_intersections(|_| ControlFlow::<()>::Continue(()));
+            world.intersections(Selection::World).prepare().unwrap();
+            found += world.intersections(Selection::World).all().unwrap().len();
+            found += usize::from(
+                world
+                    .intersections(Selection::World)
+                    .first()
+                    .unwrap()
+                    .is_some(),
+            );
+            let _ = world
+                .intersections(Selection::World)
+                .visit(|_| ControlFlow::<()>::Continue(()));
             for &id in &ids {
-                world.update_body(id).unwrap();
-                found += world.self_intersection_pairs(id).unwrap().len();
-                world.first_self_intersection(id).unwrap();
+                world
+                    .intersections(Selection::Within(id))
+                    .prepare()
+                    .unwrap();
+                found += world.triangles_of(Selection::Within(id)).len();
+                world.first_of(Selection::Within(id));
             }
             for pair in ids.windows(2) {
                 found += world
-                    .intersection_pairs_between(pair[0], pair[1])
-                    .unwrap()
+                    .triangles_of(Selection::Between(pair[0], pair[1]))
                     .len();
             }
         }
         world.rebuild(ids[0]).unwrap();
-        world.intersection_pairs();
+        world.intersections(Selection::World).all().unwrap();
     });
     assert!(found > 0, "the steps are not idle");
     let triangles: usize = (0..scene.body_count())

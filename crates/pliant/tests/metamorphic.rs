@@ -6,8 +6,8 @@
 
 mod common;
 
-use common::Lcg;
-use pliant::{Options, Scalar, World};
+use common::{Lcg, TrianglesOf};
+use pliant::{Options, Scalar, Selection, World};
 use pliant_oracle::{Class, Random, Triangle, fits_f32};
 use pliant_scenes::Scene;
 use std::collections::BTreeSet;
@@ -47,7 +47,9 @@ fn pairs<S: Scalar>(options: Options, bodies: &[Body], narrow: impl Fn(f64) -> S
     }
     let number = |id| ids.iter().position(|&other| other == id).unwrap();
     let mut found: Pairs = world
-        .intersection_pairs()
+        .intersections(Selection::World)
+        .all()
+        .unwrap()
         .iter()
         .map(|p| {
             pair([
@@ -57,7 +59,7 @@ fn pairs<S: Scalar>(options: Options, bodies: &[Body], narrow: impl Fn(f64) -> S
         })
         .collect();
     for (body, &id) in ids.iter().enumerate() {
-        let itself = world.self_intersection_pairs(id).unwrap();
+        let itself = world.triangles_of(Selection::Within(id));
         found.extend(
             itself
                 .iter()
@@ -68,7 +70,7 @@ fn pairs<S: Scalar>(options: Options, bodies: &[Body], narrow: impl Fn(f64) -> S
         for (b, &id_b) in ids.iter().enumerate() {
             if a != b {
                 // Asked by name, either first, there is no more and no less.
-                let between = world.intersection_pairs_between(id_a, id_b).unwrap();
+                let between = world.triangles_of(Selection::Between(id_a, id_b));
                 let side = |p: &[u32; 2]| pair([(a, p[0] as usize), (b, p[1] as usize)]);
                 assert!(between.iter().all(|p| found.contains(&side(p))));
                 let of_both = |[p, q]: &&[(usize, usize); 2]| [p.0, q.0] == [a.min(b), a.max(b)];

@@ -7,13 +7,13 @@
 //! cargo test --release -p pliant --test oracle -- --ignored --nocapture
 //! ```
 
-use pliant::{BodyId, Scalar, World, reference};
+use pliant::{BodyId, Scalar, Selection, World, reference};
 use pliant_oracle::{Class, Random, Triangle, fits_f32, intersect};
 use std::thread;
 use std::time::{Duration, Instant};
 
 /// Two bodies of one triangle, moved from pair to pair.
-struct Moving<S> {
+struct Moving<S: Scalar> {
     world: World<S>,
     bodies: [BodyId; 2],
 }
@@ -31,7 +31,12 @@ impl<S: Scalar> Moving<S> {
         for (&body, triangle) in self.bodies.iter().zip(&pair) {
             self.world.set_positions(body, triangle).unwrap();
         }
-        let found = self.world.intersection_pairs().len();
+        let found = self
+            .world
+            .intersections(Selection::World)
+            .all()
+            .unwrap()
+            .len();
         let reference =
             reference::intersection_pairs(&[[0, 1, 2]], &pair[0], &[[0, 1, 2]], &pair[1]).unwrap();
         [found == 1, reference == [[0, 0]]]

@@ -2,8 +2,10 @@
 
 mod common;
 
-use common::{every_configuration, sheet};
-use pliant::{BodyId, Error, ErrorKind, Options, Pair, Scalar, Update, World, reference};
+use common::{TrianglesOf, every_configuration, sheet};
+use pliant::{
+    BodyId, Error, ErrorKind, Options, Pair, Scalar, Selection, Update, World, reference,
+};
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -86,10 +88,7 @@ fn shapes_that_are_not_taken_over() {
 
     let unwritten = world.write_positions(body, |buffer| buffer[..7].fill([0.0; 3]));
     assert_eq!(unwritten, refused(ErrorKind::NotWritten { vertex: 7 }));
-    assert_eq!(
-        world.self_intersection_pairs(body).unwrap(),
-        [[0_u32; 2]; 0]
-    );
+    assert_eq!(world.triangles_of(Selection::Within(body)), [[0_u32; 2]; 0]);
 }
 
 #[test]
@@ -190,30 +189,52 @@ fn bodies_that_are_not_there() {
         assert_eq!(world.triangle_count(stranger).unwrap_err(), error);
         assert_eq!(world.vertex_count(stranger).unwrap_err(), error);
         assert_eq!(world.tree_shape(stranger).unwrap_err(), error);
-        assert_eq!(world.update_body(stranger).unwrap_err(), error);
         assert_eq!(
             world
-                .intersection_pairs_between(body, stranger)
+                .intersections(Selection::Within(stranger))
+                .prepare()
                 .unwrap_err(),
             error
         );
         assert_eq!(
             world
-                .first_intersection_between(stranger, body)
+                .intersections(Selection::Between(body, stranger))
+                .all()
                 .unwrap_err(),
             error
         );
         assert_eq!(
             world
-                .visit_intersections_between(stranger, body, |_| ControlFlow::Break(()))
+                .intersections(Selection::Between(stranger, body))
+                .first()
                 .unwrap_err(),
             error
         );
-        assert_eq!(world.self_intersection_pairs(stranger).unwrap_err(), error);
-        assert_eq!(world.first_self_intersection(stranger).unwrap_err(), error);
         assert_eq!(
             world
-                .visit_self_intersections(stranger, |_| ControlFlow::Break(()))
+                .intersections(Selection::Between(stranger, body))
+                .visit(|_| ControlFlow::Break(()))
+                .unwrap_err(),
+            error
+        );
+        assert_eq!(
+            world
+                .intersections(Selection::Within(stranger))
+                .all()
+                .unwrap_err(),
+            error
+        );
+        assert_eq!(
+            world
+                .intersections(Selection::Within(stranger))
+                .first()
+                .unwrap_err(),
+            error
+        );
+        assert_eq!(
+            world
+                .intersections(Selection::Within(stranger))
+                .visit(|_| ControlFlow::Break(()))
                 .unwrap_err(),
             error
         );
@@ -223,18 +244,27 @@ fn bodies_that_are_not_there() {
         kind: ErrorKind::SameBody,
     };
     assert_eq!(
-        world.intersection_pairs_between(body, body).unwrap_err(),
+        world
+            .intersections(Selection::Between(body, body))
+            .all()
+            .unwrap_err(),
         same
     );
-    assert_eq!(world.ignore(body, body).unwrap_err(), same);
+    assert_eq!(
+        world
+            .intersections(Selection::Between(body, body))
+            .first()
+            .unwrap_err(),
+        same
+    );
 }
 
 #[test]
 fn an_empty_world_has_no_pairs() {
     let mut world = World::<f32>::default();
-    world.update();
-    assert_eq!(world.intersection_pairs(), []);
-    assert_eq!(world.first_intersection(), None);
+    world.intersections(Selection::World).prepare().unwrap();
+    assert_eq!(world.intersections(Selection::World).all().unwrap(), []);
+    assert_eq!(world.intersections(Selection::World).first().unwrap(), None);
     world.validate().unwrap();
 }
 
@@ -262,15 +292,23 @@ fn answers<S: Scalar>(world: &mut World<S>) -> Answers {
                 )
             })
             .collect(),
-        pairs: world.intersection_pairs().to_vec(),
-        any: world.first_intersection().is_some(),
+        pairs: world
+            .intersections(Selection::World)
+            .all()
+            .unwrap()
+            .to_vec(),
+        any: world
+            .intersections(Selection::World)
+            .first()
+            .unwrap()
+            .is_some(),
         itself: ids
             .iter()
-            .map(|&id| world.self_intersection_pairs(id).unwrap().to_vec())
+            .map(|&id| world.triangles_of(Selection::Within(id)))
             .collect(),
         parts: ids
             .iter()
-            .map(|&id| world.tree_parts(id, u32::MAX).unwrap())
+            .map(|&id| world.tree_cut(id, u32::MAX).unwrap())
             .collect(),
     }
 }
@@ -365,28 +403,29 @@ fn bad_calls<S: Scalar>(convert: fn(f64) -> S) -> Vec<Bad<S>> {
     }
     calls.extend([
         (
-            "ignore",
-            Box::new(|world: &mut World<S>, id| world.ignore(id, id)) as _,
-        ),
-        (
-            "unignore",
-            Box::new(|world: &mut World<S>, id| world.unignore(id, id)) as _,
-        ),
-        (
             "pairs between",
-            Box::new(|world: &mut World<S>, id| world.intersection_pairs_between(id, id).map(drop))
-                as _,
+            Box::new(|world: &mut World<S>, id| {
+                world
+                    .intersections(Selection::Between(id, id))
+                    .all()
+                    .map(drop)
+            }) as _,
         ),
         (
             "first between",
-            Box::new(|world: &mut World<S>, id| world.first_intersection_between(id, id).map(drop))
-                as _,
+            Box::new(|world: &mut World<S>, id| {
+                world
+                    .intersections(Selection::Between(id, id))
+                    .first()
+                    .map(drop)
+            }) as _,
         ),
         (
             "visit between",
             Box::new(|world: &mut World<S>, id| {
                 world
-                    .visit_intersections_between(id, id, |_| ControlFlow::Break(()))
+                    .intersections(Selection::Between(id, id))
+                    .visit(|_| ControlFlow::Break(()))
                     .map(drop)
             }) as _,
         ),
@@ -466,11 +505,14 @@ fn ids_of_removed_bodies_stay_refused() {
                 body: Some(id),
                 kind: ErrorKind::NoSuchBody,
             };
-            assert_eq!(world.self_intersection_pairs(id), Err(error.clone()));
-            assert_eq!(world.tree_parts(id, 0), Err(error.clone()));
+            assert_eq!(
+                world.intersections(Selection::Within(id)).all(),
+                Err(error.clone())
+            );
+            assert_eq!(world.tree_cut(id, 0), Err(error.clone()));
             assert_eq!(world.remove(id), Err(error));
         }
-        let pairs = world.intersection_pairs();
+        let pairs = world.intersections(Selection::World).all().unwrap();
         assert!(
             pairs
                 .iter()
@@ -506,17 +548,17 @@ fn the_ends_of_every_option() {
                     let a = world.add(&triangles, &flat).unwrap();
                     let b = world.add(&triangles, &crumpled).unwrap();
                     assert_eq!(
-                        world.intersection_pairs_between(a, b).unwrap(),
+                        world.triangles_of(Selection::Between(a, b)),
                         expected,
                         "{options:?}"
                     );
                     assert_eq!(
-                        world.self_intersection_pairs(b).unwrap(),
+                        world.triangles_of(Selection::Within(b)),
                         within,
                         "{options:?}"
                     );
                     let depth = world.tree_shape(b).unwrap().depth;
-                    assert_eq!(world.tree_parts(b, u32::MAX), world.tree_parts(b, depth));
+                    assert_eq!(world.tree_cut(b, u32::MAX), world.tree_cut(b, depth));
                     world.validate().unwrap();
                 }
             }
@@ -570,12 +612,15 @@ fn check_nasty_shapes<S: Scalar>(convert: fn(f64) -> S) {
                 world.set_positions(a, shape_a).unwrap();
                 for (shape_b, expected) in shapes.iter().zip(expected) {
                     world.set_positions(b, shape_b).unwrap();
-                    assert_eq!(world.intersection_pairs().len(), expected.len());
-                    assert_eq!(world.intersection_pairs_between(a, b).unwrap(), expected);
+                    assert_eq!(
+                        world.intersections(Selection::World).all().unwrap().len(),
+                        expected.len()
+                    );
+                    assert_eq!(&world.triangles_of(Selection::Between(a, b)), expected);
                     world.validate().unwrap();
                 }
                 world.rebuild(a).unwrap();
-                assert_eq!(world.self_intersection_pairs(a).unwrap(), within);
+                assert_eq!(&world.triangles_of(Selection::Within(a)), within);
             }
         }
     }
@@ -644,7 +689,8 @@ fn a_caller_that_panics() {
     world.set_positions(a, &sheet(6).1).unwrap();
     let visited = catch_unwind(AssertUnwindSafe(|| {
         world
-            .visit_intersections_between(a, b, |_| -> ControlFlow<()> { panic_of_the_callers() })
+            .intersections(Selection::Between(a, b))
+            .visit(|_| -> ControlFlow<()> { panic_of_the_callers() })
             .is_ok()
     }));
     assert!(visited.is_err());
@@ -657,8 +703,9 @@ fn a_visitor_of_the_whole_world_that_panics() {
     let before = answers(&mut world);
     let visited = catch_unwind(AssertUnwindSafe(|| {
         world
-            .visit_intersections(|_| -> ControlFlow<()> { panic_of_the_callers() })
-            .is_break()
+            .intersections(Selection::World)
+            .visit(|_| -> ControlFlow<()> { panic_of_the_callers() })
+            .is_ok()
     }));
     assert!(visited.is_err());
     assert_eq!(answers(&mut world), before);

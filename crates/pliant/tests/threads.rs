@@ -1,6 +1,9 @@
 //! The number of threads changes nothing but time: not the pairs, not their order, not the counters.
 
-use pliant::{Degree, Options, Pair, Partition, Statistics, Update, World};
+mod common;
+
+use common::TrianglesOf;
+use pliant::{Degree, Options, Pair, Partition, Selection, Statistics, Update, World};
 use pliant_scenes::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
@@ -29,23 +32,29 @@ fn play(scene: &Scene, steps: &[u32], mut options: Options, threads: usize) -> V
         let mut statistics = Vec::new();
         move_to(world, step);
         let (mut between, mut itself) = (Vec::new(), Vec::new());
-        let _ = world.visit_intersections(|pair| {
+        let _ = world.intersections(Selection::World).visit(|pair| {
             between.push(pair);
             ControlFlow::<()>::Continue(())
         });
         statistics.push(*world.statistics());
-        let _ = world.visit_self_intersections(bodies[0], |pair| {
-            itself.push(pair);
-            ControlFlow::<()>::Continue(())
-        });
+        let _ = world
+            .intersections(Selection::Within(bodies[0]))
+            .visit(|pair| {
+                itself.push(pair.triangles());
+                ControlFlow::<()>::Continue(())
+            });
         statistics.push(*world.statistics());
-        let first = world.first_intersection();
+        let first = world.intersections(Selection::World).first().unwrap();
         statistics.push(*world.statistics());
-        // No box is true any more.
+        // Every box is stale.
         move_to(world, step);
-        let all = world.intersection_pairs().to_vec();
+        let all = world
+            .intersections(Selection::World)
+            .all()
+            .unwrap()
+            .to_vec();
         statistics.push(*world.statistics());
-        let all_of_itself = world.self_intersection_pairs(bodies[0]).unwrap().to_vec();
+        let all_of_itself = world.triangles_of(Selection::Within(bodies[0]));
         statistics.push(*world.statistics());
         ((between, itself), (all, all_of_itself), first, statistics)
     };
@@ -102,7 +111,13 @@ fn play_crowd(scene: &Scene, large: &Scene, options: Options) -> Vec<(Vec<Pair>,
             scene.positions(body, step, &mut positions);
             world.set_positions(id, &positions).unwrap();
         }
-        let pairs = world.intersection_pairs().to_vec();
+        // Now and then each body with itself as well.
+        let of = if step.is_multiple_of(20) {
+            Selection::Everything
+        } else {
+            Selection::World
+        };
+        let pairs = world.intersections(of).all().unwrap().to_vec();
         (pairs, *world.statistics())
     };
     let mut seen = vec![see(&mut world, &bodies, 150), see(&mut world, &bodies, 160)];

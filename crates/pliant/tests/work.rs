@@ -1,6 +1,9 @@
 //! The paper's point, in counted work rather than time: how many boxes each update makes.
 
-use pliant::{Degree, Options, Partition, Scalar, Statistics, Update, World};
+mod common;
+
+use common::TrianglesOf;
+use pliant::{Degree, Options, Partition, Scalar, Selection, Statistics, Update, World};
 use pliant_scenes::Scene;
 use std::num::NonZeroU32;
 
@@ -14,17 +17,25 @@ fn first_50_steps(options: Options) -> (Statistics, u64) {
         scene.positions(body, 1, &mut positions);
         world.add(scene.triangles(body), &positions).unwrap()
     });
+    // A body is updated if its box overlaps that of another: of a needle, which is the box of one triangle and does not move.
+    let needle = [[-9.0; 3], [9.0; 3], [9.0; 3]];
+    let needle = world.add(&[[0, 1, 2]], &needle).unwrap();
+    world.intersections(Selection::World).prepare().unwrap();
+    // What was made so far is accounted for here.
+    world
+        .intersections(Selection::Within(needle))
+        .all()
+        .unwrap();
     let mut work = Statistics::default();
     for step in 1..=50 {
         for (body, &id) in bodies.iter().enumerate() {
             scene.positions(body, step, &mut positions);
             world.set_positions(id, &positions).unwrap();
-            world.update_body(id).unwrap();
         }
+        world.intersections(Selection::World).prepare().unwrap();
         assert!(
             world
-                .intersection_pairs_between(bodies[0], bodies[1])
-                .unwrap()
+                .triangles_of(Selection::Between(bodies[0], bodies[1]))
                 .is_empty()
         );
         work += *world.statistics();
@@ -95,7 +106,7 @@ fn f64_boxes_are_as_tight_far_from_the_origin() {
         let mut candidates = 0;
         for step in [10, 30, 50] {
             world.set_positions(body, &shape(step)).unwrap();
-            world.self_intersection_pairs(body).unwrap();
+            world.triangles_of(Selection::Within(body));
             candidates += world.statistics().candidate_pairs;
         }
         world.validate().unwrap();
@@ -132,10 +143,7 @@ fn a_deep_tree_needs_no_stack() {
             let found = world.tree_shape(ids[0]).unwrap().depth;
             assert!(depths.contains(&found), "{partition:?}: {found}");
             assert_eq!(
-                world
-                    .intersection_pairs_between(ids[0], ids[1])
-                    .unwrap()
-                    .len(),
+                world.triangles_of(Selection::Between(ids[0], ids[1])).len(),
                 140
             );
             world.validate().unwrap();
@@ -162,7 +170,7 @@ fn triangles_in_one_place_make_a_shallow_tree() {
             let body = world.add(&triangles, &place).unwrap();
             assert_eq!(world.tree_shape(body).unwrap().depth, depth, "{options:?}");
             assert!(
-                world.self_intersection_pairs(body).unwrap().is_empty(),
+                world.triangles_of(Selection::Within(body)).is_empty(),
                 "they share their vertices"
             );
         }
@@ -223,7 +231,7 @@ fn the_first_of_very_many_pairs_is_found_at_once() {
             let mut world = World::with_options(options);
             let [a, b] = [(); 2].map(|()| world.add(&triangles, &positions).unwrap());
             let work = allocation_counter::measure(|| {
-                assert!(world.first_intersection_between(a, b).unwrap().is_some());
+                assert!(world.first_of(Selection::Between(a, b)).is_some());
                 assert!(
                     world.statistics().candidate_pairs <= 64,
                     "{:?}",
@@ -234,11 +242,11 @@ fn the_first_of_very_many_pairs_is_found_at_once() {
                     "{:?}",
                     world.statistics()
                 );
-                assert!(world.first_self_intersection(a).unwrap().is_some());
+                assert!(world.first_of(Selection::Within(a)).is_some());
             });
             assert!(work.bytes_max < 16 << 20, "{options:?}: {work:?}");
             let mut seen = 0;
-            let stopped = world.visit_self_intersections(b, |_| {
+            let stopped = world.intersections(Selection::Within(b)).visit(|_| {
                 seen += 1;
                 if seen == 50_000 {
                     std::ops::ControlFlow::Break(())
@@ -265,7 +273,13 @@ fn removing_bodies_is_not_quadratic() {
         let mut ids: Vec<_> = (0..20_000)
             .map(|i| world.add(&[[0, 1, 2]], &place(i)).unwrap())
             .collect();
-        assert!(world.intersection_pairs().is_empty());
+        assert!(
+            world
+                .intersections(Selection::World)
+                .all()
+                .unwrap()
+                .is_empty()
+        );
         if newest_first {
             ids.reverse();
         }
@@ -275,7 +289,7 @@ fn removing_bodies_is_not_quadratic() {
         }
         // Milliseconds; a quadratic way took seconds. The bound is for slow machines.
         assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
-        assert_eq!(world.intersection_pairs(), []);
+        assert_eq!(world.intersections(Selection::World).all().unwrap(), []);
     }
 }
 
@@ -298,7 +312,7 @@ fn ten_million_triangles() {
         let mut world = World::with_options(options);
         let body = world.add(&triangles, &positions).unwrap();
         let built = std::time::Instant::now();
-        assert!(world.self_intersection_pairs(body).unwrap().is_empty());
+        assert!(world.triangles_of(Selection::Within(body)).is_empty());
         eprintln!(
             "{:?}: built in {:.1?}, asked in {:.1?}",
             options.partition,

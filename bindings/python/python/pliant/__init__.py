@@ -4,7 +4,9 @@
     cloth = world.add(faces, vertices)                  # (m, 3) of any integer type, (n, 3) float32 or float64
     for positions in frames:
         world.set_positions(cloth, positions)           # checked and taken over
-        pairs = world.self_intersection_pairs(cloth)    # (k, 2) uint32, sorted
+        hits = world.intersections(pliant.Selection.EVERYTHING).all()
+
+A hit is a row of four numbers, uint32: body, triangle, body, triangle; the rows are sorted.
 
 Two triangles intersect as closed sets: touching in one point counts, coplanar overlap counts, a degenerate triangle is the
 segment or point that it is. The decision is that of exact arithmetic on the coordinates given. Within a body, pairs that
@@ -12,7 +14,7 @@ share a vertex are left out. Surfaces only: a body wholly inside another meets n
 """
 
 from . import reference
-from ._pliant import Check, World, __version__, check, intersection_pairs, self_intersection_pairs
+from ._pliant import Check, Query, Selection, World, __version__, check, intersection_pairs, self_intersection_pairs
 from ._types import Body, Error, Frame, Mesh, OpenMesh, Pair, Statistics, TreeBoxes, TreeShape
 
 __all__ = [
@@ -23,6 +25,8 @@ __all__ = [
     "Mesh",
     "OpenMesh",
     "Pair",
+    "Query",
+    "Selection",
     "Statistics",
     "TreeBoxes",
     "TreeShape",

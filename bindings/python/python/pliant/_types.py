@@ -13,7 +13,7 @@ class Error(ValueError):
     """A call that was refused; the world is as it was before. Facts that do not apply are None.
 
     kind is a name of the Rust library's ErrorKind (NoTriangles, TooLarge, TooManyBodies, VertexOutOfRange, WrongLength,
-    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody), or:
+    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody, TooManyHits), or:
 
       BadArray     not an array of three columns, or not of a type that is taken
       BadOption    an option has no such value
@@ -21,6 +21,8 @@ class Error(ValueError):
       Busy         the world is answering another call
       CannotRead   a file; file and place say which and where
       Broken       a bug of pliant; please report it
+
+    Ctrl-C during a query is not one of these: it is the KeyboardInterrupt that it is everywhere.
     """
 
     #: What was wrong.
@@ -37,7 +39,7 @@ class Error(ValueError):
     #: Vertices of the body, and positions given.
     expected: int | None = None
     found: int | None = None
-    #: "triangles", "vertices" or "pairs", how many there were, and how many there may be.
+    #: "triangles", "vertices" or "pairs", how many there were, and how many there may be; of hits, how many were allowed.
     what: str | None = None
     count: int | None = None
     limit: int | None = None
@@ -54,7 +56,11 @@ class Error(ValueError):
 
 
 class Pair(NamedTuple):
-    """Two triangles of two bodies that intersect; the smaller (body, triangle) is first."""
+    """A hit: two triangles that intersect, of two bodies or of one.
+
+    The smaller (body, triangle) is first; but of two bodies that the selection names, the one that is named first. Rows of
+    Query.all have the same four numbers.
+    """
 
     body_a: int
     triangle_a: int
@@ -68,24 +74,24 @@ class TreeShape(NamedTuple):
     depth: int
     """The level of the deepest leaf, where the root is level 0."""
     nodes: int
-    """All nodes, leaves and root included: the boxes of a complete update."""
+    """All nodes, leaves and root included: the boxes of a complete refit."""
     leaves: int
     """Nodes that hold triangles."""
 
 
 class TreeBoxes(NamedTuple):
-    """The boxes of a level of a tree, one a part of tree_parts."""
+    """The boxes of a level of a tree, one a part of tree_cut."""
 
     lower: NDArray[Any]
     """(k, 3): the smallest coordinates of the triangles below each node."""
     upper: NDArray[Any]
     """(k, 3): the largest."""
-    made: NDArray[np.bool_]
-    """(k,): whether the tree holds this box, made for the shape that the body has now."""
+    valid: NDArray[np.bool_]
+    """(k,): whether the tree holds this box for the shape that the body has now; else it is stale."""
 
 
 class Statistics(NamedTuple):
-    """The work of one query, and of the calls of update and update_body before it."""
+    """The work of one query, with what Query.prepare did before it."""
 
     body_pairs: int
     """Pairs of bodies whose trees were traversed."""

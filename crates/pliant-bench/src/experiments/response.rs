@@ -6,7 +6,7 @@
 //! displacements are part of the motion: every method replays the same shapes.
 
 use crate::motion::{Motion, Placed};
-use pliant::{Options, World};
+use pliant::{Options, Selection, World};
 use pliant_scenes::Scene;
 use std::collections::BTreeMap;
 
@@ -43,7 +43,8 @@ pub(super) fn with_response(scene: &Scene, steps: &[u32]) -> Motion {
                 .expect("a scene's shapes are good");
         }
         let mut contacts: BTreeMap<[u32; 2], usize> = BTreeMap::new();
-        for pair in world.intersection_pairs() {
+        let pairs = world.intersections(Selection::World).all();
+        for pair in pairs.expect("the whole world is there") {
             *contacts.entry([pair.body_a.0, pair.body_b.0]).or_default() += 1;
         }
         let centres: Vec<[f64; 3]> = frame.iter().map(centre).collect();

@@ -2,7 +2,7 @@
 
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
-use pliant::{BodyId, Options, Scalar, World};
+use pliant::{BodyId, Options, Scalar, Selection, World};
 
 /// A world of the library, of either precision.
 pub struct Ours<S: Scalar = f32> {
@@ -68,15 +68,6 @@ impl<S: Scalar> Ours<S> {
     }
 }
 
-fn row(pair: pliant::Pair) -> Pair {
-    [
-        pair.body_a.0,
-        pair.triangle_a,
-        pair.body_b.0,
-        pair.triangle_b,
-    ]
-}
-
 impl<S: Precision> Method for Ours<S> {
     fn name(&self) -> String {
         format!("{}: {:?}", self.name, self.world.options())
@@ -98,21 +89,24 @@ impl<S: Precision> Method for Ours<S> {
                 .set_positions(body, S::of(shape.world, &mut self.positions))
                 .expect("a scene's shapes are good");
             if self.always {
-                self.world.update_body(body).expect("the body is there");
+                let within = self.world.intersections(Selection::Within(body));
+                within.prepare().expect("the body is there");
             }
         }
     }
 
     fn all_pairs(&mut self) -> &[Pair] {
         self.pairs.clear();
-        self.pairs
-            .extend(self.world.intersection_pairs().iter().copied().map(row));
+        let pairs = self.world.intersections(Selection::World).all();
+        let pairs = pairs.expect("the whole world is there").iter();
+        self.pairs.extend(pairs.copied().map(Pair::from));
         self.count();
         &self.pairs
     }
 
     fn first_pair(&mut self) -> Option<Pair> {
-        let pair = self.world.first_intersection().map(row);
+        let pair = self.world.intersections(Selection::World).first();
+        let pair = pair.expect("the whole world is there").map(Pair::from);
         self.count();
         pair
     }
@@ -121,12 +115,9 @@ impl<S: Precision> Method for Ours<S> {
         self.pairs.clear();
         for place in 0..self.bodies.len() {
             let body = self.bodies[place];
-            let pairs = self
-                .world
-                .self_intersection_pairs(body)
-                .expect("the body is there");
-            self.pairs
-                .extend(pairs.iter().map(|&[a, b]| [body.0, a, body.0, b]));
+            let pairs = self.world.intersections(Selection::Within(body)).all();
+            let pairs = pairs.expect("the body is there").iter();
+            self.pairs.extend(pairs.copied().map(Pair::from));
             self.count();
         }
         Some(&self.pairs)

@@ -2,7 +2,9 @@
 //! them against the reference, which has no tree.
 
 use super::{Soak, Wrong};
-use pliant::{BodyId, Degree, Options, Pair, Partition, Scalar, Update, World, reference};
+use pliant::{
+    BodyId, Degree, Options, Pair, Partition, Scalar, Selection, Update, World, reference,
+};
 use std::num::NonZeroU32;
 
 impl<S: Scalar> Soak<S> {
@@ -54,8 +56,9 @@ impl<S: Scalar> Soak<S> {
 
     fn compare_between(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
         let known_id = |id: BodyId| self.known[id.0 as usize].id;
-        let expected: Vec<Pair> = fresh
-            .intersection_pairs()
+        let expected = fresh.intersections(Selection::World).all();
+        let expected: Vec<Pair> = self
+            .good("pairs of a fresh world", expected)?
             .iter()
             .map(|pair| Pair {
                 body_a: known_id(pair.body_a),
@@ -63,14 +66,17 @@ impl<S: Scalar> Soak<S> {
                 ..*pair
             })
             .collect();
-        let first = self.world.first_intersection();
+        let first = self.world.intersections(Selection::World).first();
+        let first = self.good("first pair", first)?;
         if !is_one_of(first, &expected) {
             return self.wrong(format!("first pair {first:?} of {} pairs", expected.len()));
         }
         // Twice: a query changes nothing that the next one could notice.
         for _ in 0..2 {
-            if self.world.intersection_pairs() != expected {
-                let found = self.world.intersection_pairs().len();
+            let found = self.world.intersections(Selection::World).all();
+            let found = found.unwrap_or_default();
+            if found != expected {
+                let found = found.len();
                 return self.wrong(format!(
                     "{found} pairs, a fresh world has {}",
                     expected.len()
@@ -84,17 +90,26 @@ impl<S: Scalar> Soak<S> {
     fn compare_within(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
         for place in 0..self.known.len() {
             let id = self.known[place].id;
-            let expected = fresh.self_intersection_pairs(BodyId(place as u32));
-            let expected = self.good("self pairs of a fresh world", expected)?;
-            let first = self.world.first_self_intersection(id);
+            let fresh_id = BodyId(place as u32);
+            let expected = fresh.intersections(Selection::Within(fresh_id)).all();
+            let expected: Vec<Pair> = self
+                .good("self pairs of a fresh world", expected)?
+                .iter()
+                .map(|pair| Pair {
+                    body_a: id,
+                    body_b: id,
+                    ..*pair
+                })
+                .collect();
+            let first = self.world.intersections(Selection::Within(id)).first();
             let first = self.good("first self pair", first)?;
-            if !is_one_of(first, expected) {
+            if !is_one_of(first, &expected) {
                 return self.wrong(format!(
                     "first pair {first:?} of {id} with itself, which has {}",
                     expected.len()
                 ));
             }
-            if self.world.self_intersection_pairs(id).ok() != Some(expected) {
+            if self.world.intersections(Selection::Within(id)).all().ok() != Some(&expected[..]) {
                 return self.wrong(format!(
                     "{id} with itself: a fresh world has {} pairs",
                     expected.len()
@@ -107,7 +122,8 @@ impl<S: Scalar> Soak<S> {
 
     /// Two bodies that meet if any do, whatever filters say: also against the reference.
     fn compare_two_bodies(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
-        let pairs = self.world.intersection_pairs();
+        let pairs = self.world.intersections(Selection::World).all();
+        let pairs = pairs.unwrap_or_default();
         let two = if pairs.is_empty() {
             [0, 1].map(|place| self.known[place].id)
         } else {
@@ -132,9 +148,10 @@ impl<S: Scalar> Soak<S> {
             self.good("reference", truth_itself)?,
         );
         let [id_a, id_b] = two;
-        let ours = self.world.intersection_pairs_between(id_a, id_b).ok() == Some(&truth[..])
-            && self.world.self_intersection_pairs(id_a).ok() == Some(&truth_itself[..])
-            && fresh.intersection_pairs_between(a, b).ok() == Some(&truth[..]);
+        let ours = triangles(&mut self.world, Selection::Between(id_a, id_b))
+            == Some(truth.clone())
+            && triangles(&mut self.world, Selection::Within(id_a)) == Some(truth_itself.clone())
+            && triangles(fresh, Selection::Between(a, b)) == Some(truth.clone());
         if !ours {
             return self.wrong(format!(
                 "{id_a} and {id_b}: the reference has {} pairs, and {} within the first",
@@ -144,6 +161,12 @@ impl<S: Scalar> Soak<S> {
         }
         Ok(())
     }
+}
+
+/// All pairs, without their bodies.
+fn triangles<S: Scalar>(world: &mut World<S>, of: Selection) -> Option<Vec<[u32; 2]>> {
+    let pairs = world.intersections(of).all().ok()?;
+    Some(pairs.iter().map(Pair::triangles).collect())
 }
 
 fn is_one_of<T: PartialEq>(first: Option<T>, all: &[T]) -> bool {

@@ -18,7 +18,7 @@ mod fresh;
 mod random;
 mod shapes;
 
-use pliant::{BodyId, Error, ErrorKind, Options, Scalar, World};
+use pliant::{BodyId, Error, ErrorKind, Options, Pair, Scalar, Selection, World};
 use random::Random;
 use shapes::Surface;
 use std::ops::ControlFlow;
@@ -74,7 +74,7 @@ struct Known<S> {
 }
 
 /// A world that lives, and what is known of it.
-pub struct Soak<S> {
+pub struct Soak<S: Scalar> {
     world: World<S>,
     /// In the order of ids.
     known: Vec<Known<S>>,
@@ -187,7 +187,8 @@ impl<S: Scalar> Soak<S> {
                 let positions: Vec<[S; 3]> = positions.iter().map(moved).collect();
                 self.take_over(number, &positions, true)?;
             }
-            self.world.update();
+            let prepared = self.world.intersections(Selection::World).prepare();
+            self.good("prepare", prepared)?;
         }
         // The longest list that two bodies can make: the largest surface twice, in one point.
         let large = [0, self.surfaces.len()];
@@ -198,7 +199,8 @@ impl<S: Scalar> Soak<S> {
             self.take_over(place, &positions, false)?;
         }
         let [a, b] = large.map(|place| self.known[place].id);
-        let every = self.world.intersection_pairs_between(a, b).map(<[_]>::len);
+        let every = self.world.intersections(Selection::Between(a, b)).all();
+        let every = every.map(<[_]>::len);
         let triangles = self.surfaces[0].triangles.len();
         if self.good("a query", every)? != triangles * triangles {
             return self.wrong("in one point every pair of triangles meets");
@@ -357,9 +359,11 @@ impl<S: Scalar> Soak<S> {
             9..11 => self.hold_or_let_go(some),
             11..15 => self.ask_what_must_be_refused(some),
             _ => {
-                self.world.update();
-                let updated = self.world.update_body(id);
-                self.good("update_body", updated)
+                for of in [Selection::Everything, Selection::Within(id)] {
+                    let prepared = self.world.intersections(of).prepare();
+                    self.good("prepare", prepared)?;
+                }
+                Ok(())
             }
         }
     }
@@ -444,8 +448,10 @@ impl<S: Scalar> Soak<S> {
             world.set_loose_box(id, Some(([nan; 3], [nan; 3]))).is_err(),
             world.add(&self.surfaces[surface].triangles, &bad).is_err(),
             world.add(&[[0, 1, u32::MAX]], &bad).is_err(),
-            world.ignore(id, id).is_err(),
-            world.intersection_pairs_between(id, id).is_err(),
+            world
+                .intersections(Selection::Between(id, id))
+                .all()
+                .is_err(),
         ];
         for &gone in &self.gone {
             refused.extend([
@@ -453,8 +459,11 @@ impl<S: Scalar> Soak<S> {
                 world.remove(gone).is_err(),
                 world.rebuild(gone).is_err(),
                 world.set_filter(gone, 0, 0).is_err(),
-                world.self_intersection_pairs(gone).is_err(),
-                world.first_intersection_between(id, gone).is_err(),
+                world.intersections(Selection::Within(gone)).all().is_err(),
+                world
+                    .intersections(Selection::Between(id, gone))
+                    .first()
+                    .is_err(),
             ]);
         }
         if let Some(place) = refused.iter().position(|&refused| !refused) {
@@ -468,31 +477,40 @@ impl<S: Scalar> Soak<S> {
     fn ask_something(&mut self) -> Result<(), Wrong> {
         let [a, b] = [(); 2].map(|()| self.known[self.random.index(self.known.len())].id);
         let answer = match self.random.below(8) {
-            0 => {
-                self.world.intersection_pairs();
-                Ok(())
-            }
-            1 => {
-                self.world.first_intersection();
-                Ok(())
-            }
+            0 => self
+                .world
+                .intersections(Selection::Everything)
+                .all()
+                .map(drop),
+            1 => self.world.intersections(Selection::World).first().map(drop),
             2 => {
                 // A visitor that stops somewhere on the way leaves boxes made in part.
                 let mut left = self.random.below(50);
-                let _ = self
-                    .world
-                    .visit_intersections(|_| match left.checked_sub(1) {
-                        Some(fewer) => {
-                            left = fewer;
-                            ControlFlow::Continue(())
-                        }
-                        None => ControlFlow::Break(()),
-                    });
-                Ok(())
+                let visit = |_: Pair| match left.checked_sub(1) {
+                    Some(fewer) => {
+                        left = fewer;
+                        ControlFlow::Continue(())
+                    }
+                    None => ControlFlow::Break(()),
+                };
+                let visited = self.world.intersections(Selection::World).visit(visit);
+                visited.map(drop)
             }
-            3 => self.world.self_intersection_pairs(a).map(drop),
-            4 => self.world.first_self_intersection(a).map(drop),
-            5 if a != b => self.world.intersection_pairs_between(a, b).map(drop),
+            3 => self
+                .world
+                .intersections(Selection::Within(a))
+                .all()
+                .map(drop),
+            4 => self
+                .world
+                .intersections(Selection::Within(a))
+                .first()
+                .map(drop),
+            5 if a != b => self
+                .world
+                .intersections(Selection::Between(a, b))
+                .all()
+                .map(drop),
             _ => Ok(()),
         };
         self.good("a query", answer)

@@ -3,7 +3,7 @@
 use crate::report::{asked, cannot_write, chart, counted, fact};
 use crate::table::grouped;
 use anyhow::Context;
-use pliant::World;
+use pliant::{Selection, World};
 use pliant_bench::experiments::{Experiment, Form};
 use pliant_bench::motion::Motion;
 use pliant_bench::record::{Claim, ContestRecord, ExperimentRecord, MethodRecord, Record, Verdict};
@@ -212,22 +212,16 @@ fn replay(motion: &Motion, of_itself: bool, motions: usize) -> pliant_report::Mo
             // The methods were given the same positions; they are good.
             let _ = world.set_positions(body, &placed.world);
         }
-        let mut rows: Vec<[u32; 4]> = Vec::new();
-        if of_itself {
-            for &body in &bodies {
-                let pairs = world.self_intersection_pairs(body).unwrap_or_default();
-                rows.extend(pairs.iter().map(|&[a, b]| [body.0, a, body.0, b]));
-            }
+        // The methods were asked for one or the other.
+        let of = if of_itself {
+            bodies.iter().map(|&body| Selection::Within(body)).collect()
         } else {
-            let pairs = world.intersection_pairs().iter();
-            rows.extend(pairs.map(|pair| {
-                [
-                    pair.body_a.0,
-                    pair.triangle_a,
-                    pair.body_b.0,
-                    pair.triangle_b,
-                ]
-            }));
+            vec![Selection::World]
+        };
+        let mut rows: Vec<[u32; 4]> = Vec::new();
+        for of in of {
+            let pairs = world.intersections(of).all().unwrap_or_default();
+            rows.extend(pairs.iter().map(|&pair| <[u32; 4]>::from(pair)));
         }
         recorder.frame(step, &world, &rows);
     }

@@ -122,7 +122,7 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
         ));
     }
     let mut check = open(arguments).or_else(|error| {
-        let error = advise_names(arguments, error).unwrap_or_else(advise);
+        let error = advise_names(arguments, error);
         output::annotate(arguments, error)
     })?;
     let mut hits = arguments.hits.as_deref().map(Hits::new).transpose()?;
@@ -185,7 +185,7 @@ fn frames(
         let kept = hits.is_some() || pictures.looks_at(frame);
         // Where only the exit code is asked for, one pair says as much as all.
         check.ask(first || quiet && !kept, kept || printed);
-        let Some(found) = check.next_frame().map_err(advise)? else {
+        let Some(found) = check.next_frame()? else {
             break;
         };
         output.frame(check, &found)?;
@@ -198,26 +198,15 @@ fn frames(
 }
 
 /// With what to do about the name of a piece, `FILE#1`, where no file is split; the error itself where it is none.
-fn advise_names(arguments: &Arguments, error: Error) -> Result<anyhow::Error, Error> {
+fn advise_names(arguments: &Arguments, error: Error) -> anyhow::Error {
     match &error {
         Error::NoSuchName { name, .. }
             if arguments.split.is_none() && names::is_of_a_piece(name) =>
         {
-            Ok(anyhow!(
+            anyhow!(
                 "{error}; choose one of these, or make the pieces of every file bodies with `--split components`"
-            ))
+            )
         }
-        _ => Err(error),
-    }
-}
-
-/// With what to do, where flags of the program can help.
-fn advise(error: Error) -> anyhow::Error {
-    match error {
-        Error::TooManyPairs { .. } => anyhow!(
-            "{error}; allow more with `--max-memory`, or ask for less with `--count` or `--first`"
-        ),
-        Error::NoClip => anyhow!("{error}; leave out `--clip`"),
-        other => other.into(),
+        _ => error.into(),
     }
 }

@@ -3,8 +3,9 @@
 //! A picture has the sources as its bodies, with the triangles' own numbers; pieces of a source are not told apart in it.
 
 use super::Arguments;
+use crate::advice;
 use crate::report::{Watcher, fact};
-use pliant_check::{Check, Found, Row, WorldOf};
+use pliant_check::{AnyWorld, Check, Found, Row, with_world};
 use pliant_report::BodyLabel;
 
 /// Looks at the frames of one check.
@@ -32,10 +33,7 @@ impl Pictures {
             .iter()
             .map(|&row| of_sources(check, row))
             .collect();
-        match check.world() {
-            WorldOf::F32(world) => self.0.frame(number, world, &pairs),
-            WorldOf::F64(world) => self.0.frame(number, world, &pairs),
-        }
+        with_world!(check.world(), world => self.0.frame(number, world, &pairs))
     }
 
     /// Writes the page, also of a check that ended early.
@@ -47,8 +45,8 @@ impl Pictures {
     ) -> anyhow::Result<()> {
         self.0.finish("check", "frame", |_, play| {
             let precision = match check.world() {
-                WorldOf::F32(_) => "f32",
-                WorldOf::F64(_) => "f64",
+                AnyWorld::F32(_) => "f32",
+                AnyWorld::F64(_) => "f64",
             };
             play.facts.extend([
                 fact("query", asked(arguments, check)),
@@ -68,8 +66,8 @@ impl Pictures {
                     .push(format!("Pairs of {a} and {b} are left out."));
             }
             if let Err(error) = checked {
-                play.notes
-                    .push(format!("The check ended early: {error:#}."));
+                let why = advice::with_advice(error);
+                play.notes.push(format!("The check ended early: {why}."));
             }
         })
     }

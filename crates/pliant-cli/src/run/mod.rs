@@ -8,7 +8,7 @@ use crate::{Outcome, print_all, progress};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use indicatif::ProgressStyle;
-use pliant::{Pair, Scalar, World};
+use pliant::{Scalar, Selection, World};
 use pliant_scenes::{Asks, Scene};
 use record::{Record, StepRecord};
 use std::time::Instant;
@@ -130,11 +130,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     };
     let text = match arguments.format {
         Format::Table => record.table(),
-        Format::Json => format!(
-            "{}
-",
-            record.json()
-        ),
+        Format::Json => format!("{}\n", record.json()),
     };
     watcher.finish(scene.name(), "step", |_, play| record.tell(play))?;
     if !arguments.quiet {
@@ -172,6 +168,11 @@ fn play<S: Scalar>(
         );
     }
 
+    let asked = match query {
+        Query::Itself => bodies.iter().map(|&body| Selection::Within(body)).collect(),
+        Query::All | Query::First => vec![Selection::World],
+    };
+
     let bar = progress(steps.len() as u64, arguments.quiet)
         .with_style(ProgressStyle::with_template(
             "{msg} {wide_bar} {pos}/{len} steps, {eta} to go",
@@ -186,35 +187,23 @@ fn play<S: Scalar>(
         for (&body, positions) in bodies.iter().zip(&shapes) {
             world.set_positions(body, positions)?;
         }
-        if query == Query::Itself {
-            bodies
-                .iter()
-                .try_for_each(|&body| world.update_body(body))?;
-        } else {
-            world.update();
+        for &of in &asked {
+            world.intersections(of).prepare()?;
         }
         let updated = Instant::now();
         let mut statistics = pliant::Statistics::default();
         let mut first = None;
-        let pairs = match query {
-            Query::All => world.intersection_pairs().len(),
-            Query::First => {
-                first = world.first_intersection();
-                usize::from(first.is_some())
+        let mut pairs = 0;
+        for &of in &asked {
+            if query == Query::First {
+                first = world.intersections(of).first()?;
+                pairs += usize::from(first.is_some());
+            } else {
+                pairs += world.intersections(of).all()?.len();
             }
-            Query::Itself => {
-                let mut pairs = 0;
-                for &body in &bodies {
-                    pairs += world.self_intersection_pairs(body)?.len();
-                    statistics += *world.statistics();
-                }
-                pairs
-            }
-        };
-        let end = Instant::now();
-        if query != Query::Itself {
-            statistics = *world.statistics();
+            statistics += *world.statistics();
         }
+        let end = Instant::now();
         let milliseconds = |from: Instant, to: Instant| (to - from).as_secs_f64() * 1e3;
         played.push(StepRecord {
             step,
@@ -224,40 +213,18 @@ fn play<S: Scalar>(
             statistics,
         });
         if watcher.looks_at(step) {
-            let rows = match query {
-                Query::First => first.map(row).into_iter().collect(),
+            let mut rows: Vec<[u32; 4]> = first.map(Into::into).into_iter().collect();
+            if query != Query::First {
                 // Asked again, off the clock: it makes no box.
-                Query::All => world
-                    .intersection_pairs()
-                    .iter()
-                    .copied()
-                    .map(row)
-                    .collect(),
-                Query::Itself => self_rows(&mut world)?,
-            };
+                for &of in &asked {
+                    let pairs = world.intersections(of).all()?.iter();
+                    rows.extend(pairs.map(|&pair| <[u32; 4]>::from(pair)));
+                }
+            }
             watcher.frame(step, &world, &rows)?;
         }
         bar.inc(1);
     }
     bar.finish_and_clear();
     Ok(played)
-}
-
-fn row(pair: Pair) -> [u32; 4] {
-    [
-        pair.body_a.0,
-        pair.triangle_a,
-        pair.body_b.0,
-        pair.triangle_b,
-    ]
-}
-
-fn self_rows<S: Scalar>(world: &mut World<S>) -> anyhow::Result<Vec<[u32; 4]>> {
-    let bodies: Vec<_> = world.bodies().collect();
-    let mut rows = Vec::new();
-    for body in bodies {
-        let pairs = world.self_intersection_pairs(body)?;
-        rows.extend(pairs.iter().map(|&[a, b]| [body.0, a, body.0, b]));
-    }
-    Ok(rows)
 }

@@ -91,8 +91,7 @@ pub(crate) fn open(
 ) -> Result<Bodies, Fault> {
     let fps = options.fps;
     if !(fps > 0.0 && fps.is_finite()) {
-        let reason = format!("{fps} frames a second cannot be evaluated; `--fps` must be above 0");
-        return Err(Reason::Unsupported(reason).into());
+        return Err(Reason::BadRate { fps }.into());
     }
     let mut account = Account::new(options.max_memory);
     let (document, buffers) = buffers::open(found, &mut account)?;

@@ -52,7 +52,7 @@ pub(super) struct Pose {
 }
 
 /// The most frames of a clip: six days at thirty a second.
-const MOST_STEPS: f64 = (1 << 24) as f64;
+const MOST_STEPS: u32 = 1 << 24;
 
 impl Scene {
     /// Reads nodes and skins; `clip` is to move them, so many frames a second.
@@ -293,10 +293,12 @@ fn local(node: &Node) -> Result<Local, Reason> {
 /// times are of 32 bits.
 fn steps(end: f64, fps: f64) -> Result<usize, Reason> {
     let steps = (end.max(0.0) * fps - 1e-3).ceil().max(0.0);
-    if steps > MOST_STEPS {
-        return Err(Reason::Unsupported(format!(
-            "its clip lasts {end:e} s, more than {MOST_STEPS} frames at {fps} a second; ask for fewer with `--fps`"
-        )));
+    if steps > f64::from(MOST_STEPS) {
+        return Err(Reason::ClipTooLong {
+            seconds: end,
+            most: MOST_STEPS,
+            fps,
+        });
     }
     Ok(whole(steps) as usize)
 }

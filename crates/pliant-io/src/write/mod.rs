@@ -160,10 +160,8 @@ impl Writer {
                         .collect(),
                     None if shape.frame_count == 1 => vec![path.to_owned()],
                     None => {
-                        return Err(unsupported(format!(
-                            "holds one frame, there are {}; name a file a frame ('name_%04d.obj'), or choose one with `--frames`",
-                            shape.frame_count
-                        )));
+                        let frames = shape.frame_count;
+                        return Err(Error::new(path, Reason::HoldsOneFrame { frames }));
                     }
                 };
                 for path in &paths {

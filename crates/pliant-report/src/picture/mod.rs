@@ -53,7 +53,7 @@ impl Picture {
                     }
                 }
             }
-            triangles.extend(corners.into_iter().enumerate().map(|(triangle, corners)| {
+            triangles.extend(corners.iter().enumerate().map(|(triangle, corners)| {
                 let is_hit = is_red[triangle];
                 Seen {
                     corners: corners.map(|vertex| places[vertex as usize]),

@@ -1,14 +1,20 @@
 //! Every box against every later one: n (n - 1) / 2 comparisons.
 
+use super::Overlap;
 use crate::geometry::Aabb;
-use crate::pairs::BodyPair;
+use crate::ids::Place;
+use crate::threads::Interrupt;
 
-pub(super) fn overlapping(boxes: &[Aabb], pairs: &mut Vec<BodyPair>) {
-    pairs.clear();
-    for (a, box_a) in boxes.iter().enumerate() {
-        for (b, box_b) in boxes.iter().enumerate().skip(a + 1) {
+pub(super) fn overlapping(boxes: &[Aabb], interrupt: &Interrupt, overlaps: &mut Vec<Overlap>) {
+    overlaps.clear();
+    let places = || (0..).map(Place).zip(boxes);
+    for (a, box_a) in places() {
+        if interrupt.is_set() {
+            return;
+        }
+        for (b, box_b) in places().skip(a.index() + 1) {
             if box_a.overlaps(box_b) {
-                pairs.push([a as u32, b as u32]);
+                overlaps.push([a, b]);
             }
         }
     }

@@ -16,8 +16,10 @@
 //! sorted list; memory is O(n + pairs). And when a sort exchanges more than a budget (bodies jumped), the lists are sorted
 //! from scratch and swept once along the axis with the fewest overlaps.
 
+use super::Overlap;
 use crate::geometry::Aabb;
-use crate::pairs::BodyPair;
+use crate::ids::Place;
+use crate::threads::Interrupt;
 use std::cmp::Ordering;
 
 /// Exchanges per end before sorting from scratch is cheaper. An exchange is a few nanoseconds, a place in a full sort about
@@ -33,8 +35,8 @@ struct End {
 }
 
 impl End {
-    fn body(self) -> u32 {
-        self.body_and_side >> 1
+    fn body(self) -> Place {
+        Place(self.body_and_side >> 1)
     }
 
     fn is_upper(self) -> bool {
@@ -62,30 +64,34 @@ impl End {
 pub(super) struct SweepAndPrune {
     axes: [Vec<End>; 3],
     /// Sorted, without duplicates.
-    pairs: Vec<BodyPair>,
+    pub(super) pairs: Vec<Overlap>,
     /// For the bodies as they stand now, the place of each in the lists, or `NEW`.
-    listed_as: Vec<u32>,
+    listed_as: Vec<Place>,
     /// Whether any are gone that the lists still hold.
     some_are_gone: bool,
     // Scratch: pairs that began and ceased to overlap, the next list of pairs, and intervals open in a sweep.
-    new: Vec<BodyPair>,
-    gone: Vec<BodyPair>,
-    next: Vec<BodyPair>,
-    open: Vec<u32>,
+    new: Vec<Overlap>,
+    gone: Vec<Overlap>,
+    next: Vec<Overlap>,
+    open: Vec<Place>,
 }
 
-const NEW: u32 = u32::MAX;
+/// The place in the lists of a body that is not in them.
+const NEW: Place = Place(u32::MAX);
+
+/// So many ends are sorted, or swept, before it is asked whether the query was interrupted.
+const UNINTERRUPTED: usize = 256;
 
 impl SweepAndPrune {
-    /// See [`super::BroadPhase::overlapping`].
-    pub(super) fn overlapping(&mut self, boxes: &[Aabb]) -> &[BodyPair] {
+    /// Brings `pairs` up to date: see [`super::BroadPhase::overlapping`]. `None` if it was interrupted; it can then not be used again.
+    pub(super) fn overlapping(&mut self, boxes: &[Aabb], interrupt: &Interrupt) -> Option<()> {
         self.listed_as.resize(boxes.len(), NEW);
         if std::mem::take(&mut self.some_are_gone) {
             self.forget_the_gone();
         }
         for (axis, ends) in self.axes.iter_mut().enumerate() {
             for end in &mut *ends {
-                let value = &boxes[end.body() as usize];
+                let value = &boxes[end.body().index()];
                 end.value = if end.is_upper() {
                     value.hi[axis]
                 } else {
@@ -106,16 +112,16 @@ impl SweepAndPrune {
             }
         }
         let new = self.listed_as.iter().filter(|&&place| place == NEW).count();
-        for (listed_as, place) in self.listed_as.iter_mut().zip(0..) {
+        for (listed_as, place) in self.listed_as.iter_mut().zip((0..).map(Place)) {
             *listed_as = place;
         }
         let mut budget = self.axes[0].len() * EXCHANGES_PER_END;
         let many_are_new = new > boxes.len() / 2;
-        if many_are_new || !self.sort_by_exchanges(boxes, &mut budget) {
-            self.sort_from_scratch(boxes);
+        if many_are_new || !self.sort_by_exchanges(boxes, &mut budget, interrupt)? {
+            self.sort_from_scratch(boxes, interrupt)?;
         }
         self.reserve(boxes.len());
-        &self.pairs
+        Some(())
     }
 
     /// See [`super::BroadPhase::swap_remove`]; `last` is the place of the last body. The lists are put right by the next query,
@@ -130,16 +136,16 @@ impl SweepAndPrune {
     fn forget_the_gone(&mut self) {
         let listed = self.axes[0].len() / 2;
         let mut places = vec![NEW; listed];
-        for (&listed_as, place) in self.listed_as.iter().zip(0..) {
+        for (&listed_as, place) in self.listed_as.iter().zip((0..).map(Place)) {
             if listed_as != NEW {
-                places[listed_as as usize] = place;
+                places[listed_as.index()] = place;
             }
         }
-        let place_of = |body: u32| places[body as usize];
+        let place_of = |body: Place| places[body.index()];
         for ends in &mut self.axes {
             ends.retain_mut(|end| {
                 let place = place_of(end.body());
-                end.body_and_side = place.wrapping_mul(2) + u32::from(end.is_upper());
+                end.body_and_side = place.0.wrapping_mul(2) + u32::from(end.is_upper());
                 place != NEW
             });
         }
@@ -151,12 +157,20 @@ impl SweepAndPrune {
         self.pairs.sort_unstable();
     }
 
-    /// Returns false if the budget did not suffice; pairs and order are then to be made anew.
-    fn sort_by_exchanges(&mut self, boxes: &[Aabb], budget: &mut usize) -> bool {
+    /// Returns false if the budget did not suffice; pairs and order are then to be made anew. `None` if it was interrupted.
+    fn sort_by_exchanges(
+        &mut self,
+        boxes: &[Aabb],
+        budget: &mut usize,
+        interrupt: &Interrupt,
+    ) -> Option<bool> {
         self.new.clear();
         self.gone.clear();
         for ends in &mut self.axes {
             for sorted in 1..ends.len() {
+                if sorted.is_multiple_of(UNINTERRUPTED) && interrupt.is_set() {
+                    return None;
+                }
                 let moving = ends[sorted];
                 let mut place = sorted;
                 while place > 0 && moving.belongs_before(ends[place - 1]) {
@@ -174,19 +188,19 @@ impl SweepAndPrune {
                         if self.pairs.binary_search(&[a, b]).is_ok() {
                             self.gone.push([a, b]);
                         }
-                    } else if boxes[a as usize].overlaps(&boxes[b as usize]) {
+                    } else if boxes[a.index()].overlaps(&boxes[b.index()]) {
                         self.new.push([a, b]);
                     }
                 }
                 ends[place] = moving;
                 let Some(rest) = budget.checked_sub(sorted - place) else {
-                    return false;
+                    return Some(false);
                 };
                 *budget = rest;
             }
         }
         self.merge();
-        true
+        Some(true)
     }
 
     /// pairs = (pairs without the gone) with the new.
@@ -234,8 +248,11 @@ impl SweepAndPrune {
     }
 
     /// Sorts all three lists and finds the pairs along the axis on which the fewest intervals overlap.
-    fn sort_from_scratch(&mut self, boxes: &[Aabb]) {
+    fn sort_from_scratch(&mut self, boxes: &[Aabb], interrupt: &Interrupt) -> Option<()> {
         for ends in &mut self.axes {
+            if interrupt.is_set() {
+                return None;
+            }
             ends.sort_unstable_by(|a, b| a.order(*b));
         }
         let sparsest = self
@@ -245,7 +262,10 @@ impl SweepAndPrune {
             .expect("three axes");
         self.pairs.clear();
         self.open.clear();
-        for end in sparsest {
+        for (at, end) in sparsest.iter().enumerate() {
+            if at.is_multiple_of(UNINTERRUPTED) && interrupt.is_set() {
+                return None;
+            }
             let body = end.body();
             if end.is_upper() {
                 let place = self.open.iter().position(|&open| open == body);
@@ -254,13 +274,14 @@ impl SweepAndPrune {
                 continue;
             }
             for &open in &self.open {
-                if boxes[body as usize].overlaps(&boxes[open as usize]) {
+                if boxes[body.index()].overlaps(&boxes[open.index()]) {
                     self.pairs.push([body.min(open), body.max(open)]);
                 }
             }
             self.open.push(body);
         }
         self.pairs.sort_unstable();
+        Some(())
     }
 }
 
@@ -303,9 +324,10 @@ mod tests {
     }
 
     fn check(sweep: &mut SweepAndPrune, boxes: &[Aabb]) {
-        let mut expected = Vec::new();
-        brute_force::overlapping(boxes, &mut expected);
-        assert_eq!(sweep.overlapping(boxes), expected);
+        let (mut expected, never) = (Vec::new(), Interrupt::default());
+        brute_force::overlapping(boxes, &never, &mut expected);
+        assert_eq!(sweep.overlapping(boxes, &never), Some(()));
+        assert_eq!(sweep.pairs, expected);
     }
 
     #[test]
@@ -391,7 +413,8 @@ mod tests {
             .collect()
         };
         let mut sweep = SweepAndPrune::default();
-        sweep.overlapping(&row(0.0));
+        let never = Interrupt::default();
+        sweep.overlapping(&row(0.0), &never);
         for step in 1..10 {
             let boxes = row(step as f32 * 0.05);
             check(&mut sweep, &boxes);
@@ -399,7 +422,7 @@ mod tests {
         // Each body passes few others: a hundred bodies' worth of exchanges would be enough for all steps.
         for (axis, ends) in sweep.axes.iter_mut().enumerate() {
             for end in ends {
-                let value = &row(0.6)[end.body() as usize];
+                let value = &row(0.6)[end.body().index()];
                 end.value = if end.is_upper() {
                     value.hi[axis]
                 } else {
@@ -408,8 +431,9 @@ mod tests {
             }
         }
         let mut budget = 1000;
-        assert!(
-            sweep.sort_by_exchanges(&row(0.6), &mut budget),
+        assert_eq!(
+            sweep.sort_by_exchanges(&row(0.6), &mut budget, &never),
+            Some(true),
             "sorted within the budget"
         );
         assert!(budget < 1000, "and not for nothing");
@@ -418,7 +442,7 @@ mod tests {
         reversed.reverse();
         for ends in &mut sweep.axes[..1] {
             for end in ends {
-                let value = &reversed[end.body() as usize];
+                let value = &reversed[end.body().index()];
                 end.value = if end.is_upper() {
                     value.hi[0]
                 } else {
@@ -426,6 +450,11 @@ mod tests {
                 };
             }
         }
-        assert!(!sweep.sort_by_exchanges(&reversed, &mut 16_000));
+        let sorted = sweep.sort_by_exchanges(&reversed, &mut 16_000, &never);
+        assert_eq!(sorted, Some(false));
+        // Interrupted, it says so.
+        let question = || true;
+        let interrupt = Interrupt::new(Some(&question));
+        assert_eq!(sweep.overlapping(&reversed, &interrupt), None);
     }
 }

@@ -1,5 +1,8 @@
 //! One axis-aligned box. Many of them side by side are `kernels::BoxLanes`.
 
+#[cfg(test)]
+use super::real::{OUTWARD, larger, smaller};
+
 /// A closed box `lo <= x <= hi` in `f32`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Aabb {
@@ -15,7 +18,28 @@ impl Aabb {
     }
 
     /// Whether `other` lies in this box.
+    #[cfg(test)]
     pub(crate) fn holds(&self, other: &Self) -> bool {
         (0..3).all(|axis| self.lo[axis] <= other.lo[axis] && other.hi[axis] <= self.hi[axis])
+    }
+
+    /// The smallest box that holds both.
+    #[cfg(test)]
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        Self {
+            lo: std::array::from_fn(|axis| smaller(self.lo[axis], other.lo[axis])),
+            hi: std::array::from_fn(|axis| larger(self.hi[axis], other.hi[axis])),
+        }
+    }
+
+    /// This box grown by a distance on every side, rounded outward.
+    #[cfg(test)]
+    pub(crate) fn grown(&self, distance: f32) -> Self {
+        // A difference is off by at most a quarter of what is taken away here, as in `Real::round_down` of f64.
+        let outward = |x: f32| x.abs() * OUTWARD + f32::MIN_POSITIVE;
+        Self {
+            lo: self.lo.map(|x| (x - distance) - outward(x - distance)),
+            hi: self.hi.map(|x| (x + distance) + outward(x + distance)),
+        }
     }
 }

@@ -1,12 +1,11 @@
-//! Coordinates, boxes, and how the first become the second.
+//! Coordinates, boxes, and how the first become the second. No loop over a mesh is here: those are `kernels`.
 
 mod aabb;
 mod points;
-mod scalar;
+mod real;
 mod shape;
 
 pub(crate) use aabb::Aabb;
-pub(crate) use points::{POINTS_JOB, POINTS_SHARED, Points};
-pub use scalar::Scalar;
-pub(crate) use scalar::{OUTWARD, denormals_are_kept, larger, smaller};
+pub(crate) use points::{IN_A_ROW, Points, RowBounds};
+pub(crate) use real::{OUTWARD, Real, denormals_are_kept, larger, smaller};
 pub(crate) use shape::{Bounds, Origin, Shape};

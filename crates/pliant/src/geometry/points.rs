@@ -1,24 +1,23 @@
 //! Points side by side in memory, laid out so that one is read as four numbers at once.
 
-use super::Scalar;
-use crate::exec::Threads;
-use crate::kernels::Level;
-use crate::kernels::gather::{IN_A_ROW, RowBounds, gather};
+use super::{Bounds, Real};
+use crate::ids::TreeVertex;
 
-/// Points in a job: some microseconds of work; a whole number of rows.
-pub(crate) const POINTS_JOB: usize = 64 * IN_A_ROW;
-/// So many points, or fewer, are not worth waking a thread.
-pub(crate) const POINTS_SHARED: usize = 4 * POINTS_JOB;
+/// Points in a row that have bounds of their own.
+pub(crate) const IN_A_ROW: usize = 32;
 
-/// Points of three coordinates and a fourth number that means nothing, so that each fills a register of four; and the bounds of
-/// every few in a row.
+/// The bounds of some points: lo and hi, each with padding behind it.
+pub(crate) type RowBounds<S> = [[S; 4]; 2];
+
+/// Points of three coordinates and padding, so that each fills a register of four; and the bounds of every [`IN_A_ROW`], from which
+/// the boxes of upper nodes, whose points are long runs, are made. `kernels::gather` fills both.
 #[derive(Clone, Debug)]
 pub(crate) struct Points<S> {
-    points: Vec<[S; 4]>,
-    bounds: Vec<RowBounds<S>>,
+    pub(crate) points: Vec<[S; 4]>,
+    pub(crate) bounds: Vec<RowBounds<S>>,
 }
 
-impl<S: Scalar> Points<S> {
+impl<S: Real> Points<S> {
     /// Room for points that are yet to come.
     pub(crate) fn with_len(len: usize) -> Self {
         Self {
@@ -27,61 +26,33 @@ impl<S: Scalar> Points<S> {
         }
     }
 
-    /// Points in the order in which they come.
-    #[cfg(test)]
-    pub(crate) fn of(points: &[[S; 3]]) -> Self {
-        let order: Vec<u32> = (0..points.len() as u32).collect();
-        let mut all = Self::with_len(points.len());
-        all.gather(crate::kernels::widest(), &Threads::one(), points, &order);
-        all
-    }
-
-    /// Takes the points that `order` names.
-    pub(crate) fn gather(
-        &mut self,
-        level: Level,
-        threads: &Threads,
-        from: &[[S; 3]],
-        order: &[u32],
-    ) {
-        let Self { points, bounds } = self;
-        if points.len() <= POINTS_SHARED || !threads.are_many() {
-            gather(level, from, order, points, bounds);
-            return;
-        }
-        let mut jobs: Vec<_> = points
-            .chunks_mut(POINTS_JOB)
-            .zip(bounds.chunks_mut(POINTS_JOB / IN_A_ROW))
-            .zip(order.chunks(POINTS_JOB))
-            .collect();
-        threads.run(&mut jobs, |_, ((points, bounds), order)| {
-            gather(level, from, order, points, bounds);
+    /// Points in the order in which they come: what `kernels::gather` must give.
+    pub(crate) fn of(points: impl ExactSizeIterator<Item = [S; 3]>) -> Self {
+        let points: Vec<_> = points.map(|[x, y, z]| [x, y, z, z]).collect();
+        let padded = |[x, y, z]: [S; 3]| [x, y, z, z];
+        let bounds = points.chunks(IN_A_ROW).map(|row| {
+            let mut bounds = Bounds::EMPTY;
+            row.iter()
+                .for_each(|&[x, y, z, _]| bounds.include([x, y, z]));
+            [padded(bounds.lo), padded(bounds.hi)]
         });
+        Self {
+            bounds: bounds.collect(),
+            points,
+        }
     }
 
     #[inline]
-    pub(crate) fn get(&self, point: u32) -> [S; 3] {
-        let [x, y, z, _] = *self.wide(point);
+    pub(crate) fn get(&self, vertex: TreeVertex) -> [S; 3] {
+        let [x, y, z, _] = *self.padded(vertex);
         [x, y, z]
     }
 }
 
 impl<S> Points<S> {
-    /// A run of points, each with the number that means nothing.
+    /// A point and padding.
     #[inline(always)]
-    pub(crate) fn run(&self, run: std::ops::Range<usize>) -> &[[S; 4]] {
-        &self.points[run]
-    }
-
-    /// The bounds of every [`IN_A_ROW`] points.
-    #[inline(always)]
-    pub(crate) fn bounds(&self) -> &[RowBounds<S>] {
-        &self.bounds
-    }
-
-    /// A point and the number that means nothing.
-    #[inline(always)]
-    pub(crate) fn wide(&self, point: u32) -> &[S; 4] {
-        &self.points[point as usize]
+    pub(crate) fn padded(&self, vertex: TreeVertex) -> &[S; 4] {
+        &self.points[vertex.index()]
     }
 }

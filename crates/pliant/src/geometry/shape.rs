@@ -1,7 +1,8 @@
 //! The shape a body has now, and the boxes of its parts.
 
-use super::scalar::{larger, smaller};
-use super::{Aabb, Points, Scalar};
+use super::real::{larger, smaller};
+use super::{Aabb, Points, Real};
+use crate::ids::{TreeTriangle, TreeVertex};
 
 /// The current shape of a body, as everything that makes boxes sees it.
 #[derive(Clone, Copy)]
@@ -9,14 +10,14 @@ pub(crate) struct Shape<'a, S> {
     /// Positions in tree order.
     pub(crate) positions: &'a Points<S>,
     /// The corners of each triangle, both in tree order.
-    pub(crate) triangles: &'a [[u32; 3]],
+    pub(crate) triangles: &'a [[TreeVertex; 3]],
     /// Boxes are relative to this point (zero for `f32`).
     pub(crate) origin: Origin,
-    /// Counts the changes of shape; a box made in another epoch is not true.
+    /// Counts the changes of shape; a box that was made in another epoch is stale.
     pub(crate) epoch: u64,
 }
 
-/// The point that the boxes of a world are relative to, and one number that means nothing.
+/// The point that the boxes of a world are relative to, and padding.
 pub(crate) type Origin = [f64; 4];
 
 /// The exact extent of some points, in the caller's coordinates.
@@ -26,7 +27,7 @@ pub(crate) struct Bounds<S> {
     pub(crate) hi: [S; 3],
 }
 
-impl<S: Scalar> Bounds<S> {
+impl<S: Real> Bounds<S> {
     pub(crate) const EMPTY: Self = Self {
         lo: [S::INFINITY; 3],
         hi: [S::NEG_INFINITY; 3],
@@ -69,11 +70,12 @@ impl<S: Scalar> Bounds<S> {
     }
 }
 
-impl<S: Scalar> Shape<'_, S> {
+impl<S: Real> Shape<'_, S> {
     /// The box of one triangle: what the kernels must give.
-    pub(crate) fn box_of(&self, triangle: u32) -> Aabb {
+    #[cfg(test)]
+    pub(crate) fn box_of(&self, triangle: TreeTriangle) -> Aabb {
         let mut bounds = Bounds::EMPTY;
-        for vertex in self.triangles[triangle as usize] {
+        for vertex in self.triangles[triangle.index()] {
             bounds.include(self.positions.get(vertex));
         }
         bounds.to_box(self.origin)
@@ -81,8 +83,8 @@ impl<S: Scalar> Shape<'_, S> {
 
     /// Three corners of a triangle as the exact decision wants them; exact.
     #[inline]
-    pub(crate) fn corners(&self, triangle: u32) -> [[f64; 3]; 3] {
-        self.triangles[triangle as usize].map(|vertex| self.positions.get(vertex).map(S::to_f64))
+    pub(crate) fn corners(&self, triangle: TreeTriangle) -> [[f64; 3]; 3] {
+        self.triangles[triangle.index()].map(|vertex| self.positions.get(vertex).map(Real::to_f64))
     }
 }
 
@@ -130,12 +132,12 @@ mod tests {
         for (positions, origin) in corners() {
             let wide_origin = [origin[0], origin[1], origin[2], 0.0];
             let shape = Shape {
-                positions: &Points::of(&positions),
-                triangles: &[[0, 1, 2], [3, 4, 5]],
+                positions: &Points::of(positions.iter().copied()),
+                triangles: &[[0, 1, 2], [3, 4, 5]].map(|corners| corners.map(TreeVertex)),
                 origin: wide_origin,
                 epoch: 1,
             };
-            let boxes = [shape.box_of(0), shape.box_of(1)];
+            let boxes = [0, 1].map(|triangle| shape.box_of(TreeTriangle(triangle)));
             let mut bounds = Bounds::EMPTY;
             positions.iter().for_each(|&p| bounds.include(p));
             let parent = bounds.to_box(wide_origin);
@@ -182,8 +184,8 @@ mod tests {
             [7.0, 1e-45, 0.5],
         ];
         let shape = Shape {
-            positions: &Points::of(&positions),
-            triangles: &[[0, 1, 2]],
+            positions: &Points::of(positions.iter().copied()),
+            triangles: &[[0, 1, 2].map(TreeVertex)],
             origin: [0.0; 4],
             epoch: 1,
         };
@@ -191,6 +193,6 @@ mod tests {
             lo: [3e-39, -1e-45, -1.0],
             hi: [7.0, 1e-45, f32::MAX],
         };
-        assert_eq!(shape.box_of(0), expected);
+        assert_eq!(shape.box_of(TreeTriangle(0)), expected);
     }
 }

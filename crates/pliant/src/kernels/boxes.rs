@@ -4,8 +4,8 @@ use crate::geometry::{Aabb, larger, smaller};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 
-/// N closed boxes in structure-of-arrays order. An empty lane is NaN: ordered comparisons with it are false, so it overlaps nothing, not even an
-/// infinite box (a pair of infinities would), and merging passes it over.
+/// N closed boxes in structure-of-arrays order. An empty lane is NaN: ordered comparisons with it are false, so it overlaps
+/// nothing, not even an infinite box (a pair of infinities would), and merging passes it over.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoxLanes<const N: usize> {
     pub(super) lo: [[f32; N]; 3],
@@ -66,6 +66,28 @@ impl<const N: usize> BoxLanes<N> {
             lo: lo.map(|lanes| lanes[0]),
             hi: hi.map(|lanes| lanes[0]),
         }
+    }
+
+    /// The longest side of every box; of empty ones no number.
+    #[inline]
+    pub(crate) fn longest_sides(&self) -> [f32; N] {
+        let mut longest = [0.0; N];
+        for lane in 0..N {
+            longest[lane] = self.hi[0][lane] - self.lo[0][lane];
+        }
+        for axis in 1..3 {
+            for lane in 0..N {
+                longest[lane] = larger(longest[lane], self.hi[axis][lane] - self.lo[axis][lane]);
+            }
+        }
+        longest
+    }
+
+    /// The longest side of the box of all.
+    #[cfg(test)]
+    pub(super) fn union_side(&self) -> f32 {
+        let all = self.union();
+        (0..3).fold(0.0, |most, axis| larger(all.hi[axis] - all.lo[axis], most))
     }
 
     /// Bit i is set if lane i overlaps `query`; touching counts.
@@ -131,8 +153,7 @@ fn eight<I: Simd, const N: usize>(i: I, row: &[f32; N]) -> f32x8<I> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernels::all_levels;
-    use fearless_simd::dispatch;
+    use crate::kernels::{Instructions, dispatch};
 
     #[test]
     fn an_empty_lane_meets_nothing_and_adds_nothing() {
@@ -181,9 +202,9 @@ mod tests {
             lanes
         };
         let (a, b) = (some(0.0), some(0.5));
-        for level in all_levels() {
-            let mask = dispatch!(level, i => overlap_mask(i, &a, &b));
-            assert_eq!(mask, a.overlaps_all(&b), "{level:?}");
+        for instructions in Instructions::all() {
+            let mask = dispatch!(instructions, i => overlap_mask(i, &a, &b));
+            assert_eq!(mask, a.overlaps_all(&b), "{instructions:?}");
         }
         for i in 0..8 {
             assert_eq!(

@@ -1,13 +1,16 @@
-//! Boxes from points: of a run of points and some others, and of triangles by eights.
+//! Boxes from points: of a run of points and some others, of twelve points, and of triangles.
 
+use super::Coordinate;
 use super::boxes::BoxLanes;
-use super::gather::IN_A_ROW;
-use super::wide::lanes_of;
-use crate::geometry::{Aabb, Points, Scalar, Shape};
+use super::coordinate::{lanes_of, turn};
+#[cfg(test)]
+use crate::geometry::OUTWARD;
+use crate::geometry::{Aabb, IN_A_ROW, Shape};
+use crate::ids::TreeVertex;
 use fearless_simd::f32x4;
 use fearless_simd::prelude::*;
 
-/// A box in two registers: its lower corner and its upper, and in each one number that means nothing.
+/// A box in two registers: its lower corner and its upper, each with padding.
 pub(crate) type Extent<I> = (f32x4<I>, f32x4<I>);
 
 /// As many vertices as most leaves have: eight triangles of a surface have ten to twelve.
@@ -34,6 +37,47 @@ pub(crate) fn store<I: Simd, const N: usize>(
     }
 }
 
+/// Four boxes as lanes, and the box of all.
+#[derive(Clone, Copy)]
+pub(crate) struct Four<I: Simd> {
+    lo: [f32x4<I>; 3],
+    hi: [f32x4<I>; 3],
+    all: Extent<I>,
+}
+
+impl<I: Simd> Four<I> {
+    /// Four at a time stay in registers; eight would not.
+    #[inline(always)]
+    pub(crate) fn new(boxes: [Extent<I>; 4]) -> Self {
+        let [a, b, c, d] = boxes;
+        Self {
+            lo: turn([a.0, b.0, c.0, d.0]),
+            hi: turn([a.1, b.1, c.1, d.1]),
+            all: (
+                a.0.min(b.0).min(c.0.min(d.0)),
+                a.1.max(b.1).max(c.1.max(d.1)),
+            ),
+        }
+    }
+
+    /// Puts the first `count` of these and four others side by side. Returns the box of all eight.
+    #[inline(always)]
+    pub(crate) fn store(self, later: Self, count: usize, lanes: &mut BoxLanes<8>) -> Extent<I> {
+        for axis in 0..3 {
+            self.lo[axis]
+                .combine(later.lo[axis])
+                .store_array(&mut lanes.lo[axis]);
+            self.hi[axis]
+                .combine(later.hi[axis])
+                .store_array(&mut lanes.hi[axis]);
+        }
+        if count < 8 {
+            lanes.empty_from(count);
+        }
+        (self.all.0.min(later.all.0), self.all.1.max(later.all.1))
+    }
+}
+
 /// No box; what is in a lane that is not used.
 #[inline(always)]
 pub(crate) fn nothing<I: Simd>(i: I) -> Extent<I> {
@@ -47,13 +91,42 @@ pub(crate) fn of_box<I: Simd>(i: I, known: &Aabb) -> Extent<I> {
     (wide(known.lo), wide(known.hi))
 }
 
+/// The box itself.
+#[cfg(test)]
+pub(crate) fn to_box<I: Simd>((lo, hi): Extent<I>) -> Aabb {
+    let [lo, hi] = [lo, hi].map(|corner| {
+        let [x, y, z, _] = corner.to_array();
+        [x, y, z]
+    });
+    Aabb { lo, hi }
+}
+
+/// The smallest box that holds two.
+#[inline(always)]
+#[cfg(test)]
+pub(crate) fn union<I: Simd>(a: Extent<I>, b: Extent<I>) -> Extent<I> {
+    (a.0.min(b.0), a.1.max(b.1))
+}
+
+/// A box grown by a distance on every side, as `Aabb::grown` says.
+#[inline(always)]
+#[cfg(test)]
+pub(crate) fn grown<I: Simd>(i: I, (lo, hi): Extent<I>, distance: f32) -> Extent<I> {
+    let distance = f32x4::splat(i, distance);
+    let (lo, hi) = (lo - distance, hi + distance);
+    (
+        lo - (lo.abs() * OUTWARD + f32::MIN_POSITIVE),
+        hi + (hi.abs() * OUTWARD + f32::MIN_POSITIVE),
+    )
+}
+
 /// The box of the points of a run and of some others; there is one at least.
 #[inline(always)]
-pub(crate) fn of_points<I: Simd, S: Scalar>(
+pub(crate) fn of_points<I: Simd, S: Coordinate>(
     i: I,
     shape: &Shape<S>,
     run: std::ops::Range<usize>,
-    others: &[u32],
+    others: &[TreeVertex],
 ) -> Extent<I> {
     if run.is_empty()
         && let Ok(others) = others.try_into()
@@ -69,27 +142,27 @@ pub(crate) fn of_points<I: Simd, S: Scalar>(
         (run.clone(), 0..0, 0..0)
     };
     let first = match others.first() {
-        Some(&other) => shape.positions.wide(other),
-        None => shape.positions.wide(run.start as u32),
+        Some(&other) => shape.positions.padded(other),
+        None => &shape.positions.points[run.start],
     };
     let first = S::load(i, first);
     let (mut lo, mut hi) = ([first; 4], [first; 4]);
-    include(i, shape.positions.run(head), &mut lo, &mut hi);
-    for [row_lo, row_hi] in &shape.positions.bounds()[rows] {
+    include(i, &shape.positions.points[head], &mut lo, &mut hi);
+    for [row_lo, row_hi] in &shape.positions.bounds[rows] {
         lo[0] = lo[0].min(S::load(i, row_lo));
         hi[0] = hi[0].max(S::load(i, row_hi));
     }
-    include(i, shape.positions.run(tail), &mut lo, &mut hi);
+    include(i, &shape.positions.points[tail], &mut lo, &mut hi);
     let (fours, rest) = others.as_chunks::<4>();
     for four in fours {
         for which in 0..4 {
-            let point = S::load(i, shape.positions.wide(four[which]));
+            let point = S::load(i, shape.positions.padded(four[which]));
             lo[which] = lo[which].min(point);
             hi[which] = hi[which].max(point);
         }
     }
     for &other in rest {
-        let point = S::load(i, shape.positions.wide(other));
+        let point = S::load(i, shape.positions.padded(other));
         (lo[1], hi[1]) = (lo[1].min(point), hi[1].max(point));
     }
     let lo = lo[0].min(lo[1]).min(lo[2].min(lo[3]));
@@ -99,7 +172,7 @@ pub(crate) fn of_points<I: Simd, S: Scalar>(
 
 /// Includes points side by side, several at a time, so that a minimum does not wait for the one before.
 #[inline(always)]
-fn include<I: Simd, S: Scalar>(
+fn include<I: Simd, S: Coordinate>(
     i: I,
     points: &[[S; 4]],
     lo: &mut [S::Four<I>; 4],
@@ -121,15 +194,15 @@ fn include<I: Simd, S: Scalar>(
 
 /// The box of twelve points: as many as most leaves have.
 #[inline(always)]
-pub(crate) fn of_twelve<I: Simd, S: Scalar>(
+pub(crate) fn of_twelve<I: Simd, S: Coordinate>(
     i: I,
     shape: &Shape<S>,
-    points: &[u32; TWELVE],
+    points: &[TreeVertex; TWELVE],
 ) -> Extent<I> {
-    let first = S::load(i, shape.positions.wide(points[0]));
+    let first = S::load(i, shape.positions.padded(points[0]));
     let (mut lo, mut hi) = ([first; 2], [first; 2]);
     for which in 1..TWELVE {
-        let point = S::load(i, shape.positions.wide(points[which]));
+        let point = S::load(i, shape.positions.padded(points[which]));
         lo[which % 2] = lo[which % 2].min(point);
         hi[which % 2] = hi[which % 2].max(point);
     }
@@ -138,82 +211,31 @@ pub(crate) fn of_twelve<I: Simd, S: Scalar>(
 
 /// The box of one triangle.
 #[inline(always)]
-pub(crate) fn of_triangle<I: Simd, S: Scalar>(i: I, shape: &Shape<S>, triangle: u32) -> Extent<I> {
-    of_corners(
-        i,
-        shape.positions,
-        shape.triangles[triangle as usize],
-        &shape.origin,
-    )
-}
-
-#[inline(always)]
-fn of_corners<I: Simd, S: Scalar>(
+pub(crate) fn of_corners<I: Simd, S: Coordinate>(
     i: I,
-    positions: &Points<S>,
-    corners: [u32; 3],
-    origin: &[f64; 4],
+    Shape {
+        positions, origin, ..
+    }: &Shape<S>,
+    corners: [TreeVertex; 3],
 ) -> Extent<I> {
-    let a = S::load(i, positions.wide(corners[0]));
-    let b = S::load(i, positions.wide(corners[1]));
-    let c = S::load(i, positions.wide(corners[2]));
+    let a = S::load(i, positions.padded(corners[0]));
+    let b = S::load(i, positions.padded(corners[1]));
+    let c = S::load(i, positions.padded(corners[2]));
     S::outward(a.min(b).min(c), a.max(b).max(c), origin)
-}
-
-/// Makes the boxes of one to eight triangles.
-#[inline(always)]
-pub(crate) fn make_block<I: Simd, S: Scalar>(
-    i: I,
-    shape: &Shape<S>,
-    triangles: &[[u32; 3]],
-    block: &mut BoxLanes<8>,
-) {
-    // What is missing to eight is the last again.
-    let padded;
-    let eight = if let Ok(eight) = triangles.try_into() {
-        eight
-    } else {
-        padded = padded_to_eight(triangles);
-        &padded
-    };
-    let mut boxes = [nothing(i); 8];
-    for lane in 0..8 {
-        boxes[lane] = of_corners(i, shape.positions, eight[lane], &shape.origin);
-    }
-    store(boxes, triangles.len(), block);
-}
-
-/// One to seven triangles, and the last again.
-#[inline(never)]
-fn padded_to_eight(triangles: &[[u32; 3]]) -> [[u32; 3]; 8] {
-    let mut eight = [triangles[triangles.len() - 1]; 8];
-    eight[..triangles.len()].copy_from_slice(triangles);
-    eight
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Bounds;
-    use crate::kernels::all_levels;
-    use fearless_simd::dispatch;
+    use crate::geometry::{Bounds, Points};
+    use crate::ids::TreeTriangle;
+    use crate::kernels::{Instructions, dispatch};
 
-    fn aabb<I: Simd>((lo, hi): Extent<I>) -> Aabb {
-        let [corner_lo, corner_hi] = [lo, hi].map(|corner| {
-            let [x, y, z, _] = corner.to_array();
-            [x, y, z]
-        });
-        Aabb {
-            lo: corner_lo,
-            hi: corner_hi,
-        }
-    }
-
-    /// Every level gives the boxes that `Shape` and `Bounds` give, bit for bit.
-    fn check<S: Scalar>(points: &[[S; 3]], origin: [f64; 4]) {
-        let positions = Points::of(points);
-        let triangles: Vec<[u32; 3]> = (0..points.len() as u32 - 2)
-            .map(|first| [first, first + 2, first + 1])
+    /// All instructions give the boxes that `Shape` and `Bounds` give, bit for bit.
+    fn check<S: Coordinate>(points: &[[S; 3]], origin: [f64; 4]) {
+        let positions = Points::of(points.iter().copied());
+        let triangles: Vec<[TreeVertex; 3]> = (0..points.len() as u32 - 2)
+            .map(|first| [first, first + 2, first + 1].map(TreeVertex))
             .collect();
         let shape = Shape {
             positions: &positions,
@@ -221,33 +243,40 @@ mod tests {
             origin,
             epoch: 1,
         };
-        for level in all_levels() {
-            dispatch!(level, i => {
+        for instructions in Instructions::all() {
+            dispatch!(instructions, i => {
+                for (triangle, &corners) in triangles.iter().enumerate() {
+                    let expected = shape.box_of(TreeTriangle(triangle as u32));
+                    assert_eq!(to_box(of_corners(i, &shape, corners)), expected, "{instructions:?}");
+                }
                 for count in 1..=8 {
-                    let mut block = BoxLanes::EMPTY;
-                    make_block(i, &shape, &triangles[3..3 + count], &mut block);
-                    for place in 0..count {
-                        let triangle = 3 + place as u32;
-                        assert_eq!(block.get(place), shape.box_of(triangle), "{level:?}");
-                        assert_eq!(aabb(of_triangle(i, &shape, triangle)), shape.box_of(triangle));
+                    let mut lanes = BoxLanes::<8>::EMPTY;
+                    let mut boxes = [nothing(i); 8];
+                    for lane in 0..count {
+                        boxes[lane] = of_corners(i, &shape, triangles[lane]);
                     }
-                    assert_eq!(aabb(of_box(i, &block.union())), block.union());
+                    store(boxes, count, &mut lanes);
+                    for lane in 0..count {
+                        assert_eq!(lanes.get(lane), shape.box_of(TreeTriangle(lane as u32)));
+                    }
                     for lane in count..8 {
-                        assert!(block.get(lane).lo.iter().all(|x| x.is_nan()));
+                        assert!(lanes.get(lane).lo.iter().all(|x| x.is_nan()));
                     }
+                    assert_eq!(to_box(of_box(i, &lanes.union())), lanes.union());
                 }
                 for (run, others) in [(4..9, &[][..]), (2..2, &[1]), (5..6, &[0, 8]), (0..3, &[7, 5, 9]), (3..3, &[7, 5, 9, 0, 2, 2, 6, 6]), (3..3, &[7, 5, 9, 0, 2, 1, 6, 11, 13, 4, 3, 3])] {
+                    let others: Vec<TreeVertex> = others.iter().copied().map(TreeVertex).collect();
                     let mut bounds = Bounds::EMPTY;
-                    let all = run.clone().map(|place| place as u32).chain(others.iter().copied());
+                    let all = run.clone().map(|place| TreeVertex(place as u32)).chain(others.iter().copied());
                     all.for_each(|vertex| bounds.include(positions.get(vertex)));
-                    assert_eq!(aabb(of_points(i, &shape, run, others)), bounds.to_box(origin));
+                    assert_eq!(to_box(of_points(i, &shape, run, &others)), bounds.to_box(origin));
                 }
             });
         }
     }
 
     #[test]
-    fn all_levels_make_the_same_boxes() {
+    fn all_instructions_make_the_same_boxes() {
         let wave = |i: usize| {
             [
                 (i * i) as f64 * 0.37 - 3.0,

@@ -12,21 +12,20 @@ pub(crate) fn find_lane<I: Simd>(i: I, row: &[u32; 8], wanted: u32) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernels::all_levels;
-    use fearless_simd::dispatch;
+    use crate::kernels::{Instructions, dispatch};
 
     #[test]
-    fn all_levels_find_every_lane() {
+    fn all_instructions_find_every_lane() {
         let row = [7, u32::MAX, 0, 7, 1 << 31, 3, 7, 1];
-        for level in all_levels() {
+        for instructions in Instructions::all() {
             for wanted in [0, 1, 2, 3, 7, 1 << 31, u32::MAX] {
                 let expected = (0..8).fold(0, |mask, lane| {
                     mask | u64::from(row[lane] == wanted) << lane
                 });
                 assert_eq!(
-                    dispatch!(level, i => find_lane(i, &row, wanted)),
+                    dispatch!(instructions, i => find_lane(i, &row, wanted)),
                     expected,
-                    "{level:?}"
+                    "{instructions:?}"
                 );
             }
         }

@@ -3,29 +3,23 @@
 //! While a point is in a register its bounds cost next to nothing. The boxes of upper nodes, whose points are long runs, are then
 //! made from bounds instead of points.
 
-use super::wide::Wide;
+use super::{Coordinate, Instructions, dispatch};
+use crate::geometry::{IN_A_ROW, RowBounds};
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, dispatch};
 
-/// Points in a row that have bounds of their own.
-pub(crate) const IN_A_ROW: usize = 32;
-
-/// The bounds of some points: lo, hi; the fourth numbers mean nothing.
-pub(crate) type RowBounds<S> = [[S; 4]; 2];
-
-/// Takes the points that `order` names, each with a number that means nothing; and the bounds of every [`IN_A_ROW`].
-pub(crate) fn gather<S: Wide + Default>(
-    level: Level,
+/// Takes the points that `order` names, each with padding, and the bounds of every [`IN_A_ROW`].
+pub(crate) fn gather<S: Coordinate>(
+    instructions: Instructions,
     from: &[[S; 3]],
     order: &[u32],
     points: &mut [[S; 4]],
     bounds: &mut [RowBounds<S>],
 ) {
-    dispatch!(level, i => in_rows(i, from, order, points, bounds));
+    dispatch!(instructions, i => in_rows(i, from, order, points, bounds));
 }
 
 #[inline(always)]
-fn in_rows<I: Simd, S: Wide + Default>(
+fn in_rows<I: Simd, S: Coordinate>(
     i: I,
     from: &[[S; 3]],
     order: &[u32],
@@ -51,7 +45,7 @@ fn in_rows<I: Simd, S: Wide + Default>(
     take(from, rest_order, rest);
 }
 
-/// Takes points, each with a number that means nothing.
+/// Takes points, each with padding.
 #[inline(always)]
 fn take<S: Copy>(from: &[[S; 3]], order: &[u32], points: &mut [[S; 4]]) {
     for (place, &point) in points.iter_mut().zip(order) {
@@ -63,21 +57,21 @@ fn take<S: Copy>(from: &[[S; 3]], order: &[u32], points: &mut [[S; 4]]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Bounds, Scalar};
-    use crate::kernels::all_levels;
+    use crate::geometry::Bounds;
+    use crate::kernels::Instructions;
 
-    fn check<S: Scalar>(number: impl Fn(f64) -> S) {
+    fn check<S: Coordinate>(number: impl Fn(f64) -> S) {
         for len in [0, 1, IN_A_ROW - 1, IN_A_ROW, 3 * IN_A_ROW + 5] {
             let from: Vec<[S; 3]> = (0..len)
                 .map(|at| [at * 37 % 101, at * 11 % 17, at].map(|x| number(x as f64 * 0.3 - 4.0)))
                 .collect();
             let order: Vec<u32> = (0..len).map(|at| (at * 7 % len) as u32).collect();
-            for level in all_levels() {
+            for instructions in Instructions::all() {
                 let mut points = vec![[S::default(); 4]; len];
                 let mut bounds = vec![[[S::default(); 4]; 2]; len.div_ceil(IN_A_ROW)];
-                gather(level, &from, &order, &mut points, &mut bounds);
+                gather(instructions, &from, &order, &mut points, &mut bounds);
                 for (found, &point) in points.iter().zip(&order) {
-                    assert_eq!(found[..3], from[point as usize], "{level:?}");
+                    assert_eq!(found[..3], from[point as usize], "{instructions:?}");
                 }
                 for (order, found) in order.as_chunks::<IN_A_ROW>().0.iter().zip(&bounds) {
                     let mut row = Bounds::EMPTY;
@@ -94,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn all_levels_take_points_and_bound_rows() {
+    fn all_instructions_take_points_and_bound_rows() {
         check(|x| x as f32);
         check(|x| x);
     }

@@ -15,9 +15,9 @@
 //! ninth u if every length is at least 2^-40 = [`SHORTEST`], which is therefore asked for; shorter ones, zero among them, are
 //! left to exact arithmetic. Comparisons are strict, so infinities and NaN are not certain either.
 //!
-//! Coarser than the bound of `narrow_phase::orientation` by the shape of the triangles, but without a second sum for each sign.
+//! Coarser than the bound of `predicates::orientation` by the shape of the triangles, but without a second sum for each sign.
 
-use super::wide::{Corners, Rows, Wide};
+use super::coordinate::{Coordinate, Corners, Vectors};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
 
@@ -40,7 +40,7 @@ pub(crate) struct PlaneSigns {
 }
 
 #[inline(always)]
-pub(crate) fn plane_signs<I: Simd, S: Wide>(i: I, corners: &Corners<S>) -> PlaneSigns {
+pub(crate) fn plane_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> PlaneSigns {
     let (a0, a1, a2, b0, b1, b2) = (0, 1, 2, 3, 4, 5);
     let [a_1, a_2, a_b, a_b1, a_b2, b_1, b_2, b_a1, b_a2] = S::differences(
         i,
@@ -129,7 +129,7 @@ pub(crate) struct LineSigns {
 
 /// The orientations of p1 q1 p2 q2 and of p1 r1 r2 p2, for corners p1 q1 r1 of A and p2 q2 r2 of B.
 #[inline(always)]
-pub(crate) fn line_signs<I: Simd, S: Wide>(i: I, corners: &Corners<S>) -> LineSigns {
+pub(crate) fn line_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> LineSigns {
     let [q1, r1, p2, q2, r2] = S::differences(i, corners, [(1, 0), (2, 0), (3, 0), (4, 0), (5, 0)]);
     let (lq1, lr1, lp2) = (length(q1), length(r1), length(p2));
     let (lq2, lr2) = (length(q2), length(r2));
@@ -145,12 +145,12 @@ pub(crate) fn line_signs<I: Simd, S: Wide>(i: I, corners: &Corners<S>) -> LineSi
 
 /// The largest component.
 #[inline(always)]
-fn length<I: Simd>([x, y, z]: Rows<I>) -> f32x8<I> {
+fn length<I: Simd>([x, y, z]: Vectors<I>) -> f32x8<I> {
     x.abs().max(y.abs()).max(z.abs())
 }
 
 #[inline(always)]
-fn cross<I: Simd>(a: Rows<I>, b: Rows<I>) -> Rows<I> {
+fn cross<I: Simd>(a: Vectors<I>, b: Vectors<I>) -> Vectors<I> {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -159,7 +159,7 @@ fn cross<I: Simd>(a: Rows<I>, b: Rows<I>) -> Rows<I> {
 }
 
 #[inline(always)]
-fn dot<I: Simd>(a: Rows<I>, b: Rows<I>) -> f32x8<I> {
+fn dot<I: Simd>(a: Vectors<I>, b: Vectors<I>) -> f32x8<I> {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -173,40 +173,40 @@ fn compare<I: Simd>(value: f32x8<I>, size: f32x8<I>) -> [mask32x8<I>; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Points, Scalar};
-    use crate::kernels::all_levels;
-    use fearless_simd::dispatch;
+    use crate::geometry::Points;
+    use crate::ids::TreeVertex;
+    use crate::kernels::{Instructions, dispatch};
     use pliant_oracle::{Class, Random, fits_f32, orientation as sign};
 
-    /// How many of the signs of eight pairs were certain; all of those are right, at every level the same.
-    fn check<S: Scalar>(pairs: &[[[[f64; 3]; 3]; 2]; 8], of: impl Fn(f64) -> S) -> u32 {
+    /// How many of the signs of eight pairs were certain; all of those are right, the same with all instructions.
+    fn check<S: Coordinate>(pairs: &[[[[f64; 3]; 3]; 2]; 8], of: impl Fn(f64) -> S) -> u32 {
         let points = |side: usize| -> Vec<[S; 3]> {
             let corners = pairs.iter().flat_map(|pair| pair[side]);
             corners.map(|point| point.map(&of)).collect()
         };
-        let positions = [Points::of(&points(0)), Points::of(&points(1))];
-        let mut vertices = [[0; 6]; 8];
+        let positions = [0, 1].map(|side| Points::of(points(side).into_iter()));
+        let mut vertices = [[TreeVertex(0); 6]; 8];
         for lane in 0..8 {
             let first = 3 * lane as u32;
-            vertices[lane] = [0, 1, 2, 0, 1, 2].map(|corner| first + corner);
+            vertices[lane] = [0, 1, 2, 0, 1, 2].map(|corner| TreeVertex(first + corner));
         }
         let corners = Corners {
             positions: [&positions[0], &positions[1]],
             vertices,
         };
-        let level = crate::kernels::widest();
-        let planes = dispatch!(level, i => plane_signs(i, &corners));
-        let lines = dispatch!(level, i => line_signs(i, &corners));
-        for level in all_levels() {
+        let instructions = Instructions::widest();
+        let planes = dispatch!(instructions, i => plane_signs(i, &corners));
+        let lines = dispatch!(instructions, i => line_signs(i, &corners));
+        for instructions in Instructions::all() {
             assert_eq!(
-                dispatch!(level, i => plane_signs(i, &corners)),
+                dispatch!(instructions, i => plane_signs(i, &corners)),
                 planes,
-                "{level:?}"
+                "{instructions:?}"
             );
             assert_eq!(
-                dispatch!(level, i => line_signs(i, &corners)),
+                dispatch!(instructions, i => line_signs(i, &corners)),
                 lines,
-                "{level:?}"
+                "{instructions:?}"
             );
         }
         let mut certain = 0;

@@ -1,109 +1,128 @@
-//! The loop of the traversal, the same for two trees and for one.
+//! The loop of the traversal, the same for two trees and for one, and for every kind of query.
 
-use super::Side;
-use super::branch::{Branch, Stride, are_free};
-use crate::exec::Threads;
-use crate::geometry::{Scalar, Shape};
-use crate::kernels::bits::Batch;
-use crate::pairs::{Candidate, NodePair};
+use super::context::{Budget, Context};
+use super::expand::NodePair;
+use super::task::{Task, are_free, left_out};
+use super::tree_pair::TreePair;
+use crate::ids::{NodeId, WideNodeId};
+use crate::kernels::Buffer;
+use crate::queries::Kind;
 use crate::statistics::Statistics;
-use crate::tree::{NodeId, Tree};
-use crate::update::{Noted, Updates};
+use crate::threads::Executor;
+use crate::tree::BoxSource;
+use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
 
-/// How much of what intersects a query wants.
+/// How much of what there is a query wants.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Wanted {
     /// All of it.
     All,
-    /// As much as its visitor looks at, which may be the first pair.
+    /// As much as its visitor looks at, which may be the first hit.
     #[default]
     UntilBreak,
 }
 
-/// Of a visitor, the first batch is one pair, and batches double: if it stops at the first pair, few boxes were made that it did
-/// not need (on the two spheres from contact on, 16 instead made 1,841 boxes where this makes 520, and took 1.8 times as long).
+/// Of a visitor, the first batch is one pair of nodes, and batches double: if it stops at the first hit, few boxes were made that it
+/// did not need. On the two spheres from contact on, 16 instead made 1,841 boxes where this makes 520, and took 1.8 times as long.
 const FIRST_BATCH: usize = 1;
-/// The most pairs of nodes that a branch takes at once: short enough that their groups stay in cache.
+/// The most pairs of nodes that a task takes at once. It is so short that their wide nodes stay in cache.
 const LONGEST_BATCH: usize = 256;
-/// So many pairs of leaves of a branch, or a few more, are enough to let them meet,
-const MOST_LEAVES: usize = 512;
-/// (more where threads share branches: each has a cache of its own, and all wait for the last)
-const MOST_LEAVES_SHARED: usize = 2048;
-/// and the most pairs of their blocks before their hits are shown. This bounds memory whatever the leaf size is.
+/// When a task has this many pairs of leaves, it tests them after the batch at hand.
+const MOST_LEAF_PAIRS: usize = 512;
+/// The same where threads share the tasks. It is more, because each thread has a cache of its own, and all wait for the last.
+const MOST_LEAF_PAIRS_SHARED: usize = 2048;
+/// The most pairs of blocks that a task tests, or a few more, before hits are shown. This bounds memory whatever the leaf size is.
 const MOST_BEFORE_SHOWN: usize = 8192;
-/// As soon as there are so many pairs of nodes, branches share them, whatever the number of threads is:
-const ENOUGH: usize = 128;
-/// so many branches if boxes will be made in turn with them, so that all are at work in about one place,
-const BRANCHES: usize = 8;
-/// (and so many a thread, if that is more, where all pairs are wanted: the same are found and the same boxes made in any order)
-const BRANCHES_A_THREAD: usize = 2;
-/// or else so many, so that none waits long for another.
-const FREE_BRANCHES: usize = 32;
-/// So many pairs of nodes are dealt at once.
-const DEALT: usize = 512;
+/// As soon as there are this many pairs of nodes they are distributed to several tasks, whatever the number of threads is.
+const ENOUGH_TO_DISTRIBUTE: usize = 128;
+/// The number of tasks where they ask for boxes: few, so that all of them are at work in about one place of the trees.
+const TASKS: usize = 8;
+/// The number of tasks a thread, where they ask for boxes and all hits are wanted, if that makes more than [`TASKS`]. The hits found and
+/// the boxes made are then the same in any order.
+const TASKS_A_THREAD: usize = 2;
+/// The number of tasks where all boxes are valid, and known to be: many, so that none waits long for another.
+const FREE_TASKS: usize = 32;
+/// So many leaves are worth a task of their own, to be tested with their neighbours.
+const FEWEST_LEAVES: usize = 64;
+/// The most pairs of nodes that are distributed at once.
+const DISTRIBUTED: usize = 512;
 
-/// What is descended: two trees, or one against itself.
-pub(crate) trait Meeting<const N: usize>: Sync {
-    /// Of the positions.
-    type Coordinate: Scalar;
-    /// Whether it is one tree against itself.
-    const ITSELF: bool;
-    /// Both bodies, or the one twice.
-    fn sides(&self) -> [&Side<'_, N, Self::Coordinate>; 2];
-    /// The first or the second tree, and the shape of its body.
-    fn tree_mut(&mut self, which: usize) -> (&mut Tree<N>, &Shape<'_, Self::Coordinate>);
-    /// The caller's numbers of two triangles.
-    fn name(&self, candidate: Candidate) -> [u32; 2];
-}
+/// Is shown every hit once, some at a time, until it breaks with the place of the one at which it stops.
+pub(crate) type Sink<'s, H> = &'s mut dyn FnMut(&[H]) -> ControlFlow<usize>;
 
 /// Buffers, kept from query to query.
-#[derive(Debug, Default)]
-pub(crate) struct Scratch {
-    /// Lists of groups, for the update.
-    pub(crate) groups: [Vec<u32>; 2],
-    /// Groups or leaves of one tree that are to be made true, of all branches together.
-    pub(crate) reached: Noted,
-    branches: Vec<Branch>,
+#[derive(Debug)]
+pub(crate) struct Scratch<K: Kind> {
+    /// Lists of wide nodes, for the update.
+    pub(crate) wide_nodes: [Vec<WideNodeId>; 2],
+    /// Wide nodes or leaves of one tree that are to be refitted, of all tasks together.
+    pub(crate) reached: DirtySet,
+    tasks: Vec<Task<K>>,
     /// How many of them, from the first on, are in use.
     used: usize,
-    /// Pairs of nodes that were not dealt yet, and those that are being dealt.
-    reserve: Batch<NodePair>,
-    dealt: Vec<NodePair>,
+    /// Pairs of nodes that were not distributed yet, and those that are being distributed.
+    reserve: Buffer<NodePair>,
+    distributed: Vec<NodePair>,
     wanted: Wanted,
     sizes: Sizes,
-    /// The pair at which a query stopped, in tree order.
-    pub(crate) broke_at: Option<Candidate>,
+    /// The hit at which a query stopped, in tree order.
+    pub(crate) broke_at: Option<K::TreeHit>,
 }
 
-/// How many pairs a branch takes at once. For a visitor they double over a query, whatever it has asked before.
+impl<K: Kind> Default for Scratch<K> {
+    fn default() -> Self {
+        Self {
+            wide_nodes: Default::default(),
+            reached: DirtySet::default(),
+            tasks: Vec::new(),
+            used: 0,
+            reserve: Buffer::default(),
+            distributed: Vec::new(),
+            wanted: Wanted::default(),
+            sizes: Sizes::new(Wanted::default()),
+            broke_at: None,
+        }
+    }
+}
+
+impl<K: Kind> Scratch<K> {
+    /// At the beginning of every query.
+    pub(crate) fn begin(&mut self, wanted: Wanted) {
+        self.wanted = wanted;
+        self.sizes = Sizes::new(wanted);
+        self.broke_at = None;
+    }
+}
+
+/// How many pairs a task takes at once. For a visitor they double over a query, whatever it has asked before.
 #[derive(Clone, Copy, Debug)]
 struct Sizes {
-    nodes: usize,
+    batch: usize,
     blocks: usize,
 }
 
 impl Sizes {
     fn new(wanted: Wanted) -> Self {
-        let [nodes, blocks] = match wanted {
+        let [batch, blocks] = match wanted {
             Wanted::All => [LONGEST_BATCH, MOST_BEFORE_SHOWN],
             Wanted::UntilBreak => [FIRST_BATCH; 2],
         };
-        Self { nodes, blocks }
+        Self { batch, blocks }
     }
 
-    /// Of at most so many pairs of leaves.
-    fn stride(&self, leaves: usize) -> Stride {
-        Stride {
-            nodes: self.nodes,
-            leaves: self.blocks.min(leaves),
-            met: self.blocks,
+    /// A budget of at most so many pairs of leaves.
+    fn budget(&self, leaves: usize) -> Budget {
+        Budget {
+            batch: self.batch,
+            leaf_pairs: self.blocks.min(leaves),
+            block_pairs: self.blocks,
             stack: usize::MAX,
         }
     }
 
-    fn double_nodes(&mut self) {
-        self.nodes = (2 * self.nodes).min(LONGEST_BATCH);
+    fn double_batch(&mut self) {
+        self.batch = (2 * self.batch).min(LONGEST_BATCH);
     }
 
     fn double_blocks(&mut self) {
@@ -111,220 +130,274 @@ impl Sizes {
     }
 }
 
-impl Default for Sizes {
-    fn default() -> Self {
-        Self::new(Wanted::default())
-    }
-}
-
-impl Scratch {
-    /// At the beginning of every query.
-    pub(crate) fn begin(&mut self, wanted: Wanted) {
-        self.wanted = wanted;
-        self.sizes = Sizes::new(wanted);
-    }
-}
-
-/// What is shown every pair once, some at a time, as the caller numbers triangles, until it breaks with the place of the one at
-/// which it stops.
-pub(crate) type Show<'s> = &'s mut dyn FnMut(&[[u32; 2]]) -> ControlFlow<usize>;
-
-/// Shows every intersecting pair, until `show` breaks. The order is deterministic, not sorted.
-pub(crate) fn descend<const N: usize, M: Meeting<N>>(
-    updates: Updates,
-    meeting: &mut M,
-    scratch: &mut Scratch,
+/// Shows every hit, until `sink` breaks. The order is deterministic, not sorted. Interrupted, it breaks as well, at no hit.
+pub(crate) fn descend<const N: usize, K, P>(
+    refit: Refit,
+    kind: &K,
+    pair: &mut P,
+    scratch: &mut Scratch<K>,
     statistics: &mut Statistics,
-    show: Show,
-) -> ControlFlow<()> {
+    sink: Sink<K::Hit>,
+) -> ControlFlow<()>
+where
+    K: Kind,
+    P: TreePair<N>,
+    P::Source: BoxSource<Scalar = K::Scalar>,
+{
     let Scratch {
-        groups,
+        wide_nodes,
         reached,
-        branches,
+        tasks,
         used,
         reserve,
-        dealt,
+        distributed,
         wanted,
         sizes,
         broke_at,
     } = scratch;
-    // Some are left as they were if a visitor stopped, or panicked.
-    branches[..*used].iter_mut().for_each(Branch::clear);
+    let executor = refit.executor;
+    // Tasks are left as they were where a visitor stopped, or panicked.
+    tasks[..*used].iter_mut().for_each(Task::clear);
     reserve.clear();
     *used = 1;
-    let are_free = are_free(meeting.sides());
-    let (most_branches, most_leaves) = shares(are_free, *wanted, updates.threads);
-    branches.resize_with(most_branches.max(branches.len()), Branch::default);
-    branches[0].found.nodes.push([NodeId::ROOT; 2]);
+    let are_free = are_free(pair.sides());
+    let (most_tasks, most_leaf_pairs) = shares(are_free, *wanted, executor);
+    tasks.resize_with(most_tasks.max(tasks.len()), Task::default);
+    tasks[0].found.nodes.push([NodeId::ROOT; 2]);
     loop {
-        if is_to_be_dealt(&branches[..*used], reserve) {
-            *used = most_branches;
-            deal(&mut branches[..*used], reserve, dealt);
+        if is_to_be_distributed(&tasks[..*used], reserve) {
+            *used = most_tasks;
+            distribute(&mut tasks[..*used], reserve, distributed);
         }
-        let branches = &mut branches[..*used];
-        let mut stride = sizes.stride(most_leaves);
-        if branches.len() == 1 {
-            stride.stack = ENOUGH;
+        let tasks = &mut tasks[..*used];
+        let mut budget = sizes.budget(most_leaf_pairs);
+        if tasks.len() == 1 {
+            budget.stack = ENOUGH_TO_DISTRIBUTE;
         }
-        updates.threads.run(branches, |_, branch| {
-            branch.advance(updates.level, meeting, stride);
-        });
-        sizes.double_nodes();
-        for branch in &*branches {
-            statistics.node_pairs += branch.found.node_pairs;
+        let now = context(refit, kind, pair, budget);
+        executor.run(tasks, |_, task| task.advance(&now));
+        // What a task that was not run found before is not to be shown again.
+        if executor.is_interrupted() {
+            return ControlFlow::Break(());
         }
-        let working = branches.iter().filter(|branch| !branch.is_done()).count();
+        sizes.double_batch();
+        for task in &*tasks {
+            statistics.node_pairs += task.found.node_pairs;
+        }
+        let working = tasks.iter().filter(|task| !task.is_done()).count();
         let mut last = reserve.is_empty() && working == 0;
         let mut shown = ControlFlow::Continue(());
         if are_free {
-            last &= branches.iter().all(Branch::all_met);
-            shown = show_hits(branches, statistics, show);
+            last &= tasks.iter().all(Task::all_tested);
+            shown = show_hits(tasks, statistics, sink);
             sizes.double_blocks();
         } else {
-            reach_groups(updates, meeting, branches, reached, groups, statistics);
-            let leaves = |branch: &Branch| branch.found.leaves.len();
-            let leaves = branches.iter().map(leaves).sum::<usize>();
-            if last || leaves >= stride.leaves * working.max(1) {
-                reach_leaves(updates, meeting, branches, reached, statistics);
-                if *wanted == Wanted::All && updates.threads.are_many() {
-                    // The same are found in any order.
-                    even_out(branches);
+            refit_stale(refit, pair, tasks, reached, wide_nodes, statistics);
+            let leaves = |task: &Task<K>| task.found.leaves.len();
+            let leaves = tasks.iter().map(leaves).sum::<usize>();
+            if last || leaves >= budget.leaf_pairs * working.max(1) {
+                refit_leaves(refit, pair, tasks, reached, statistics);
+                if *wanted == Wanted::All && executor.are_many() {
+                    // The same hits are found in any order.
+                    rebalance(tasks);
                 }
-                while shown.is_continue() && !branches.iter().all(Branch::all_met) {
-                    meet_leaves(updates, meeting, branches, sizes.stride(most_leaves));
+                while shown.is_continue() && !tasks.iter().all(Task::all_tested) {
+                    let now = context(refit, kind, pair, sizes.budget(most_leaf_pairs));
+                    executor.run(tasks, |_, task| task.test_some(&now));
+                    if executor.is_interrupted() {
+                        return ControlFlow::Break(());
+                    }
                     sizes.double_blocks();
-                    shown = show_hits(branches, statistics, show);
+                    shown = show_hits(tasks, statistics, sink);
                 }
-                branches.iter_mut().for_each(Branch::forget_leaves);
+                tasks.iter_mut().for_each(Task::forget_leaves);
             }
         }
         if let ControlFlow::Break(hit) = shown {
             *broke_at = Some(hit);
             return ControlFlow::Break(());
         }
+        if executor.is_interrupted() {
+            return ControlFlow::Break(());
+        }
         if last {
-            return ControlFlow::Continue(());
+            break;
         }
     }
+    let tasks = &mut tasks[..most_tasks];
+    if let ControlFlow::Break(hit) =
+        test_neighbours(refit, kind, &*pair, tasks, sizes, statistics, sink)
+    {
+        *broke_at = Some(hit);
+        return ControlFlow::Break(());
+    }
+    if executor.is_interrupted() {
+        return ControlFlow::Break(());
+    }
+    ControlFlow::Continue(())
 }
 
-/// How many branches a query is dealt to, and how many pairs of leaves of one are enough to let them meet.
-fn shares(are_free: bool, wanted: Wanted, threads: &Threads) -> (usize, usize) {
+/// Tests all leaves of a body with themselves and their neighbours, where the descent has left these out.
+fn test_neighbours<const N: usize, K, P>(
+    refit: Refit,
+    kind: &K,
+    pair: &P,
+    tasks: &mut [Task<K>],
+    sizes: &mut Sizes,
+    statistics: &mut Statistics,
+    sink: Sink<K::Hit>,
+) -> ControlFlow<K::TreeHit>
+where
+    K: Kind,
+    P: TreePair<N>,
+    P::Source: BoxSource<Scalar = K::Scalar>,
+{
+    let Some(neighbours) = left_out::<N, K, P>(pair) else {
+        return ControlFlow::Continue(());
+    };
+    let leaves = pair.sides()[0].tree.leaves.len();
+    let each = leaves.div_ceil(tasks.len()).max(FEWEST_LEAVES);
+    let used = leaves.div_ceil(each);
+    let tasks = &mut tasks[..used];
+    for (place, task) in tasks.iter_mut().enumerate() {
+        let run = place * each..((place + 1) * each).min(leaves);
+        task.run = run.start as u32..run.end as u32;
+    }
+    let executor = refit.executor;
+    while tasks.iter().any(|task| task.run.start < task.run.end) && !executor.is_interrupted() {
+        let now = context(refit, kind, pair, sizes.budget(usize::MAX));
+        executor.run(tasks, |_, task| task.test_neighbours(&now, neighbours));
+        if executor.is_interrupted() {
+            break;
+        }
+        show_hits(tasks, statistics, sink)?;
+        sizes.double_blocks();
+    }
+    ControlFlow::Continue(())
+}
+
+fn context<'q, K, P>(
+    refit: Refit<'q>,
+    kind: &'q K,
+    pair: &'q P,
+    budget: Budget,
+) -> Context<'q, K, P> {
+    Context {
+        kind,
+        pair,
+        instructions: refit.instructions,
+        interrupt: refit.executor.interrupt,
+        budget,
+    }
+}
+
+/// How many tasks a query is distributed to, and how many pairs of leaves of one are enough to test them.
+fn shares(are_free: bool, wanted: Wanted, executor: Executor) -> (usize, usize) {
     if are_free {
-        (FREE_BRANCHES, MOST_LEAVES)
-    } else if wanted == Wanted::All && threads.are_many() {
-        let for_threads = BRANCHES_A_THREAD * threads.count();
-        (BRANCHES.max(for_threads), MOST_LEAVES_SHARED)
+        (FREE_TASKS, MOST_LEAF_PAIRS)
+    } else if wanted == Wanted::All && executor.are_many() {
+        let for_threads = TASKS_A_THREAD * executor.count();
+        (TASKS.max(for_threads), MOST_LEAF_PAIRS_SHARED)
     } else {
-        (BRANCHES, MOST_LEAVES)
+        (TASKS, MOST_LEAF_PAIRS)
     }
 }
 
-/// Whether some branch has nothing left that another could give.
-fn is_to_be_dealt(branches: &[Branch], reserve: &Batch<NodePair>) -> bool {
-    let stack = |branch: &Branch| branch.found.nodes.len();
-    let all: usize = branches.iter().map(stack).sum();
-    if branches.len() == 1 {
-        return all >= ENOUGH;
+/// Whether a task is idle while others have work, or a single task has enough to share.
+fn is_to_be_distributed<K: Kind>(tasks: &[Task<K>], reserve: &Buffer<NodePair>) -> bool {
+    let stack = |task: &Task<K>| task.found.nodes.len();
+    let all: usize = tasks.iter().map(stack).sum();
+    if tasks.len() == 1 {
+        return all >= ENOUGH_TO_DISTRIBUTE;
     }
-    (!reserve.is_empty() || all >= branches.len()) && branches.iter().any(Branch::is_done)
+    (!reserve.is_empty() || all >= tasks.len()) && tasks.iter().any(Task::is_done)
 }
 
-/// Deals the last of all pairs to all branches, in order and in equal parts.
-fn deal(branches: &mut [Branch], reserve: &mut Batch<NodePair>, dealt: &mut Vec<NodePair>) {
-    for branch in &mut *branches {
-        reserve.extend(branch.found.nodes.as_slice());
-        branch.found.nodes.clear();
+/// Distributes the last of all pairs of nodes to all tasks, in order and in equal parts.
+fn distribute<K: Kind>(
+    tasks: &mut [Task<K>],
+    reserve: &mut Buffer<NodePair>,
+    distributed: &mut Vec<NodePair>,
+) {
+    for task in &mut *tasks {
+        reserve.extend(task.found.nodes.as_slice());
+        task.found.nodes.clear();
     }
-    reserve.take_last(DEALT, dealt);
-    let each = dealt.len().div_ceil(branches.len());
-    for (branch, pairs) in branches.iter_mut().zip(dealt.chunks(each)) {
-        branch.found.nodes.extend(pairs);
+    reserve.take_last(DISTRIBUTED, distributed);
+    let each = distributed.len().div_ceil(tasks.len());
+    for (task, pairs) in tasks.iter_mut().zip(distributed.chunks(each)) {
+        task.found.nodes.extend(pairs);
     }
 }
 
-/// Gives branches that have found few pairs of leaves some of those of others that have found many.
-fn even_out(branches: &mut [Branch]) {
-    let leaves = |branch: &Branch| branch.found.leaves.len();
-    let all: usize = branches.iter().map(leaves).sum();
-    let each = all.div_ceil(branches.len());
+/// Gives tasks that have found few pairs of leaves some of those of others that have found many.
+fn rebalance<K: Kind>(tasks: &mut [Task<K>]) {
+    let leaves = |task: &Task<K>| task.found.leaves.len();
+    let all: usize = tasks.iter().map(leaves).sum();
+    let each = all.div_ceil(tasks.len());
     let mut more = Vec::new();
-    for branch in &mut *branches {
-        let leaves = &mut branch.found.leaves;
+    for task in &mut *tasks {
+        let leaves = &mut task.found.leaves;
         more.extend_from_slice(leaves.as_slice().get(each..).unwrap_or_default());
         leaves.truncate(each);
     }
-    for branch in branches {
-        let rest = more.len().saturating_sub(each - leaves(branch));
-        branch.found.leaves.extend(&more[rest..]);
+    for task in tasks {
+        let rest = more.len().saturating_sub(each - leaves(task));
+        task.found.leaves.extend(&more[rest..]);
         more.truncate(rest);
     }
 }
 
-/// Makes true the groups that branches ask for.
-fn reach_groups<const N: usize, M: Meeting<N>>(
-    updates: Updates,
-    meeting: &mut M,
-    branches: &mut [Branch],
-    reached: &mut Noted,
-    lists: &mut [Vec<u32>; 2],
+/// Refits the wide nodes that tasks ask for.
+fn refit_stale<const N: usize, K: Kind, P: TreePair<N>>(
+    refit: Refit,
+    pair: &mut P,
+    tasks: &mut [Task<K>],
+    reached: &mut DirtySet,
+    lists: &mut [Vec<WideNodeId>; 2],
     statistics: &mut Statistics,
 ) {
     for which in 0..2 {
-        for branch in &mut *branches {
-            reached.take(&mut branch.untrue[which]);
+        for task in &mut *tasks {
+            reached.take(&mut task.stale[which]);
         }
-        // Of one tree, both are noted before.
-        if (!M::ITSELF || which == 1) && !reached.is_empty() {
-            let (tree, shape) = meeting.tree_mut(which);
-            updates.reach(tree, shape, reached, lists, statistics);
+        // Of one tree, what both sides ask for is refitted together.
+        if (!P::ITSELF || which == 1) && !reached.is_empty() {
+            refit.reached(&mut pair.refitted(which), reached, lists, statistics);
         }
     }
 }
 
-/// Makes true the boxes of the triangles in leaves that are to meet.
-fn reach_leaves<const N: usize, M: Meeting<N>>(
-    updates: Updates,
-    meeting: &mut M,
-    branches: &mut [Branch],
-    reached: &mut Noted,
+/// Makes the boxes of the triangles in leaves that are to be tested.
+fn refit_leaves<const N: usize, K: Kind, P: TreePair<N>>(
+    refit: Refit,
+    pair: &mut P,
+    tasks: &mut [Task<K>],
+    reached: &mut DirtySet,
     statistics: &mut Statistics,
 ) {
     for which in 0..2 {
-        for branch in &mut *branches {
-            reached.take(&mut branch.wanted[which]);
+        for task in &mut *tasks {
+            reached.take(&mut task.reached[which]);
         }
-        if !M::ITSELF || which == 1 {
-            let (tree, shape) = meeting.tree_mut(which);
-            updates.reach_leaves(tree, shape, reached, statistics);
+        if !P::ITSELF || which == 1 {
+            refit.reached_leaves(&mut pair.refitted(which), reached, statistics);
         }
     }
 }
 
-/// Lets the next pairs of leaves meet.
-fn meet_leaves<const N: usize, M: Meeting<N>>(
-    updates: Updates,
-    meeting: &M,
-    branches: &mut [Branch],
-    stride: Stride,
-) {
-    updates.threads.run(branches, |_, branch| {
-        branch.meet_some(updates.level, meeting, stride);
-    });
-}
-
-/// Shows what intersects among the pairs that have met; breaks with the pair at which `show` does.
-fn show_hits(
-    branches: &[Branch],
+/// Shows what was found among the pairs that were tested; breaks with the hit at which `sink` does.
+fn show_hits<K: Kind>(
+    tasks: &[Task<K>],
     statistics: &mut Statistics,
-    show: Show,
-) -> ControlFlow<Candidate> {
-    for branch in branches {
-        *statistics += branch.met.statistics;
+    sink: Sink<K::Hit>,
+) -> ControlFlow<K::TreeHit> {
+    for task in tasks {
+        *statistics += task.tests.statistics;
     }
-    for branch in branches {
-        if let ControlFlow::Break(place) = show(&branch.met.named) {
-            return ControlFlow::Break(branch.met.hits.as_slice()[place]);
+    for task in tasks {
+        if let ControlFlow::Break(place) = sink(&task.tests.of_caller) {
+            return ControlFlow::Break(task.tests.hits.as_slice()[place]);
         }
     }
     ControlFlow::Continue(())

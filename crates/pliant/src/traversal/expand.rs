@@ -1,34 +1,40 @@
 //! What a pair of nodes becomes: pairs of their children that overlap, or a pair of leaves.
 
-use crate::kernels::{bits::Batch, overlap_mask};
-use crate::pairs::{LeafPair, NodePair, WantedLeaves};
-use crate::tree::{Below, NodeId, Tree};
-use fearless_simd::Simd;
+use super::tree_pair::{Side, TreePair};
+use crate::ids::{LeafId, NodeId};
+use crate::kernels::{Buffer, Simd, overlap_mask};
+use crate::tree::{Child, Neighbours, STRICT_UPPER};
 
-/// Of the pairs (i, j) of eight lanes, bit 8 i + j, those with j > i.
-pub(super) const LATER_LANES: u64 = {
-    let (mut mask, mut lane) = (0, 0);
-    while lane < 8 {
-        mask |= (0xff << (lane + 1) & 0xff) << (8 * lane);
-        lane += 1;
-    }
-    mask
-};
+/// Two nodes whose boxes are valid and overlap, or a node with itself.
+pub(super) type NodePair = [NodeId; 2];
 
-/// What pairs of nodes became.
+/// Two leaves whose boxes overlap, or a leaf with itself.
+pub(super) type LeafPair = [LeafId; 2];
+
+/// Leaves side by side that are in pairs, a bit for each of eight.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ReachedLeaves {
+    pub(super) first: LeafId,
+    pub(super) lanes: u8,
+}
+
+/// Of the pairs (i, j) of eight lanes, bit 8 i + j, those with j = i.
+const DIAGONAL: u64 = 0x8040_2010_0804_0201;
+
+/// What pairs of nodes became: the stack of a task, and its list of pairs of leaves.
 #[derive(Debug, Default)]
-pub(super) struct Found {
-    /// Pairs of children that overlap.
-    pub(super) nodes: Batch<NodePair>,
-    /// Pairs of leaves.
-    pub(super) leaves: Batch<LeafPair>,
-    /// The leaves in these pairs, some perhaps more than once, of either tree.
-    pub(super) wanted: [Batch<WantedLeaves>; 2],
+pub(super) struct Worklists {
+    /// The stack: pairs of nodes that are still to be expanded.
+    pub(super) nodes: Buffer<NodePair>,
+    /// Pairs of leaves that are still to be tested.
+    pub(super) leaves: Buffer<LeafPair>,
+    /// The leaves in the new pairs of leaves, some perhaps more than once, of either tree.
+    pub(super) reached: [Buffer<ReachedLeaves>; 2],
     /// How many pairs of nodes were expanded, with those of leaves that went straight onto their list.
     pub(super) node_pairs: u64,
 }
 
-impl Found {
+impl Worklists {
     pub(super) fn clear(&mut self) {
         self.nodes.clear();
         self.clear_leaves();
@@ -37,81 +43,100 @@ impl Found {
 
     pub(super) fn clear_leaves(&mut self) {
         self.leaves.clear();
-        self.wanted.iter_mut().for_each(Batch::clear);
+        self.reached.iter_mut().for_each(Buffer::clear);
     }
 }
 
-/// Expands every pair of a batch. What is below the nodes is true.
+/// Expands every pair of a batch. What is below the nodes is valid. Leaves that are known to be neighbours may be left out.
 #[inline(always)]
-pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
+pub(super) fn expand<I: Simd, const N: usize, P: TreePair<N>>(
     i: I,
-    [a, b]: [&Tree<N>; 2],
+    [a, b]: [&Side<'_, N, P::Source>; 2],
     batch: &[NodePair],
-    found: &mut Found,
+    left_out: Option<&Neighbours>,
+    found: &mut Worklists,
 ) {
-    let Found {
+    let Worklists {
         nodes,
         leaves,
-        wanted,
+        reached,
         node_pairs,
     } = found;
     *node_pairs += batch.len() as u64;
+    let (nodes_a, nodes_b) = (a.tree.nodes(), b.tree.nodes());
+    let (boxes_a, boxes_b) = (a.boxes.nodes(), b.boxes.nodes());
     for &[node_a, node_b] in batch {
-        match (a.child(node_a).below(), b.child(node_b).below()) {
-            (Below::Leaf(leaf_a), Below::Leaf(leaf_b)) => {
+        match (nodes_a.child(node_a), nodes_b.child(node_b)) {
+            (Child::Leaf(leaf_a), Child::Leaf(leaf_b)) => {
+                if left_out.is_some_and(|known| known.are_neighbours(i, leaf_a, leaf_b)) {
+                    continue;
+                }
                 leaves.push([leaf_a, leaf_b]);
-                for (wanted, first) in wanted.iter_mut().zip([leaf_a, leaf_b]) {
-                    wanted.push(WantedLeaves { first, lanes: 1 });
+                for (reached, first) in reached.iter_mut().zip([leaf_a, leaf_b]) {
+                    reached.push(ReachedLeaves { first, lanes: 1 });
                 }
             }
-            (Below::Leaf(_), Below::Group(below)) => {
-                let mask = b.groups[below as usize].boxes.overlaps(&a.box_of(node_a));
+            (Child::Leaf(_), Child::Inner(below)) => {
+                let mask = boxes_b.of(below).overlaps(&boxes_a.one(node_a));
                 nodes.room().push_bits(mask, |lane| {
                     [node_a, NodeId::new::<N>(below, lane as usize)]
                 });
             }
-            (Below::Group(below), Below::Leaf(_)) => {
-                let mask = a.groups[below as usize].boxes.overlaps(&b.box_of(node_b));
+            (Child::Inner(below), Child::Leaf(_)) => {
+                let mask = boxes_a.of(below).overlaps(&boxes_b.one(node_b));
                 nodes.room().push_bits(mask, |lane| {
                     [NodeId::new::<N>(below, lane as usize), node_b]
                 });
             }
-            (Below::Group(below_a), Below::Group(below_b)) => {
-                let (group_a, group_b) = (&a.groups[below_a as usize], &b.groups[below_b as usize]);
-                if let (Some(first_a), Some(first_b)) = (group_a.first_leaf, group_b.first_leaf) {
+            (Child::Inner(below_a), Child::Inner(below_b)) => {
+                let (wide_a, wide_b) = (nodes_a.wide(below_a), nodes_b.wide(below_b));
+                let (boxes_a, boxes_b) = (boxes_a.of(below_a), boxes_b.of(below_b));
+                if let (Some(first_a), Some(first_b)) = (wide_a.first_leaf, wide_b.first_leaf) {
                     // Leaves side by side: their pairs need not go over the stack.
-                    let before = leaves.len();
+                    // Where some are left out all boxes are valid: then no leaf is to be refitted.
+                    let free = left_out.is_some();
+                    let left_out =
+                        left_out.map_or(0, |known| known.among_leaves(i, below_a, below_b));
                     let mut lanes = [0; 2];
                     let mut asked = u64::MAX;
-                    if ITSELF && node_a == node_b {
-                        for lane in 0..group_a.len() as u32 {
-                            leaves.push([first_a + lane; 2]);
+                    if P::ITSELF && node_a == node_b {
+                        let len = wide_a.len() as u32;
+                        let mut alone = DIAGONAL & !left_out & u64::MAX >> (64 - 8 * len);
+                        while alone != 0 {
+                            let lane = alone.trailing_zeros() / 8;
+                            leaves.push([first_a.plus(lane); 2]);
                             lanes[0] |= 1 << lane;
+                            alone &= alone - 1;
                         }
-                        asked = LATER_LANES;
+                        *node_pairs += u64::from(len);
+                        asked = STRICT_UPPER;
                     }
                     let room = leaves.room();
-                    let mask = overlap_mask(i, &group_a.boxes, &group_b.boxes) & asked;
-                    room.push_bits(mask, |bit| [first_a + bit / 8, first_b + bit % 8]);
-                    *node_pairs += (leaves.len() - before) as u64;
+                    let mask = overlap_mask(i, boxes_a, boxes_b) & asked;
+                    *node_pairs += u64::from(mask.count_ones());
+                    let mask = mask & !left_out;
+                    room.push_bits(mask, |bit| [first_a.plus(bit / 8), first_b.plus(bit % 8)]);
+                    if free {
+                        continue;
+                    }
                     lanes[0] |= rows_of(mask);
                     lanes[1] |= columns_of(mask);
                     for (which, first) in [first_a, first_b].into_iter().enumerate() {
                         let lanes = lanes[which];
-                        wanted[which].push(WantedLeaves { first, lanes });
+                        reached[which].push(ReachedLeaves { first, lanes });
                     }
                     continue;
                 }
                 let mut asked = u64::MAX;
-                if ITSELF && node_a == node_b {
+                if P::ITSELF && node_a == node_b {
                     // Every child with itself, whatever its box, and with each later one.
-                    for lane in 0..group_a.len() as u32 {
-                        nodes.push([NodeId::new::<N>(below_a, lane as usize); 2]);
+                    for lane in 0..wide_a.len() {
+                        nodes.push([NodeId::new::<N>(below_a, lane); 2]);
                     }
-                    asked = LATER_LANES;
+                    asked = STRICT_UPPER;
                 }
                 let room = nodes.room();
-                let mask = overlap_mask(i, &group_a.boxes, &group_b.boxes) & asked;
+                let mask = overlap_mask(i, boxes_a, boxes_b) & asked;
                 room.push_bits(mask, |bit| {
                     [
                         NodeId::new::<N>(below_a, bit as usize / 8),

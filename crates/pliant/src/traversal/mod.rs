@@ -1,48 +1,40 @@
-//! From pairs of nodes to candidate pairs of triangles: tree against tree, and a tree against itself.
+//! From pairs of nodes to hits: tree against tree, and a tree against itself, for any kind of query.
 //!
 //! ```text
-//! one branch, its stack = [(root, root)]                    boxes true and overlapping
-//! while some branch has pairs of nodes:
-//!     deal:   if one has none, or there is only one yet and it has many: the last of all pairs to all branches
-//!     every branch, until it asks for boxes that are not true, or its list of leaves is long:
+//! one task, its stack = [(root, root)]                      boxes valid and overlapping
+//! while some task has pairs of nodes:
+//!     distribute:  if one has none, or there is only one yet and it has many: the last of all pairs to all tasks
+//!     every task, until it asks for boxes that are stale, or its list of leaves is long:
 //!         take a batch from the top of its stack            hundreds; of a visitor 1 pair, then 2, 4, ...
 //!         expand it: children whose boxes overlap onto the stack, pairs of leaves onto the list
-//!     reach:  make true the groups that they ask for        only reaching writes boxes
+//!     refit:       the wide nodes that they ask for         only refitting writes boxes
 //!     when the lists are long, or the stacks empty:
-//!         reach:  make true the boxes of the triangles in these leaves
-//!         every branch: meet: triangles whose boxes overlap: candidates; these are decided
-//!         show:   what intersects, in order
+//!         refit:   the boxes of the triangles in these leaves
+//!         every task: test leaves: triangles whose boxes overlap are candidates; the kind of query decides these
+//!         show:    the hits, in order
 //! ```
 //!
-//! Where all boxes are true, those of triangles too, branches are *free*: leaves meet on the way, and nothing is waited for. So it is
-//! for a body with itself, of which all boxes are made ahead.
+//! Where all boxes were completed at once, those of triangles too, tasks are *free*: leaves are tested on the way, and nothing is waited
+//! for. So it is for a body with itself if the update makes all its boxes ahead, as the default does; leaves that share a vertex are then
+//! left out of the descent, and tested afterwards, list by list (`leaf_pairs`).
 //!
-//! Branches, and jobs of reaching, are cut by size, and each writes lists, or boxes, of its own; so threads share the work, and
-//! neither the work nor the order of what a visitor is shown depends on how many there are. Branches are dealt what is last of all,
-//! so that together they are at work in one place of the trees: dealt all there is, they would read from everywhere at once. Batches
+//! Tasks and jobs of refitting write lists, or boxes, of their own; so threads share the work. How many tasks there are, and when
+//! leaves are tested, may depend on the number of threads where all hits are wanted: the same boxes are then made and the same hits
+//! found, which are sorted. What a visitor is shown, and in which order, never depends on it. Tasks are given what is last of all,
+//! so that together they are at work in one place of the trees: given all there is, they would read from everywhere at once. Batches
 //! come from the top of a stack, which bounds memory by depth x batch whatever the input is (all triangles in one place
-//! included), and needs no recursion. Batches are long from the beginning where all pairs are wanted: each ends in waiting for
-//! the last branch. For a visitor they start small, so that one that wants the first pair gets it after a few nodes, and double.
+//! included), and needs no recursion. Batches are long from the beginning where all hits are wanted: each ends in waiting for
+//! the last task. For a visitor they start small, so that one that wants the first hit gets it after a few nodes, and double.
 //!
-//! Differs from the paper, which descends pair by pair; the boxes it reaches are the same but for the order.
+//! A node is one box, a lane of a wide node (Embree calls the wide node a node). Differs from the paper, which descends pair by pair;
+//! where all hits are wanted the boxes reached are the same but for the order.
 
-mod branch;
+mod context;
 mod descent;
 mod expand;
-mod meet;
-mod one_tree;
-mod two_trees;
+mod leaf_pairs;
+mod task;
+mod tree_pair;
 
-use crate::geometry::Shape;
-use crate::mesh::Mesh;
-use crate::tree::Tree;
-pub(crate) use descent::{Scratch, Show, Wanted, descend};
-pub(crate) use one_tree::OneTree;
-pub(crate) use two_trees::TwoTrees;
-
-/// One body as the traversal sees it.
-pub(crate) struct Side<'t, const N: usize, S> {
-    pub(crate) tree: &'t mut Tree<N>,
-    pub(crate) mesh: &'t Mesh,
-    pub(crate) shape: Shape<'t, S>,
-}
+pub(crate) use descent::{Scratch, Sink, Wanted, descend};
+pub(crate) use tree_pair::{OneTree, Side, TwoTrees};

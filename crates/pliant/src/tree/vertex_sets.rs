@@ -5,14 +5,15 @@
 //! k triangles is about the square root of k, so all levels together cost little more than the lowest.
 //!
 //! A leaf has few vertices, and is made more often than anything else: it is all border, whose length is made a multiple of four,
-//! so that most leaves take equally many steps. Most have twelve, and most groups are leaves of twelve altogether, whose lists
-//! then are one.
+//! so that most leaves take equally many steps. Most have twelve, and most wide nodes are leaves of twelve altogether, whose
+//! lists then are one.
 //!
 //! Paper, 3.3: "we update the node's AABB by traversing the shared vertices of the faces in the node".
 
 use super::build::Plan;
+use crate::ids::TreeVertex;
 use crate::kernels::extent::TWELVE;
-use crate::mesh::Mesh;
+use crate::mesh::Order;
 
 /// A leaf of so many vertices has few: eight triangles that share none have no more.
 const FEW: usize = 24;
@@ -21,7 +22,7 @@ const FEW: usize = 24;
 #[derive(Debug)]
 pub(crate) struct VertexSets {
     sets: Vec<Set>,
-    border: Vec<u32>,
+    border: Vec<TreeVertex>,
 }
 
 /// The vertices of one node.
@@ -32,40 +33,40 @@ struct Set {
     /// The first border vertex, and how many there are.
     border: usize,
     borders: u32,
-    /// Whether this node and those beside it are a full group of leaves, each of twelve border vertices.
+    /// Whether this node and those beside it are a full wide node of leaves, each of twelve border vertices.
     in_twelves: bool,
 }
 
 impl VertexSets {
-    pub(crate) fn new(plan: &Plan, mesh: &Mesh, degree: usize) -> Self {
+    pub(crate) fn new(plan: &Plan, order: &Order, degree: usize) -> Self {
         // How many vertices the triangles before each triangle use.
-        let mut used_before = Vec::with_capacity(mesh.corners().len() + 1);
+        let mut used_before = Vec::with_capacity(order.all_corners().len() + 1);
         let mut used = 0;
         used_before.push(0);
-        for corners in mesh.corners() {
+        for corners in order.all_corners() {
             used = corners
                 .iter()
-                .fold(used, |used, &vertex| used.max(vertex + 1));
+                .fold(used, |used, vertex| used.max(vertex.0 + 1));
             used_before.push(used);
         }
 
         let mut sets = Vec::with_capacity(plan.parts.len());
         let mut border = Vec::new();
-        let mut seen_by = vec![u32::MAX; mesh.used_vertices()];
+        let mut seen_by = vec![u32::MAX; order.used_vertices()];
         for (node, part) in plan.parts.iter().enumerate() {
             let triangles = part.triangles.start as usize..part.triangles.end as usize;
             let mut run = [used_before[triangles.start], used_before[triangles.end]];
             let first = border.len();
-            for &vertex in mesh.corners()[triangles].as_flattened() {
-                let seen_by = &mut seen_by[vertex as usize];
-                if vertex < run[0] && *seen_by != node as u32 {
+            for &vertex in order.all_corners()[triangles].as_flattened() {
+                let seen_by = &mut seen_by[vertex.index()];
+                if vertex.0 < run[0] && *seen_by != node as u32 {
                     *seen_by = node as u32;
                     border.push(vertex);
                 }
             }
             let count = border.len() - first + (run[1] - run[0]) as usize;
             if part.children.is_empty() && count <= FEW {
-                border.extend(run[0]..run[1]);
+                border.extend((run[0]..run[1]).map(TreeVertex));
                 let last = border[border.len() - 1];
                 border.resize(first + count.next_multiple_of(4), last);
                 run[1] = run[0];
@@ -95,7 +96,7 @@ impl VertexSets {
 
     /// The vertices below a node: a run and a border, in which one may be more than once.
     #[inline]
-    pub(crate) fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[u32]) {
+    pub(crate) fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[TreeVertex]) {
         let Set {
             run: [start, end],
             border,
@@ -106,9 +107,12 @@ impl VertexSets {
         (start as usize..end as usize, border)
     }
 
-    /// The vertices below each of `N` nodes from the first of a group on, if these are leaves of twelve.
+    /// The vertices below each of `N` nodes from the first of a wide node on, if these are leaves of twelve.
     #[inline]
-    pub(crate) fn twelves<const N: usize>(&self, node: usize) -> Option<&[[u32; TWELVE]; N]> {
+    pub(crate) fn twelves<const N: usize>(
+        &self,
+        node: usize,
+    ) -> Option<&[[TreeVertex; TWELVE]; N]> {
         let Set {
             border, in_twelves, ..
         } = self.sets[node];
@@ -120,9 +124,9 @@ impl VertexSets {
     }
 
     /// The vertices below a node, run first.
-    pub(crate) fn vertices(&self, node: usize) -> impl Iterator<Item = u32> {
+    pub(crate) fn vertices(&self, node: usize) -> impl Iterator<Item = TreeVertex> {
         let (run, border) = self.run_and_border(node);
-        run.map(|vertex| vertex as u32)
+        run.map(|vertex| TreeVertex(vertex as u32))
             .chain(border.iter().copied())
     }
 }

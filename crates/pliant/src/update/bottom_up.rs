@@ -1,47 +1,48 @@
 //! Some levels of boxes at once: the lowest of them from their vertices, those above merged from their children.
 //!
 //! "The strength of this method is that a parent AABB can always be calculated very efficiently directly from the AABBs of its
-//! children" (paper, 3.3). A leaf has no children; it is made from its triangles, whose boxes are kept, and those above the
-//! lowest level likewise.
+//! children" (paper, 3.3). A leaf has no children: whatever its level, its box is made from its vertices, or, where leaves are single
+//! triangles, from its corners.
 
-use super::make::{Work, make_groups_true, merge_groups};
-use crate::geometry::Scalar;
-use crate::tree::{Below, Tree};
+use super::refit::{refit_from_children, refit_from_vertices};
+use super::{Refit, Refitted};
+use crate::ids::WideNodeId;
+use crate::tree::{BoxSource, Child};
 
-/// Makes the nodes of `top` and of `levels - 1` levels of groups below it true, and the triangles in the leaves among them.
-/// `groups` is scratch. Returns how many boxes of nodes it made.
-pub(super) fn make_levels_true<const N: usize, S: Scalar>(
-    work: Work<'_, '_, S>,
-    tree: &mut Tree<N>,
-    top: u32,
+/// Refits the nodes of `top` and of `levels - 1` levels of wide nodes below it. `wide_nodes` is scratch. Returns how many boxes it
+/// made.
+pub(super) fn refit_levels<const N: usize, B: BoxSource>(
+    refit: &Refit,
+    one: &mut Refitted<N, B>,
+    top: WideNodeId,
     levels: u32,
-    groups: &mut Vec<u32>,
+    wide_nodes: &mut Vec<WideNodeId>,
 ) -> u64 {
-    // The groups of the subtree level by level, in ascending order; those from `lowest` on are the lowest level made here.
-    groups.clear();
+    // The wide nodes of the subtree level by level, in ascending order; those from `lowest` on are the lowest level made here.
+    wide_nodes.clear();
     let mut lowest = 0;
-    if top == 0 {
+    if top == WideNodeId(0) {
         // From the root on, levels are whole.
-        let level = tree.level(levels.min(tree.depth + 1) - 1);
-        groups.extend(0..level.end);
-        lowest = level.start as usize;
+        let level = one.tree.level(levels.min(one.tree.depth + 1) - 1);
+        wide_nodes.extend((0..level.end as u32).map(WideNodeId));
+        lowest = level.start;
     } else {
-        groups.push(top);
+        wide_nodes.push(top);
         for _ in 1..levels {
-            let end = groups.len();
+            let end = wide_nodes.len();
             for parent in lowest..end {
-                for child in tree.groups[groups[parent] as usize].used_children() {
-                    if let Below::Group(below) = child.below() {
-                        groups.push(below);
+                for child in one.tree.wide_node(wide_nodes[parent]).children() {
+                    if let Child::Inner(below) = child {
+                        wide_nodes.push(below);
                     }
                 }
             }
-            if groups.len() == end {
+            if wide_nodes.len() == end {
                 break;
             }
             lowest = end;
         }
     }
-    let (above, lowest) = groups.split_at(lowest);
-    make_groups_true(work, tree, lowest) + merge_groups(work, tree, above)
+    let (above, lowest) = wide_nodes.split_at(lowest);
+    refit_from_vertices(refit, one, lowest) + refit_from_children(refit, one, above)
 }

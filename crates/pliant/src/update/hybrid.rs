@@ -4,13 +4,13 @@
 //! then merged from their children's and never made from vertices. What it is going to reach is about what it reached last time;
 //! in a body that meets itself it is all, because every leaf meets at least itself. The paper's level n / 2 is for all other cases.
 
-use super::Meets;
-use super::bottom_up::make_levels_true;
-use super::make::Work;
+use super::bottom_up::refit_levels;
+use super::whole::refit_whole;
+use super::{Partner, Refit, Refitted};
 use crate::Update;
-use crate::geometry::Scalar;
+use crate::ids::WideNodeId;
 use crate::statistics::Statistics;
-use crate::tree::Tree;
+use crate::tree::BoxSource;
 
 /// One leaf in so many reached is much of a tree: on spheres in contact, nodes that are reached are then about half of all.
 const MUCH: usize = 10;
@@ -25,28 +25,41 @@ fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {
     }
 }
 
-/// Makes the upper levels true, unless they are.
-pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
-    work: Work<'_, '_, S>,
-    tree: &mut Tree<N>,
-    update: Update,
-    meets: Meets,
-    groups: &mut Vec<u32>,
+/// Refits the upper levels, unless they are valid.
+pub(super) fn refit_ahead<const N: usize, B: BoxSource>(
+    refit: &Refit,
+    one: &mut Refitted<N, B>,
+    partner: Partner,
+    wide_nodes: &mut Vec<WideNodeId>,
     statistics: &mut Statistics,
 ) {
-    // The root's group is the first that any of them makes.
-    if tree.groups[0].epoch == work.shape.epoch {
-        return;
+    let root = WideNodeId(0);
+    // The root is the last box that is made, and the first that any strategy needs.
+    one.boxes.expect(one.source.version());
+    let depth = one.tree.depth;
+    let level = |much| level_ahead(refit.update, depth, much);
+    if one.boxes.is_valid(root) {
+        // In this shape the body met another before, and was refitted in part. All of it is needed now: better at once than on the way.
+        let whole = partner == Partner::Itself && level(true) == depth;
+        if !whole || one.boxes.are_nodes_complete() {
+            return;
+        }
     }
-    let reached = tree.leaves.take_reached();
-    let much = meets == Meets::Itself || reached * MUCH >= tree.leaves.len();
-    let levels = level_ahead(update, tree.depth, much) + 1;
-    let boxes = make_levels_true(work, tree, 0, levels, groups);
-    if levels > tree.depth {
-        tree.complete = work.shape.epoch;
+    let reached = one.boxes.take_reached();
+    let much = partner == Partner::Itself || reached * MUCH >= one.tree.leaves.len();
+    let levels = level(much) + 1;
+    let boxes = if levels > depth && partner == Partner::Itself && one.tree.leaves.are_blocks() {
+        let [boxes, triangles] = refit_whole(refit, one, wide_nodes);
+        statistics.triangle_boxes += triangles;
+        boxes
+    } else {
+        refit_levels(refit, one, root, levels, wide_nodes)
+    };
+    if levels > depth {
+        one.boxes.complete_nodes();
     }
     // The root alone, from the vertices, is the beginning of top-down.
-    *(if update == Update::TopDown {
+    *(if refit.update == Update::TopDown {
         &mut statistics.boxes_top_down
     } else {
         &mut statistics.boxes_bottom_up

@@ -4,85 +4,89 @@
 //! another: on two spheres in contact, half of them. So the triangles get theirs last of all, but in a body that meets itself, where
 //! every leaf meets at least itself: there they are made ahead.
 
-use super::make::Work;
-use super::noted::Noted;
-use crate::geometry::Scalar;
-use crate::kernels::extent;
-use crate::tree::{LEAF_LANES, LeafBoxes, Tree};
-use fearless_simd::dispatch;
+use super::{DirtySet, Refit, Refitted};
+use crate::ids::{BlockId, LeafId, TreeVertex};
+use crate::kernels::extent::{self, Extent, Four};
+use crate::kernels::{Simd, dispatch};
+use crate::tree::{BLOCK_LANES, Block, BoxSource, Leaves, LeavesMut};
 use std::ops::Range;
 
 /// Words of 64 leaves in a job: at most some microseconds of work.
 const JOB: usize = 2;
 /// So many leaves, or fewer, are not worth waking a thread.
 const SHARED: usize = 256;
+/// So many words of 64 leaves are looked through before it is asked whether the query was interrupted.
+const UNINTERRUPTED: usize = 64;
 
-/// The leaves of some words, their boxes, and how many of what was made.
-struct Job<'t> {
+/// The leaves of some words, their boxes, and how many leaves and triangles had boxes made.
+struct LeafRun<'t> {
     words: Range<usize>,
-    boxes: LeafBoxes<'t>,
+    boxes: LeavesMut<'t>,
+    stamp: u64,
     leaves: usize,
     triangles: usize,
 }
 
-/// Makes the boxes of the triangles in leaves that were reached, unless they are true, and forgets what was reached. Returns how
-/// many boxes it made.
-pub(super) fn reach_leaves<const N: usize, S: Scalar>(
-    work: Work<'_, '_, S>,
-    tree: &mut Tree<N>,
-    reached: &mut Noted,
+/// Makes the boxes of the triangles in leaves that were reached, unless they are valid, and empties the set. Returns how many boxes it
+/// made.
+pub(super) fn refit_leaves<const N: usize, B: BoxSource>(
+    refit: &Refit,
+    one: &mut Refitted<N, B>,
+    reached: &mut DirtySet,
 ) -> u64 {
-    if !tree.leaves.have_boxes() {
+    let leaves = &one.tree.leaves;
+    if !leaves.have_blocks() {
         reached.clear();
         return 0;
     }
-    let make = |job: &mut Job| {
-        let shape = work.shape;
-        dispatch!(work.level, i => {
-            for leaf in reached.of(job.words.clone()) {
-                let (triangles, epoch, blocks) = job.boxes.of(leaf);
-                if *epoch == shape.epoch {
-                    continue;
-                }
-                *epoch = shape.epoch;
-                job.leaves += 1;
-                job.triangles += triangles.len();
-                for (triangles, block) in shape.triangles[triangles].chunks(LEAF_LANES).zip(blocks) {
-                    extent::make_block(i, shape, triangles, block);
-                }
+    let executor = refit.executor;
+    let make = |job: &mut LeafRun| {
+        let words = job.words.clone();
+        for start in words.clone().step_by(UNINTERRUPTED) {
+            if executor.is_interrupted() {
+                return;
             }
-        });
+            let words = start..words.end.min(start + UNINTERRUPTED);
+            dispatch!(refit.instructions, i => {
+                for leaf in reached.of(words).map(LeafId) {
+                    job.refit(i, leaf, leaves, one.source);
+                }
+            });
+        }
     };
-    let mut whole = Job {
+    let mut whole = LeafRun {
         words: reached.words(),
-        boxes: tree.leaves.boxes(),
+        stamp: one.boxes.stamp(),
+        boxes: one.boxes.leaves_mut(),
         leaves: 0,
         triangles: 0,
     };
-    let (leaves, triangles) = if !work.threads.are_many() || reached.count() <= SHARED {
+    let (leaves, triangles) = if !executor.are_many() || reached.count() <= SHARED {
         make(&mut whole);
         (whole.leaves, whole.triangles)
     } else {
-        let mut jobs = whole.cut(reached);
-        work.threads.run(&mut jobs, |_, job| make(job));
+        let mut jobs = whole.cut(reached, leaves);
+        executor.run(&mut jobs, |_, job| make(job));
         let counts = jobs.iter().map(|job| (job.leaves, job.triangles));
         counts.fold((0, 0), |all, part| (all.0 + part.0, all.1 + part.1))
     };
     reached.clear();
-    tree.leaves.note_reached(leaves);
+    one.boxes.count_reached(leaves);
     triangles as u64
 }
 
-impl Job<'_> {
+impl LeafRun<'_> {
     /// Jobs of fewer words, those in which something was reached.
-    fn cut(self, reached: &Noted) -> Vec<Self> {
+    fn cut(self, reached: &DirtySet, leaves: &Leaves) -> Vec<Self> {
         let Range { start, end } = self.words;
         let mut rest = self.boxes;
         let mut jobs = Vec::new();
         for start in (start..end).step_by(JOB).rev() {
             let words = start..end.min(start + JOB);
             if reached.are_any_in(words.clone()) {
-                let [before, boxes] = rest.split_before(64 * start as u32);
+                let leaf = LeafId(64 * start as u32);
+                let block = BlockId(leaves.blocks(leaf).start);
+                let [before, boxes] = rest.split_before(leaf, block);
                 rest = before;
                 jobs.push(Self {
                     words,
@@ -94,4 +98,56 @@ impl Job<'_> {
         jobs.reverse();
         jobs
     }
+
+    /// Makes the boxes of the triangles in one leaf, unless they are valid.
+    #[inline(always)]
+    fn refit<I: Simd, B: BoxSource>(&mut self, i: I, leaf: LeafId, leaves: &Leaves, source: &B) {
+        let stamp = &mut self.boxes.stamps[leaf.index() - self.boxes.first_leaf];
+        if *stamp == self.stamp {
+            return;
+        }
+        *stamp = self.stamp;
+        let (triangles, block) = leaves.triangles_and_block(leaf);
+        let triangles = &source.shape().triangles[triangles];
+        self.leaves += 1;
+        self.triangles += triangles.len();
+        let blocks = &mut self.boxes.blocks[block.index() - self.boxes.first_block..];
+        for (triangles, block) in triangles.chunks(BLOCK_LANES).zip(blocks) {
+            refit_block(i, triangles, block, source);
+        }
+    }
+}
+
+/// Makes the boxes of one to eight triangles; returns the box of all.
+#[inline(always)]
+pub(super) fn refit_block<I: Simd, B: BoxSource>(
+    i: I,
+    triangles: &[[TreeVertex; 3]],
+    block: &mut Block,
+    source: &B,
+) -> Extent<I> {
+    // What is missing to eight is the last again.
+    let padded;
+    let eight: &[[TreeVertex; 3]; BLOCK_LANES] = if let Ok(eight) = triangles.try_into() {
+        eight
+    } else {
+        padded = padded_to_eight(triangles);
+        &padded
+    };
+    let mut fours = [[extent::nothing(i); 4]; 2];
+    for half in 0..2 {
+        for lane in 0..4 {
+            fours[half][lane] = source.over_triangle(i, eight[4 * half + lane]);
+        }
+    }
+    let [first, later] = fours;
+    Four::new(first).store(Four::new(later), triangles.len(), block)
+}
+
+/// One to seven triangles, and the last again.
+#[inline(never)]
+fn padded_to_eight(triangles: &[[TreeVertex; 3]]) -> [[TreeVertex; 3]; 8] {
+    let mut eight = [triangles[triangles.len() - 1]; 8];
+    eight[..triangles.len()].copy_from_slice(triangles);
+    eight
 }

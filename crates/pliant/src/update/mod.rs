@@ -1,4 +1,4 @@
-//! Making boxes true for the shape a body has now (paper, 3.3).
+//! Refitting: making boxes valid for the shape a body has now (paper, 3.3).
 //!
 //! One idea carries all three strategies of the paper: the boxes down to some level are made *ahead*, all at once and
 //! bottom-up; what lies deeper is made top-down, when it is *reached*.
@@ -10,106 +10,97 @@
 //!             all levels, if none is given and much of the tree was reached the last time, or a body meets itself
 //! ```
 //!
-//! `hybrid` decides how far ahead, `bottom_up` makes some levels below a group, `top_down` makes what a traversal reaches, and
-//! `make` makes the boxes, for all of them; `leaves` makes those of single triangles; `noted` is what was reached. Boxes made are counted, so that the strategies can be compared by their work.
+//! `hybrid` decides how far ahead, `bottom_up` refits some levels below a wide node, `top_down` what a traversal reaches, and `refit`
+//! makes the boxes, for all of them; `leaves` makes those of single triangles, `whole` all
+//! of a body that meets itself, `quantize` quantizes them; a `DirtySet` is what was reached. Boxes made are
+//! counted, so that the strategies can be compared by their work. All of it is generic over what boxes are made of (`BoxSource`).
 
 mod bottom_up;
+mod dirty_set;
 mod hybrid;
 mod leaves;
-mod make;
-mod noted;
+mod quantize;
+mod refit;
 mod top_down;
+mod whole;
 
-use crate::exec::Threads;
-use crate::geometry::{Scalar, Shape};
-use crate::kernels::Level;
+use crate::ids::WideNodeId;
+use crate::kernels::Instructions;
 use crate::options::Update;
 use crate::statistics::Statistics;
-use crate::tree::Tree;
-use make::Work;
-pub(crate) use noted::Noted;
+use crate::threads::Executor;
+use crate::tree::{BoxSet, BoxSource, Tree};
+pub(crate) use dirty_set::DirtySet;
 
 /// What a body meets in a query: of how much of its tree boxes are made ahead depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Meets {
+pub(crate) enum Partner {
     Another,
     /// Then every leaf meets at least itself.
     Itself,
 }
 
-/// What updates work with.
+/// How boxes are made.
 #[derive(Clone, Copy)]
-pub(crate) struct Updates<'w> {
-    pub(crate) threads: &'w Threads,
-    pub(crate) level: Level,
+pub(crate) struct Refit<'q> {
+    pub(crate) executor: Executor<'q>,
+    pub(crate) instructions: Instructions,
     pub(crate) update: Update,
 }
 
-impl Updates<'_> {
-    /// Makes the upper levels true, unless they are. `groups` is scratch.
-    pub(crate) fn refresh_ahead<const N: usize, S: Scalar>(
+/// A tree, a set of its boxes, and what these are made of.
+pub(crate) struct Refitted<'t, const N: usize, B> {
+    pub(crate) tree: &'t Tree<N>,
+    pub(crate) boxes: &'t mut BoxSet<N>,
+    pub(crate) source: &'t B,
+}
+
+impl Refit<'_> {
+    /// Refits the upper levels, unless they are valid. `wide_nodes` is scratch.
+    pub(crate) fn ahead<const N: usize, B: BoxSource>(
         &self,
-        tree: &mut Tree<N>,
-        shape: &Shape<S>,
-        meets: Meets,
-        groups: &mut Vec<u32>,
+        one: &mut Refitted<N, B>,
+        partner: Partner,
+        wide_nodes: &mut Vec<WideNodeId>,
         statistics: &mut Statistics,
     ) {
-        hybrid::refresh_ahead(
-            self.work(shape),
-            tree,
-            self.update,
-            meets,
-            groups,
-            statistics,
-        );
+        hybrid::refit_ahead(self, one, partner, wide_nodes, statistics);
     }
 
-    /// Makes groups true that a traversal has reached; they are not true. The lists are scratch.
-    pub(crate) fn reach<const N: usize, S: Scalar>(
+    /// Refits wide nodes that a traversal has reached; they are stale. The lists are scratch.
+    pub(crate) fn reached<const N: usize, B: BoxSource>(
         &self,
-        tree: &mut Tree<N>,
-        shape: &Shape<S>,
-        reached: &mut Noted,
-        lists: &mut [Vec<u32>; 2],
+        one: &mut Refitted<N, B>,
+        reached: &mut DirtySet,
+        lists: &mut [Vec<WideNodeId>; 2],
         statistics: &mut Statistics,
     ) {
-        let levels = self.update.levels_at_once();
-        let work = self.work(shape);
-        statistics.boxes_top_down += top_down::reach_groups(work, tree, reached, levels, lists);
+        statistics.boxes_top_down += top_down::refit_reached(self, one, reached, lists);
     }
 
-    /// Makes true the boxes of triangles in leaves that a traversal has reached; some may be true.
-    pub(crate) fn reach_leaves<const N: usize, S: Scalar>(
+    /// Makes the boxes of triangles in leaves that a traversal has reached; some may be valid.
+    pub(crate) fn reached_leaves<const N: usize, B: BoxSource>(
         &self,
-        tree: &mut Tree<N>,
-        shape: &Shape<S>,
-        reached: &mut Noted,
+        one: &mut Refitted<N, B>,
+        reached: &mut DirtySet,
         statistics: &mut Statistics,
     ) {
-        statistics.triangle_boxes += leaves::reach_leaves(self.work(shape), tree, reached);
+        statistics.triangle_boxes += leaves::refit_leaves(self, one, reached);
     }
 
-    /// Makes true the boxes of the triangles in all leaves. `reached` is scratch.
-    pub(crate) fn make_leaves<const N: usize, S: Scalar>(
+    /// Makes the boxes of the triangles in all leaves, and quantizes them where leaves are blocks; all nodes are valid. `reached` is
+    /// scratch.
+    pub(crate) fn all_leaves<const N: usize, B: BoxSource>(
         &self,
-        tree: &mut Tree<N>,
-        shape: &Shape<S>,
-        reached: &mut Noted,
+        one: &mut Refitted<N, B>,
+        reached: &mut DirtySet,
         statistics: &mut Statistics,
     ) {
-        if tree.leaves.complete != shape.epoch {
-            reached.note_below(tree.leaves.len());
-            self.reach_leaves(tree, shape, reached, statistics);
-            tree.leaves.complete = shape.epoch;
+        if !one.boxes.are_leaves_complete() {
+            reached.insert_below(one.tree.leaves.len());
+            self.reached_leaves(one, reached, statistics);
+            one.boxes.complete_leaves();
         }
-    }
-
-    fn work<'w, 's, S>(&'w self, shape: &'w Shape<'s, S>) -> Work<'w, 's, S> {
-        Work {
-            threads: self.threads,
-            level: self.level,
-            shape,
-        }
+        quantize::quantize_all(self, one);
     }
 }

@@ -1,34 +1,34 @@
-//! What a traversal has reached and finds not true.
+//! What a traversal has reached and finds stale.
 //!
-//! By default one level: the nodes of the groups that were reached, each from the distinct vertices below it. The paper's
+//! By default one level: the nodes of the wide nodes that were reached, each from the distinct vertices below it. The paper's
 //! variant makes "a specified number of levels in their sub-trees" bottom-up at once.
 
-use super::bottom_up::make_levels_true;
-use super::make::{Work, make_groups_true};
-use super::noted::Noted;
-use crate::geometry::Scalar;
-use crate::tree::Tree;
+use super::bottom_up::refit_levels;
+use super::refit::refit_from_vertices;
+use super::{DirtySet, Refit, Refitted};
+use crate::ids::WideNodeId;
+use crate::tree::BoxSource;
 
-/// Makes groups true that were reached and are not, and with each of them `levels - 1` levels below; forgets what was reached. The
+/// Refits wide nodes that were reached and are stale, and with each of them `levels_at_once - 1` levels below; empties the set. The
 /// lists are scratch. Returns how many boxes of nodes it made.
-pub(super) fn reach_groups<const N: usize, S: Scalar>(
-    work: Work<'_, '_, S>,
-    tree: &mut Tree<N>,
-    reached: &mut Noted,
-    levels: u32,
-    [listed, groups]: &mut [Vec<u32>; 2],
+pub(super) fn refit_reached<const N: usize, B: BoxSource>(
+    refit: &Refit,
+    one: &mut Refitted<N, B>,
+    reached: &mut DirtySet,
+    [listed, below]: &mut [Vec<WideNodeId>; 2],
 ) -> u64 {
     listed.clear();
-    listed.extend(reached.of(reached.words()));
+    listed.extend(reached.of(reached.words()).map(WideNodeId));
     reached.clear();
+    let levels = refit.update.levels_at_once();
     if levels == 1 {
-        return make_groups_true(work, tree, listed);
+        return refit_from_vertices(refit, one, listed);
     }
     let mut boxes = 0;
-    for &group in &*listed {
-        // A group may have been made with one above it.
-        if tree.groups[group as usize].epoch != work.shape.epoch {
-            boxes += make_levels_true(work, tree, group, levels, groups);
+    for &wide_node in &*listed {
+        // It may have been refitted with one above it.
+        if !one.boxes.is_valid(wide_node) {
+            boxes += refit_levels(refit, one, wide_node, levels, below);
         }
     }
     boxes

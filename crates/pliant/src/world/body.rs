@@ -1,21 +1,33 @@
-//! One body: connectivity, the shape it has now, and what it may meet.
+//! One body: its mesh, its tree and boxes, the shape it has now, and what it may meet.
 
 use super::BodyId;
 use super::positions::Positions;
 use crate::error::ErrorKind;
-use crate::exec::Threads;
-use crate::geometry::{Aabb, Bounds, Origin, Points, Scalar, Shape, denormals_are_kept};
-use crate::kernels::{Level, widest};
-use crate::mesh::{self, Mesh};
+use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape, denormals_are_kept};
+use crate::ids::{TreeTriangle, TreeVertex};
+use crate::kernels::{Coordinate, Instructions};
+use crate::mesh::{self, Order, Topology};
+use crate::options::{Options, Partition};
+use crate::queries::Kind;
+use crate::threads::Executor;
+use crate::traversal::Side;
+use crate::tree::build::{Balanced, Connectivity, CutAt, InitialShape, Plan, plan};
+use crate::tree::{BoxSet, Tree};
 use std::borrow::Cow;
 
-pub(super) struct Body<S> {
-    id: BodyId,
-    pub(super) mesh: Mesh,
+/// A body with its tree, of degree `N`.
+pub(super) struct Body<const N: usize, S> {
+    pub(super) id: BodyId,
+    pub(super) topology: Topology,
+    pub(super) order: Order,
+    pub(super) tree: Tree<N>,
+    /// By the number of the set. The first, of the shape as it is, is there from the beginning; others are made when a kind of query
+    /// asks for them.
+    boxes: Vec<Option<BoxSet<N>>>,
     positions: Positions<S>,
     /// Of the vertices that triangles use.
     bounds: Bounds<S>,
-    /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other epochs are not true.
+    /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other epochs are stale.
     epoch: u64,
     membership: u32,
     mask: u32,
@@ -23,7 +35,7 @@ pub(super) struct Body<S> {
 }
 
 /// Refuses what no body can be made of.
-pub(crate) fn validate<S: Scalar>(
+pub(crate) fn validate<S: Real>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],
 ) -> Result<(), ErrorKind> {
@@ -42,7 +54,7 @@ pub(crate) fn validate<S: Scalar>(
 
 /// Refuses coordinates so small that this thread, where subnormal numbers are flushed, would lose them. Costs two products
 /// where they are not.
-fn none_is_lost<S: Scalar>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
+fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
     if denormals_are_kept() {
         return Ok(());
     }
@@ -54,22 +66,29 @@ fn none_is_lost<S: Scalar>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
 }
 
 #[inline]
-fn is_in_range<S: Scalar>([x, y, z]: [S; 3]) -> bool {
+fn is_in_range<S: Real>([x, y, z]: [S; 3]) -> bool {
     // No early exit: three comparisons without a branch.
     x.is_in_range() & y.is_in_range() & z.is_in_range()
 }
 
-impl<S: Scalar> Body<S> {
+impl<const N: usize, S: Coordinate> Body<N, S> {
     /// A body of validated parts; positions in the caller's order.
-    pub(super) fn new(id: BodyId, mesh: Mesh, positions: &[[S; 3]]) -> Self {
-        let bounds = bounds_of(
-            mesh.vertex_ids()[..mesh.used_vertices()]
-                .iter()
-                .map(|&vertex| positions[vertex as usize]),
-        );
+    pub(super) fn new(
+        id: BodyId,
+        triangles: &[[u32; 3]],
+        positions: &[[S; 3]],
+        options: &Options,
+    ) -> Self {
+        let topology = Topology::new(triangles, positions.len());
+        let (order, tree) = build(&topology, positions, options);
+        let used = order.vertex_order()[..order.used_vertices()].iter();
+        let bounds = bounds_of(used.map(|&vertex| positions[vertex as usize]));
         Self {
             id,
-            mesh,
+            topology,
+            order,
+            boxes: vec![Some(BoxSet::new(&tree))],
+            tree,
             positions: Positions::new(positions),
             bounds,
             epoch: 1,
@@ -79,57 +98,97 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    pub(super) fn id(&self) -> BodyId {
-        self.id
+    /// Builds the tree anew, on the shape of now.
+    pub(super) fn rebuild(&mut self, options: &Options) {
+        let positions = self.positions();
+        let (order, tree) = build(&self.topology, &positions, options);
+        self.positions.forget_tree_order(self.order.vertex_order());
+        self.boxes = vec![Some(BoxSet::new(&tree))];
+        (self.order, self.tree) = (order, tree);
+        self.epoch += 1;
     }
 
     pub(super) fn triangle_count(&self) -> usize {
-        self.mesh.corners().len()
+        self.topology.triangles().len()
     }
 
     pub(super) fn vertex_count(&self) -> usize {
         self.positions.len()
     }
 
-    /// Brings the shape into tree order, which everything that looks at it needs.
-    pub(super) fn bring_into_order(&mut self, level: Level, threads: &Threads) {
-        let order = self.mesh.vertex_ids();
-        self.positions.bring_into_tree_order(level, threads, order);
+    /// Brings the shape into tree order, which everything that looks at it needs. Returns false if it was interrupted.
+    pub(super) fn bring_into_tree_order(
+        &mut self,
+        instructions: Instructions,
+        executor: Executor,
+    ) -> bool {
+        let order = self.order.vertex_order();
+        self.positions
+            .bring_into_tree_order(instructions, executor, order)
     }
 
     /// The shape in tree order, whether it was brought into it or not.
     pub(super) fn in_tree_order(&self) -> Points<S> {
-        let mut points = Points::with_len(self.positions.len());
-        let order = self.mesh.vertex_ids();
-        points.gather(widest(), &Threads::one(), &self.positions(), order);
-        points
+        let order = self.order.vertex_order();
+        let vertices = (0..order.len() as u32).map(TreeVertex);
+        Points::of(vertices.map(|vertex| self.positions.get(vertex, order)))
     }
 
-    /// The caller's number of a triangle in tree order.
-    pub(super) fn name(&self, triangle: u32) -> u32 {
-        self.mesh.triangle_ids()[triangle as usize]
-    }
-
-    /// The corners of a triangle in tree order, whether the shape was brought into it or not; exact.
-    pub(super) fn corners_now(&self, triangle: u32) -> [[f64; 3]; 3] {
-        let order = self.mesh.vertex_ids();
-        self.mesh.corners()[triangle as usize]
-            .map(|vertex| self.positions.get(vertex, order).map(S::to_f64))
-    }
-
-    pub(super) fn epoch(&self) -> u64 {
-        self.epoch
-    }
-
-    /// What makes boxes and decides pairs; of a body that was brought into order.
-    #[inline]
-    pub(super) fn shape(&self, origin: Origin) -> Shape<'_, S> {
+    /// The shape, of which `positions` are in tree order.
+    pub(super) fn shape<'s>(&'s self, positions: &'s Points<S>, origin: Origin) -> Shape<'s, S> {
         Shape {
-            positions: self.positions.in_tree_order(),
-            triangles: self.mesh.corners(),
+            positions,
+            triangles: self.order.all_corners(),
             origin,
             epoch: self.epoch,
         }
+    }
+
+    /// What a query of some kind descends; of a body that was brought into tree order.
+    pub(super) fn side<K: Kind<Scalar = S>>(
+        &mut self,
+        kind: &K,
+        origin: Origin,
+    ) -> Side<'_, N, K::Source<'_>> {
+        let shape = Shape {
+            positions: self.positions.in_tree_order(),
+            triangles: self.order.all_corners(),
+            origin,
+            epoch: self.epoch,
+        };
+        if self.boxes.len() <= K::BOX_SET {
+            self.boxes.resize_with(K::BOX_SET + 1, || None);
+        }
+        let tree = &self.tree;
+        Side {
+            body: self.id,
+            order: &self.order,
+            tree,
+            boxes: self.boxes[K::BOX_SET].get_or_insert_with(|| BoxSet::new(tree)),
+            source: kind.source(shape),
+        }
+    }
+
+    /// A set of boxes, if some query asked for it.
+    pub(super) fn boxes(&self, number: usize) -> Option<&BoxSet<N>> {
+        self.boxes.get(number)?.as_ref()
+    }
+
+    /// All boxes are stale: some may have been left half made.
+    pub(super) fn forget_boxes(&mut self) {
+        self.boxes.iter_mut().flatten().for_each(BoxSet::forget);
+    }
+
+    /// Boxes made so far are stale, though the shape is the same: the origin moved.
+    pub(super) fn origin_moved(&mut self) {
+        self.epoch += 1;
+    }
+
+    /// The corners of a triangle, whether the shape was brought into tree order or not; exact.
+    pub(super) fn corners_now(&self, triangle: TreeTriangle) -> [[f64; 3]; 3] {
+        let order = self.order.vertex_order();
+        let corners = self.order.corners(triangle);
+        corners.map(|vertex| self.positions.get(vertex, order).map(S::to_f64))
     }
 
     /// The exact extent, in the caller's coordinates.
@@ -143,16 +202,16 @@ impl<S: Scalar> Body<S> {
         self.bounds.to_box(origin)
     }
 
-    /// The box that the broad phase works with: the loose one if there is one.
-    pub(super) fn broad_box(&self, origin: Origin) -> Aabb {
-        self.loose.unwrap_or(self.bounds).to_box(origin)
+    /// The loose box, if there is one.
+    pub(super) fn loose_box(&self, origin: Origin) -> Option<Aabb> {
+        self.loose.map(|loose| loose.to_box(origin))
     }
 
-    /// Takes a new shape over, in one pass; or leaves the body as it is and says what was wrong.
-    pub(super) fn take_over(
+    /// Validates a new shape and takes it over; or leaves the body as it is and says what was wrong.
+    pub(super) fn set_positions(
         &mut self,
-        level: Level,
-        threads: &Threads,
+        instructions: Instructions,
+        executor: Executor,
         positions: &[[S; 3]],
     ) -> Result<(), ErrorKind> {
         if positions.len() != self.positions.len() {
@@ -161,7 +220,7 @@ impl<S: Scalar> Body<S> {
                 found: positions.len(),
             });
         }
-        let Some(all) = self.positions.look_at(level, threads, positions) else {
+        let Some(staged) = self.positions.stage(instructions, executor, positions) else {
             // Which vertex it was is found out only if there was one.
             return Err(first_outside(
                 positions,
@@ -169,6 +228,7 @@ impl<S: Scalar> Body<S> {
                 |vertex, position| ErrorKind::BadPosition { vertex, position },
             ));
         };
+        let all = staged.bounds;
         if let Some(loose) = self
             .loose
             .filter(|loose| !(loose.holds(all.lo) && loose.holds(all.hi)))
@@ -180,9 +240,10 @@ impl<S: Scalar> Body<S> {
             ));
         }
         none_is_lost(positions)?;
-        let order = self.mesh.vertex_ids();
-        self.positions.accept(level, threads, positions, order);
-        let used = self.mesh.used_vertices();
+        let order = self.order.vertex_order();
+        self.positions
+            .commit(&staged, instructions, executor, positions, order);
+        let used = self.order.used_vertices();
         self.bounds = if used == positions.len() {
             all
         } else {
@@ -193,33 +254,16 @@ impl<S: Scalar> Body<S> {
         Ok(())
     }
 
-    /// Boxes made so far are no longer true, though the shape is the same: the origin moved.
-    pub(super) fn forget_boxes(&mut self) {
-        self.epoch += 1;
-    }
-
-    /// Triangles as the caller numbers them.
-    pub(super) fn triangles(&self) -> Vec<[u32; 3]> {
-        self.mesh.in_callers_order()
-    }
-
     /// The shape as the caller orders vertices.
     pub(super) fn positions(&self) -> Cow<'_, [[S; 3]]> {
-        self.positions.in_callers_order(self.mesh.vertex_ids())
-    }
-
-    /// The same body in the order of a new tree.
-    pub(super) fn reorder(&mut self, mesh: Mesh) {
-        self.positions.forget_tree_order(self.mesh.vertex_ids());
-        self.mesh = mesh;
-        self.epoch += 1;
+        self.positions.in_callers_order(self.order.vertex_order())
     }
 
     pub(super) fn set_filter(&mut self, membership: u32, mask: u32) {
         (self.membership, self.mask) = (membership, mask);
     }
 
-    /// Whether the masks of two bodies let them meet.
+    /// Whether the masks of two bodies, or of one and itself, let them meet.
     pub(super) fn may_meet(&self, other: &Self) -> bool {
         self.membership & other.mask != 0 && other.membership & self.mask != 0
     }
@@ -247,14 +291,49 @@ impl<S: Scalar> Body<S> {
     }
 }
 
-fn bounds_of<S: Scalar>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {
+/// The tree that the options ask for, and the order it brings the mesh into.
+fn build<const N: usize, S: Coordinate>(
+    topology: &Topology,
+    positions: &[[S; 3]],
+    options: &Options,
+) -> (Order, Tree<N>) {
+    let mut plan = divide(topology.triangles(), positions, options);
+    let order = Order::new(topology, std::mem::take(&mut plan.order));
+    let tree = Tree::new(&plan, &order);
+    (order, tree)
+}
+
+/// The plan that the options ask for.
+fn divide<S: Real>(triangles: &[[u32; 3]], positions: &[[S; 3]], options: &Options) -> Plan {
+    let degree = options.degree.get();
+    let leaf_size = options.leaf_size.get();
+    let count = triangles.len();
+    let by_shape = |cut| {
+        let mut rule = InitialShape::new(triangles, positions, cut, degree);
+        plan(count, degree, leaf_size, &mut rule)
+    };
+    match options.partition {
+        Partition::Centre => by_shape(CutAt::Centre),
+        Partition::Mean => by_shape(CutAt::Mean),
+        Partition::Balanced => {
+            let mut rule = Balanced::new(triangles, positions, degree, leaf_size);
+            plan(count, degree, leaf_size, &mut rule)
+        }
+        Partition::Connectivity => {
+            let mut rule = Connectivity::new(triangles, degree, leaf_size);
+            plan(count, degree, leaf_size, &mut rule)
+        }
+    }
+}
+
+fn bounds_of<S: Real>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {
     let mut bounds = Bounds::EMPTY;
     positions.for_each(|position| bounds.include(position));
     bounds
 }
 
 /// The error for the first position that is not good; there is one.
-fn first_outside<S: Scalar>(
+fn first_outside<S: Real>(
     positions: &[[S; 3]],
     is_good: impl Fn(&[S; 3]) -> bool,
     error: impl Fn(usize, [f64; 3]) -> ErrorKind,

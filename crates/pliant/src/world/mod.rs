@@ -1,62 +1,44 @@
-//! The world: bodies, their shapes, and the one place where the phases meet.
+//! The world: bodies, their shapes, and the questions that users ask.
 //!
-//! `body` takes shapes over, whose `positions` are in the caller's order or in the tree's; `step` runs the phases for one query,
-//! `crowd` for many pairs of bodies at once; `queries` and `parts` are what users ask, `picture` what a body looks like, `witness`
-//! the last first pair; `forest` is where the degree of the trees turns from a value into a type; `validate` looks at every
-//! invariant.
+//! `World` is what users see; behind it an `engine` of some degree is the one place where the phases meet. `bodies` are there, each a `body`
+//! whose `positions` are in the caller's order or in the tree's; `body_pairs` says who may meet whom in a `selection`, `asked` answers a
+//! `query` of some kind, pair by pair (`step`) or many pairs at once (`scheduler`); `witness` is the last first pair, `origin` what
+//! boxes are relative to. `debug_view` and `tree_cut` are for those who look at trees, `validate` looks at every invariant.
 
+mod asked;
+mod bodies;
 mod body;
-mod crowd;
-mod forest;
-mod parts;
-mod picture;
+mod body_pairs;
+mod debug_view;
+mod engine;
+mod origin;
 mod positions;
-mod queries;
+mod query;
+mod scalar;
+mod scheduler;
+mod selection;
 mod step;
+#[cfg(test)]
+mod tests_of_kinds;
+mod tree_cut;
 mod validate;
 mod witness;
 
-use crate::broad_phase::BroadPhase;
-use crate::error::{Error, ErrorKind};
-use crate::exec::Threads;
-use crate::geometry::{Aabb, Bounds, Origin, Scalar};
-use crate::kernels::{self, Level};
+use crate::error::Error;
+use crate::hits::Pair;
+use crate::ids::BodyId;
+use crate::kernels::Instructions;
 use crate::options::Options;
-use crate::pairs::Pair;
-use crate::sort::Keys;
 use crate::statistics::Statistics;
-use crate::traversal::Scratch;
-use body::Body;
+use crate::threads::Threads;
 pub(crate) use body::validate as validate_body;
-use crowd::Crowd;
-use forest::{Forest, with_trees};
-pub use picture::NodeBox;
-use std::collections::{BTreeMap, BTreeSet};
+pub use debug_view::{NodeBox, TreeShape};
+use engine::AnyEngine;
+pub use query::Query;
+pub use scalar::Scalar;
+pub use selection::Selection;
 use std::fmt;
-use witness::Witnesses;
-
-/// A body of a world: a number in order of adding, never used again in that world.
-///
-/// An id means nothing in another world; there it is refused, or is another body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct BodyId(pub u32);
-
-impl fmt::Display for BodyId {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "body {}", self.0)
-    }
-}
-
-/// The tree of a body in numbers; the structure only, which no movement changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TreeShape {
-    /// The level of the deepest leaf, where the root is level 0: the n of the paper's n / 2.
-    pub depth: u32,
-    /// All nodes, leaves and root included: the boxes of a complete update.
-    pub nodes: usize,
-    /// Nodes that hold triangles.
-    pub leaves: usize,
-}
+use std::sync::Arc;
 
 /// Bodies that change their shape, and the questions which of their triangles intersect.
 ///
@@ -64,40 +46,8 @@ pub struct TreeShape {
 /// nothing else to call: every query brings up to date what it touches, and none can answer for old positions.
 ///
 /// A call that is refused returns an [`Error`] and leaves the world as it was.
-pub struct World<S> {
-    options: Options,
-    /// The instructions that kernels use.
-    level: Level,
-    threads: Threads,
-    /// In no order that matters: a removed body's place is taken by the last.
-    bodies: Vec<Body<S>>,
-    places: BTreeMap<BodyId, usize>,
-    /// The trees of the bodies, in the same places.
-    forest: Forest,
-    next_id: Option<u32>,
-    /// Pairs of bodies that do not meet in queries of the whole world, each pair in both orders.
-    ignored: BTreeSet<(BodyId, BodyId)>,
-    broad_phase: BroadPhase,
-    /// Boxes are relative to this point; zero for `f32`.
-    origin: Origin,
-    /// Shapes taken over since the origin was last looked at.
-    moves: usize,
-    /// What `write_positions` lends.
-    lent: Vec<[S; 3]>,
-    scratch: Scratch,
-    crowd: Crowd,
-    witnesses: Witnesses,
-    boxes: Vec<Aabb>,
-    /// Bodies that may meet, by their places, in the order of their ids; as the broad phase found them.
-    body_pairs: Vec<[usize; 2]>,
-    /// Whether nothing has happened since that could change them.
-    body_pairs_hold: bool,
-    pairs: Vec<Pair>,
-    pairs_of_bodies: Vec<[u32; 2]>,
-    keys: Keys,
-    statistics: Statistics,
-    /// Work done by `update` since the last query.
-    done_early: Statistics,
+pub struct World<S: Scalar> {
+    engine: Box<dyn AnyEngine<S>>,
 }
 
 impl<S: Scalar> World<S> {
@@ -106,44 +56,48 @@ impl<S: Scalar> World<S> {
         Self::with_options(Options::default())
     }
 
-    /// An empty world.
+    /// An empty world, with threads of its own if [`Options::threads`] asks for more than one.
     pub fn with_options(options: Options) -> Self {
+        let threads = Threads::private(options.threads);
         Self {
-            options,
-            level: kernels::widest(),
-            threads: Threads::new(options.threads),
-            bodies: Vec::new(),
-            places: BTreeMap::new(),
-            forest: Forest::new(options.degree),
-            next_id: Some(0),
-            ignored: BTreeSet::new(),
-            broad_phase: BroadPhase::new(options.broad_phase),
-            origin: [0.0; 4],
-            moves: 0,
-            lent: Vec::new(),
-            scratch: Scratch::default(),
-            crowd: Crowd::default(),
-            witnesses: Witnesses::default(),
-            boxes: Vec::new(),
-            body_pairs: Vec::new(),
-            body_pairs_hold: false,
-            pairs: Vec::new(),
-            pairs_of_bodies: Vec::new(),
-            keys: Keys::default(),
-            statistics: Statistics::default(),
-            done_early: Statistics::default(),
+            engine: S::engine(options, threads),
         }
     }
 
-    /// Makes the kernels use a level of instructions, for tests that all of them give the same answers.
+    /// An empty world whose queries are shared with the threads of a pool that the application has anyway, so that no others are
+    /// made: the calling thread and as many of the pool's as make [`Options::threads`] together.
+    ///
+    /// Queries may be asked from any thread, those of the pool included. As with everything that waits inside of a rayon pool, such a
+    /// thread may begin other work of the pool while it waits for the end of a query.
+    ///
+    /// ```
+    /// use pliant::{Options, World};
+    /// use std::num::NonZeroUsize;
+    /// use std::sync::Arc;
+    ///
+    /// let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(3).build()?);
+    /// let mut options = Options::default();
+    /// options.threads = NonZeroUsize::new(4).expect("4 is not 0");
+    /// let world = World::<f32>::with_pool(options, Arc::clone(&pool));
+    /// # drop(world);
+    /// # Ok::<(), rayon::ThreadPoolBuildError>(())
+    /// ```
+    pub fn with_pool(options: Options, pool: Arc<rayon::ThreadPool>) -> Self {
+        let threads = Threads::lent(options.threads, pool);
+        Self {
+            engine: S::engine(options, threads),
+        }
+    }
+
+    /// Makes the kernels use other instructions, for tests that all of them give the same answers.
     #[doc(hidden)]
-    pub fn use_instructions(&mut self, level: Level) {
-        self.level = level;
+    pub fn use_instructions(&mut self, instructions: Instructions) {
+        self.engine.use_instructions(instructions);
     }
 
     /// The options of this world.
     pub fn options(&self) -> &Options {
-        &self.options
+        self.engine.options()
     }
 
     /// Adds a body: triangles as corner indices into positions, shape (m, 3) and (n, 3).
@@ -155,59 +109,27 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoTriangles`](ErrorKind::NoTriangles), [`VertexOutOfRange`](ErrorKind::VertexOutOfRange),
-    /// [`BadPosition`](ErrorKind::BadPosition), [`NeedsSubnormals`](ErrorKind::NeedsSubnormals),
-    /// [`TooLarge`](ErrorKind::TooLarge) above 2^28 triangles or 2^32 - 1 vertices, and
-    /// [`TooManyBodies`](ErrorKind::TooManyBodies) after 2^32 bodies.
+    /// [`NoTriangles`](crate::ErrorKind::NoTriangles), [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange),
+    /// [`BadPosition`](crate::ErrorKind::BadPosition), [`NeedsSubnormals`](crate::ErrorKind::NeedsSubnormals),
+    /// [`TooLarge`](crate::ErrorKind::TooLarge) above 2^28 triangles or 2^32 - 1 vertices, and
+    /// [`TooManyBodies`](crate::ErrorKind::TooManyBodies) after 2^32 bodies.
     #[doc(alias = "insert")]
     pub fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error> {
-        let refused = |kind| Error { body: None, kind };
-        let id = BodyId(
-            self.next_id
-                .ok_or_else(|| refused(ErrorKind::TooManyBodies))?,
-        );
-        body::validate(triangles, positions).map_err(refused)?;
-        let mesh = self
-            .forest
-            .plant(self.bodies.len(), triangles, positions, &self.options);
-        self.places.insert(id, self.bodies.len());
-        self.bodies.push(Body::new(id, mesh, positions));
-        self.next_id = id.0.checked_add(1);
-        self.note_movement();
-        Ok(id)
+        self.engine.add(triangles, positions)
     }
 
     /// Removes a body. Its id will not be used again.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn remove(&mut self, body: BodyId) -> Result<(), Error> {
-        let place = self.place(body)?;
-        self.places.remove(&body);
-        self.bodies.swap_remove(place);
-        self.forest.swap_remove(place);
-        self.broad_phase.swap_remove(place, self.bodies.len());
-        if let Some(moved) = self.bodies.get(place) {
-            self.places.insert(moved.id(), place);
-        }
-        let others: Vec<_> = self
-            .ignored
-            .range((body, BodyId(0))..=(body, BodyId(u32::MAX)))
-            .copied()
-            .collect();
-        for (_, other) in others {
-            self.ignored.remove(&(body, other));
-            self.ignored.remove(&(other, body));
-        }
-        self.witnesses.forget(body);
-        self.body_pairs_hold = false;
-        Ok(())
+        self.engine.remove(body)
     }
 
     /// The bodies of this world, in the order in which they were added.
     pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyId> {
-        self.places.keys().copied()
+        self.engine.places().keys().copied()
     }
 
     /// Gives a body a new shape: one position for each of its vertices, shape (n, 3), in the order in which it was added.
@@ -218,22 +140,14 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`WrongLength`](ErrorKind::WrongLength),
-    /// [`BadPosition`](ErrorKind::BadPosition) for the first coordinate of any vertex, used or not, that is NaN, infinite or above
-    /// `f32::MAX` in magnitude, [`OutsideLooseBox`](ErrorKind::OutsideLooseBox),
-    /// [`NeedsSubnormals`](ErrorKind::NeedsSubnormals) in a thread that flushes subnormal numbers.
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`WrongLength`](crate::ErrorKind::WrongLength),
+    /// [`BadPosition`](crate::ErrorKind::BadPosition) for the first coordinate of any vertex, used or not, that is NaN, infinite or above
+    /// `f32::MAX` in magnitude, [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox),
+    /// [`NeedsSubnormals`](crate::ErrorKind::NeedsSubnormals) in a thread that flushes subnormal numbers.
     #[doc(alias = "update_vertices")]
     #[doc(alias = "refit")]
     pub fn set_positions(&mut self, body: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
-        let place = self.place(body)?;
-        self.bodies[place]
-            .take_over(self.level, &self.threads, positions)
-            .map_err(|kind| Error {
-                body: Some(body),
-                kind,
-            })?;
-        self.note_movement();
-        Ok(())
+        self.engine.set_positions(body, positions)
     }
 
     /// Like [`set_positions`](Self::set_positions), but `write` fills a buffer of the world's, shape (n, 3), in the order in
@@ -243,35 +157,18 @@ impl<S: Scalar> World<S> {
     /// # Errors
     ///
     /// Those of [`set_positions`](Self::set_positions); a coordinate that is NaN, which an unwritten one is, is
-    /// [`NotWritten`](ErrorKind::NotWritten). If `write` panics, the body keeps its shape.
+    /// [`NotWritten`](crate::ErrorKind::NotWritten). If `write` panics, the body keeps its shape.
     pub fn write_positions(
         &mut self,
         body: BodyId,
         write: impl FnOnce(&mut [[S; 3]]),
     ) -> Result<(), Error> {
-        let place = self.place(body)?;
-        let body_there = &mut self.bodies[place];
-        self.lent.clear();
-        self.lent.resize(body_there.vertex_count(), [S::NAN; 3]);
-        write(&mut self.lent);
-        body_there
-            .take_over(self.level, &self.threads, &self.lent)
-            .map_err(|kind| {
-                let kind = match kind {
-                    ErrorKind::BadPosition { vertex, position }
-                        if position.iter().any(|x| x.is_nan()) =>
-                    {
-                        ErrorKind::NotWritten { vertex }
-                    }
-                    other => other,
-                };
-                Error {
-                    body: Some(body),
-                    kind,
-                }
-            })?;
-        self.note_movement();
-        Ok(())
+        let mut write = Some(write);
+        self.engine.write_positions(body, &mut |lent| {
+            if let Some(write) = write.take() {
+                write(lent);
+            }
+        })
     }
 
     /// Builds the tree of a body anew, on the shape it has now. Id, filters and loose box stay. Worth it when a shape has
@@ -279,19 +176,9 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn rebuild(&mut self, body: BodyId) -> Result<(), Error> {
-        let place = self.place(body)?;
-        let body_there = &mut self.bodies[place];
-        let mesh = self.forest.plant(
-            place,
-            &body_there.triangles(),
-            &body_there.positions(),
-            &self.options,
-        );
-        body_there.reorder(mesh);
-        self.witnesses.forget(body);
-        Ok(())
+        self.engine.rebuild(body)
     }
 
     /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
@@ -299,38 +186,29 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     #[doc(alias = "collision_groups")]
     pub fn set_filter(&mut self, body: BodyId, membership: u32, mask: u32) -> Result<(), Error> {
-        let place = self.place(body)?;
-        self.bodies[place].set_filter(membership, mask);
-        self.body_pairs_hold = false;
-        Ok(())
+        self.engine.set_filter(body, membership, mask)
     }
 
-    /// From now on two bodies do not meet in queries of the whole world. A query that names them does not look at this.
+    /// From now on two bodies do not meet in queries of the whole world, or a body with itself if it is named twice. A query that
+    /// names its bodies does not look at this.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`SameBody`](ErrorKind::SameBody).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
-        self.two_bodies(a, b)?;
-        self.ignored.extend([(a, b), (b, a)]);
-        self.body_pairs_hold = false;
-        Ok(())
+        self.engine.ignore(a, b)
     }
 
     /// Takes [`ignore`](Self::ignore) back.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`SameBody`](ErrorKind::SameBody).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
-        self.two_bodies(a, b)?;
-        self.ignored.remove(&(a, b));
-        self.ignored.remove(&(b, a));
-        self.body_pairs_hold = false;
-        Ok(())
+        self.engine.unignore(a, b)
     }
 
     /// Gives a body a box, lower and upper corner, that holds it in every pose to come; `None` takes it away.
@@ -340,81 +218,196 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`BadLooseBox`](ErrorKind::BadLooseBox) if a corner is not finite, is above `f32::MAX`
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`BadLooseBox`](crate::ErrorKind::BadLooseBox) if a corner is not finite, is above `f32::MAX`
     /// in magnitude, or the lower one is above the upper one on some axis, and
-    /// [`OutsideLooseBox`](ErrorKind::OutsideLooseBox) if the body is not inside now.
+    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox) if the body is not inside now.
     pub fn set_loose_box(
         &mut self,
         body: BodyId,
         corners: Option<([S; 3], [S; 3])>,
     ) -> Result<(), Error> {
-        let place = self.place(body)?;
-        let loose = corners.map(|(lo, hi)| Bounds { lo, hi });
-        self.bodies[place]
-            .set_loose_box(loose)
-            .map_err(|kind| Error {
-                body: Some(body),
-                kind,
-            })?;
-        self.note_movement();
-        Ok(())
+        self.engine.set_loose_box(body, corners)
+    }
+
+    /// Asks which triangles intersect, of different bodies or of one: pairs of them, as closed sets. Touching counts. The
+    /// [`Selection`] says who is asked about; the [`Query`] that comes back, how much is wanted.
+    ///
+    /// Within a body, triangles that share a vertex of the mesh are left out: they always touch. Surfaces only: a body wholly inside
+    /// another meets none of its triangles.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// # let mut world = World::<f32>::new();
+    /// # let shirt = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// # let skin = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// for pair in world.intersections(Selection::Between(shirt, skin)).all()? {
+    ///     println!("triangle {} of the shirt meets triangle {} of the skin", pair.triangle_a, pair.triangle_b);
+    /// }
+    /// if world.intersections(Selection::Everything).first()?.is_none() {
+    ///     println!("nothing meets anything");
+    /// }
+    /// # assert_eq!(world.intersections(Selection::World).all()?.len(), 1);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    #[doc(alias = "rtcCollide")]
+    #[doc(alias = "bvhcast")]
+    #[doc(alias = "findCollidingTriangles")]
+    #[doc(alias = "findSelfCollidingTriangles")]
+    #[doc(alias = "self_intersections")]
+    #[doc(alias = "does_self_intersect")]
+    pub fn intersections(&mut self, of: Selection) -> Query<'_, Pair> {
+        Query::new(&mut *self.engine, of)
+    }
+
+    /// What the last query did, with what [`Query::prepare`] did before it.
+    pub fn statistics(&self) -> &Statistics {
+        self.engine.statistics()
+    }
+
+    /// The triangles of a body as they were added.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn triangles(&self, body: BodyId) -> Result<&[[u32; 3]], Error> {
+        self.engine.triangles(body)
+    }
+
+    /// The shape that a body has now: the positions that it was given last.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn positions(&self, body: BodyId) -> Result<Vec<[S; 3]>, Error> {
+        self.engine.positions(body)
     }
 
     /// How many triangles a body has.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn triangle_count(&self, body: BodyId) -> Result<usize, Error> {
-        Ok(self.bodies[self.place(body)?].triangle_count())
+        Ok(self.engine.triangles(body)?.len())
     }
 
     /// How many vertices a body has: the length that its positions must have.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn vertex_count(&self, body: BodyId) -> Result<usize, Error> {
-        Ok(self.bodies[self.place(body)?].vertex_count())
+        self.engine.vertex_count(body)
     }
 
     /// The tree of a body in numbers.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn tree_shape(&self, body: BodyId) -> Result<TreeShape, Error> {
-        let place = self.place(body)?;
-        with_trees!(&self.forest, trees => {
-            let tree = &trees[place];
-            Ok(TreeShape { depth: tree.depth, nodes: tree.node_count(), leaves: tree.leaves.len() })
-        })
+        self.engine.tree_shape(body)
     }
 
-    /// Where a body stands in the lists.
-    fn place(&self, body: BodyId) -> Result<usize, Error> {
-        self.places.get(&body).copied().ok_or(Error {
-            body: Some(body),
-            kind: ErrorKind::NoSuchBody,
-        })
+    /// For each triangle of a body, the part it is in when the tree is cut at a level: its node of that level, or its leaf, if
+    /// that is above. Parts are numbered from 0 in the order of the tree, so that parts with close numbers are close in the
+    /// tree. Level 0 is one part, level 1 the children of the root, [`TreeShape::depth`] and all
+    /// levels below it the leaves.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let strip: Vec<[u32; 3]> = (0..64).map(|i| [i, i + 1, i + 2]).collect();
+    /// let zigzag: Vec<[f32; 3]> = (0..66).map(|i| [i as f32, (i % 2) as f32, 0.0]).collect();
+    /// let body = world.add(&strip, &zigzag)?;
+    ///
+    /// assert!(world.tree_cut(body, 0)?.iter().all(|&part| part == 0));
+    /// let parts = world.tree_cut(body, 1)?;
+    /// assert_eq!(parts.iter().max(), Some(&7));
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn tree_cut(&self, body: BodyId, level: u32) -> Result<Vec<u32>, Error> {
+        self.engine.tree_cut(body, level)
     }
 
-    /// Where two different bodies stand in the lists.
-    fn two_bodies(&self, a: BodyId, b: BodyId) -> Result<[usize; 2], Error> {
-        let places = [self.place(a)?, self.place(b)?];
-        if a == b {
-            return Err(Error {
-                body: Some(a),
-                kind: ErrorKind::SameBody,
-            });
-        }
-        Ok(places)
+    /// The boxes of a level of a body's tree, and which of them the tree holds for the shape that the body has now: figure 2
+    /// of the paper. One box a part, in the order of [`tree_cut`](Self::tree_cut): a leaf above the level stands for
+    /// itself.
+    ///
+    /// The corners are those of the triangles; the tree's own boxes, in single precision, are the same or a rounding
+    /// larger. Makes no box, and reads none.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// let root = world.tree_boxes(body, 0)?[0];
+    /// assert_eq!((root.lower, root.upper, root.valid), ([0.0; 3], [2.0, 1.0, 0.0], false));
+    /// world.intersections(pliant::Selection::Within(body)).prepare()?;
+    /// assert!(world.tree_boxes(body, 0)?[0].valid);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn tree_boxes(&self, body: BodyId, level: u32) -> Result<Vec<NodeBox<S>>, Error> {
+        self.engine.tree_boxes(body, level)
     }
 
-    /// A body has a new shape or box.
-    fn note_movement(&mut self) {
-        self.moves += 1;
-        self.body_pairs_hold = false;
+    /// The order in which queries read the vertices of a body, as the caller numbers them: at place i of memory is vertex
+    /// `order[i]`. Shape (n,).
+    ///
+    /// Queries are faster on a body whose vertices come in this order already, the more so the larger it is. A simulation that
+    /// can choose stores them so: vertex i of the new body is vertex `order[i]` of the old one, and triangles name the new
+    /// numbers. The tree of the new body is the same, and its order is 0, 1, 2, ...
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let mut triangles = vec![[9, 1, 2], [2, 1, 3], [4, 8, 6]];
+    /// let positions: Vec<[f32; 3]> = (0..10).map(|i| [i as f32, (i * i % 7) as f32, 0.0]).collect();
+    /// let body = world.add(&triangles, &positions)?;
+    ///
+    /// let order = world.vertex_order(body)?.to_vec();
+    /// let positions: Vec<_> = order.iter().map(|&old| positions[old as usize]).collect();
+    /// let mut new_number = vec![0; order.len()];
+    /// for (new, &old) in order.iter().enumerate() {
+    ///     new_number[old as usize] = new as u32;
+    /// }
+    /// for corner in triangles.as_flattened_mut() {
+    ///     *corner = new_number[*corner as usize];
+    /// }
+    /// let body = world.add(&triangles, &positions)?;
+    /// assert!(world.vertex_order(body)?.iter().copied().eq(0..10));
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn vertex_order(&self, body: BodyId) -> Result<&[u32], Error> {
+        self.engine.vertex_order(body)
+    }
+
+    /// Checks every invariant of every tree: the structure, that each box that claims to be valid is the box of the vertices below it
+    /// as they are now, and that the nodes of mesh connectivity trees are connected pieces or whole components. For tests and bug
+    /// reports; no sequence of calls should ever make it fail.
+    ///
+    /// Cost: every triangle once a level.
+    ///
+    /// # Errors
+    ///
+    /// A sentence that names the body and what is wrong.
+    pub fn validate(&self) -> Result<(), String> {
+        self.engine.validate()
     }
 }
 
@@ -424,31 +417,11 @@ impl<S: Scalar> Default for World<S> {
     }
 }
 
-impl<S> fmt::Debug for World<S> {
+impl<S: Scalar> fmt::Debug for World<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("World")
-            .field("options", &self.options)
-            .field("bodies", &self.bodies.len())
+            .field("options", self.options())
+            .field("bodies", &self.bodies().len())
             .finish_non_exhaustive()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_of_bodies_run_out_with_an_error() {
-        let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0_f32]];
-        let mut world = World::new();
-        world.next_id = Some(u32::MAX);
-        let last = world.add(&[[0, 1, 2]], &triangle);
-        assert_eq!(last, Ok(BodyId(u32::MAX)));
-        let refused = world.add(&[[0, 1, 2]], &triangle).unwrap_err();
-        assert_eq!(
-            (refused.body, refused.kind),
-            (None, ErrorKind::TooManyBodies)
-        );
-        assert_eq!(world.triangle_count(BodyId(u32::MAX)), Ok(1));
     }
 }

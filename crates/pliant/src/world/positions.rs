@@ -4,28 +4,52 @@
 //! at since its last shape is *copied* while it is checked, which is one pass as fast as memory. A body that was looked at will be
 //! looked at again: it is only checked, and then *taken straight into tree order*, without a copy between. But where there are
 //! several threads a small one is copied as well: shapes come one after the other, and threads bring them into order side by side.
+//!
+//! So a new shape is [staged](Positions::stage) first, which changes nothing that can be seen, and then [committed](Positions::commit).
 
-use crate::exec::Threads;
-use crate::geometry::{Bounds, POINTS_JOB, POINTS_SHARED, Points, Scalar};
-use crate::kernels::Level;
-use crate::kernels::take_over::{check, take_over};
+use crate::geometry::{Bounds, IN_A_ROW, Points};
+use crate::ids::TreeVertex;
+use crate::kernels::{Coordinate, Instructions, check, copy_checked, gather};
+use crate::threads::Executor;
 use std::borrow::Cow;
+
+/// Points in a job: some microseconds of work; a whole number of rows.
+const JOB: usize = 64 * IN_A_ROW;
+/// So many points, or fewer, are not worth waking a thread.
+const SHARED: usize = 4 * JOB;
 
 pub(super) struct Positions<S> {
     len: usize,
-    /// Nothing in a body that was looked at in every shape so far.
+    /// The shape of now, if it is in the caller's order. Nothing in a body that was looked at in every shape so far.
     callers: Vec<[S; 3]>,
-    /// Where the next shape is written, so that a bad one never replaces a good one; nothing until one is copied.
+    /// Where the next shape is copied to, so that a bad one never replaces a good one; nothing until one is copied.
     spare: Vec<[S; 3]>,
+    /// The shape of now, if it is in tree order.
     trees: Points<S>,
-    /// Which of the two hold the shape of now; one at least.
-    is_callers: bool,
-    is_trees: bool,
-    /// Whether a query looked at this shape in tree order.
-    looked_at: bool,
+    order: InOrder,
 }
 
-impl<S: Scalar> Positions<S> {
+/// In which order the shape of now is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum InOrder {
+    /// As the caller orders vertices: nobody looked at it since it came.
+    Callers,
+    /// In tree order, into which it was taken at once; nobody looked at it yet.
+    TreesUnseen,
+    /// In tree order; a query looked at it.
+    Trees,
+    /// In both; a query looked at it.
+    Both,
+}
+
+/// A new shape that was checked and waits to be committed.
+pub(super) struct Staged<S> {
+    /// Of all its vertices, used or not.
+    pub(super) bounds: Bounds<S>,
+    is_copied: bool,
+}
+
+impl<S: Coordinate> Positions<S> {
     /// Of a new body, as the caller orders them.
     pub(super) fn new(positions: &[[S; 3]]) -> Self {
         Self {
@@ -33,9 +57,7 @@ impl<S: Scalar> Positions<S> {
             callers: positions.to_vec(),
             spare: Vec::new(),
             trees: Points::with_len(positions.len()),
-            is_callers: true,
-            is_trees: false,
-            looked_at: false,
+            order: InOrder::Callers,
         }
     }
 
@@ -43,102 +65,120 @@ impl<S: Scalar> Positions<S> {
         self.len
     }
 
-    /// The bounds of a new shape, as long as the old; none if a coordinate is out of range. Nothing else has changed then, nor before
-    /// it is [accepted](Self::accept).
-    pub(super) fn look_at(
+    /// Checks a new shape, as long as the old, and copies it aside if that is the way it will go; `None` if a coordinate is out of
+    /// range.
+    pub(super) fn stage(
         &mut self,
-        level: Level,
-        threads: &Threads,
+        instructions: Instructions,
+        executor: Executor,
         new: &[[S; 3]],
-    ) -> Option<Bounds<S>> {
-        let place = if self.goes_straight(threads) {
-            None
-        } else {
+    ) -> Option<Staged<S>> {
+        let is_large = self.len > SHARED;
+        let was_seen = matches!(self.order, InOrder::Trees | InOrder::Both);
+        let is_copied = !(was_seen && (is_large || !executor.are_many()));
+        let copy = is_copied.then(|| {
             self.spare.resize(new.len(), [S::default(); 3]);
-            Some(&mut self.spare[..])
-        };
-        let look = |new: &[[S; 3]], place: Option<&mut [[S; 3]]>| match place {
-            Some(place) => take_over(level, new, place),
-            None => check(level, new),
-        };
-        if new.len() <= POINTS_SHARED || !threads.are_many() {
-            return look(new, place);
-        }
-        let mut places = place.map(|place| place.chunks_mut(POINTS_JOB));
-        let parts = new.chunks(POINTS_JOB);
-        let mut jobs: Vec<_> = parts
-            .map(|new| (new, places.as_mut().and_then(Iterator::next), None))
-            .collect();
-        threads.run(&mut jobs, |_, (new, place, bounds)| {
-            *bounds = look(new, place.as_deref_mut());
+            &mut self.spare[..]
         });
-        let mut parts = jobs.iter().map(|&(_, _, bounds)| bounds);
-        parts.try_fold(Bounds::EMPTY, |all, part| Some(all.union(&part?)))
+        let look = |new: &[[S; 3]], copy: Option<&mut [[S; 3]]>| match copy {
+            Some(copy) => copy_checked(instructions, new, copy),
+            None => check(instructions, new),
+        };
+        let bounds = if is_large && executor.are_many() {
+            let mut copies = copy.map(|copy| copy.chunks_mut(JOB));
+            let parts = new.chunks(JOB);
+            let mut jobs: Vec<_> = parts
+                .map(|new| (new, copies.as_mut().and_then(Iterator::next), None))
+                .collect();
+            executor.run(&mut jobs, |_, (new, copy, bounds)| {
+                *bounds = look(new, copy.as_deref_mut());
+            });
+            let mut parts = jobs.iter().map(|&(_, _, bounds)| bounds);
+            parts.try_fold(Bounds::EMPTY, |all, part| Some(all.union(&part?)))?
+        } else {
+            look(new, copy)?
+        };
+        Some(Staged { bounds, is_copied })
     }
 
-    /// Whether the next shape is taken straight into tree order.
-    fn goes_straight(&self, threads: &Threads) -> bool {
-        self.looked_at && (self.len > POINTS_SHARED || !threads.are_many())
-    }
-
-    /// The new shape that was looked at last is that of now.
-    pub(super) fn accept(
+    /// The new shape that was staged is that of now.
+    pub(super) fn commit(
         &mut self,
-        level: Level,
-        threads: &Threads,
+        staged: &Staged<S>,
+        instructions: Instructions,
+        executor: Executor,
         new: &[[S; 3]],
         order: &[u32],
     ) {
-        let straight = self.goes_straight(threads);
-        self.looked_at = false;
-        if straight {
-            self.trees.gather(level, threads, new, order);
-        } else {
+        if staged.is_copied {
             std::mem::swap(&mut self.callers, &mut self.spare);
+            self.order = InOrder::Callers;
+        } else {
+            gather_all(instructions, executor, new, order, &mut self.trees);
+            self.order = InOrder::TreesUnseen;
         }
-        (self.is_callers, self.is_trees) = (!straight, straight);
     }
 
-    /// Brings the shape into tree order, which all that makes boxes and decides pairs needs.
-    pub(super) fn bring_into_tree_order(&mut self, level: Level, threads: &Threads, order: &[u32]) {
-        self.looked_at = true;
-        if !self.is_trees {
-            self.trees.gather(level, threads, &self.callers, order);
-            self.is_trees = true;
-            // As long as no shape was copied, none may ever be: then one of them is all that is kept.
-            if self.spare.is_empty() {
-                self.callers = Vec::new();
-                self.is_callers = false;
+    /// Brings the shape into tree order, which all that makes boxes and decides candidates needs, because a query is going to look at
+    /// it. Returns false, and nothing has changed, if it was interrupted.
+    pub(super) fn bring_into_tree_order(
+        &mut self,
+        instructions: Instructions,
+        executor: Executor,
+        order: &[u32],
+    ) -> bool {
+        self.order = match self.order {
+            InOrder::TreesUnseen | InOrder::Trees => InOrder::Trees,
+            InOrder::Both => InOrder::Both,
+            InOrder::Callers => {
+                gather_all(
+                    instructions,
+                    executor,
+                    &self.callers,
+                    order,
+                    &mut self.trees,
+                );
+                if executor.is_interrupted() {
+                    return false;
+                }
+                // As long as no shape was copied, none may ever be: then one order is all that is kept.
+                if self.spare.is_empty() {
+                    self.callers = Vec::new();
+                    InOrder::Trees
+                } else {
+                    InOrder::Both
+                }
             }
-        }
+        };
+        true
     }
 
     /// In tree order; was brought into it.
     #[inline]
     pub(super) fn in_tree_order(&self) -> &Points<S> {
-        debug_assert!(self.is_trees);
+        debug_assert_ne!(self.order, InOrder::Callers);
         &self.trees
     }
 
     /// As the caller orders vertices.
     pub(super) fn in_callers_order(&self, order: &[u32]) -> Cow<'_, [[S; 3]]> {
-        if self.is_callers {
+        if matches!(self.order, InOrder::Callers | InOrder::Both) {
             return Cow::Borrowed(&self.callers);
         }
         let mut callers = vec![[S::default(); 3]; self.len()];
         for (place, &vertex) in order.iter().enumerate() {
-            callers[vertex as usize] = self.trees.get(place as u32);
+            callers[vertex as usize] = self.trees.get(TreeVertex(place as u32));
         }
         Cow::Owned(callers)
     }
 
-    /// One of them, by its number in tree order.
+    /// One of them.
     #[inline]
-    pub(super) fn get(&self, vertex: u32, order: &[u32]) -> [S; 3] {
-        if self.is_trees {
-            self.trees.get(vertex)
+    pub(super) fn get(&self, vertex: TreeVertex, order: &[u32]) -> [S; 3] {
+        if self.order == InOrder::Callers {
+            self.callers[order[vertex.index()] as usize]
         } else {
-            self.callers[order[vertex as usize] as usize]
+            self.trees.get(vertex)
         }
     }
 
@@ -147,6 +187,33 @@ impl<S: Scalar> Positions<S> {
         if let Cow::Owned(callers) = self.in_callers_order(order) {
             self.callers = callers;
         }
-        (self.is_callers, self.is_trees) = (true, false);
+        self.order = InOrder::Callers;
+    }
+}
+
+/// Takes the points that `order` names.
+fn gather_all<S: Coordinate>(
+    instructions: Instructions,
+    executor: Executor,
+    from: &[[S; 3]],
+    order: &[u32],
+    Points { points, bounds }: &mut Points<S>,
+) {
+    let parts = points
+        .chunks_mut(JOB)
+        .zip(bounds.chunks_mut(JOB / IN_A_ROW))
+        .zip(order.chunks(JOB));
+    if order.len() > SHARED && executor.are_many() {
+        let mut jobs: Vec<_> = parts.collect();
+        executor.run(&mut jobs, |_, ((points, bounds), order)| {
+            gather(instructions, from, order, points, bounds);
+        });
+        return;
+    }
+    for ((points, bounds), order) in parts {
+        if executor.is_interrupted() {
+            return;
+        }
+        gather(instructions, from, order, points, bounds);
     }
 }

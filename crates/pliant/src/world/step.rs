@@ -1,132 +1,110 @@
-//! One query of two bodies or of one: boxes compared, upper levels made true, trees descended. Which bodies, the broad phase
-//! says: see `queries`.
+//! One pair of bodies, or one body with itself, in a query of some kind: shapes into tree order, upper levels refitted, trees
+//! descended. Which bodies, `body_pairs` says.
 
+use super::bodies::Bodies;
 use super::body::Body;
-use crate::exec::Threads;
-use crate::geometry::{Origin, Scalar};
-use crate::kernels::Level;
-use crate::options::Update;
+use super::body_pairs::BodyPair;
+use crate::geometry::Origin;
+use crate::kernels::Coordinate;
+use crate::queries::Kind;
 use crate::statistics::Statistics;
-use crate::traversal::{OneTree, Scratch, Show, Side, TwoTrees, descend};
-use crate::tree::Tree;
-use crate::update::{Meets, Updates};
+use crate::traversal::{OneTree, Scratch, Side, Sink, TwoTrees, descend};
+use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
 
-/// What a query needs besides bodies and their trees.
-pub(super) struct Step<'w> {
-    pub(super) update: Update,
-    pub(super) level: Level,
-    pub(super) threads: &'w Threads,
+/// What a query needs besides bodies.
+pub(super) struct Step<'q, K: Kind> {
+    pub(super) kind: &'q K,
+    pub(super) refit: Refit<'q>,
     pub(super) origin: Origin,
-    pub(super) scratch: &'w mut Scratch,
-    pub(super) statistics: &'w mut Statistics,
+    pub(super) scratch: &'q mut Scratch<K>,
+    pub(super) statistics: &'q mut Statistics,
 }
 
-/// A body and its tree.
-pub(super) struct Planted<'w, const N: usize, S> {
-    pub(super) body: &'w mut Body<S>,
-    pub(super) tree: &'w mut Tree<N>,
-}
-
-impl<'w, const N: usize, S> Planted<'w, N, S> {
-    /// The body at a place.
-    pub(super) fn at(bodies: &'w mut [Body<S>], trees: &'w mut [Tree<N>], place: usize) -> Self {
-        Self {
-            body: &mut bodies[place],
-            tree: &mut trees[place],
-        }
-    }
-
-    /// The bodies at two places.
-    pub(super) fn both(
-        bodies: &'w mut [Body<S>],
-        trees: &'w mut [Tree<N>],
-        places: [usize; 2],
-    ) -> [Self; 2] {
-        let different = "two different bodies, one tree each";
-        let [body_a, body_b] = bodies.get_disjoint_mut(places).expect(different);
-        let [tree_a, tree_b] = trees.get_disjoint_mut(places).expect(different);
-        [(body_a, tree_a), (body_b, tree_b)].map(|(body, tree)| Self { body, tree })
-    }
-
-    /// The same for a while.
-    pub(super) fn again(&mut self) -> Planted<'_, N, S> {
-        Planted {
-            body: self.body,
-            tree: self.tree,
-        }
-    }
-
-    fn side(self, origin: Origin) -> Side<'w, N, S>
-    where
-        S: Scalar,
-    {
-        let body = &*self.body;
-        Side {
-            tree: self.tree,
-            mesh: &body.mesh,
-            shape: body.shape(origin),
-        }
-    }
-}
-
-impl<'w> Step<'w> {
-    fn updates(&self) -> Updates<'w> {
-        Updates {
-            threads: self.threads,
-            level: self.level,
-            update: self.update,
-        }
-    }
-
-    /// Makes the upper levels of a tree true for this frame.
-    pub(super) fn refresh_ahead<const N: usize, S: Scalar>(
+impl<K: Kind> Step<'_, K>
+where
+    K::Scalar: Coordinate,
+{
+    /// Shows what two bodies, or one and itself, do to each other. Breaks if the sink does, or if it is interrupted.
+    pub(super) fn meet<const N: usize>(
         &mut self,
-        Planted { body, tree }: &mut Planted<N, S>,
-        meets: Meets,
-    ) {
-        body.bring_into_order(self.level, self.threads);
-        let shape = body.shape(self.origin);
-        let updates = self.updates();
-        let groups = &mut self.scratch.groups[0];
-        updates.refresh_ahead(tree, &shape, meets, groups, self.statistics);
-    }
-
-    /// Two different bodies; shown are (triangle of the first, triangle of the second).
-    pub(super) fn meet<const N: usize, S: Scalar>(
-        &mut self,
-        mut both: [Planted<N, S>; 2],
-        show: Show,
+        bodies: &mut Bodies<N, K::Scalar>,
+        [a, b]: BodyPair,
+        sink: Sink<K::Hit>,
     ) -> ControlFlow<()> {
-        let [box_a, box_b] = both.each_ref().map(|one| one.body.exact_box(self.origin));
-        if !box_a.overlaps(&box_b) {
-            return ControlFlow::Continue(());
+        if a == b {
+            self.meet_itself(&mut bodies.list[a.index()], sink)
+        } else {
+            self.meet_another(bodies.two([a, b]), sink)
         }
-        self.statistics.body_pairs += 1;
-        both.iter_mut()
-            .for_each(|one| self.refresh_ahead(one, Meets::Another));
-        let [a, b] = both.map(|one| one.side(self.origin));
-        let meeting = &mut TwoTrees { a, b };
-        descend(self.updates(), meeting, self.scratch, self.statistics, show)
     }
 
-    /// A body with itself; shown are (smaller triangle, larger triangle).
-    pub(super) fn meet_itself<const N: usize, S: Scalar>(
+    /// Two different bodies.
+    pub(super) fn meet_another<const N: usize>(
         &mut self,
-        mut one: Planted<N, S>,
-        show: Show,
+        both: [&mut Body<N, K::Scalar>; 2],
+        sink: Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
-        self.refresh_ahead(&mut one, Meets::Itself);
-        let side = one.side(self.origin);
-        side.tree.know_neighbours(side.mesh);
-        let updates = self.updates();
-        if side.tree.complete == side.shape.epoch {
+        let [a, b] = both.map(|body| self.ahead(body, Partner::Another));
+        let pair = &mut TwoTrees { a: a?, b: b? };
+        descend(
+            self.refit,
+            self.kind,
+            pair,
+            self.scratch,
+            self.statistics,
+            sink,
+        )
+    }
+
+    /// One body with itself.
+    pub(super) fn meet_itself<const N: usize>(
+        &mut self,
+        body: &mut Body<N, K::Scalar>,
+        sink: Sink<K::Hit>,
+    ) -> ControlFlow<()> {
+        self.statistics.body_pairs += 1;
+        let side = self.ahead(body, Partner::Itself)?;
+        let pair = &mut OneTree { side };
+        descend(
+            self.refit,
+            self.kind,
+            pair,
+            self.scratch,
+            self.statistics,
+            sink,
+        )
+    }
+
+    /// Does what comes before the descent: the same for a query and for what is done early. Breaks if it is interrupted.
+    pub(super) fn ahead<'b, const N: usize>(
+        &mut self,
+        body: &'b mut Body<N, K::Scalar>,
+        partner: Partner,
+    ) -> ControlFlow<(), Side<'b, N, K::Source<'b>>> {
+        let executor = self.refit.executor;
+        if !body.bring_into_tree_order(self.refit.instructions, executor) {
+            return ControlFlow::Break(());
+        }
+        let itself = partner == Partner::Itself;
+        if itself && K::LEAVES_OUT_NEIGHBOURS {
+            body.tree.know_neighbours(&body.order, executor);
+        }
+        let mut side = body.side(self.kind, self.origin);
+        let lists = &mut self.scratch.wide_nodes[0];
+        let statistics = &mut *self.statistics;
+        self.refit
+            .ahead(&mut side.refitted(), partner, lists, statistics);
+        if itself && side.boxes.are_nodes_complete() {
             // Every leaf is going to meet at least itself.
             let reached = &mut self.scratch.reached;
-            updates.make_leaves(side.tree, &side.shape, reached, self.statistics);
+            self.refit
+                .all_leaves(&mut side.refitted(), reached, statistics);
         }
-        let meeting = &mut OneTree { side };
-        descend(updates, meeting, self.scratch, self.statistics, show)
+        if executor.is_interrupted() {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(side)
     }
 }

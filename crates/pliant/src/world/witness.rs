@@ -7,18 +7,21 @@
 
 use super::BodyId;
 use super::body::Body;
-use crate::geometry::{Bounds, Scalar};
-use crate::narrow_phase::{Triangle, intersect};
-use crate::pairs::Candidate;
+use crate::geometry::Bounds;
+use crate::ids::TreeTriangle;
+use crate::kernels::Coordinate;
+use crate::predicates::{Triangle, intersect};
+use crate::queries::Candidate;
 use crate::statistics::Statistics;
+use crate::threads::Interrupt;
 use std::collections::BTreeMap;
 
 /// The last answers, by the bodies asked for; a body with itself is asked for twice.
 #[derive(Debug, Default)]
 pub(super) struct Witnesses {
     answers: BTreeMap<[BodyId; 2], Candidate>,
-    /// The bodies of the last answer for the whole world.
-    pub(super) of_world: Option<[BodyId; 2]>,
+    /// The bodies of the last answer for the whole world, and for the whole world and each body with itself.
+    pub(super) of_world: [Option<[BodyId; 2]>; 2],
 }
 
 impl Witnesses {
@@ -33,52 +36,56 @@ impl Witnesses {
     /// A body is removed, or its triangles have a new order.
     pub(super) fn forget(&mut self, body: BodyId) {
         self.answers.retain(|bodies, _| !bodies.contains(&body));
-        self.of_world = self.of_world.filter(|bodies| !bodies.contains(&body));
+        for of_world in &mut self.of_world {
+            *of_world = of_world.filter(|bodies| !bodies.contains(&body));
+        }
     }
 }
 
 /// A pair that intersects among the neighbours of a pair, of two bodies or of one with itself: on either side the one, its leaf,
-/// its leaf's siblings. In tree order, as everything here.
-pub(super) fn near<S: Scalar>(
-    both: [&Body<S>; 2],
+/// the leaves beside it. In tree order, as everything here.
+pub(super) fn near<const N: usize, S: Coordinate>(
+    both: [&Body<N, S>; 2],
     last: Candidate,
+    interrupt: &Interrupt,
     statistics: &mut Statistics,
 ) -> Option<Candidate> {
-    among::<1, S>(both, last, statistics)
-        .or_else(|| among::<8, S>(both, last, statistics))
-        .or_else(|| among::<64, S>(both, last, statistics))
+    among::<1, N, S>(both, last, interrupt, statistics)
+        .or_else(|| among::<8, N, S>(both, last, interrupt, statistics))
+        .or_else(|| among::<64, N, S>(both, last, interrupt, statistics))
 }
 
-/// The same, so many triangles on either side.
-fn among<const N: usize, S: Scalar>(
-    [a, b]: [&Body<S>; 2],
+/// A pair that intersects among `R` triangles on either side.
+fn among<const R: usize, const N: usize, S: Coordinate>(
+    [a, b]: [&Body<N, S>; 2],
     [near_a, near_b]: Candidate,
+    interrupt: &Interrupt,
     statistics: &mut Statistics,
 ) -> Option<Candidate> {
-    let of_a = Row::<N, S>::around(a, near_a);
-    let of_b = Row::<N, S>::around(b, near_b);
-    of_a.meet(&of_b, a.id() == b.id(), statistics)
+    let of_a = Run::<R, N, S>::around(a, near_a);
+    let of_b = Run::<R, N, S>::around(b, near_b);
+    of_a.meet(&of_b, a.id == b.id, interrupt, statistics)
 }
 
-/// Up to N triangles in a row.
-struct Row<'b, const N: usize, S> {
-    body: &'b Body<S>,
-    first: u32,
+/// Up to R triangles in a row.
+struct Run<'b, const R: usize, const N: usize, S> {
+    body: &'b Body<N, S>,
+    first: TreeTriangle,
     count: usize,
-    corners: [Triangle; N],
-    boxes: [Bounds<f64>; N],
+    corners: [Triangle; R],
+    boxes: [Bounds<f64>; R],
     all: Bounds<f64>,
 }
 
-impl<'b, const N: usize, S: Scalar> Row<'b, N, S> {
-    fn around(body: &'b Body<S>, triangle: u32) -> Self {
-        let first = triangle as usize / N * N;
-        let count = N.min(body.triangle_count() - first);
-        let mut corners = [[[0.0; 3]; 3]; N];
-        let mut boxes = [Bounds::EMPTY; N];
+impl<'b, const R: usize, const N: usize, S: Coordinate> Run<'b, R, N, S> {
+    fn around(body: &'b Body<N, S>, triangle: TreeTriangle) -> Self {
+        let first = triangle.index() / R * R;
+        let count = R.min(body.triangle_count() - first);
+        let mut corners = [[[0.0; 3]; 3]; R];
+        let mut boxes = [Bounds::EMPTY; R];
         let mut all = Bounds::EMPTY;
         for place in 0..count {
-            corners[place] = body.corners_now((first + place) as u32);
+            corners[place] = body.corners_now(TreeTriangle((first + place) as u32));
             for corner in corners[place] {
                 boxes[place].include(corner);
                 all.include(corner);
@@ -86,7 +93,7 @@ impl<'b, const N: usize, S: Scalar> Row<'b, N, S> {
         }
         Self {
             body,
-            first: first as u32,
+            first: TreeTriangle(first as u32),
             count,
             corners,
             boxes,
@@ -99,15 +106,25 @@ impl<'b, const N: usize, S: Scalar> Row<'b, N, S> {
         (0..self.count).filter(move |&place| self.boxes[place].overlaps(&other))
     }
 
-    fn meet(&self, other: &Self, itself: bool, statistics: &mut Statistics) -> Option<Candidate> {
+    fn meet(
+        &self,
+        other: &Self,
+        itself: bool,
+        interrupt: &Interrupt,
+        statistics: &mut Statistics,
+    ) -> Option<Candidate> {
         for a in self.overlapping(other.all) {
+            if interrupt.is_set() {
+                return None;
+            }
             for b in other.overlapping(self.boxes[a]) {
-                let pair = [self.first + a as u32, other.first + b as u32];
-                if itself && self.body.mesh.share_a_vertex(pair[0], pair[1]) {
+                let pair = [self.first.plus(a as u32), other.first.plus(b as u32)];
+                if itself && self.body.order.share_a_vertex(pair[0], pair[1]) {
                     continue;
                 }
                 statistics.candidate_pairs += 1;
-                if intersect::<S>(&self.corners[a], &other.corners[b], statistics) {
+                let exact = &mut statistics.exact_decisions;
+                if intersect::<S>(&self.corners[a], &other.corners[b], exact) {
                     statistics.pairs += 1;
                     return Some(pair);
                 }

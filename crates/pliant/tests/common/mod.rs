@@ -2,7 +2,9 @@
 
 #![allow(dead_code, reason = "each test uses its part")]
 
-use pliant::{BodyId, BroadPhase, Degree, Options, Partition, Scalar, Update, World};
+use pliant::{
+    BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Selection, Update, World,
+};
 use std::num::NonZeroU32;
 
 /// A body in motion: triangles and one list of positions a frame.
@@ -70,6 +72,34 @@ pub(crate) fn world_of<S: Scalar>(
         .map(|(triangles, positions)| world.add(triangles, positions).unwrap())
         .collect();
     (world, ids)
+}
+
+/// The pairs of two bodies, or of one with itself, whose bodies are known.
+pub(crate) trait TrianglesOf {
+    /// All of them.
+    fn triangles_of(&mut self, of: Selection) -> Vec<[u32; 2]>;
+
+    /// Some of them.
+    fn first_of(&mut self, of: Selection) -> Option<[u32; 2]>;
+}
+
+impl<S: Scalar> TrianglesOf for World<S> {
+    fn triangles_of(&mut self, of: Selection) -> Vec<[u32; 2]> {
+        let pairs = self.intersections(of).all().unwrap();
+        for pair in pairs {
+            match of {
+                Selection::Between(a, b) => assert_eq!([pair.body_a, pair.body_b], [a, b]),
+                Selection::Within(a) => assert_eq!([pair.body_a, pair.body_b], [a, a]),
+                Selection::World | Selection::Everything => {}
+            }
+        }
+        pairs.iter().map(Pair::triangles).collect()
+    }
+
+    fn first_of(&mut self, of: Selection) -> Option<[u32; 2]> {
+        let pair = self.intersections(of).first().unwrap();
+        pair.map(|pair| pair.triangles())
+    }
 }
 
 /// A small deterministic source of numbers.

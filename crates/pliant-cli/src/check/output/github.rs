@@ -4,6 +4,7 @@
 //! step, so no more are printed.
 
 use super::{Form, Tally, counted};
+use crate::advice;
 use crate::table::grouped;
 use pliant_check::{Check, Found, Row};
 use std::io::{self, Write};
@@ -73,7 +74,10 @@ impl Form for Github {
 
 /// That the check could not begin, or go on.
 pub(super) fn failure(error: &anyhow::Error) -> String {
-    format!("::error title=pliant::{}\n", data(&format!("{error:#}")))
+    format!(
+        "::error title=pliant::{}\n",
+        data(&advice::with_advice(error))
+    )
 }
 
 /// The file of the frame of the source with the first triangle, or the only one that it has.

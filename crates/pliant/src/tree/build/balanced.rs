@@ -7,7 +7,7 @@
 
 use super::Split;
 use super::initial_shape::midpoint;
-use crate::geometry::Scalar;
+use crate::geometry::Real;
 
 pub(crate) struct Balanced {
     midpoints: Vec<[f64; 3]>,
@@ -17,7 +17,7 @@ pub(crate) struct Balanced {
 
 impl Balanced {
     /// Triangles and positions in the caller's order.
-    pub(crate) fn new<S: Scalar>(
+    pub(crate) fn new<S: Real>(
         triangles: &[[u32; 3]],
         positions: &[[S; 3]],
         degree: usize,

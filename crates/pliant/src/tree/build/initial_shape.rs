@@ -5,11 +5,11 @@
 //! about four octants of a cube, so on surfaces about half of eight lanes stay empty; `Balanced` fills them.
 
 use super::Split;
-use crate::geometry::{Bounds, Scalar};
+use crate::geometry::{Bounds, Real};
 
 /// Where a part is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Cut {
+pub(crate) enum CutAt {
     /// At the centre of the part's box.
     Centre,
     /// At the mean of the part's midpoints.
@@ -19,18 +19,18 @@ pub(crate) enum Cut {
 pub(crate) struct InitialShape<'a, S> {
     triangles: &'a [[u32; 3]],
     positions: &'a [[S; 3]],
-    cut: Cut,
+    cut: CutAt,
     /// How many sides are cut: the degree is 2 to this power.
     sides: usize,
     scratch: Vec<(u8, u32)>,
 }
 
-impl<'a, S: Scalar> InitialShape<'a, S> {
+impl<'a, S: Real> InitialShape<'a, S> {
     /// Triangles and positions in the caller's order.
     pub(crate) fn new(
         triangles: &'a [[u32; 3]],
         positions: &'a [[S; 3]],
-        cut: Cut,
+        cut: CutAt,
         degree: usize,
     ) -> Self {
         Self {
@@ -52,11 +52,11 @@ impl<'a, S: Scalar> InitialShape<'a, S> {
 }
 
 /// The mean of three corners. In `f64`, where neither three coordinates of `f32::MAX` nor 2^28 midpoints can overflow.
-pub(super) fn midpoint<S: Scalar>([a, b, c]: [[S; 3]; 3]) -> [f64; 3] {
+pub(super) fn midpoint<S: Real>([a, b, c]: [[S; 3]; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| (a[axis].to_f64() + b[axis].to_f64() + c[axis].to_f64()) / 3.0)
 }
 
-impl<S: Scalar> Split for InitialShape<'_, S> {
+impl<S: Real> Split for InitialShape<'_, S> {
     fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
         let mut bounds = Bounds::EMPTY;
         let mut sum = [0.0; 3];
@@ -68,8 +68,8 @@ impl<S: Scalar> Split for InitialShape<'_, S> {
         }
         let (lo, hi) = (bounds.lo.map(S::to_f64), bounds.hi.map(S::to_f64));
         let point = match self.cut {
-            Cut::Centre => std::array::from_fn(|axis| f64::midpoint(lo[axis], hi[axis])),
-            Cut::Mean => sum.map(|sum| sum / triangles.len() as f64),
+            CutAt::Centre => std::array::from_fn(|axis| f64::midpoint(lo[axis], hi[axis])),
+            CutAt::Mean => sum.map(|sum| sum / triangles.len() as f64),
         };
         let axes = super::axes_by_length(lo, hi);
         let axes = &axes[..self.sides];

@@ -16,7 +16,7 @@ mod initial_shape;
 
 pub(crate) use balanced::Balanced;
 pub(crate) use connectivity::Connectivity;
-pub(crate) use initial_shape::{Cut, InitialShape};
+pub(crate) use initial_shape::{CutAt, InitialShape};
 use std::ops::Range;
 
 /// A division of triangles.

@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The components of a mesh.
-pub(super) struct Connectedness<'a> {
-    triangles: &'a [[u32; 3]],
+pub(super) struct Connectedness {
+    triangles: Vec<[u32; 3]>,
     /// By triangle.
     components: Vec<u32>,
     /// Triangles by component.
     sizes: BTreeMap<u32, usize>,
 }
 
-impl<'a> Connectedness<'a> {
-    pub(super) fn new(triangles: &'a [[u32; 3]]) -> Self {
-        let components = components(triangles);
+impl Connectedness {
+    pub(super) fn new(triangles: Vec<[u32; 3]>) -> Self {
+        let components = components(&triangles);
         let sizes = sizes(&components);
         Self {
             triangles,
@@ -85,7 +85,7 @@ mod tests {
     #[test]
     fn a_piece_or_whole_components() {
         // A strip of three, a strip of two, one that touches both in a vertex, one that is a segment of the first strip's.
-        let triangles = [
+        let triangles = vec![
             [0, 1, 2],
             [1, 2, 3],
             [2, 3, 4],
@@ -94,7 +94,7 @@ mod tests {
             [0, 9, 5],
             [4, 3, 4],
         ];
-        let mesh = Connectedness::new(&triangles);
+        let mesh = Connectedness::new(triangles);
         assert_eq!(mesh.components, [0, 0, 0, 3, 3, 5, 0]);
         for run in [0..1, 0..2, 1..3, 3..5, 3..4, 3..6, 5..6, 6..7, 0..7] {
             assert!(mesh.holds_for(run.clone()), "{run:?}");

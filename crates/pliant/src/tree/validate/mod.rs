@@ -1,106 +1,59 @@
-//! What is always true of a tree.
+//! What is always true of a tree, and of its boxes.
 
 mod connectedness;
 
-use super::{Below, NodeId, Tree};
-use crate::geometry::{Aabb, Bounds, Scalar, Shape};
-use crate::mesh::Mesh;
+use super::{BLOCK_LANES, BoxSet, BoxSource, Child, Tree};
+use crate::ids::{BlockId, LeafId, NodeId, TreeTriangle, TreeVertex};
+use crate::mesh::Order;
 use crate::options::Partition;
 use connectedness::Connectedness;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 impl<const N: usize> Tree<N> {
-    /// Checks structure, boxes and what the partition promises; `Err` says what is wrong. Allocates and takes its time.
-    pub(crate) fn validate<S: Scalar>(
-        &self,
-        mesh: &Mesh,
-        shape: &Shape<S>,
-        partition: Partition,
-    ) -> Result<(), String> {
-        if partition == Partition::Connectivity {
-            self.validate_connectedness(mesh)?;
-        }
-        let count = mesh.corners().len() as u32;
-        let mut visited = 0;
-        let mut deepest = 0;
-        // Node, its level, the triangles that must be below it (None for the root: all), and its parent's box if that is true.
-        let mut open: Vec<(NodeId, u32, Option<Aabb>)> = vec![(NodeId::ROOT, 0, None)];
-        if self.triangles_below(NodeId::ROOT)? != (0..count) {
+    /// Checks the structure and what the partition promises; `Err` says what is wrong. Allocates and takes its time.
+    pub(crate) fn validate(&self, order: &Order, partition: Partition) -> Result<(), String> {
+        let corners = order.all_corners();
+        if self.triangles_below(NodeId::ROOT)? != (0..corners.len()) {
             return Err("the root does not hold all triangles".into());
         }
-        while let Some((node, level, parent)) = open.pop() {
+        let connected = (partition == Partition::Connectivity).then(|| {
+            let corners: Vec<_> = corners.iter().map(|c| c.map(|vertex| vertex.0)).collect();
+            Connectedness::new(corners)
+        });
+        let (mut visited, mut deepest) = (0, 0);
+        let mut open = vec![(NodeId::ROOT, 0)];
+        while let Some((node, level)) = open.pop() {
             visited += 1;
             deepest = deepest.max(level);
-            let (group, lane) = node.group_and_lane::<N>();
-            let siblings = &self.groups[group];
-            if !self.level(level).contains(&(group as u32)) {
+            let (wide_node, lane) = node.wide_node_and_lane::<N>();
+            if !self.level(level).contains(&wide_node.index()) {
                 return Err(format!(
-                    "group {group}: not in the run of its level, {level}"
+                    "{wide_node:?}: not in the run of its level, {level}"
                 ));
             }
             let triangles = self.triangles_below(node)?;
-
-            let below: BTreeSet<u32> = mesh.corners()
-                [triangles.start as usize..triangles.end as usize]
-                .as_flattened()
-                .iter()
-                .copied()
-                .collect();
-            let listed: BTreeSet<u32> = self
-                .vertices
-                .vertices(siblings.first_node as usize + lane)
-                .collect();
-            if listed != below {
+            let below = &corners[triangles.clone()];
+            let below: BTreeSet<TreeVertex> = below.as_flattened().iter().copied().collect();
+            let number = self.wide_node(wide_node).first_node as usize + lane;
+            if self.vertices.vertices(number).collect::<BTreeSet<_>>() != below {
                 return Err(format!(
-                    "node {group}/{lane}: its vertex list is not the set of vertices below it"
+                    "{wide_node:?}, lane {lane}: its vertex list is not the set of vertices below it"
                 ));
             }
-
-            let is_true = siblings.epoch == shape.epoch;
-            let own_box = is_true.then(|| siblings.boxes.get(lane));
-            if let Some(own_box) = own_box {
-                let mut bounds = Bounds::EMPTY;
-                listed
-                    .iter()
-                    .for_each(|&vertex| bounds.include(shape.positions.get(vertex)));
-                let exact = bounds.to_box(shape.origin);
-                if own_box != exact {
-                    return Err(format!(
-                        "node {group}/{lane}: claims to be true and is {own_box:?}, not {exact:?}"
-                    ));
-                }
-                if group != 0 && !parent.is_some_and(|parent| parent.holds(&own_box)) {
-                    return Err(format!(
-                        "node {group}/{lane}: is true and not inside a true parent"
-                    ));
-                }
+            if connected
+                .as_ref()
+                .is_some_and(|all| !all.holds_for(triangles.clone()))
+            {
+                return Err(format!(
+                    "{wide_node:?}, lane {lane}: neither one connected piece nor whole components"
+                ));
             }
-
-            match siblings.children[lane].below() {
-                Below::Leaf(leaf) => self.validate_leaf(leaf, is_true, shape)?,
-                Below::Group(below) => {
-                    let mut next = triangles.start;
-                    let lanes = self.groups[below as usize].len();
-                    if lanes < 2 {
-                        return Err(format!("group {below}: {lanes} children"));
-                    }
-                    for lane in 0..lanes {
-                        let child = NodeId::new::<N>(below, lane);
-                        let run = self.triangles_below(child)?;
-                        if run.start != next || run.is_empty() {
-                            return Err(format!(
-                                "group {below}: children do not divide their parent's triangles"
-                            ));
-                        }
-                        next = run.end;
-                        open.push((child, level + 1, own_box));
-                    }
-                    if next != triangles.end {
-                        return Err(format!(
-                            "group {below}: children do not hold all of their parent's triangles"
-                        ));
-                    }
+            match self.child(node) {
+                Child::Leaf(leaf) => self.validate_blocks(leaf)?,
+                Child::Inner(below) => {
+                    self.validate_division(node, triangles)?;
+                    open.extend(self.nodes_in(below).map(|node| (node, level + 1)));
                 }
             }
         }
@@ -114,73 +67,142 @@ impl<const N: usize> Tree<N> {
         Ok(())
     }
 
-    /// Of every node, leaves included.
-    fn validate_connectedness(&self, mesh: &Mesh) -> Result<(), String> {
-        let connectedness = Connectedness::new(mesh.corners());
-        let mut open = vec![NodeId::ROOT];
-        while let Some(node) = open.pop() {
-            let triangles = self.triangles_below(node)?;
-            if !connectedness.holds_for(triangles.start as usize..triangles.end as usize) {
-                let (group, lane) = node.group_and_lane::<N>();
-                return Err(format!(
-                    "node {group}/{lane}: neither one connected piece nor whole components"
-                ));
+    /// Checks that every valid box is what the source gives over the vertices below it, and that what is above a valid box is valid.
+    pub(crate) fn validate_boxes(
+        &self,
+        boxes: &BoxSet<N>,
+        source: &impl BoxSource,
+    ) -> Result<(), String> {
+        let version = source.version();
+        // A node, and whether the wide node above it is valid; nothing is above the root.
+        let mut open = vec![(NodeId::ROOT, true)];
+        while let Some((node, above)) = open.pop() {
+            let (wide_node, lane) = node.wide_node_and_lane::<N>();
+            let is_valid = boxes.holds(wide_node, version);
+            if is_valid && !above {
+                return Err(format!("{wide_node:?}: valid below a stale one"));
             }
-            if let Below::Group(below) = self.child(node).below() {
-                let lanes = 0..self.groups[below as usize].len();
-                open.extend(lanes.map(|lane| NodeId::new::<N>(below, lane)));
+            if is_valid {
+                let number = self.wide_node(wide_node).first_node as usize + lane;
+                let vertices: Vec<_> = self.vertices.vertices(number).collect();
+                let (found, expected) = (
+                    boxes.nodes().one(node),
+                    source.plainly(vertices.into_iter()),
+                );
+                if found != expected {
+                    return Err(format!(
+                        "{wide_node:?}, lane {lane}: claims to be valid and is {found:?}, not {expected:?}"
+                    ));
+                }
+            }
+            match self.child(node) {
+                Child::Leaf(leaf) => self.validate_leaf_boxes(leaf, is_valid, boxes, source)?,
+                Child::Inner(below) => {
+                    open.extend(self.nodes_in(below).map(|node| (node, is_valid)));
+                }
             }
         }
         Ok(())
     }
 
-    fn validate_leaf<S: Scalar>(
-        &self,
-        leaf: u32,
-        is_true: bool,
-        shape: &Shape<S>,
-    ) -> Result<(), String> {
-        if !self.leaves.have_boxes() {
+    /// The children of a node divide its triangles.
+    fn validate_division(&self, node: NodeId, triangles: Range<usize>) -> Result<(), String> {
+        let Child::Inner(below) = self.child(node) else {
             return Ok(());
+        };
+        let mut next = triangles.start;
+        let mut lanes = 0;
+        for child in self.nodes_in(below) {
+            let run = self.triangles_below(child)?;
+            if run.start != next || run.is_empty() {
+                return Err(format!(
+                    "{below:?}: its nodes do not divide the triangles above"
+                ));
+            }
+            next = run.end;
+            lanes += 1;
         }
-        let claimed = self.leaves.are_true(leaf, shape.epoch);
-        if claimed && !is_true {
+        if lanes < 2 {
+            return Err(format!("{below:?}: {lanes} nodes"));
+        }
+        if next != triangles.end {
             return Err(format!(
-                "leaf {leaf}: the boxes of its triangles are true and its own is not"
+                "{below:?}: its nodes do not hold all triangles above"
             ));
         }
-        let triangles = self.leaves.triangles(leaf);
-        for (index, triangle) in triangles.enumerate() {
-            let block = self.leaves.blocks_of(leaf).start as usize + index / super::LEAF_LANES;
-            if self.leaves.firsts()[block] as usize + index % super::LEAF_LANES != triangle as usize
-            {
-                return Err(format!("leaf {leaf}: its blocks hold other triangles"));
+        Ok(())
+    }
+
+    /// The blocks of a leaf hold its triangles.
+    fn validate_blocks(&self, leaf: LeafId) -> Result<(), String> {
+        for (triangle, block) in self.block_of_each_triangle(leaf) {
+            let (block, lane) = block;
+            if self.leaves.first_of_block(block).plus(lane) != triangle {
+                return Err(format!("{leaf:?}: its blocks hold other triangles"));
             }
-            let found = self.leaves.blocks()[block].get(index % super::LEAF_LANES);
-            let exact = shape.box_of(triangle);
-            if claimed && found != exact {
+        }
+        Ok(())
+    }
+
+    fn validate_leaf_boxes(
+        &self,
+        leaf: LeafId,
+        above: bool,
+        boxes: &BoxSet<N>,
+        source: &impl BoxSource,
+    ) -> Result<(), String> {
+        let is_valid = self.leaves.have_blocks()
+            && boxes.is_leaf_valid(leaf)
+            && boxes.expects(source.version());
+        if !is_valid {
+            return Ok(());
+        }
+        if !above {
+            return Err(format!(
+                "{leaf:?}: the boxes of its triangles are valid and its own is not"
+            ));
+        }
+        for (triangle, (block, lane)) in self.block_of_each_triangle(leaf) {
+            let found = boxes.blocks().of(block).get(lane as usize);
+            let corners = source.shape().triangles[triangle.index()];
+            let expected = source.plainly(corners.into_iter());
+            if found != expected {
                 return Err(format!(
-                    "leaf {leaf}: triangle {triangle} has box {found:?}, not {exact:?}"
+                    "{leaf:?}: {triangle:?} has box {found:?}, not {expected:?}"
                 ));
             }
         }
         Ok(())
+    }
+
+    /// Where the blocks of a leaf have its triangles: none where there are no blocks.
+    fn block_of_each_triangle(
+        &self,
+        leaf: LeafId,
+    ) -> impl Iterator<Item = (TreeTriangle, (BlockId, u32))> {
+        let first = self.leaves.blocks(leaf).start;
+        let triangles = self
+            .leaves
+            .have_blocks()
+            .then(|| self.leaves.triangles(leaf));
+        let triangles = triangles.unwrap_or(0..0).enumerate();
+        triangles.map(move |(index, triangle)| {
+            let block = BlockId(first + (index / BLOCK_LANES) as u32);
+            let lane = (index % BLOCK_LANES) as u32;
+            (TreeTriangle(triangle as u32), (block, lane))
+        })
     }
 
     /// The run of triangles below a node, from its first leaf to its last.
-    fn triangles_below(&self, node: NodeId) -> Result<Range<u32>, String> {
+    fn triangles_below(&self, node: NodeId) -> Result<Range<usize>, String> {
         let end_of = |last: bool| {
             let mut node = node;
             for _ in 0..=self.depth {
-                match self.child(node).below() {
-                    Below::Leaf(leaf) => return Ok(self.leaves.triangles(leaf)),
-                    Below::Group(below) => {
-                        let lane = if last {
-                            self.groups[below as usize].len() - 1
-                        } else {
-                            0
-                        };
-                        node = NodeId::new::<N>(below, lane);
+                match self.child(node) {
+                    Child::Leaf(leaf) => return Ok(self.leaves.triangles(leaf)),
+                    Child::Inner(below) => {
+                        let lanes = self.wide_node(below).len();
+                        node = NodeId::new::<N>(below, if last { lanes - 1 } else { 0 });
                     }
                 }
             }
@@ -193,27 +215,17 @@ impl<const N: usize> Tree<N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exec::Threads;
-    use crate::geometry::Points;
-    use crate::kernels::widest;
+    use crate::mesh::Topology;
     use crate::tree::build::{Balanced, Connectivity, Split, plan};
 
     /// What is wrong with the tree that a rule makes of these triangles, as a mesh connectivity tree.
-    fn fault(triangles: &[[u32; 3]], positions: &[[f32; 3]], rule: &mut impl Split) -> String {
+    fn fault(triangles: &[[u32; 3]], vertices: usize, rule: &mut impl Split) -> String {
         let mut plan = plan(triangles.len(), 8, 2, rule);
-        let order = std::mem::take(&mut plan.order);
-        let mesh = Mesh::in_order(triangles, positions.len(), order);
-        let mut in_tree_order = Points::with_len(positions.len());
-        in_tree_order.gather(widest(), &Threads::one(), positions, mesh.vertex_ids());
-        let shape = Shape {
-            positions: &in_tree_order,
-            triangles: mesh.corners(),
-            origin: [0.0; 4],
-            epoch: 1,
-        };
-        let tree = Tree::<8>::new(&plan, &mesh);
-        assert_eq!(tree.validate(&mesh, &shape, Partition::Balanced), Ok(()));
-        let found = tree.validate(&mesh, &shape, Partition::Connectivity);
+        let topology = Topology::new(triangles, vertices);
+        let order = Order::new(&topology, std::mem::take(&mut plan.order));
+        let tree = Tree::<8>::new(&plan, &order);
+        assert_eq!(tree.validate(&order, Partition::Balanced), Ok(()));
+        let found = tree.validate(&order, Partition::Connectivity);
         found.err().unwrap_or_default()
     }
 
@@ -223,9 +235,9 @@ mod tests {
         let strip: Vec<[u32; 3]> = (0..32).map(|i| [i, i + 1, i + 2]).collect();
         let positions: Vec<[f32; 3]> = (0..34).map(|i| [(i * 13 % 34) as f32, 0.0, 0.0]).collect();
         let mut balanced = Balanced::new(&strip, &positions, 8, 2);
-        let found = fault(&strip, &positions, &mut balanced);
+        let found = fault(&strip, 34, &mut balanced);
         assert!(found.contains("neither one connected piece"), "{found}");
         let mut connectivity = Connectivity::new(&strip, 8, 2);
-        assert_eq!(fault(&strip, &positions, &mut connectivity), "");
+        assert_eq!(fault(&strip, 34, &mut connectivity), "");
     }
 }

@@ -1,12 +1,12 @@
-//! A graph in two: by whole components, or both sides connected.
+//! A graph in two: by whole components, or both halves connected.
 
-use super::coarsening::{Coarsening, Level};
+use super::coarsening::{Coarsening, Coarser};
 use super::components::Components;
 use super::far_ends::FarEnds;
 use super::graph::Graph;
+use super::halves::{Half, Shares};
 use super::refinement::{Quality, Refinement};
 use super::search::{Search, UNREACHED};
-use super::sides::{Shares, Side};
 use super::subtree::Subtree;
 
 /// A graph of this many nodes is coarse enough to be cut.
@@ -19,29 +19,29 @@ pub(super) struct Bisection {
     search: Search,
     components: Components,
     /// Coarser and coarser; the memory of the largest graph so far.
-    levels: Vec<Level>,
+    levels: Vec<Coarser>,
     coarsening: Coarsening,
     far_ends: FarEnds,
     subtree: Subtree,
     refinement: Refinement,
     /// A cut to compare with, or to make the next of.
-    other: Vec<Side>,
+    other: Vec<Half>,
 }
 
 impl Bisection {
     /// Gives each of two or more nodes a side; none is empty.
-    pub(super) fn bisect(&mut self, graph: &Graph, shares: Shares, sides: &mut Vec<Side>) {
+    pub(super) fn bisect(&mut self, graph: &Graph, shares: Shares, halves: &mut Vec<Half>) {
         self.search.clear(graph.len());
         self.search.reach(graph, 0);
         if self.search.order.len() < graph.len() {
-            self.deal_components(graph, sides);
+            self.share_out_components(graph, halves);
         } else {
-            self.cut(graph, shares, sides);
+            self.cut(graph, shares, halves);
         }
     }
 
     /// The search has reached the first component.
-    fn deal_components(&mut self, graph: &Graph, sides: &mut Vec<Side>) {
+    fn share_out_components(&mut self, graph: &Graph, halves: &mut Vec<Half>) {
         let mut reached = self.search.order.len();
         self.components.clear();
         self.components.push(reached as u32);
@@ -54,33 +54,33 @@ impl Bisection {
             }
         }
         // Components came one after the other.
-        sides.clear();
-        sides.resize(graph.len(), false);
+        halves.clear();
+        halves.resize(graph.len(), false);
         let mut nodes = self.search.order.iter();
-        for (size, side) in self.components.deal() {
+        for (size, side) in self.components.share_out() {
             for &node in nodes.by_ref().take(size as usize) {
-                sides[node as usize] = side;
+                halves[node as usize] = side;
             }
         }
     }
 
     /// Cuts a connected graph.
-    fn cut(&mut self, graph: &Graph, shares: Shares, sides: &mut Vec<Side>) {
+    fn cut(&mut self, graph: &Graph, shares: Shares, halves: &mut Vec<Half>) {
         let coarsest = self.coarsen(graph);
-        let mut quality = self.cut_between_far_ends(coarsest, graph, shares, sides);
+        let mut quality = self.cut_between_far_ends(coarsest, graph, shares, halves);
         for level in (0..coarsest).rev() {
             let coarse_of = self.levels[level].coarse_of.iter();
             self.other.clear();
             self.other
-                .extend(coarse_of.map(|&node| sides[node as usize]));
-            std::mem::swap(&mut self.other, sides);
+                .extend(coarse_of.map(|&node| halves[node as usize]));
+            std::mem::swap(&mut self.other, halves);
             let finer = at_level(level, &self.levels, graph);
-            quality = self.refinement.refine(finer, shares, sides);
+            quality = self.refinement.refine(finer, shares, halves);
         }
         if quality.excess > 0 {
             self.subtree.cut_off(graph, shares, &mut self.other);
             if self.refinement.refine(graph, shares, &mut self.other) < quality {
-                std::mem::swap(&mut self.other, sides);
+                std::mem::swap(&mut self.other, halves);
             }
         }
     }
@@ -91,7 +91,7 @@ impl Bisection {
         let mut level = 0;
         loop {
             if self.levels.len() == level {
-                self.levels.push(Level::default());
+                self.levels.push(Coarser::default());
             }
             let (levels, coarser) = self.levels.split_at_mut(level);
             let finer = at_level(level, levels, graph);
@@ -112,7 +112,7 @@ impl Bisection {
         level: usize,
         graph: &Graph,
         shares: Shares,
-        sides: &mut Vec<Side>,
+        halves: &mut Vec<Half>,
     ) -> Quality {
         let graph = at_level(level, &self.levels, graph);
         let ends = self.far_ends.find(graph);
@@ -124,7 +124,7 @@ impl Bisection {
                 let quality = self.refinement.refine(graph, shares, other);
                 if quality < best {
                     best = quality;
-                    std::mem::swap(other, sides);
+                    std::mem::swap(other, halves);
                 }
             }
         }
@@ -133,7 +133,7 @@ impl Bisection {
 }
 
 /// The graph at a level: 0 is the one to be cut.
-fn at_level<'a>(level: usize, levels: &'a [Level], graph: &'a Graph) -> &'a Graph {
+fn at_level<'a>(level: usize, levels: &'a [Coarser], graph: &'a Graph) -> &'a Graph {
     match level {
         0 => graph,
         _ => &levels[level - 1].graph,

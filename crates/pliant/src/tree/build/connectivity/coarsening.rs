@@ -10,7 +10,7 @@ use super::graph::{Graph, Link};
 
 /// A coarser graph, and what became of the finer one's nodes.
 #[derive(Debug, Default)]
-pub(super) struct Level {
+pub(super) struct Coarser {
     pub(super) graph: Graph,
     /// By node of the finer graph.
     pub(super) coarse_of: Vec<u32>,
@@ -27,7 +27,7 @@ const ALONE: u32 = u32::MAX;
 
 impl Coarsening {
     /// Contracts pairs of neighbours that weigh at most `most` together.
-    pub(super) fn coarsen(&mut self, fine: &Graph, most: u32, level: &mut Level) {
+    pub(super) fn coarsen(&mut self, fine: &Graph, most: u32, level: &mut Coarser) {
         self.choose_partners(fine, most);
 
         // Coarse nodes in the order of their first fine ones.
@@ -78,8 +78,8 @@ impl Coarsening {
     }
 
     /// Adds the coarse node of two partners, which may be one.
-    fn contract(&mut self, fine: &Graph, node: u32, partner: u32, level: &mut Level) {
-        let Level { graph, coarse_of } = level;
+    fn contract(&mut self, fine: &Graph, node: u32, partner: u32, level: &mut Coarser) {
+        let Coarser { graph, coarse_of } = level;
         let own = coarse_of[node as usize];
         let mut weight = fine.weight(node);
         let mut add_links_of = |node: u32| {
@@ -125,7 +125,7 @@ mod tests {
     fn weights_and_links_are_kept() {
         let mut coarsening = Coarsening::default();
         for (graph, most) in [(path(100), 2), (path(100), 1), (star(7, 9), 3)] {
-            let (mut finer, mut level) = (graph, Level::default());
+            let (mut finer, mut level) = (graph, Coarser::default());
             loop {
                 coarsening.coarsen(&finer, most, &mut level);
                 let coarse = &level.graph;
@@ -157,7 +157,7 @@ mod tests {
             ring.push_link(b, 1);
             ring.push_node(1);
         }
-        let mut level = Level::default();
+        let mut level = Coarser::default();
         Coarsening::default().coarsen(&ring, 4, &mut level);
         assert_eq!(level.coarse_of, [0, 0, 1, 1]);
         assert_eq!(level.graph.links(0), [Link { to: 1, weight: 2 }]);

@@ -1,13 +1,13 @@
 //! The first cut of a connected graph: between two far ends.
 //!
-//! With distances p and q to two nodes a and b, one side is where p - q is at most some value. Both sides are connected, for
+//! With distances p and q to two nodes a and b, one side is where p - q is at most some value. Both halves are connected, for
 //! any value: a step towards a takes one from p and at most one from q, so p - q does not grow on the way to a, nor does it
 //! shrink on the way to b. The value is the one that comes nearest to the shares. A cut between ends that are far apart runs
 //! across the graph, and so is short.
 
 use super::graph::Graph;
+use super::halves::{Half, Shares};
 use super::search::Search;
-use super::sides::{Shares, Side};
 
 /// How many ends are found, and in a graph of fewer nodes than these. All pairs of ends are worth a try.
 const MOST_ENDS: usize = 3;
@@ -64,7 +64,7 @@ impl FarEnds {
         graph: &Graph,
         [a, b]: [usize; 2],
         shares: Shares,
-        sides: &mut Vec<Side>,
+        halves: &mut Vec<Half>,
     ) {
         let (p, q) = (&self.searches[a].distances, &self.searches[b].distances);
         let apart = p[self.ends[b] as usize];
@@ -83,8 +83,8 @@ impl FarEnds {
             let unevenness = shares.unevenness([weight, graph.total() - weight]);
             best = best.min((unevenness, value));
         }
-        sides.clear();
-        sides.extend((0..graph.len()).map(|node| value(node) > best.1));
+        halves.clear();
+        halves.extend((0..graph.len()).map(|node| value(node) > best.1));
     }
 }
 
@@ -93,18 +93,18 @@ mod tests {
     use super::super::graph::tests::{path, star};
     use super::*;
 
-    fn on_each_side(sides: &[Side]) -> [usize; 2] {
-        [false, true].map(|side| sides.iter().filter(|&&other| other == side).count())
+    fn on_each_side(halves: &[Half]) -> [usize; 2] {
+        [false, true].map(|side| halves.iter().filter(|&&other| other == side).count())
     }
 
     #[test]
     fn a_path_is_cut_by_shares() {
-        let (mut ends, mut sides) = (FarEnds::default(), Vec::new());
+        let (mut ends, mut halves) = (FarEnds::default(), Vec::new());
         for (children, expected) in [(2, [14, 14]), (7, [12, 16])] {
             let path = path(28);
             assert_eq!(ends.find(&path), 2);
-            ends.cut_between(&path, [0, 1], Shares::halves(children), &mut sides);
-            assert_eq!(on_each_side(&sides), expected);
+            ends.cut_between(&path, [0, 1], Shares::halves(children), &mut halves);
+            assert_eq!(on_each_side(&halves), expected);
         }
     }
 
@@ -120,10 +120,10 @@ mod tests {
 
     #[test]
     fn two_nodes_are_two_ends() {
-        let (mut ends, mut sides) = (FarEnds::default(), Vec::new());
+        let (mut ends, mut halves) = (FarEnds::default(), Vec::new());
         let pair = path(2);
         assert_eq!(ends.find(&pair), 2);
-        ends.cut_between(&pair, [0, 1], Shares::halves(2), &mut sides);
-        assert_eq!(on_each_side(&sides), [1, 1]);
+        ends.cut_between(&pair, [0, 1], Shares::halves(2), &mut halves);
+        assert_eq!(on_each_side(&halves), [1, 1]);
     }
 }

@@ -9,7 +9,7 @@
 //!
 //! ```text
 //! a part:  cut it in two, and again, until there are `degree` pieces, or a piece fits a leaf
-//! cut:     components, if there are several, are dealt out whole      components
+//! cut:     components, if there are several, are shared out whole      components
 //!          a connected piece is bisected into two connected pieces    bisection
 //! bisect:  contract neighbours, again and again                       coarsening
 //!          cut the coarsest graph between two far ends                far_ends
@@ -21,7 +21,7 @@
 //! tree costs the same whatever the mesh.
 //!
 //! Multilevel bisection is Karypis and Kumar's (*A Fast and High Quality Multilevel Scheme for Partitioning Irregular Graphs*,
-//! 1998), known from METIS. What differs: both sides are connected at every moment. Each step keeps that in its own graph,
+//! 1998), known from METIS. What differs: both halves are connected at every moment. Each step keeps that in its own graph,
 //! which is enough, because a node of any graph is a connected set of triangles.
 
 mod bisection;
@@ -30,17 +30,17 @@ mod components;
 mod dual_graph;
 mod far_ends;
 mod graph;
+mod halves;
 mod nearby;
 mod refinement;
 mod search;
-mod sides;
 mod subtree;
 
 use super::Split;
 use bisection::Bisection;
 use dual_graph::DualGraph;
 use graph::Graph;
-use sides::{Shares, Side};
+use halves::{Half, Shares};
 
 pub(crate) struct Connectivity {
     dual: DualGraph,
@@ -49,7 +49,7 @@ pub(crate) struct Connectivity {
     bisection: Bisection,
     /// The piece at hand, and on which side each of its triangles goes.
     piece: Graph,
-    sides: Vec<Side>,
+    halves: Vec<Half>,
     /// Triangles of the second side.
     second: Vec<u32>,
 }
@@ -63,7 +63,7 @@ impl Connectivity {
             leaf_size: leaf_size as usize,
             bisection: Bisection::default(),
             piece: Graph::default(),
-            sides: Vec::new(),
+            halves: Vec::new(),
             second: Vec::new(),
         }
     }
@@ -71,13 +71,13 @@ impl Connectivity {
     /// Cuts a piece in two: orders its triangles so that each side is a run, and returns the length of the first.
     fn cut(&mut self, triangles: &mut [u32], shares: Shares) -> usize {
         self.dual.extract(triangles, &mut self.piece);
-        self.bisection.bisect(&self.piece, shares, &mut self.sides);
+        self.bisection.bisect(&self.piece, shares, &mut self.halves);
 
         // The first triangle stays the first, and all of a side stay in order.
-        let first = self.sides[0];
+        let first = self.halves[0];
         let mut length = 0;
         self.second.clear();
-        for (place, &side) in self.sides.iter().enumerate() {
+        for (place, &side) in self.halves.iter().enumerate() {
             if side == first {
                 triangles[length] = triangles[place];
                 length += 1;
@@ -101,7 +101,7 @@ impl Split for Connectivity {
             }
             let run = &mut triangles[start..start + length];
             let left = self.cut(run, Shares::halves(children));
-            // By what the sides have got, which may be far from half: components are dealt out whole.
+            // By what the halves have got, which may be far from half: components are shared out whole.
             let left_children = (2 * children * left + length) / (2 * length);
             let left_children = left_children.clamp(1, children - 1);
             runs.push((start + left, length - left, children - left_children));

@@ -5,7 +5,7 @@
 //! which is always right to do.
 
 use super::graph::Graph;
-use super::sides::Side;
+use super::halves::Half;
 
 /// How many links are followed at most.
 const BOUND: usize = 256;
@@ -27,15 +27,15 @@ impl Nearby {
     }
 
     /// Whether a side is known to be connected, and not empty, without a node of it.
-    pub(super) fn may_leave(&mut self, graph: &Graph, sides: &[Side], node: u32) -> bool {
-        let side = sides[node as usize];
+    pub(super) fn may_leave(&mut self, graph: &Graph, halves: &[Half], node: u32) -> bool {
+        let side = halves[node as usize];
         let (wanted, reached) = (self.last_mark + 1, self.last_mark + 2);
         self.last_mark = reached;
         self.queue.clear();
         let mut missing = 0_u32;
         let links = graph.links(node);
         for link in &links[..links.len().min(BOUND)] {
-            if sides[link.to as usize] == side {
+            if halves[link.to as usize] == side {
                 self.marks[link.to as usize] = wanted;
                 missing += 1;
                 if missing == 1 {
@@ -56,7 +56,7 @@ impl Nearby {
             let links = &links[..links.len().min(BOUND - followed)];
             for link in links {
                 let mark = &mut self.marks[link.to as usize];
-                if *mark != reached && sides[link.to as usize] == side {
+                if *mark != reached && halves[link.to as usize] == side {
                     missing -= u32::from(*mark == wanted);
                     *mark = reached;
                     self.queue.push(link.to);
@@ -89,13 +89,13 @@ mod tests {
         let graph = ring(6);
         let mut nearby = Nearby::default();
         nearby.clear(graph.len());
-        let mut sides = [true; 6];
-        assert!((0..6).all(|node| nearby.may_leave(&graph, &sides, node)));
-        sides[0] = false;
-        let may_leave = [1, 2, 3, 4, 5].map(|node| nearby.may_leave(&graph, &sides, node));
+        let mut halves = [true; 6];
+        assert!((0..6).all(|node| nearby.may_leave(&graph, &halves, node)));
+        halves[0] = false;
+        let may_leave = [1, 2, 3, 4, 5].map(|node| nearby.may_leave(&graph, &halves, node));
         assert_eq!(may_leave, [true, false, false, false, true]);
         // Alone on its side.
-        assert!(!nearby.may_leave(&graph, &sides, 0));
+        assert!(!nearby.may_leave(&graph, &halves, 0));
     }
 
     #[test]
@@ -105,8 +105,8 @@ mod tests {
         let mut nearby = Nearby::default();
         for (graph, expected) in [(near, true), (far, false)] {
             nearby.clear(graph.len());
-            let sides = vec![true; graph.len()];
-            assert_eq!(nearby.may_leave(&graph, &sides, 7), expected);
+            let halves = vec![true; graph.len()];
+            assert_eq!(nearby.may_leave(&graph, &halves, 7), expected);
         }
     }
 

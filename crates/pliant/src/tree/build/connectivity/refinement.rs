@@ -1,13 +1,13 @@
-//! A shorter border and more equal sides, a node at a time: Fiduccia and Mattheyses (*A Linear-Time Heuristic for Improving
-//! Network Partitions*, 1982), on a cut whose sides are connected and stay so.
+//! A shorter border and more equal halves, a node at a time: Fiduccia and Mattheyses (*A Linear-Time Heuristic for Improving
+//! Network Partitions*, 1982), on a cut whose halves are connected and stay so.
 //!
 //! A pass moves nodes of the border to the other side, always the one that shortens the border most, and each once; it goes on
 //! for a while where the border gets longer, and in the end back to the best cut it saw. A side that is too heavy gives nodes
 //! away until it is not. A node whose side might fall apart stays (`nearby`).
 
 use super::graph::Graph;
+use super::halves::{Half, Shares};
 use super::nearby::Nearby;
-use super::sides::{Shares, Side};
 use std::collections::BinaryHeap;
 use std::ops::RangeInclusive;
 
@@ -16,7 +16,7 @@ use std::ops::RangeInclusive;
 pub(super) struct Quality {
     /// How much heavier a side is than it may be.
     pub(super) excess: u32,
-    /// Weight of the links between the sides.
+    /// Weight of the links between the halves.
     pub(super) border: u32,
     /// How far the weights are from the shares.
     pub(super) unevenness: u64,
@@ -69,9 +69,9 @@ impl Candidate {
 }
 
 impl Refinement {
-    /// Improves a cut with two connected sides, which stay connected.
-    pub(super) fn refine(&mut self, graph: &Graph, shares: Shares, sides: &mut [Side]) -> Quality {
-        let mut cut = Cut::new(self, graph, shares, sides);
+    /// Improves a cut with two connected halves, which stay connected.
+    pub(super) fn refine(&mut self, graph: &Graph, shares: Shares, halves: &mut [Half]) -> Quality {
+        let mut cut = Cut::new(self, graph, shares, halves);
         let mut quality = cut.quality();
         for pass in 1..=MOST_PASSES {
             let better = cut.improve(pass);
@@ -88,9 +88,9 @@ impl Refinement {
 struct Cut<'a> {
     graph: &'a Graph,
     shares: Shares,
-    /// What the sides may weigh.
+    /// What the halves may weigh.
     limits: [u32; 2],
-    sides: &'a mut [Side],
+    halves: &'a mut [Half],
     weights: [u32; 2],
     border: u32,
     known: &'a mut Refinement,
@@ -101,7 +101,7 @@ impl<'a> Cut<'a> {
         known: &'a mut Refinement,
         graph: &'a Graph,
         shares: Shares,
-        sides: &'a mut [Side],
+        halves: &'a mut [Half],
     ) -> Self {
         known.within.clear();
         known.across.clear();
@@ -111,10 +111,10 @@ impl<'a> Cut<'a> {
         let mut weights = [0; 2];
         let mut both_ways = 0;
         for node in 0..graph.len() as u32 {
-            let side = sides[node as usize];
+            let side = halves[node as usize];
             let mut sums = [0; 2];
             for link in graph.links(node) {
-                sums[usize::from(sides[link.to as usize] != side)] += link.weight;
+                sums[usize::from(halves[link.to as usize] != side)] += link.weight;
             }
             known.within.push(sums[0]);
             known.across.push(sums[1]);
@@ -127,7 +127,7 @@ impl<'a> Cut<'a> {
             graph,
             shares,
             limits: shares.limits(graph.total(), slack),
-            sides,
+            halves,
             weights,
             border: both_ways / 2,
             known,
@@ -178,7 +178,7 @@ impl<'a> Cut<'a> {
     fn offer(&mut self, node: u32, pass: u32) {
         if self.may_be_moved(node, pass) {
             let candidate = Candidate::new(self.gain(node), node);
-            self.known.candidates[usize::from(self.sides[node as usize])].push(candidate);
+            self.known.candidates[usize::from(self.halves[node as usize])].push(candidate);
         }
     }
 
@@ -216,7 +216,7 @@ impl<'a> Cut<'a> {
                 too_much < excess
             };
             // One that must stay is offered again when something next to it is moved.
-            if fits && self.known.nearby.may_leave(self.graph, self.sides, node) {
+            if fits && self.known.nearby.may_leave(self.graph, self.halves, node) {
                 return Some(node);
             }
         }
@@ -226,7 +226,7 @@ impl<'a> Cut<'a> {
     fn best(&mut self, side: usize, pass: u32) -> Option<Candidate> {
         while let Some(&candidate) = self.known.candidates[side].peek() {
             let node = candidate.node();
-            if usize::from(self.sides[node as usize]) == side
+            if usize::from(self.halves[node as usize]) == side
                 && self.may_be_moved(node, pass)
                 && candidate == Candidate::new(self.gain(node), node)
             {
@@ -240,16 +240,16 @@ impl<'a> Cut<'a> {
     fn change_side(&mut self, node: u32) {
         let here = node as usize;
         let weight = self.graph.weight(node);
-        self.weights[usize::from(self.sides[here])] -= weight;
-        self.sides[here] = !self.sides[here];
-        self.weights[usize::from(self.sides[here])] += weight;
+        self.weights[usize::from(self.halves[here])] -= weight;
+        self.halves[here] = !self.halves[here];
+        self.weights[usize::from(self.halves[here])] += weight;
 
         let Refinement { within, across, .. } = &mut *self.known;
         self.border = self.border + within[here] - across[here];
         std::mem::swap(&mut within[here], &mut across[here]);
         for link in self.graph.links(node) {
             let there = link.to as usize;
-            if self.sides[there] == self.sides[here] {
+            if self.halves[there] == self.halves[here] {
                 within[there] += link.weight;
                 across[there] -= link.weight;
             } else {

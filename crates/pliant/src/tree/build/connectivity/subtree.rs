@@ -1,12 +1,12 @@
 //! A cut for graphs like trees: one side is a subtree of a breadth-first tree.
 //!
-//! Both sides of it are connected. Where many arms are equally far from two ends, a cut between them may leave all of these on
+//! Both halves of it are connected. Where many arms are equally far from two ends, a cut between them may leave all of these on
 //! one side; this one does not: of k links at most at each node, some subtree has at least a k-th of the weight (less one
 //! node) and not much more than half, so that halving ends after few levels on any mesh, where k is six.
 
 use super::graph::Graph;
+use super::halves::{Half, Shares};
 use super::search::Search;
-use super::sides::{Shares, Side};
 
 #[derive(Debug, Default)]
 pub(super) struct Subtree {
@@ -18,7 +18,7 @@ pub(super) struct Subtree {
 
 impl Subtree {
     /// Cuts a connected graph of two nodes or more.
-    pub(super) fn cut_off(&mut self, graph: &Graph, shares: Shares, sides: &mut Vec<Side>) {
+    pub(super) fn cut_off(&mut self, graph: &Graph, shares: Shares, halves: &mut Vec<Half>) {
         let root = self.search.farthest(graph, 0);
         self.search.farthest(graph, root);
         let Search { order, distances } = &self.search;
@@ -37,11 +37,11 @@ impl Subtree {
             let unevenness = shares.unevenness([graph.total() - weight, weight]);
             best = best.min((unevenness, node));
         }
-        sides.clear();
-        sides.resize(graph.len(), false);
+        halves.clear();
+        halves.resize(graph.len(), false);
         for &node in &order[1..] {
             let above = self.above[node as usize];
-            sides[node as usize] = node == best.1 || sides[above as usize];
+            halves[node as usize] = node == best.1 || halves[above as usize];
         }
     }
 }
@@ -53,10 +53,10 @@ mod tests {
 
     #[test]
     fn arms_are_cut_off() {
-        let (mut subtree, mut sides) = (Subtree::default(), Vec::new());
+        let (mut subtree, mut halves) = (Subtree::default(), Vec::new());
         let mut smaller = |graph: &Graph| {
-            subtree.cut_off(graph, Shares::halves(2), &mut sides);
-            let here = sides.iter().filter(|&&side| side).count();
+            subtree.cut_off(graph, Shares::halves(2), &mut halves);
+            let here = halves.iter().filter(|&&side| side).count();
             here.min(graph.len() - here)
         };
         assert_eq!(smaller(&path(2)), 1);

@@ -1,0 +1,262 @@
+#!/usr/bin/env python3
+"""What the library costs those who compile it, in seconds of processor time (user and system, of all processes), which does not
+depend on what else the machine does. Fails if an aim is missed.
+
+    benchmarks/compile_cost.py simulator                  a simulator's debug build against its release build
+    benchmarks/compile_cost.py rebuild                    a six-line program, compiled again after one changed line
+    benchmarks/compile_cost.py tests [--before COMMIT]    `cargo test --workspace` from nothing, compiling and running
+    benchmarks/compile_cost.py size [--before COMMIT]     the program, as built and stripped
+    benchmarks/compile_cost.py all [--before COMMIT]
+
+`tests` and `size` have an aim only beside an earlier commit, which is then taken out of git and measured in the same way: minutes.
+`--exclude PACKAGE` leaves a package of the workspace out of the tests, of both. Everything is made in a temporary folder, which goes
+away; nothing in the checkout's target folder is used or changed. Needs Python 3.10, cargo, on a system with getrusage; and git.
+"""
+
+import argparse
+import os
+import resource
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+CHECKOUT = Path(__file__).resolve().parent.parent
+
+# What is measured is at most so many times what it is compared with, or so many seconds.
+SIMULATOR_AT_MOST = 1.3
+REBUILD_AT_MOST = 1.0
+TESTS_AT_MOST = 0.4
+SIZE_AT_MOST = 1.0
+
+SIMULATOR = """\
+use pliant::{Selection, World};
+
+const SIDE: usize = 100;
+
+/// Two triangles a square, SIDE x SIDE squares.
+fn triangles() -> Vec<[u32; 3]> {
+    let row = SIDE as u32 + 1;
+    let squares = (0..SIDE as u32).flat_map(|y| (0..SIDE as u32).map(move |x| y * row + x));
+    squares.flat_map(|at| [[at, at + 1, at + row], [at + row, at + 1, at + row + 1]]).collect()
+}
+
+/// Waves that run slantwise, in two sheets that are not exactly above each other: no exact contact, which few simulations have.
+fn wave(positions: &mut [[f32; 3]], height: f32, phase: f32) {
+    for (y, row) in positions.chunks_exact_mut(SIDE + 1).enumerate() {
+        for (x, position) in row.iter_mut().enumerate() {
+            let [x, y] = [x as f32, y as f32];
+            let waves = (0.13 * x + 0.07 * y + phase).sin() + (0.05 * x - 0.11 * y - phase).sin();
+            *position = [0.01 * x + 0.13 * height, 0.01 * y + 0.07 * height, height + 0.03 * waves];
+        }
+    }
+}
+
+fn main() {
+    // With "alone" the simulator moves its sheets and asks nothing: what is not the library's.
+    let alone = std::env::args().any(|argument| argument == "alone");
+    let mut world = World::<f32>::new();
+    let mut positions = [(); 2].map(|()| vec![[0.0; 3]; (SIDE + 1) * (SIDE + 1)]);
+    let bodies = [0, 1].map(|sheet| {
+        wave(&mut positions[sheet], 0.03 * sheet as f32, sheet as f32);
+        world.add(&triangles(), &positions[sheet]).unwrap()
+    });
+    let mut pairs = 0;
+    for step in 0..60 {
+        for sheet in 0..2 {
+            let phase = 0.1 * step as f32 * (1.0 + sheet as f32) + sheet as f32;
+            wave(&mut positions[sheet], 0.03 * sheet as f32, phase);
+            std::hint::black_box(&positions[sheet]);
+            if !alone {
+                world.set_positions(bodies[sheet], &positions[sheet]).unwrap();
+            }
+        }
+        if !alone {
+            pairs += world.intersections(Selection::Everything).all().unwrap().len();
+        }
+    }
+    println!("{pairs}");
+}
+"""
+
+SIX_LINES = """\
+fn main() {
+    let mut world = pliant::World::<f32>::new();
+    world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.5]]).unwrap();
+    world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.5], [1.0, 0.0, 0.5], [0.0, 1.0, 0.0]]).unwrap();
+    println!("{:?}", world.intersections(pliant::Selection::Everything).all());
+}
+"""
+
+failed = []
+
+
+def check(what, found, most, unit):
+    """Prints a figure beside its aim, and notes it if it is missed."""
+    missed = found > most
+    print(f"    {what}: {found:.3g}{unit}, aim at most {most:g}{unit}{': MISSED' if missed else ''}", flush=True)
+    if missed:
+        failed.append(what)
+
+
+def run(command, folder, target=None):
+    """Processor time of a command and of everything that it starts, and what it printed. Ends the script if the command fails."""
+    environment = dict(os.environ)
+    if target:
+        environment["CARGO_TARGET_DIR"] = str(target)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(
+        [str(part) for part in command], cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))} failed:\n{done.stdout[-4000:]}\n{done.stderr[-4000:]}")
+    return (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime), done.stdout
+
+
+def make_crate(folder, name, main, profiles=""):
+    """A crate of its own that uses the library of this checkout, in the versions that the checkout has locked."""
+    (folder / "src").mkdir(parents=True)
+    (folder / "src/main.rs").write_text(main)
+    # Its own workspace, should the temporary folder be inside another.
+    (folder / "Cargo.toml").write_text(
+        f'[package]\nname = "{name}"\nversion = "0.0.0"\nedition = "2024"\n\n[workspace]\n\n'
+        f'[dependencies]\npliant = {{ path = "{(CHECKOUT / "crates/pliant").as_posix()}" }}\n{profiles}'
+    )
+    shutil.copy(CHECKOUT / "Cargo.lock", folder / "Cargo.lock")
+    return folder
+
+
+PROFILES = """
+[profile.dev.package."*"]
+opt-level = 3
+
+[profile.unchecked]
+inherits = "dev"
+
+[profile.unchecked.package."*"]
+opt-level = 3
+debug-assertions = false
+"""
+
+
+def simulator(temporary, _):
+    """The builds take turns. In debug, dependencies are optimised as Bevy's book tells its readers to do."""
+    crate = make_crate(temporary / "simulator", "simulator", SIMULATOR, PROFILES)
+    target = temporary / "simulator-target"
+    # What comes from a registry is never compiled incrementally; what comes from a path is, unless this is said.
+    os.environ["CARGO_INCREMENTAL"] = "0"
+    builds = {"release": "release", "dev": "debug", "unchecked": "unchecked"}
+    compiled, times, alone, printed = {}, {}, {}, set()
+    for profile in builds:
+        compiled[profile] = run(["cargo", "build", "--quiet", "--profile", profile], crate, target)[0]
+    del os.environ["CARGO_INCREMENTAL"]
+    for _ in range(15):
+        for profile, folder in builds.items():
+            program = target / folder / "simulator"
+            time, pairs = run([program], crate)
+            times.setdefault(profile, []).append(time)
+            alone.setdefault(profile, []).append(run([program, "alone"], crate)[0])
+            printed.add(pairs)
+    if len(printed) != 1:
+        sys.exit(f"the builds found different pairs: {printed}")
+    print(f"simulator: two sheets of 20,000 triangles, 60 steps, {printed.pop().strip()} pairs")
+    for profile in builds:
+        print(
+            f"    {profile}: {statistics.median(times[profile]):.3f} s, of which without a step's positions and queries "
+            f"{statistics.median(alone[profile]):.3f} s; compiled in {compiled[profile]:.1f} s"
+        )
+    medians = {profile: statistics.median(times[profile]) for profile in builds}
+    without = medians["unchecked"] / medians["release"]
+    print(f"    debug against release, no debug assertions in dependencies: {without:.3g}")
+    check("debug against release", medians["dev"] / medians["release"], SIMULATOR_AT_MOST, "")
+
+
+def rebuild(temporary, _):
+    crate = make_crate(temporary / "six-lines", "six-lines", SIX_LINES)
+    target = temporary / "six-lines-target"
+    first, _ = run(["cargo", "build", "--quiet", "--release"], crate, target)
+    times = []
+    for change in range(5):
+        (crate / "src/main.rs").write_text(SIX_LINES.replace("1.0, 0.5", f"1.0, 0.{change}"))
+        times.append(run(["cargo", "build", "--quiet", "--release"], crate, target)[0])
+    print(f"rebuild: a program of six lines, in release; at first, with the library, {first:.1f} s")
+    check("after one changed line", statistics.median(times), REBUILD_AT_MOST, " s")
+
+
+def taken_out(commit, temporary):
+    """A commit's files, in a folder of their own."""
+    folder = temporary / "before"
+    if not folder.exists():
+        folder.mkdir()
+        archive = temporary / "before.tar"
+        run(["git", "archive", "--output", archive, commit], CHECKOUT)
+        shutil.unpack_archive(archive, folder)
+        # What tests read beside the checkout they read beside the earlier commit too.
+        if (CHECKOUT.parent / "shared").exists():
+            (temporary / "shared").symlink_to(CHECKOUT.parent / "shared")
+    return folder
+
+
+def tests(temporary, arguments):
+    def measure(name, folder):
+        target = temporary / f"tests-target-{name}"
+        command = ["cargo", "test", "--workspace"] + [
+            part for package in arguments.exclude for part in ("--exclude", package)
+        ]
+        compiling, _ = run([*command, "--no-run"], folder, target)
+        running, _ = run(command, folder, target)
+        shutil.rmtree(target)
+        print(f"    {name}: {compiling + running:.0f} s; compiling all but doctests {compiling:.0f} s", flush=True)
+        return compiling + running
+
+    print("tests: `cargo test --workspace` from nothing", flush=True)
+    now = measure("now", CHECKOUT)
+    if arguments.before:
+        before = measure("before", taken_out(arguments.before, temporary))
+        check(f"against {arguments.before}", now / before, TESTS_AT_MOST, "")
+
+
+def size(temporary, arguments):
+    def measure(name, folder):
+        target = temporary / f"size-target-{name}"
+        command = ["cargo", "build", "--quiet", "--release", "--package", "pliant-cli"]
+        compiled, _ = run(command, folder, target)
+        program = target / "release/pliant"
+        sizes = [program.stat().st_size]
+        if shutil.which("strip"):
+            run(["strip", program], folder)
+            sizes.append(program.stat().st_size)
+        shutil.rmtree(target)
+        stripped = f", stripped {sizes[1]:,} bytes" if len(sizes) == 2 else ""
+        print(f"    {name}: as built {sizes[0]:,} bytes{stripped}; compiled in {compiled:.0f} s", flush=True)
+        return sizes
+
+    print("size: the program `pliant`, in release", flush=True)
+    now = measure("now", CHECKOUT)
+    if arguments.before:
+        before = measure("before", taken_out(arguments.before, temporary))
+        for what, new, old in zip(("as built", "stripped"), now, before):
+            check(f"{what} against {arguments.before}", new / old, SIZE_AT_MOST, "")
+
+
+COSTS = {"simulator": simulator, "rebuild": rebuild, "tests": tests, "size": size}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("cost", choices=[*COSTS, "all"])
+    parser.add_argument("--before", metavar="COMMIT", help="measure this commit too, and compare")
+    parser.add_argument("--exclude", metavar="PACKAGE", action="append", default=[], help="not tested")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="pliant-compile-cost-") as temporary:
+        for name, cost in COSTS.items():
+            if arguments.cost in (name, "all"):
+                cost(Path(temporary), arguments)
+    if failed:
+        sys.exit(f"missed: {'; '.join(failed)}")
+
+
+main()

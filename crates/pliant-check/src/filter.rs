@@ -1,0 +1,203 @@
+//! Who may meet whom: names, groups of names, and pairs of them that are ignored.
+//!
+//! Bodies that the same names stand for are of one *class*; whether two bodies meet is known of their classes. So `A,B` is one
+//! entry however many bodies are called A and B: thousands of pieces of a file, say.
+
+use crate::bodies::Bodies;
+use crate::error::Error;
+use crate::settings::Group;
+use pliant_io::Body as Source;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::ops::Range;
+
+/// Which bodies do not meet.
+#[derive(Debug, Default)]
+pub(crate) struct Filter {
+    /// For each body its class; empty where all are of class 0.
+    classes: Vec<u32>,
+    /// Pairs of classes that do not meet, the smaller first.
+    ignored: BTreeSet<[u32; 2]>,
+}
+
+impl Filter {
+    /// Understands `groups` and `ignore`; names that are nobody's are refused.
+    pub(crate) fn new(
+        sources: &[Source],
+        bodies: &Bodies,
+        groups: &[Group],
+        ignore: &[[String; 2]],
+    ) -> Result<Self, Error> {
+        let names = Names::new(sources, bodies, groups)?;
+        if ignore.is_empty() {
+            return Ok(Self::default());
+        }
+        let mut terms: Vec<&str> = ignore.as_flattened().iter().map(String::as_str).collect();
+        terms.sort_unstable();
+        terms.dedup();
+
+        let mut classes = vec![0; bodies.count() as usize];
+        // For each class the terms that stand for its bodies.
+        let mut terms_of: Vec<Vec<&str>> = vec![Vec::new()];
+        for term in terms {
+            // Bodies of a class that this term stands for are a new class.
+            let mut parted = BTreeMap::new();
+            for body in names.all(term)? {
+                let class = &mut classes[body as usize];
+                *class = *parted.entry(*class).or_insert_with(|| {
+                    let more = [&terms_of[*class as usize][..], &[term]].concat();
+                    terms_of.push(more);
+                    terms_of.len() as u32 - 1
+                });
+            }
+        }
+        let called = |term: &String| -> Vec<u32> {
+            let is_called = |class: &u32| terms_of[*class as usize].contains(&term.as_str());
+            (0..terms_of.len() as u32).filter(is_called).collect()
+        };
+        let mut ignored = BTreeSet::new();
+        for [a, b] in ignore {
+            let (of_a, of_b) = (called(a), called(b));
+            ignored.extend(
+                of_a.iter()
+                    .flat_map(|&a| of_b.iter().map(move |&b| [a.min(b), a.max(b)])),
+            );
+        }
+        Ok(Self { classes, ignored })
+    }
+
+    /// Whether two bodies meet, or a body itself.
+    pub(crate) fn meet(&self, a: u32, b: u32) -> bool {
+        self.ignored.is_empty() || self.classes_meet(self.class(a), self.class(b))
+    }
+
+    /// Whether any of some bodies meets any of others.
+    pub(crate) fn any_meet(&self, some: Range<u32>, others: Range<u32>) -> bool {
+        if self.ignored.is_empty() {
+            return true;
+        }
+        let classes =
+            |bodies: Range<u32>| -> BTreeSet<u32> { bodies.map(|body| self.class(body)).collect() };
+        let others = classes(others);
+        classes(some)
+            .into_iter()
+            .any(|a| others.iter().any(|&b| self.classes_meet(a, b)))
+    }
+
+    fn class(&self, body: u32) -> u32 {
+        self.classes.get(body as usize).copied().unwrap_or(0)
+    }
+
+    fn classes_meet(&self, a: u32, b: u32) -> bool {
+        !self.ignored.contains(&[a.min(b), a.max(b)])
+    }
+}
+
+/// What names stand for.
+struct Names<'a> {
+    sources: &'a [Source],
+    bodies: &'a Bodies,
+    groups: BTreeMap<&'a str, Vec<u32>>,
+}
+
+impl<'a> Names<'a> {
+    fn new(sources: &'a [Source], bodies: &'a Bodies, groups: &'a [Group]) -> Result<Self, Error> {
+        let mut names = Self {
+            sources,
+            bodies,
+            groups: BTreeMap::new(),
+        };
+        for Group { name, bodies } in groups {
+            let bad = |why| Error::BadGroup {
+                name: name.clone(),
+                why,
+            };
+            if name.is_empty() {
+                return Err(bad("it needs a name"));
+            }
+            if names.groups.contains_key(name.as_str()) {
+                return Err(bad(
+                    "there is a group of this name; name all its bodies at once, or choose another name",
+                ));
+            }
+            if names.of_bodies(name).is_some() || name.bytes().all(|c| c.is_ascii_digit()) {
+                return Err(bad(
+                    "it is the name or number of a body; choose another name",
+                ));
+            }
+            if bodies.is_empty() {
+                let name = name.clone();
+                return Err(Error::EmptyGroup { name });
+            }
+            let mut members = Vec::new();
+            for body in bodies {
+                let of_name = names.of_bodies(body);
+                members.extend(of_name.ok_or_else(|| names.unknown("body", body))?);
+            }
+            names.groups.insert(name, members);
+        }
+        Ok(names)
+    }
+
+    /// All bodies that a name stands for.
+    fn all(&self, name: &str) -> Result<Vec<u32>, Error> {
+        match self.groups.get(name) {
+            Some(members) => Ok(members.clone()),
+            None => self
+                .of_bodies(name)
+                .ok_or_else(|| self.unknown("body or group", name)),
+        }
+    }
+
+    /// The bodies of the sources or the file of this name, the piece of this name, or the body of this number.
+    fn of_bodies(&self, name: &str) -> Option<Vec<u32>> {
+        let with = |is: &dyn Fn(&Source) -> bool| -> Vec<usize> {
+            let places = 0..self.sources.len();
+            places.filter(|&place| is(&self.sources[place])).collect()
+        };
+        let called = |name: &str| with(&|source| source.name() == name);
+        for sources in [called(name), with(&|source| source.argument() == name)] {
+            let whole = sources
+                .into_iter()
+                .flat_map(|source| self.bodies.of_source(source));
+            let whole: Vec<u32> = whole.collect();
+            if !whole.is_empty() {
+                return Some(whole);
+            }
+        }
+        if let Some((source, piece)) = name.rsplit_once('#')
+            && self.bodies.are_pieces()
+            && let Ok(piece @ 1..) = piece.parse::<u32>()
+        {
+            let of_piece = |source| self.bodies.of_source(source).nth(piece as usize - 1);
+            let pieces: Vec<u32> = called(source).into_iter().filter_map(of_piece).collect();
+            return (!pieces.is_empty()).then_some(pieces);
+        }
+        let number = name.parse().ok()?;
+        (number < self.bodies.count()).then(|| vec![number])
+    }
+
+    fn unknown(&self, wanted: &'static str, name: &str) -> Error {
+        /// So many names fit a line that is read.
+        const MOST: u32 = 20;
+        let count = self.bodies.count();
+        let mut there = "bodies: ".to_owned();
+        for body in 0..count.min(MOST) {
+            let separator = if body > 0 { ", " } else { "" };
+            let name = self.bodies.facts(self.sources, body).name;
+            let _ = write!(there, "{separator}{body} = {name:?}");
+        }
+        if count > MOST {
+            let _ = write!(there, ", and {} more", count - MOST);
+        }
+        for (number, group) in self.groups.keys().enumerate() {
+            let separator = if number > 0 { ", " } else { "; groups: " };
+            let _ = write!(there, "{separator}{group:?}");
+        }
+        Error::NoSuchName {
+            wanted,
+            name: name.to_owned(),
+            there,
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! A check against worlds made by hand: every piece a body of its own there, every frame a world of its own, every rule asked of
+//! every pair.
+
+use pliant::{Selection, World};
+use pliant_check::{Check, Found, Group, Row, Settings, Split};
+use pliant_io::OpenOptions;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// Pieces of a source: each a few triangles that share corners, somewhere in a small cube in every frame.
+#[derive(Clone, Debug)]
+struct SourceMade {
+    /// The piece that each triangle is of, as they come in the file.
+    order: Vec<usize>,
+    /// For each frame, piece and corner the position.
+    frames: Vec<Vec<[[u8; 3]; 7]>>,
+}
+
+const FRAMES: usize = 3;
+
+impl SourceMade {
+    /// Triangles of a piece go round its seven corners, each sharing two with the one before: they hang together, but the first
+    /// and the fourth share none.
+    fn triangles(&self) -> Vec<[usize; 3]> {
+        let mut next = BTreeMap::new();
+        let triangle = |&piece: &usize| {
+            let nth: &mut usize = next.entry(piece).or_insert(0);
+            *nth += 1;
+            [*nth, *nth + 1, *nth + 2].map(|corner| 7 * piece + corner % 7)
+        };
+        self.order.iter().map(triangle).collect()
+    }
+
+    fn positions(&self, frame: usize) -> Vec<[f64; 3]> {
+        let corners = self.frames[frame].as_flattened();
+        corners.iter().map(|corner| corner.map(f64::from)).collect()
+    }
+
+    fn write(&self, folder: &Path, name: &str) {
+        for frame in 0..FRAMES {
+            let mut text = String::new();
+            for [x, y, z] in self.positions(frame) {
+                writeln!(text, "v {x} {y} {z}").unwrap();
+            }
+            for corners in self.triangles() {
+                let [a, b, c] = corners.map(|corner| corner + 1);
+                writeln!(text, "f {a} {b} {c}").unwrap();
+            }
+            fs::write(folder.join(format!("{name}_{frame}.obj")), text).unwrap();
+        }
+    }
+
+    /// Triangles by piece, pieces in the order of their lowest triangle.
+    fn pieces(&self) -> Vec<Vec<usize>> {
+        let mut pieces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (triangle, &piece) in self.order.iter().enumerate() {
+            pieces.entry(piece).or_default().push(triangle);
+        }
+        let mut pieces: Vec<_> = pieces.into_values().collect();
+        pieces.sort();
+        pieces
+    }
+}
+
+/// All pairs of a frame, those of bodies with themselves too.
+fn by_hand(sources: &[SourceMade], split: bool, frame: usize) -> Vec<Row> {
+    let mut world = World::<f64>::new();
+    // For each body of the world its triangles, as the source numbers them.
+    let mut bodies = Vec::new();
+    for source in sources {
+        let all = source.triangles();
+        let whole = vec![(0..all.len()).collect()];
+        for piece in if split { source.pieces() } else { whole } {
+            let triangles = piece.iter().map(|&t| all[t].map(|corner| corner as u32));
+            let triangles: Vec<_> = triangles.collect();
+            world.add(&triangles, &source.positions(frame)).unwrap();
+            bodies.push(piece);
+        }
+    }
+    let named = |body: u32, triangle: u32| [body, bodies[body as usize][triangle as usize] as u32];
+    let mut rows: Vec<Row> = Vec::new();
+    for pair in world.intersections(Selection::World).all().unwrap() {
+        let [[a, t], [b, u]] = [
+            named(pair.body_a.0, pair.triangle_a),
+            named(pair.body_b.0, pair.triangle_b),
+        ];
+        rows.push([a, t, b, u]);
+    }
+    for id in world.bodies().collect::<Vec<_>>() {
+        for &pair in world.intersections(Selection::Within(id)).all().unwrap() {
+            let [[a, t], [b, u]] = pair.triangles().map(|triangle| named(id.0, triangle));
+            rows.push([a, t, b, u]);
+        }
+    }
+    rows.sort_unstable();
+    rows
+}
+
+fn all_frames(mut check: Check) -> Vec<Found> {
+    let mut all = Vec::new();
+    while let Some(found) = check.next_frame().unwrap() {
+        all.push(found);
+    }
+    assert!(check.next_frame().unwrap().is_none());
+    all
+}
+
+fn source() -> impl Strategy<Value = SourceMade> {
+    let corner = prop::array::uniform3(0..9_u8);
+    let piece = prop::array::uniform7(corner);
+    let frames = prop::collection::vec(prop::collection::vec(piece, 4), FRAMES);
+    (prop::collection::vec(0..4_usize, 1..16), frames)
+        .prop_map(|(order, frames)| SourceMade { order, frames })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn what_is_asked_is_what_is_found(
+        sources in prop::collection::vec(source(), 1..4),
+        split: bool,
+        itself: bool,
+        first: bool,
+        listed: bool,
+        baseline in prop::option::of(0..FRAMES),
+        rules in prop::collection::vec((0..30_u32, 0..30_u32, any::<bool>()), 0..4),
+        members in prop::collection::vec(0..30_u32, 1..5),
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut arguments = Vec::new();
+        for (number, source) in sources.iter().enumerate() {
+            let name = format!("s{number}");
+            source.write(folder.path(), &name);
+            arguments.push(folder.path().join(name + "_*.obj").display().to_string());
+        }
+        let count_of = |source: &SourceMade| if split { source.pieces().len() } else { 1 };
+        let count = sources.iter().map(count_of).sum::<usize>() as u32;
+
+        // A rule names two bodies by number, or a body and the group.
+        let members: Vec<u32> = members.iter().map(|member| member % count).collect();
+        let rules: Vec<(Vec<u32>, Vec<u32>, [String; 2])> = rules.iter().map(|&(a, b, group)| {
+            let a = a % count;
+            if group {
+                let twice = b % 3 == 0;
+                let name = if twice { "group".to_owned() } else { a.to_string() };
+                (if twice { members.clone() } else { vec![a] }, members.clone(), [name, "group".to_owned()])
+            } else {
+                let b = b % count;
+                (vec![a], vec![b], [a.to_string(), b.to_string()])
+            }
+        }).collect();
+        let meets = |[a, _, b, _]: &Row| !rules.iter().any(|(some, others, _)| {
+            some.contains(a) && others.contains(b) || some.contains(b) && others.contains(a)
+        });
+        let is_asked = |row: &&Row| (row[0] != row[2] || itself || count == 1) && meets(row);
+        let expected = |frame| -> Vec<Row> {
+            by_hand(&sources, split, frame).iter().filter(is_asked).copied().collect()
+        };
+        let known = baseline.map_or_else(Vec::new, expected);
+
+        let settings = Settings {
+            itself,
+            first,
+            listed,
+            split: split.then_some(Split::Components),
+            groups: vec![Group { name: "group".to_owned(), bodies: members.iter().map(u32::to_string).collect() }],
+            ignore: rules.iter().map(|(_, _, names)| names.clone()).collect(),
+            baseline,
+            ..Settings::default()
+        };
+        // Every piece has vertices of its own, and coinciding edges are to stay two.
+        let reading = OpenOptions { weld: false, ..OpenOptions::default() };
+        let check = Check::open(&arguments, &reading, &settings).unwrap();
+        prop_assert_eq!(check.body_count(), count as usize);
+        let found = all_frames(check);
+        prop_assert_eq!(found.len(), FRAMES);
+        for found in found {
+            let (old, new): (Vec<Row>, Vec<Row>) =
+                expected(found.frame).into_iter().partition(|row| known.binary_search(row).is_ok());
+            prop_assert_eq!(found.complete, !first);
+            if first {
+                prop_assert_eq!(found.count, new.len().min(1));
+                prop_assert!(found.smallest.is_none_or(|row| new.contains(&row)));
+                prop_assert_eq!(found.smallest.is_some(), !new.is_empty());
+                let all_were_left_out = baseline.is_some() && new.is_empty();
+                prop_assert_eq!(found.left_out, all_were_left_out.then_some(old.len()));
+            } else {
+                prop_assert_eq!(found.count, new.len());
+                prop_assert_eq!(found.smallest, new.first().copied());
+                prop_assert_eq!(found.left_out, baseline.map(|_| old.len()));
+            }
+            if listed && !first {
+                prop_assert_eq!(found.pairs, new);
+            } else {
+                prop_assert_eq!(found.pairs.len(), if listed { found.count } else { 0 });
+            }
+        }
+    }
+}

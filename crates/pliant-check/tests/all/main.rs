@@ -1,0 +1,7 @@
+//! The tests of the crate, one file a module, in one program: a program each is linked with the whole library each time.
+//! One file: `cargo test -p pliant-check --test all against_worlds::`.
+
+mod against_worlds;
+mod formats;
+mod messages;
+mod settings;

@@ -1,0 +1,390 @@
+//! `pliant check` from end to end: every exit code, and every way in which files can be wrong.
+
+use crate::common::{check, folder, pliant};
+use serde_json::json;
+use std::fs;
+use std::path::Path;
+
+/// A right-angled triangle of side 2 in the plane z, as an OBJ file.
+fn flat(z: f64) -> String {
+    format!("v 0 0 {z}\nv 2 0 {z}\nv 0 2 {z}\nf 1 2 3\n")
+}
+
+/// A triangle that stands upright in x = 0.5 and crosses the plane z = 0 if `z` is above -1 and below 1.
+fn upright(z: f64) -> String {
+    format!(
+        "v 0.5 0.25 {}\nv 0.5 0.25 {}\nv 0.5 0.75 {}\nf 1 2 3\n",
+        z - 1.0,
+        z + 1.0,
+        z + 1.0
+    )
+}
+
+/// Two triangles without a common vertex: do they cross each other?
+fn pair(crossing: bool) -> String {
+    let z = if crossing { 0.0 } else { 5.0 };
+    flat(0.0) + &upright(z).replace("f 1 2 3", "f 4 5 6")
+}
+
+#[test]
+fn zero_when_nothing_intersects() {
+    let folder = folder(&[("a.obj", pair(false)), ("b.obj", upright(9.0))]);
+    for arguments in [
+        &["a.obj"][..],
+        &["a.obj", "b.obj"],
+        &["a.obj", "b.obj", "--self"],
+        &["a.obj", "--first"],
+    ] {
+        let said = check(folder.path(), arguments);
+        assert_eq!((said.code, said.err.as_str()), (0, ""), "{}", said.out);
+        assert!(said.out.contains("0 of 1 frames intersect"), "{}", said.out);
+    }
+}
+
+#[test]
+fn one_when_something_intersects() {
+    let folder = folder(&[
+        ("a.obj", pair(true)),
+        ("b.obj", upright(0.0)),
+        ("c.obj", flat(50.0)),
+    ]);
+    let path = folder.path();
+    let itself = check(path, &["a.obj", "--format", "json"]);
+    assert_eq!((itself.code, itself.err.as_str()), (1, ""));
+    let bodies = json!([{"name": "a.obj", "vertices": 6, "triangles": 2}]);
+    let frames = json!([{"frame": 0, "count": 1, "pairs": [[0, 0, 0, 1]]}]);
+    assert_eq!(
+        itself.json(),
+        json!({"format": 1, "bodies": bodies, "frames": frames})
+    );
+
+    // Several bodies: against each other, and with --self each also against itself.
+    let others = check(path, &["a.obj", "b.obj", "c.obj", "--format", "json"]);
+    assert_eq!(
+        others.json()["frames"][0]["pairs"],
+        json!([[0, 0, 1, 0], [0, 1, 1, 0]])
+    );
+    let all = check(path, &["b.obj", "a.obj", "--self", "--format", "json"]);
+    assert_eq!(
+        all.json()["frames"][0]["pairs"],
+        json!([[0, 0, 1, 0], [0, 0, 1, 1], [1, 0, 1, 1]])
+    );
+
+    let count = check(path, &["a.obj", "b.obj", "--count", "--format", "json"]);
+    assert_eq!(count.json()["frames"], json!([{"frame": 0, "count": 2}]));
+    assert_eq!(count.code, 1);
+
+    let first = check(path, &["b.obj", "a.obj", "--first", "--format", "json"]);
+    let frame = &first.json()["frames"][0];
+    assert_eq!(
+        (&frame["count"], &frame["complete"]),
+        (&json!(1), &json!(false))
+    );
+    assert!([json!([[0, 0, 1, 0]]), json!([[0, 0, 1, 1]])].contains(&frame["pairs"]));
+    let none = check(path, &["b.obj", "c.obj", "--first", "--format", "json"]);
+    assert_eq!(
+        (none.code, &none.json()["frames"]),
+        (
+            0,
+            &json!([{"frame": 0, "count": 0, "complete": false, "pairs": []}])
+        )
+    );
+
+    let table = check(path, &["a.obj"]);
+    assert!(
+        table
+            .out
+            .contains("1 of 1 frames intersect; most pairs: 1 in frame 0"),
+        "{}",
+        table.out
+    );
+    assert!(
+        table
+            .out
+            .contains("triangle 0 of body 0, triangle 1 of body 0"),
+        "{}",
+        table.out
+    );
+}
+
+#[test]
+fn the_table_separates_thousands_in_counts_and_not_in_numbers_of_triangles() {
+    let folder = tempfile::tempdir().unwrap();
+    // A thousand triangles far from each other, then fifty that lie on each other.
+    let corners = |x: usize, y: usize| {
+        format!(
+            "v {x} {y} 0\nv {} {y} 0\nv {x} {} 0\nf -3 -2 -1\n",
+            x + 99,
+            y + 99
+        )
+    };
+    let apart = (0..1000).map(|place| corners(0, 100 + 100 * place));
+    let mesh: String = apart
+        .chain((0..50).map(|place| corners(place, 0)))
+        .collect();
+    fs::write(folder.path().join("many.obj"), mesh).unwrap();
+    let table = check(folder.path(), &["many.obj"]).out;
+    let lines: Vec<_> = table.lines().collect();
+    assert_eq!(
+        lines[0],
+        "body 0: many.obj, 3,150 vertices, 1,050 triangles"
+    );
+    assert_eq!(
+        lines[4],
+        "       0     1,225  triangle 1000 of body 0, triangle 1001 of body 0"
+    );
+    assert_eq!(
+        lines[6],
+        "1 of 1 frames intersect; most pairs: 1,225 in frame 0"
+    );
+}
+
+#[test]
+fn a_pattern_is_a_sequence_in_natural_order() {
+    // Crossing in frames 9 and 11 only: in the order of characters, 10 would come first.
+    let mut files: Vec<_> = (9..12)
+        .map(|i| {
+            (
+                format!("move_{i}.obj"),
+                upright(if i == 10 { 7.0 } else { 0.0 }),
+            )
+        })
+        .collect();
+    files.push(("still.obj".into(), flat(0.0)));
+    let files: Vec<_> = files
+        .iter()
+        .map(|(name, text)| (name.as_str(), text.clone()))
+        .collect();
+    let folder = folder(&files);
+    let said = check(
+        folder.path(),
+        &["move_*.obj", "still.obj", "--format", "json"],
+    );
+    assert_eq!(said.counts(), [1, 0, 1]);
+    assert_eq!((said.code, said.err.as_str()), (1, ""));
+
+    // A shell that expanded the pattern made three bodies of it.
+    let expanded = check(folder.path(), &["move_9.obj", "move_10.obj", "move_11.obj"]);
+    assert!(expanded.err.contains("'move_*.obj'"), "{}", expanded.err);
+    assert_eq!(expanded.code, 1, "bodies 0 and 2 are in the same place");
+}
+
+#[test]
+fn polygons_are_triangles_that_know_their_face() {
+    let text = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nf 1 2 3 4\n".to_owned()
+        + &upright(0.0).replace("f 1 2 3", "f 5 6 7");
+    let folder = folder(&[("quad.obj", text)]);
+    let said = check(folder.path(), &["quad.obj", "--format", "json"]);
+    assert_eq!(
+        said.json()["bodies"][0],
+        json!({"name": "quad.obj", "vertices": 7, "triangles": 3, "faces": [0, 0, 1]})
+    );
+    // The upright triangle touches the diagonal at (0.5, 0.5), and so both halves of the square.
+    assert_eq!(
+        said.json()["frames"][0]["pairs"],
+        json!([[0, 0, 0, 2], [0, 1, 0, 2]])
+    );
+}
+
+#[test]
+fn seams_are_welded_unless_told_not_to() {
+    // A strip of two triangles, each with vertices of its own.
+    let text =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 4 5 6\n".to_owned();
+    let folder = folder(&[("seam.obj", text)]);
+    let welded = check(folder.path(), &["seam.obj", "--format", "json"]);
+    assert_eq!(
+        (welded.code, &welded.json()["bodies"][0]["welded"]),
+        (0, &json!(2))
+    );
+    let table = check(folder.path(), &["seam.obj"]);
+    assert!(table.out.contains("2 vertices welded"), "{}", table.out);
+    let apart = check(
+        folder.path(),
+        &["seam.obj", "--no-weld", "--format", "json"],
+    );
+    assert_eq!(
+        (apart.code, &apart.json()["frames"][0]["pairs"]),
+        (1, &json!([[0, 0, 0, 1]]))
+    );
+}
+
+#[test]
+fn two_when_it_cannot_be_checked() {
+    let folder = folder(&[
+        ("good.obj", pair(true)),
+        ("empty.obj", String::new()),
+        ("range.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n".into()),
+        ("text.obj", "v 0 zero 0\n".into()),
+        ("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".into()),
+        ("huge.obj", "v 0 0 1e39\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".into()),
+        (
+            "cut.ply",
+            "ply\nformat ascii 1.0\nelement vertex 99\nproperty float x\nend_header\n1\n".into(),
+        ),
+        ("mesh.xyz", "1 2 3\n".into()),
+        ("cut.npz", "PK\u{3}\u{4}".into()),
+    ]);
+    let path = folder.path();
+    fs::create_dir(path.join("folder.obj")).unwrap();
+    check(path, &["missing.obj"]).assert_refused(&["missing.obj"]);
+    check(path, &["missing_*.obj"]).assert_refused(&["missing_*.obj"]);
+    check(path, &["empty.obj"]).assert_refused(&["empty.obj"]);
+    check(path, &["range.obj"]).assert_refused(&["range.obj", "line 3"]);
+    check(path, &["text.obj"]).assert_refused(&["text.obj", "line 1"]);
+    check(path, &["nan.obj"]).assert_refused(&["nan.obj", "vertex 0"]);
+    check(path, &["huge.obj"]).assert_refused(&["huge.obj", "vertex 0"]);
+    check(path, &["cut.ply"]).assert_refused(&["cut.ply"]);
+    check(path, &["cut.npz"]).assert_refused(&["cut.npz"]);
+    check(path, &["mesh.xyz"]).assert_refused(&["mesh.xyz", "obj", "ply", "npz"]);
+    check(path, &["folder.obj"]).assert_refused(&["folder.obj"]);
+    // A good body does not help: nothing is printed as if it had been checked.
+    let said = check(path, &["good.obj", "nan.obj", "--format", "json"]);
+    said.assert_refused(&["nan.obj"]);
+    assert_eq!(said.out, "");
+}
+
+#[test]
+fn two_when_a_late_frame_cannot_be_checked_even_after_hits() {
+    let other = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n".to_owned();
+    let folder = folder(&[
+        ("s_0.obj", pair(true)),
+        ("s_1.obj", pair(false)),
+        ("s_2.obj", other),
+        ("s_3.obj", pair(true)),
+    ]);
+    let json = check(folder.path(), &["s_*.obj", "--format", "json"]);
+    json.assert_refused(&["s_2.obj"]);
+    assert_eq!(
+        json.counts(),
+        [1, 0],
+        "what was checked stands, and the object is closed"
+    );
+    let error = json.json()["error"].as_str().unwrap().to_owned();
+    assert!(
+        error.contains("s_2.obj") && json.err.contains(&error),
+        "{error}"
+    );
+    let table = check(folder.path(), &["s_*.obj"]);
+    table.assert_refused(&["s_2.obj"]);
+    assert_eq!(
+        table
+            .out
+            .lines()
+            .filter(|line| line.trim_start().starts_with(['0', '1']))
+            .count(),
+        2,
+        "{}",
+        table.out
+    );
+}
+
+#[test]
+fn the_table_names_the_file_of_each_frame() {
+    let folder = folder(&[
+        ("7.obj", pair(true)),
+        ("227.obj", pair(false)),
+        ("still.obj", flat(9.0)),
+    ]);
+    let path = folder.path();
+    for (file, z) in [("one/b.obj", 1.0), ("two/b.obj", 2.0)] {
+        let file = path.join(file);
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(file, flat(z)).unwrap();
+    }
+    let rows = |arguments: &[&str]| {
+        let table = check(path, arguments).out;
+        let from_header_on = table
+            .lines()
+            .skip_while(|line| !line.trim_start().starts_with("frame"));
+        let rows = from_header_on.take_while(|line| !line.is_empty());
+        rows.map(String::from).collect::<Vec<_>>()
+    };
+    let of_numbers = [
+        "   frame  file        pairs  first pair",
+        "       0  7.obj           1  triangle 0 of body 0, triangle 1 of body 0",
+        "       1  227.obj         0",
+    ];
+    assert_eq!(rows(&["[0-9]*.obj"]), of_numbers);
+    assert_eq!(
+        rows(&["[0-9]*.obj", "--count"]),
+        of_numbers.map(|row| row.get(..27).unwrap_or(row))
+    );
+    // What all have in common is said in the line of the body.
+    let whole = path.join("[0-9]*.obj");
+    assert_eq!(rows(&[whole.to_str().unwrap()]), of_numbers);
+    let of_folders = rows(&["*/b.obj"]);
+    assert_eq!(of_folders[1..].concat().matches("b.obj").count(), 2);
+    for (row, file) in of_folders[1..].iter().zip(["one", "two"]) {
+        let file = Path::new(file).join("b.obj").display().to_string();
+        assert!(row.split_whitespace().any(|word| word == file), "{row}");
+    }
+    // Two bodies in files: the header says of which.
+    let of_two = rows(&["still.obj", "*/b.obj", "[0-9]*.obj"]);
+    assert_eq!(of_two[0], "   frame  file of body 1     pairs  first pair");
+    assert_eq!(of_two[2].find("1  two"), Some(7), "{}", of_two[2]);
+    // One file is all frames: its name stands in the head.
+    assert_eq!(
+        rows(&["still.obj", "7.obj"]),
+        ["   frame     pairs  first pair", "       0         0"]
+    );
+}
+
+#[test]
+fn frame_counts_must_be_equal_or_one() {
+    let folder = folder(&[
+        ("a_0.obj", flat(0.0)),
+        ("a_1.obj", flat(1.0)),
+        ("a_2.obj", flat(2.0)),
+        ("b_0.obj", flat(0.0)),
+        ("b_1.obj", flat(3.0)),
+    ]);
+    check(folder.path(), &["a_*.obj", "b_*.obj"])
+        .assert_refused(&["a_*.obj has 3", "b_*.obj has 2"]);
+}
+
+#[test]
+fn a_long_sequence_is_streamed() {
+    let folder = tempfile::tempdir().unwrap();
+    for frame in 0..120 {
+        fs::write(
+            folder.path().join(format!("f{frame}.obj")),
+            upright(f64::from(frame % 7) - 3.0),
+        )
+        .unwrap();
+    }
+    fs::write(folder.path().join("ground.obj"), flat(0.0)).unwrap();
+    let said = check(
+        folder.path(),
+        &["f*.obj", "ground.obj", "--format", "json", "--count"],
+    );
+    // Upright triangles reach from z - 1 to z + 1, so they meet the ground at z = -1, 0 and 1: touching counts.
+    let expected: Vec<u64> = (0..120)
+        .map(|frame| u64::from((2..=4).contains(&(frame % 7))))
+        .collect();
+    assert_eq!(said.counts(), expected);
+}
+
+#[test]
+fn wrong_words_are_explained() {
+    let folder = folder(&[]);
+    for arguments in [
+        &["check"][..],
+        &["check", "a.obj", "--format", "xml"],
+        &["chekc"],
+        &[],
+    ] {
+        let said = pliant(folder.path(), arguments);
+        assert_eq!(said.code, 2);
+        assert!(
+            said.err.contains("Usage") || said.err.contains("--help"),
+            "{}",
+            said.err
+        );
+    }
+    let help = pliant(folder.path(), &["--help"]);
+    assert_eq!(help.code, 0);
+    for verb in ["pliant run", "pliant check"] {
+        assert!(help.out.contains(verb), "{}", help.out);
+    }
+}

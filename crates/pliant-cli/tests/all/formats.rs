@@ -1,0 +1,161 @@
+//! `pliant check` for other programs: --format github, --format lines, --quiet.
+
+use crate::common::check;
+use std::fmt::Write;
+use std::fs;
+use tempfile::TempDir;
+
+const SHEET: &str = "v -1 -1 0\nv 9 -1 0\nv -1 9 0\nf 1 2 3\n";
+
+/// Fifteen frames of an upright triangle that crosses a sheet, and one more above it; frame 2 is clear.
+fn folder(name: &str) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for frame in 0..15 {
+        let low = if frame == 2 { 5 } else { -1 };
+        let text = format!("v 1 0 {low}\nv 1 0 7\nv 1 2 7\nf 1 2 3\n");
+        fs::write(folder.path().join(format!("{name}{frame}.obj")), text).unwrap();
+    }
+    fs::write(folder.path().join("sheet.obj"), SHEET).unwrap();
+    folder
+}
+
+#[test]
+fn github_shows_the_first_frames_on_their_files() {
+    let folder = folder("m,100%:_");
+    let said = check(
+        folder.path(),
+        &["m*.obj", "sheet.obj", "--format", "github"],
+    );
+    assert_eq!((said.code, said.err.as_str()), (1, ""));
+    let lines: Vec<_> = said.out.lines().collect();
+    // Commas, colons and per cents would end the name, or begin an escape.
+    assert_eq!(
+        lines[0],
+        "::error file=m%2C100%25%3A_0.obj,title=pliant::frame 0: 1 pair of triangles intersects; \
+         the first: triangle 0 of m*.obj and triangle 0 of sheet.obj"
+    );
+    assert!(
+        lines[2].contains("_3.obj,") && lines[2].contains("::frame 3: "),
+        "{}",
+        lines[2]
+    );
+    let annotations = lines.iter().filter(|line| line.starts_with("::error"));
+    assert_eq!(annotations.count(), 10);
+    assert_eq!(
+        lines[10..],
+        ["pliant: 14 of 15 frames intersect; most pairs: 1 in frame 0; the first 10 are annotated"]
+    );
+
+    let baseline = [
+        "m*.obj",
+        "sheet.obj",
+        "--format",
+        "github",
+        "--baseline",
+        "0",
+    ];
+    let said = check(folder.path(), &baseline);
+    assert_eq!(
+        (said.code, said.out.as_str()),
+        (0, "pliant: 0 of 15 frames intersect\n")
+    );
+    let first = check(
+        folder.path(),
+        &["m*.obj", "sheet.obj", "--format", "github", "--first"],
+    )
+    .out;
+    assert!(first.contains("at least 1 pair"), "{first}");
+}
+
+#[test]
+fn github_says_why_it_could_not_be_checked() {
+    let folder = folder("m");
+    fs::write(folder.path().join("m4.obj"), "no mesh\n").unwrap();
+    fs::write(folder.path().join("bad.obj"), "v 0 0 100%\n").unwrap();
+    let advice = "; mend it, or export it again";
+    for (body, errors, words) in [("m*.obj", 4, "m4.obj"), ("bad.obj", 1, "bad.obj, line 1")] {
+        let said = check(folder.path(), &[body, "sheet.obj", "--format", "github"]);
+        said.assert_refused(&[words, advice]);
+        let lines: Vec<_> = said.out.lines().collect();
+        assert_eq!(lines.len(), errors, "{}", said.out);
+        let last = lines[errors - 1];
+        assert!(
+            last.starts_with("::error title=pliant::")
+                && last.contains(words)
+                && last.ends_with(advice),
+            "{last}"
+        );
+        assert!(!last.contains("% "), "{last}");
+    }
+}
+
+#[test]
+fn a_line_for_each_pair() {
+    let folder = folder("m");
+    let said = check(folder.path(), &["m*.obj", "sheet.obj", "--format", "lines"]);
+    let mut expected = String::new();
+    for frame in (0..15).filter(|&frame| frame != 2) {
+        writeln!(expected, "{frame} 0 0 1 0").unwrap();
+    }
+    assert_eq!((said.code, said.out, said.err.as_str()), (1, expected, ""));
+    let count = check(
+        folder.path(),
+        &[
+            "m2.obj",
+            "m3.obj",
+            "sheet.obj",
+            "--format",
+            "lines",
+            "--count",
+        ],
+    );
+    assert_eq!(count.out, "0 2\n", "m3 meets m2 and the sheet");
+    let clear = check(folder.path(), &["m2.obj", "sheet.obj", "--format", "lines"]);
+    assert_eq!((clear.code, clear.out.as_str()), (0, ""));
+}
+
+#[test]
+fn lines_are_the_pairs_of_the_json() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut text = SHEET.to_owned();
+    for x in 0..4 {
+        writeln!(text, "v {x} 0 -1\nv {x} 0 1\nv {x} 2 1\nf -1 -2 -3").unwrap();
+    }
+    fs::write(folder.path().join("a.obj"), text).unwrap();
+    let pairs = |format| check(folder.path(), &["a.obj", "--format", format]);
+    let json = pairs("json").json();
+    let rows = json["frames"][0]["pairs"].as_array().unwrap().iter();
+    let row = |row: &serde_json::Value| format!("0 {} {} {} {}\n", row[0], row[1], row[2], row[3]);
+    let expected: String = rows.map(row).collect();
+    assert_eq!(expected.lines().count(), 4);
+    assert_eq!(pairs("lines").out, expected);
+}
+
+#[test]
+fn quiet_says_it_by_its_exit_code() {
+    let folder = folder("m");
+    for format in ["table", "json", "github", "lines"] {
+        let quiet = |arguments: &[&str]| {
+            let said = check(
+                folder.path(),
+                &[arguments, &["--quiet", "--format", format]].concat(),
+            );
+            assert_eq!(said.out, "", "{format}");
+            (said.code, said.err)
+        };
+        assert_eq!(quiet(&["m*.obj", "sheet.obj"]), (1, String::new()));
+        assert_eq!(
+            quiet(&["m2.obj", "sheet.obj", "--self"]),
+            (0, String::new())
+        );
+        assert_eq!(quiet(&["m*.obj", "sheet.obj", "--baseline", "0"]).0, 0);
+        assert_eq!(quiet(&["m*.obj", "sheet.obj", "--baseline", "2"]).0, 1);
+        let (code, said) = quiet(&["absent.obj"]);
+        assert!(code == 2 && said.contains("absent.obj"), "{said}");
+    }
+    // A frame that cannot be read matters more than a pair in one before.
+    fs::write(folder.path().join("m9.obj"), "no mesh").unwrap();
+    let said = check(folder.path(), &["m*.obj", "sheet.obj", "-q"]);
+    said.assert_refused(&["m9.obj"]);
+    assert_eq!(said.out, "");
+}

@@ -1,0 +1,373 @@
+//! `pliant check --hits`: what ParaView is given is what the JSON says. Read by a small reader of XML, here.
+//!
+//! A second opinion on whether others can read it: `benchmarks/read_hits.py`.
+
+use crate::common::{Said, pliant};
+use base64::prelude::{BASE64_STANDARD, Engine};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// An array of a file: its type, and its bytes.
+struct Array {
+    kind: String,
+    bytes: Vec<u8>,
+}
+
+impl Array {
+    fn numbers(&self) -> Vec<f64> {
+        let width = match self.kind.as_str() {
+            "UInt8" => 1,
+            "UInt32" | "Float32" => 4,
+            "Int64" | "Float64" => 8,
+            other => panic!("no array is of {other}"),
+        };
+        assert_eq!(self.bytes.len() % width, 0);
+        let number = |bytes: &[u8]| match self.kind.as_str() {
+            "UInt8" => f64::from(bytes[0]),
+            "UInt32" => f64::from(u32::from_le_bytes(bytes.try_into().unwrap())),
+            "Float32" => f64::from(f32::from_le_bytes(bytes.try_into().unwrap())),
+            "Int64" => i64::from_le_bytes(bytes.try_into().unwrap()) as f64,
+            _ => f64::from_le_bytes(bytes.try_into().unwrap()),
+        };
+        self.bytes.chunks(width).map(number).collect()
+    }
+}
+
+/// A file of VTK's: attributes of its elements, and its arrays by name.
+#[derive(Default)]
+struct Vtk {
+    attributes: BTreeMap<String, String>,
+    arrays: BTreeMap<String, Array>,
+    data_sets: Vec<BTreeMap<String, String>>,
+}
+
+fn unescaped(value: &str) -> String {
+    assert!(!value.contains(['<', '"']), "{value}");
+    let text = value.replace("&lt;", "<").replace("&quot;", "\"");
+    assert_eq!(
+        text.matches('&').count(),
+        text.matches("&amp;").count(),
+        "{text}"
+    );
+    text.replace("&amp;", "&")
+}
+
+/// Reads a file; fails unless every element is ended, in order.
+fn read(path: &Path) -> Vtk {
+    let text =
+        fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let body = text.strip_prefix("<?xml version=\"1.0\"?>\n").unwrap();
+    let (mut vtk, mut open) = (Vtk::default(), Vec::new());
+    for element in body.split('<').skip(1) {
+        let (tag, content) = element.split_once('>').unwrap();
+        if let Some(name) = tag.strip_prefix('/') {
+            assert_eq!(open.pop(), Some(name), "{tag}");
+            continue;
+        }
+        let (name, rest) = tag.split_once(' ').unwrap_or((tag, ""));
+        let mut attributes = BTreeMap::new();
+        let mut rest = rest.trim_end_matches('/');
+        while let Some((key, after)) = rest.trim().split_once("=\"") {
+            let (value, after) = after.split_once('"').unwrap();
+            assert!(
+                attributes
+                    .insert(key.to_owned(), unescaped(value))
+                    .is_none(),
+                "{tag}"
+            );
+            rest = after;
+        }
+        assert_eq!(rest.trim(), "");
+        if !tag.ends_with('/') {
+            open.push(name);
+        }
+        if name == "DataSet" {
+            vtk.data_sets.push(attributes.clone());
+        }
+        if name == "DataArray" && attributes["format"] == "binary" {
+            let components = attributes.get("NumberOfComponents").map(String::as_str);
+            let expected = (attributes["Name"] == "Points").then_some("3");
+            assert_eq!(components, expected, "{tag}");
+            let bytes = BASE64_STANDARD.decode(content).unwrap();
+            let (length, bytes) = bytes.split_at(8);
+            assert_eq!(
+                u64::from_le_bytes(length.try_into().unwrap()),
+                bytes.len() as u64
+            );
+            let array = Array {
+                kind: attributes["type"].clone(),
+                bytes: bytes.to_vec(),
+            };
+            assert!(
+                vtk.arrays
+                    .insert(attributes["Name"].clone(), array)
+                    .is_none()
+            );
+        } else if name == "DataArray" {
+            vtk.attributes
+                .insert(attributes["Name"].clone(), content.to_owned());
+        }
+        for (key, value) in attributes {
+            vtk.attributes.insert(format!("{name} {key}"), value);
+        }
+    }
+    assert!(open.is_empty(), "{open:?}");
+    vtk
+}
+
+/// Three files: two crossing sheets of many triangles, of f64, f32 and f64; in three frames the second falls through the first.
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let grid = |z: &dyn Fn(f64, f64) -> f64| {
+        let mut text = String::new();
+        for i in 0..100 {
+            let (x, y) = (f64::from(i % 10) / 3.0, f64::from(i / 10) / 7.0);
+            writeln!(text, "v {x} {y} {}", z(x, y)).unwrap();
+        }
+        for i in (0..90).filter(|i| i % 10 < 9) {
+            writeln!(text, "f {} {} {} {}", i + 1, i + 2, i + 12, i + 11).unwrap();
+        }
+        text
+    };
+    let write = |name: &str, text: String| fs::write(folder.path().join(name), text).unwrap();
+    write("still.obj", grid(&|x, y| x * y / 10.0));
+    for frame in 0..3 {
+        let fall = f64::from(frame) - 1.3;
+        write(
+            &format!("falls{frame}.obj"),
+            grid(&|x, y| (x - y) / 3.0 - fall / 2.0),
+        );
+    }
+    folder
+}
+
+fn check(folder: &Path, arguments: &[&str]) -> Said {
+    pliant(
+        folder,
+        &[&["check", "--format", "json"], arguments].concat(),
+    )
+}
+
+/// Fails unless the file has exactly the triangles of the pairs, each with its corners where the OBJ file has them.
+fn assert_same(vtk: &Vtk, pairs: &serde_json::Value, kind: &str, files: &[&Path]) {
+    let pairs: Vec<[u32; 4]> = serde_json::from_value(pairs.clone()).unwrap();
+    let mut partners: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+    for [body_a, a, body_b, b] in pairs {
+        *partners.entry([body_a, a]).or_default() += 1;
+        *partners.entry([body_b, b]).or_default() += 1;
+    }
+    assert_eq!(vtk.attributes["VTKFile type"], kind);
+    let whole = |name: &str| -> Vec<u32> {
+        let numbers = vtk.arrays[name].numbers();
+        let whole = numbers.iter().map(|number| number.to_string().parse());
+        whole.collect::<Result<_, _>>().unwrap()
+    };
+    let (bodies, triangles) = (whole("body"), whole("triangle"));
+    let cells = if kind == "PolyData" {
+        "Piece NumberOfPolys"
+    } else {
+        "Piece NumberOfCells"
+    };
+    assert_eq!(vtk.attributes[cells], partners.len().to_string());
+    let found = bodies.iter().zip(&triangles).zip(whole("partners"));
+    let found: Vec<_> = found
+        .map(|((&body, &triangle), n)| ([body, triangle], n))
+        .collect();
+    assert_eq!(found, partners.into_iter().collect::<Vec<_>>());
+
+    // Corners, by the vertices that they say they are, and by where they are.
+    let (corners, vertices) = (whole("connectivity"), whole("vertex"));
+    let offsets: Vec<u32> = (1..=bodies.len() as u32).map(|cell| 3 * cell).collect();
+    assert_eq!(
+        (corners.len(), whole("offsets")),
+        (3 * bodies.len(), offsets)
+    );
+    let points = vtk.arrays["Points"].numbers();
+    let points: Vec<[f64; 3]> = points
+        .chunks(3)
+        .map(|point| point.try_into().unwrap())
+        .collect();
+    assert_eq!(
+        vtk.attributes["Piece NumberOfPoints"],
+        points.len().to_string()
+    );
+    assert_eq!(vertices.len(), points.len());
+    let texts: Vec<_> = files
+        .iter()
+        .map(|file| fs::read_to_string(file).unwrap())
+        .collect();
+    for (cell, corners) in corners.chunks(3).enumerate() {
+        let text = &texts[bodies[cell] as usize];
+        let positions: Vec<[f64; 3]> = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("v "))
+            .map(|line| {
+                let numbers: Vec<f64> = line.split(' ').map(|word| word.parse().unwrap()).collect();
+                numbers.try_into().unwrap()
+            })
+            .collect();
+        let quad = text.lines().filter_map(|line| line.strip_prefix("f "));
+        let mut quad = quad.map(|line| {
+            line.split(' ')
+                .map(|word| word.parse::<u32>().unwrap() - 1)
+                .collect::<Vec<_>>()
+        });
+        let quad = quad.nth(triangles[cell] as usize / 2).unwrap();
+        let second = triangles[cell] as usize % 2;
+        let expected = [quad[0], quad[1 + second], quad[2 + second]];
+        let named: Vec<u32> = corners
+            .iter()
+            .map(|&corner| vertices[corner as usize])
+            .collect();
+        assert_eq!(named, expected);
+        for (&corner, vertex) in corners.iter().zip(expected) {
+            assert_eq!(
+                points[corner as usize], positions[vertex as usize],
+                "exactly"
+            );
+        }
+    }
+    let used: BTreeSet<_> = corners.iter().collect();
+    assert_eq!(used.len(), points.len(), "no point is written for nothing");
+}
+
+#[test]
+fn one_frame_is_one_file() {
+    let folder = folder();
+    let path = folder.path();
+    let files = ["falls2.obj", "still.obj"];
+    let from: Vec<_> = files.map(|name| path.join(name)).into();
+    let from: Vec<_> = from.iter().map(std::path::PathBuf::as_path).collect();
+    for (name, kind) in [("hits.vtp", "PolyData"), ("hits.VTU", "UnstructuredGrid")] {
+        let said = check(path, &[&files[..], &["--hits", name]].concat());
+        assert_eq!((said.code, said.err.as_str()), (1, ""));
+        let pairs = &said.json()["frames"][0]["pairs"];
+        assert!(pairs.as_array().unwrap().len() > 20);
+        let vtk = read(&path.join(name));
+        assert_same(&vtk, pairs, kind, &from);
+        assert_eq!(vtk.arrays["Points"].kind, "Float64");
+        if kind == "UnstructuredGrid" {
+            assert!(
+                vtk.arrays["types"]
+                    .numbers()
+                    .iter()
+                    .all(|&kind| kind == 5.0)
+            );
+        }
+        // Where the list is not printed, the file is the same.
+        let bytes = fs::read(path.join(name)).unwrap();
+        for other in [&["--count"][..], &["--quiet"], &["--format", "lines"]] {
+            let more = [&["check"], &files[..], &["--hits", name], other].concat();
+            assert_eq!(pliant(path, &more).code, 1);
+            assert_eq!(fs::read(path.join(name)).unwrap(), bytes, "{other:?}");
+        }
+    }
+    assert!(!path.join("hits.pvd").exists());
+}
+
+#[test]
+fn several_frames_are_a_collection() {
+    let folder = folder();
+    let path = folder.path();
+    fs::create_dir(path.join("out")).unwrap();
+    let said = check(path, &["falls*.obj", "still.obj", "--hits", "out/a&b.vtp"]);
+    let frames = said.json()["frames"].clone();
+    let collection = read(&path.join("out/a&b.pvd"));
+    assert_eq!(collection.attributes["VTKFile type"], "Collection");
+    assert_eq!(collection.data_sets.len(), 3);
+    for (frame, entry) in collection.data_sets.iter().enumerate() {
+        let name = format!("a&b_{frame}.vtp");
+        assert_eq!(
+            (&entry["timestep"], &entry["file"]),
+            (&frame.to_string(), &name)
+        );
+        let vtk = read(&path.join("out").join(name));
+        assert_eq!(vtk.attributes["TimeValue"], frame.to_string());
+        let files = [
+            path.join(format!("falls{frame}.obj")),
+            path.join("still.obj"),
+        ];
+        assert_same(
+            &vtk,
+            &frames[frame]["pairs"],
+            "PolyData",
+            &[&files[0], &files[1]],
+        );
+    }
+    let counts = said.counts();
+    assert!(
+        counts[0] == 0 && counts[1] > 0,
+        "a frame without hits is a file without cells: {counts:?}"
+    );
+}
+
+#[test]
+fn pieces_and_what_is_left_out() {
+    let folder = folder();
+    let path = folder.path();
+    let both = ["falls1.obj", "still.obj"].map(|name| path.join(name));
+    let [falls, still] = both
+        .each_ref()
+        .map(|file| fs::read_to_string(file).unwrap());
+    let shifted = still.lines().filter_map(|line| line.strip_prefix("f "));
+    let mut faces = String::new();
+    for line in shifted {
+        let corners = line
+            .split(' ')
+            .map(|word| word.parse::<u32>().unwrap() + 100);
+        let corners: Vec<_> = corners.map(|corner| corner.to_string()).collect();
+        writeln!(faces, "f {}", corners.join(" ")).unwrap();
+    }
+    let vertices = still.lines().filter(|line| line.starts_with('v'));
+    let one = falls
+        + &vertices
+            .map(|line| line.to_owned() + "\n")
+            .collect::<String>()
+        + &faces;
+    fs::write(path.join("one.obj"), one).unwrap();
+    let arguments = ["one.obj", "--split", "components", "--hits", "hits.vtp"];
+    let said = check(path, &arguments);
+    let one = path.join("one.obj");
+    let pairs = said.json()["frames"][0]["pairs"].clone();
+    assert!(pairs[0][0] == 0 && pairs[0][2] == 1, "{}", pairs[0]);
+    assert_same(
+        &read(&path.join("hits.vtp")),
+        &pairs,
+        "PolyData",
+        &[&one, &one],
+    );
+    let none = check(path, &[&arguments[..], &["--baseline", "0"]].concat());
+    assert_eq!(none.code, 0);
+    assert_eq!(
+        read(&path.join("hits.vtp")).attributes["Piece NumberOfPolys"],
+        "0"
+    );
+}
+
+#[test]
+fn single_precision_stays_single() {
+    let folder = tempfile::tempdir().unwrap();
+    let header = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+    let text = "-1 -1 0\n9 -1 0\n-1 9 0\n.1 0 -1\n.1 0 1\n.1 2 1\n3 0 1 2\n3 3 4 5\n";
+    fs::write(folder.path().join("a.ply"), header.to_owned() + text).unwrap();
+    check(folder.path(), &["a.ply", "--hits", "hits.vtp"]);
+    let points = &read(&folder.path().join("hits.vtp")).arrays["Points"];
+    assert_eq!(points.kind, "Float32");
+    assert_eq!(points.numbers()[9], f64::from(0.1_f32));
+}
+
+#[test]
+fn what_cannot_be_written_is_an_error() {
+    let folder = folder();
+    for (name, words) in [
+        ("hits.obj", &["hits.obj", ".vtp", ".vtu"][..]),
+        ("hits", &["--hits", ".vtp"]),
+        ("absent/hits.vtp", &["cannot write absent/hits.vtp"]),
+    ] {
+        check(folder.path(), &["falls1.obj", "still.obj", "--hits", name]).assert_refused(words);
+    }
+}

@@ -1,0 +1,19 @@
+//! The tests of the crate, one file a module, in one program: a program each is linked with the whole library each time.
+//! One file: `cargo test -p pliant-cli --test all bench::`.
+
+mod bench;
+mod check;
+mod common;
+mod convert;
+mod formats;
+mod hits;
+mod memory;
+mod people;
+mod real_meshes;
+mod repeatable;
+mod report;
+mod run;
+mod strange_formats;
+mod strangers;
+mod streams;
+mod who_meets;

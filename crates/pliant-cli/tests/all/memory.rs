@@ -1,0 +1,222 @@
+//! The memory that `pliant check` takes: a multiple of two frames, however many there are; split into pieces or not, with a
+//! baseline or not.
+//!
+//! A frame is its positions and triangles: 12 bytes a vertex in f32, 24 in f64, and 12 a triangle. Measured where the system
+//! tells the most memory that a process has taken (Linux); elsewhere the tests say that they are skipped.
+//!
+//! ```sh
+//! cargo test --release -p pliant-cli --test all memory:: -- --ignored --nocapture   # the figures in docs/RELIABILITY.md
+//! ```
+
+use crate::common::npz::Surface;
+use crate::common::{Measured, measured};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// What checking takes at most, for each byte of two frames, beyond the program itself.
+const MULTIPLE: f64 = 3.5;
+
+/// What the program itself takes at most.
+const PROGRAM: u64 = 8 << 20;
+
+fn peak(folder: &Path, arguments: &[&str]) -> Option<u64> {
+    let arguments = [&["check", "--count"], arguments].concat();
+    let Measured { said, peak } = measured(folder, &arguments);
+    assert!(said.code < 2, "{}", said.err);
+    if peak.is_none() {
+        eprintln!("skipped: this system does not tell the memory of a process");
+    }
+    peak
+}
+
+/// A surface with so many vertices each way: joined or split, in f32 or f64.
+fn surfaces(side: u32, frames: u32) -> [(&'static str, Surface); 3] {
+    let joined = Surface::new(side, frames);
+    [
+        ("f32", joined),
+        (
+            "f64",
+            Surface {
+                wide: true,
+                ..joined
+            },
+        ),
+        (
+            "f32, every triangle apart",
+            Surface {
+                split: true,
+                ..joined
+            },
+        ),
+    ]
+}
+
+fn multiple(peak: u64, program: u64, surface: Surface) -> f64 {
+    peak.saturating_sub(program) as f64 / (2 * surface.bytes_of_a_frame()) as f64
+}
+
+#[test]
+fn memory_does_not_grow_with_the_number_of_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let side = 60;
+    for frames in [3, 300] {
+        fs::write(
+            path.join(format!("one_{frames}.npz")),
+            Surface::new(side, frames).file(),
+        )
+        .unwrap();
+        let many = path.join(format!("many_{frames}"));
+        fs::create_dir(&many).unwrap();
+        for frame in 0..frames {
+            let mut text = String::new();
+            for i in 0..side * side {
+                let (x, y) = (i % side, i / side);
+                writeln!(text, "v {x} {y} {}", (x * 7 + y * 13 + frame) % 5).unwrap();
+            }
+            for y in 0..side - 1 {
+                for x in 0..side - 1 {
+                    let corner = y * side + x + 1;
+                    writeln!(text, "f {corner} {} {}", corner + 1, corner + side).unwrap();
+                }
+            }
+            fs::write(many.join(format!("{frame}.obj")), text).unwrap();
+        }
+    }
+    for [few, more] in [
+        ["one_3.npz", "one_300.npz"],
+        ["many_3/*.obj", "many_300/*.obj"],
+    ] {
+        let [Some(few), Some(more)] = [few, more].map(|argument| peak(path, &[argument])) else {
+            return;
+        };
+        // One frame of positions, kept 297 times, would be 13 MB more.
+        println!("3 frames: {few} bytes, 300 frames: {more}");
+        assert!(more < few + (2 << 20), "{few} {more}");
+    }
+}
+
+#[test]
+fn memory_is_a_multiple_of_two_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    for (what, surface) in surfaces(400, 3) {
+        fs::write(folder.path().join("a.npz"), surface.file()).unwrap();
+        let Some(peak) = peak(folder.path(), &["a.npz"]) else {
+            return;
+        };
+        let multiple = multiple(peak, PROGRAM, surface);
+        println!("{what}: {multiple:.2} times two frames");
+        assert!(multiple < MULTIPLE, "{what}: {multiple}");
+    }
+}
+
+#[test]
+#[ignore = "large: a gigabyte, minutes without --release"]
+fn figures() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    // Small frames, but enough of them that the program is there to be looked at.
+    fs::write(path.join("small.npz"), Surface::new(8, 3000).file()).unwrap();
+    let Some(program) = peak(path, &["small.npz"]) else {
+        return;
+    };
+    println!("the program itself: {:.1} MB", program as f64 / 1e6);
+    for (side, frames) in [(101, 1000), (1001, 3)] {
+        for (what, surface) in surfaces(side, frames) {
+            fs::write(path.join("a.npz"), surface.file()).unwrap();
+            let peak = peak(path, &["a.npz"]).unwrap_or(0);
+            let multiple = multiple(peak, program, surface);
+            println!(
+                "{frames} frames of {} triangles, {what}: {:.1} MB, {multiple:.2} times two frames of {:.1} MB",
+                surface.triangles(),
+                peak as f64 / 1e6,
+                surface.bytes_of_a_frame() as f64 / 1e6
+            );
+            assert!(multiple < MULTIPLE, "{what}");
+        }
+    }
+}
+
+#[test]
+fn memory_of_pieces_and_of_a_baseline() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    for (what, surface) in surfaces(300, 3) {
+        fs::write(path.join("a.npz"), surface.file()).unwrap();
+        let split = ["a.npz", "--split", "components"];
+        let baseline = ["a.npz", "--baseline", "2"];
+        // Every triangle a piece of its own: welding would join them.
+        let apart = ["a.npz", "--split", "components", "--no-weld", "--first"];
+        let ask = if surface.split {
+            &[&apart[..]][..]
+        } else {
+            &[&split[..], &baseline[..]]
+        };
+        for arguments in ask {
+            let Some(peak) = peak(path, arguments) else {
+                return;
+            };
+            let multiple = multiple(peak, PROGRAM, surface);
+            println!("{what}, {arguments:?}: {multiple:.2} times two frames");
+            assert!(multiple < MULTIPLE, "{what}, {arguments:?}: {multiple}");
+        }
+    }
+}
+
+/// As much as the same body in an NPZ file, and what the file says of shape and motion.
+#[test]
+fn memory_of_gltf() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let surface = Surface::new(400, 3);
+    fs::write(path.join("a.npz"), surface.file()).unwrap();
+    let Some(plain) = peak(path, &["a.npz"]) else {
+        return;
+    };
+    for (held, targets) in [(false, 0), (true, 0), (false, 1), (true, 4)] {
+        fs::write(path.join("a.glb"), surface.glb(held, targets)).unwrap();
+        let Some(peak) = peak(path, &["a.glb"]) else {
+            return;
+        };
+        // What moves: its positions at rest; four joints, each a number and a weight, and where they begin; what a target moves,
+        // and how far. Of what stands still nothing is held beside its frame.
+        let said = match (held, targets) {
+            (false, 0) => 0,
+            _ => 12 + if held { 4 * 8 + 4 } else { 0 } + 16 * targets as u64,
+        };
+        let said = said * u64::from(surface.vertices());
+        println!("held {held}, {targets} targets: {peak} bytes, {said} said, {plain} without");
+        // Triangles kept twice would be 3.8 MB more.
+        assert!(
+            peak < plain + said + (2 << 20),
+            "held {held}, {targets} targets: {peak}, {plain} and {said}"
+        );
+    }
+}
+
+#[test]
+fn memory_of_hits() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    // Pairs of crossing triangles, each pair on its own: as much to write as there can be for so many pairs.
+    let pairs = 50_000_u32;
+    let mut text = String::new();
+    for pair in 0..pairs {
+        let x = 3 * pair;
+        writeln!(text, "v {x} 0 0\nv {x}.9 0 0\nv {x} 1 0\nf -1 -2 -3").unwrap();
+        writeln!(
+            text,
+            "v {x}.1 .1 -1\nv {x}.1 .1 1\nv {x}.1 .2 1\nf -1 -2 -3"
+        )
+        .unwrap();
+    }
+    fs::write(path.join("a.obj"), text).unwrap();
+    let Some(peak) = peak(path, &["a.obj", "--hits", "hits.vtp"]) else {
+        return;
+    };
+    let frame = f64::from(2 * pairs) * (3.0 * 24.0 + 12.0);
+    let hits = f64::from(pairs) * (2.0 * 16.0 + 2.0 * 300.0);
+    println!("{:.1} MB with hits", peak as f64 / 1e6);
+    assert!((peak as f64) < MULTIPLE * 2.0 * frame + hits + PROGRAM as f64);
+}

@@ -1,0 +1,777 @@
+//! glTF files evaluated, against what three.js makes of them; names, clips and frames; what is refused, and how.
+//!
+//! The files and the records in `fixtures/` are made by `three/` (its package.json says how).
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::common::{Folder, all_frames};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use pliant_io::{Body, OpenOptions, Positions, Precision, Reason, open, open_all};
+use serde_json::{Value, json};
+
+fn fixture(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/fixtures")
+        .join(name)
+}
+
+fn options(clip: Option<&str>, fps: f64) -> OpenOptions {
+    OpenOptions {
+        clip: clip.map(str::to_owned),
+        fps,
+        ..OpenOptions::default()
+    }
+}
+
+/// three.js computes in double precision but for what files and its records have in single or ten digits; ours are rounded to
+/// single precision. Against the size of the bodies that is 6e-8 a step, a few steps; 1e-5 is far from any mistake.
+const BOUND: f64 = 1e-5;
+
+type Frame = Vec<[f64; 3]>;
+
+/// Compares every clip and frame of a file with its record; returns how many positions.
+fn compare(file: &Path, record: &Path) -> usize {
+    let record: Value = serde_json::from_str(&std::fs::read_to_string(record).unwrap()).unwrap();
+    let fps = record["fps"].as_f64().unwrap();
+    let picked: Option<Vec<usize>> = serde_json::from_value(record["vertices"].clone()).unwrap();
+    let mut compared = 0;
+    for clip in record["clips"].as_array().unwrap() {
+        let name = clip["clip"].as_str();
+        let path = file.to_str().unwrap();
+        let mut bodies = open_all(path, &options(name, fps)).unwrap();
+        let expected = clip["frames"].as_array().unwrap();
+        let ours: Vec<Vec<Frame>> = bodies
+            .iter_mut()
+            .map(|body| all_frames(body).unwrap())
+            .collect();
+        let size = size_of(&ours);
+        let mut moves = 0;
+        for (number, frame) in expected.iter().enumerate() {
+            let theirs: BTreeMap<u32, Frame> =
+                serde_json::from_value(frame["bodies"].clone()).unwrap();
+            assert_eq!(theirs.len(), ours.len());
+            for (body, theirs) in ours.iter().zip(theirs.values()) {
+                assert!(
+                    [1, expected.len()].contains(&body.len()),
+                    "{} frames",
+                    body.len()
+                );
+                moves += usize::from(body.len() > 1);
+                let ours = &body[number.min(body.len() - 1)];
+                let picked = picked.clone().unwrap_or_else(|| (0..ours.len()).collect());
+                assert_eq!(picked.len(), theirs.len());
+                for (&vertex, theirs) in picked.iter().zip(theirs) {
+                    for (ours, theirs) in ours[vertex].iter().zip(theirs) {
+                        assert!(
+                            (ours - theirs).abs() <= BOUND * size,
+                            "{path} {name:?} frame {number} vertex {vertex}: {ours} {theirs}"
+                        );
+                    }
+                    compared += 1;
+                }
+            }
+        }
+        assert_eq!(moves > 0, name.is_some());
+    }
+    compared
+}
+
+/// The largest coordinate of anything.
+fn size_of(bodies: &[Vec<Frame>]) -> f64 {
+    let all = bodies.iter().flatten().flatten().flatten();
+    all.fold(0.0, |size: f64, x| size.max(x.abs()))
+}
+
+#[test]
+fn everything_is_where_three_js_has_it() {
+    let mut compared = 0;
+    for name in [
+        "hierarchy.gltf",
+        "skin.gltf",
+        "morph.gltf",
+        "skin-and-morph.gltf",
+        "kinds.glb",
+    ] {
+        let file = fixture(name);
+        compared += compare(&file, &file.with_extension("json"));
+    }
+    eprintln!("{compared} positions compared");
+    assert!(compared > 1000);
+}
+
+#[test]
+fn the_fox_runs_as_in_three_js() {
+    let fox = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/fox.glb");
+    if !fox.is_file() {
+        eprintln!("skipped: {} is absent", fox.display());
+        return;
+    }
+    let compared = compare(&fox, &fixture("fox.json"));
+    eprintln!("{compared} positions compared");
+    let mut body = open(fox.to_str().unwrap(), &OpenOptions::default()).unwrap();
+    assert_eq!((body.vertex_count(), body.triangles().len()), (1728, 576));
+    // 1,728 corners at 290 places.
+    assert_eq!(body.welded(), 1728 - 290);
+    let mut used = body.triangles().concat();
+    used.sort_unstable();
+    used.dedup();
+    assert_eq!(used.len(), 290);
+    assert_eq!(
+        (body.clip(), body.precision()),
+        (Some("Survey"), Precision::F32)
+    );
+    // 3.4166667 seconds at 30 a second, both ends.
+    assert_eq!(body.frame_count(), 104);
+    // The sides of every seam stay together: every frame is read.
+    assert_eq!(all_frames(&mut body).unwrap().len(), 104);
+    let error = open(fox.to_str().unwrap(), &options(Some("Fly"), 30.0)).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .ends_with("there is no clip \"Fly\"; there is: Survey, Walk, Run"),
+        "{error}"
+    );
+}
+
+#[test]
+fn bodies_are_the_nodes_with_meshes_in_the_default_scene() {
+    let file = fixture("hierarchy.gltf");
+    let file = file.to_str().unwrap();
+    let bodies = open_all(file, &OpenOptions::default()).unwrap();
+    let names: Vec<_> = bodies.iter().map(Body::name).collect();
+    let part = |name: &str| format!("{file}#{name}");
+    assert_eq!(
+        names,
+        ["mirrored", "arm (node 3)", "arm (node 4)", "ground"].map(part)
+    );
+    let frames: Vec<_> = bodies.iter().map(Body::frame_count).collect();
+    assert_eq!(frames, [61, 61, 61, 1], "the ground stands still");
+    let clips: Vec<_> = bodies.iter().map(Body::clip).collect();
+    assert_eq!(clips, [Some("turn"), Some("turn"), Some("turn"), None]);
+
+    let error = open(file, &OpenOptions::default()).unwrap_err().to_string();
+    let told = format!(
+        "holds 4 bodies: mirrored, arm (node 3), arm (node 4), ground; name one: '{file}#mirrored'"
+    );
+    assert!(error.ends_with(&told), "{error}");
+    let arm = open(&part("arm (node 4)"), &OpenOptions::default()).unwrap();
+    assert_eq!(
+        (arm.name(), arm.vertex_count()),
+        (&part("arm (node 4)")[..], 4)
+    );
+    let error = open(&part("leg"), &OpenOptions::default())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("there is no body \"leg\"; there is: mirrored, "),
+        "{error}"
+    );
+    let error = open(&part("elsewhere"), &OpenOptions::default())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("there is no body"), "{error}");
+
+    let file = fixture("kinds.glb");
+    let bodies = open_all(file.to_str().unwrap(), &OpenOptions::default()).unwrap();
+    let names: Vec<_> = bodies
+        .iter()
+        .map(|body| body.name().rsplit_once('#').unwrap().1)
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "triangles",
+            "strip",
+            "strip by numbers",
+            "fan",
+            "many",
+            "node 6"
+        ]
+    );
+    let triangles: Vec<_> = bodies.iter().map(Body::triangles).collect();
+    assert_eq!(triangles[0], [[0, 1, 2], [3, 4, 5]]);
+    assert_eq!(triangles[1], [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]]);
+    assert_eq!(triangles[2], [[5, 1, 4], [1, 0, 4], [4, 0, 2]]);
+    assert_eq!(triangles[3], [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]]);
+}
+
+#[test]
+fn frames_are_at_the_rate_asked_for_and_at_the_end() {
+    let file = fixture("skin.gltf");
+    let name = format!("{}#ladder", file.display());
+    for (fps, frames) in [(1.0, 2), (0.4, 2), (1.5, 3), (30.0, 31), (59.94, 61)] {
+        let body = open(&name, &options(None, fps)).unwrap();
+        assert_eq!(body.frame_count(), frames, "{fps}");
+    }
+    let last = |fps| {
+        all_frames(&mut open(&name, &options(None, fps)).unwrap())
+            .unwrap()
+            .pop()
+    };
+    assert_eq!(last(1.5), last(30.0));
+    for fps in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e300] {
+        let error = open(&name, &options(None, fps)).unwrap_err();
+        let said = match error.reason() {
+            Reason::BadRate { .. } => "a rate must be finite and above 0",
+            Reason::ClipTooLong { .. } if fps == 1e300 => "more than 16777216 frames",
+            _ => panic!("{error}"),
+        };
+        assert!(error.to_string().contains(said), "{error}");
+    }
+}
+
+/// A file of one triangle, as JSON to spoil; bytes are those of nine floats, then of four times four bytes and floats.
+fn triangle() -> Value {
+    let mut bytes: Vec<u8> = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0_f32]
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    bytes.extend([0, 1, 0, 0].repeat(3)); // joints: 36 to 48
+    for weights in [
+        [1.0, 0.0, 0.0, 0.0_f32],
+        [0.5, 0.5, 0.0, 0.0],
+        [0.25, 0.75, 0.0, 0.0],
+    ] {
+        bytes.extend(weights.iter().flat_map(|x| x.to_le_bytes())); // 48 to 96
+    }
+    bytes.extend(
+        [0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 2.0, 3.0_f32]
+            .iter()
+            .flat_map(|x| x.to_le_bytes()),
+    ); // times: 96; vectors: 104
+    json!({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0, "skin": 0, "name": "body"}, {"name": "bone", "children": [2]}, {}],
+        "skins": [{"joints": [1, 2]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}}]}],
+        "animations": [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}], "samplers": [{"input": 3, "output": 4}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+            {"bufferView": 0, "byteOffset": 36, "componentType": 5121, "count": 3, "type": "VEC4"},
+            {"bufferView": 0, "byteOffset": 48, "componentType": 5126, "count": 3, "type": "VEC4"},
+            {"bufferView": 0, "byteOffset": 96, "componentType": 5126, "count": 2, "type": "SCALAR"},
+            {"bufferView": 0, "byteOffset": 104, "componentType": 5126, "count": 2, "type": "VEC3"}
+        ],
+        "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
+        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+    })
+}
+
+/// The file with the value at `pointer` replaced.
+fn with(pointer: &str, value: Value) -> String {
+    let mut file = triangle();
+    if let Some(place) = file.pointer_mut(pointer) {
+        *place = value;
+    } else {
+        let (parent, name) = pointer.rsplit_once('/').unwrap();
+        file.pointer_mut(parent).unwrap()[name] = value;
+    }
+    file.to_string()
+}
+
+#[test]
+#[expect(clippy::too_many_lines, reason = "a table")]
+fn what_is_wrong_is_said_in_a_line() {
+    let folder = Folder::new();
+    folder.write("whole.gltf", triangle().to_string());
+    assert_eq!(
+        all_frames(&mut folder.open("whole.gltf").unwrap())
+            .unwrap()
+            .len(),
+        31
+    );
+    for (pointer, value, words) in [
+        (
+            "/extensionsRequired",
+            json!(["KHR_materials_unlit", "KHR_mesh_quantization"]),
+            "quantised positions",
+        ),
+        (
+            "/extensionsRequired",
+            json!(["EXT_meshopt_compression"]),
+            "compressed by meshopt, which is not evaluated; export it without",
+        ),
+        (
+            "/extensionsRequired",
+            json!(["KHR_draco_mesh_compression"]),
+            "compressed by Draco",
+        ),
+        (
+            "/extensionsRequired",
+            json!(["ACME_walls"]),
+            "needs the extension \"ACME_walls\"",
+        ),
+        (
+            "/extensionsUsed",
+            json!(["EXT_mesh_gpu_instancing"]),
+            "EXT_mesh_gpu_instancing",
+        ),
+        ("/asset/version", json!("1.0"), "only version 2"),
+        ("/scene", json!(1), "scene 1 does not exist"),
+        ("/scenes", json!([]), "has no scene"),
+        (
+            "/scenes/0/nodes/0",
+            json!(9),
+            "scene 0: node 9 does not exist",
+        ),
+        (
+            "/nodes/1/children/0",
+            json!(1),
+            "node 1: is, over others, its own child",
+        ),
+        (
+            "/nodes/1/children/0",
+            json!(3),
+            "node 1: its child 3 does not exist",
+        ),
+        (
+            "/nodes/1/children",
+            json!([2, 2]),
+            "node 2: is the child of more than one node",
+        ),
+        ("/nodes/0/mesh", json!(1), "mesh 1: there is no such mesh"),
+        ("/nodes/0/skin", json!(1), "node 0: skin 1 does not exist"),
+        (
+            "/nodes/1/rotation",
+            json!([0, 0, 0, 0]),
+            "node 1: its rotation is zero",
+        ),
+        (
+            "/nodes/1/matrix",
+            json!([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]),
+            "node 1: is placed by a matrix, and animated",
+        ),
+        (
+            "/nodes/1/scale",
+            json!([1e300, 1, 1]),
+            "x of vertex 1 is inf",
+        ),
+        (
+            "/skins/0/joints",
+            json!([1]),
+            "node 0: vertex 1 is held by joint 1, the skin has 1",
+        ),
+        (
+            "/skins/0/joints/0",
+            json!(7),
+            "skin 0: joint node 7 does not exist",
+        ),
+        (
+            "/skins/0/inverseBindMatrices",
+            json!(0),
+            "accessor 0: its type is not one that inverse bind matrices can have",
+        ),
+        (
+            "/meshes/0/primitives/0/attributes",
+            json!({"POSITION": 0}),
+            "node 0: has a skin, but a primitive of its mesh has no joints",
+        ),
+        (
+            "/meshes/0/primitives/0/attributes",
+            json!({"POSITION": 0, "JOINTS_0": 1}),
+            "joints without weights",
+        ),
+        (
+            "/meshes/0/primitives/0/attributes/POSITION",
+            json!(9),
+            "accessor 9: there is no such accessor",
+        ),
+        (
+            "/meshes/0/primitives/0/attributes",
+            json!({}),
+            "mesh 0: a primitive has no positions",
+        ),
+        (
+            "/meshes/0/primitives/0/mode",
+            json!(7),
+            "mode that the format does not have",
+        ),
+        ("/meshes/0/primitives/0/mode", json!(1), "holds no faces"),
+        (
+            "/meshes/0/primitives/0/indices",
+            json!(1),
+            "accessor 1: its type is not one that indices can have",
+        ),
+        (
+            "/accessors/0/count",
+            json!(4),
+            "has 3 joints rows for 4 positions",
+        ),
+        (
+            "/accessors/0/count",
+            json!(1_000_000),
+            "accessor 0: ends too early: 1000000 rows from byte 0 on do not fit into buffer view 0 of 128 bytes",
+        ),
+        (
+            "/accessors/0/count",
+            json!(u64::MAX),
+            "more than 4294967295 vertices",
+        ),
+        ("/accessors/0/count", json!(-1), "not that of a glTF file"),
+        (
+            "/accessors/0/byteOffset",
+            json!(u64::MAX),
+            "accessor 0: ends too early",
+        ),
+        (
+            "/accessors/0/componentType",
+            json!(5122),
+            "quantised positions",
+        ),
+        (
+            "/accessors/0/bufferView",
+            json!(3),
+            "accessor 0: there is no buffer view 3",
+        ),
+        (
+            "/accessors/0/bufferView",
+            Value::Null,
+            "accessor 0: has no data",
+        ),
+        (
+            "/accessors/3/count",
+            json!(1),
+            "sampler 0: 1 keys need 3 numbers, there are 6",
+        ),
+        (
+            "/accessors/3/byteOffset",
+            json!(100),
+            "the time of key 1 does not rise",
+        ),
+        (
+            "/animations/0/samplers/0/interpolation",
+            json!("ROUND"),
+            "interpolation \"ROUND\" is none",
+        ),
+        (
+            "/animations/0/channels/0/target/path",
+            json!("pointer"),
+            "animation 0: moves \"pointer\"",
+        ),
+        (
+            "/animations/0/channels/0/target/node",
+            json!(5),
+            "moves node 5, which does not exist",
+        ),
+        (
+            "/animations/0/channels/0/sampler",
+            json!(5),
+            "sampler 5: does not exist",
+        ),
+        (
+            "/bufferViews/0/byteLength",
+            json!(1_000_000),
+            "accessor 3: ends too early: buffer view 0 ends at byte 1000000, its buffer has 128",
+        ),
+        (
+            "/bufferViews/0/byteOffset",
+            json!(u64::MAX),
+            "accessor 3: ends too early: buffer view 0",
+        ),
+        (
+            "/bufferViews/0/byteStride",
+            json!(4),
+            "rows of 12 bytes cannot be 4 bytes apart",
+        ),
+        (
+            "/bufferViews/0/buffer",
+            json!(1),
+            "buffer 1: there is no such buffer",
+        ),
+        ("/buffers/0/byteLength", json!(1), "its buffer has 1"),
+        (
+            "/buffers/0/uri",
+            json!("data:;base64,AAAA"),
+            "buffer 0: ends too early: bytes 96 to 104 are asked for, it has 3",
+        ),
+        ("/buffers/0/uri", Value::Null, "neither a URI nor bytes"),
+        ("/buffers/0/uri", json!("data:;base64,@@@@"), "a data URI: "),
+        (
+            "/buffers/0/uri",
+            json!("data:text/plain,hello"),
+            "not base64",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("https://example.org/a.bin"),
+            "only files beside this one",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("../a.bin"),
+            "only files beside this one",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("/etc/passwd"),
+            "only files beside this one",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("%2e%2e/a.bin"),
+            "only files beside this one",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("a.bin"),
+            "a.bin, buffer 0: no such file",
+        ),
+    ] {
+        folder.write("bad.gltf", with(pointer, value));
+        let error = folder.error("bad.gltf");
+        assert_eq!(error.lines().count(), 1, "{error}");
+        assert!(
+            error.contains(words)
+                && error.starts_with(if words.starts_with("a.bin") {
+                    "a.bin"
+                } else {
+                    "bad.gltf"
+                }),
+            "{pointer}: {error}"
+        );
+    }
+    let clip = OpenOptions {
+        clip: Some("walk".into()),
+        ..OpenOptions::default()
+    };
+    let error = open(&folder.argument("whole.gltf"), &clip)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.ends_with("there is no clip \"walk\"; there is: 0"),
+        "{error}"
+    );
+    folder.write("deep.gltf", format!("{{\"a\":{}", "[".repeat(1 << 20)));
+    assert!(folder.error("deep.gltf").contains("the JSON is cut short"));
+}
+
+#[test]
+fn glb_is_refused_by_the_byte() {
+    let folder = Folder::new();
+    let whole = std::fs::read(fixture("kinds.glb")).unwrap();
+    for end in 0..whole.len() {
+        folder.write("cut.glb", &whole[..end]);
+        let error = open_all(&folder.argument("cut.glb"), &OpenOptions::default()).unwrap_err();
+        assert_eq!(error.to_string().lines().count(), 1, "{error}");
+    }
+    folder.write("cut.glb", &whole[..whole.len() - 1]);
+    let message = format!(
+        "cut.glb, byte 8: ends too early: the file announces {} bytes, and has {}",
+        whole.len(),
+        whole.len() - 1
+    );
+    assert_eq!(folder.error("cut.glb"), message);
+    let mut old = whole.clone();
+    old[4] = 1;
+    folder.write("old.glb", &old);
+    assert!(
+        folder
+            .error("old.glb")
+            .contains("GLB of version 1; only version 2")
+    );
+}
+
+#[test]
+fn seams_are_welded_where_everything_moves_alike() {
+    let folder = Folder::new();
+    // Two triangles with an edge in common: the corners 0 1 2, and 3 4 5 of which 3 and 4 are where 1 and 0 are.
+    let corners: [f32; 18] = [
+        0., 0., 0., 1., 0., 0., 0., 1., 0., 1., 0., 0., -0., 0., 0., 0., -1., 0.,
+    ];
+    let joints: [[u8; 4]; 6] = [
+        [0, 1, 0, 0],
+        [1, 0, 0, 0],
+        [0; 4],
+        [0, 1, 0, 0],
+        [1, 0, 0, 0],
+        [0; 4],
+    ];
+    let weights: [[f32; 4]; 6] = [
+        [0.25, 0.75, 0., 0.],
+        [1., 0., 0., 0.],
+        [1., 0., 0., 0.],
+        // The same as vertex 1, but for a joint that weighs nothing; as vertex 0, in the other order.
+        [0., 1., 0., 0.],
+        [0.75, 0.25, 0., 0.],
+        [1., 0., 0., 0.],
+    ];
+    let deltas: [f32; 18] = [
+        0., 0., 2., 0., 0., 1., 0., 0., 0., 0., 0., 1., 0., 0., 2., 0., 0., 3.,
+    ];
+    let file = |weights: [[f32; 4]; 6], deltas: [f32; 18]| {
+        let mut bytes: Vec<u8> = corners.iter().flat_map(|x| x.to_le_bytes()).collect();
+        bytes.extend(joints.as_flattened());
+        bytes.extend(
+            weights
+                .as_flattened()
+                .iter()
+                .chain(&deltas)
+                .flat_map(|x| x.to_le_bytes()),
+        );
+        let accessor = |offset: u32, kind: u32, shape: &str| json!({"bufferView": 0, "byteOffset": offset, "componentType": kind, "count": 6, "type": shape});
+        json!({
+            "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"mesh": 0, "skin": 0}, {"children": [2]}, {"translation": [3, 4, 5]}],
+            "skins": [{"joints": [1, 2]}],
+            "meshes": [{"weights": [0.5], "primitives": [{
+                "attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}, "targets": [{"POSITION": 3}]}]}],
+            "accessors": [accessor(0, 5126, "VEC3"), accessor(72, 5121, "VEC4"), accessor(96, 5126, "VEC4"), accessor(192, 5126, "VEC3")],
+            "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
+            "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+        }).to_string()
+    };
+    let welded = |text: String| {
+        folder.write("seam.gltf", text);
+        let mut body = folder.open("seam.gltf").unwrap();
+        let welded = body.welded();
+        let Some(Positions::F32(positions)) = body.next_frame().unwrap() else {
+            panic!()
+        };
+        (
+            welded,
+            positions[0] == positions[4],
+            positions[1] == positions[3],
+        )
+    };
+    assert_eq!(welded(file(weights, deltas)), (2, true, true));
+    // Held by other joints, or moved otherwise by a morph target, at one end: the edge is not the same one.
+    let mut other = weights;
+    other[4] = [0.5, 0.5, 0.0, 0.0];
+    assert_eq!(welded(file(other, deltas)), (0, false, true));
+    let mut other = deltas;
+    other[9] = 1e-3;
+    assert_eq!(welded(file(weights, other)), (0, true, false));
+}
+
+/// A file may not make the reader hold more than is allowed, however small it is.
+#[test]
+fn small_files_of_large_bodies_are_refused() {
+    let folder = Folder::new();
+    let mut file = triangle();
+    let limited = |text: &str, megabytes: u64| {
+        folder.write("many.gltf", text);
+        let options = OpenOptions {
+            max_memory: megabytes << 20,
+            ..OpenOptions::default()
+        };
+        open_all(&folder.argument("many.gltf"), &options)
+    };
+    // A thousand bodies of one mesh of a thousand triangles: the mesh is held once, 48 kB a body.
+    file["nodes"] = (0..1000).map(|_| json!({"mesh": 0})).collect();
+    file["scenes"][0]["nodes"] = (0..1000).collect();
+    file["skins"] = json!([]);
+    file["animations"] = json!([]);
+    let primitive = json!({"attributes": {"POSITION": 0}});
+    file["meshes"][0]["primitives"] = (0..1000).map(|_| primitive.clone()).collect();
+    let text = file.to_string();
+    assert_eq!(limited(&text, 128).unwrap().len(), 1000);
+    let refused = |text: &str, megabytes: u64| {
+        let error = limited(text, megabytes).unwrap_err();
+        let is_too_large =
+            matches!(error.reason(), Reason::TooLarge { limit, .. } if *limit == megabytes << 20);
+        let said = format!(", {megabytes} MiB are allowed");
+        assert!(
+            is_too_large && error.to_string().ends_with(&said),
+            "{error}"
+        );
+    };
+    refused(&text, 16);
+    // A mesh of as many primitives, all of the same bytes.
+    let mut file = triangle();
+    let primitive = json!({"attributes": {"POSITION": 0}});
+    file["meshes"][0]["primitives"] = (0..100_000).map(|_| primitive.clone()).collect();
+    file["nodes"][0] = json!({"mesh": 0});
+    refused(&file.to_string(), 8);
+    // Morph targets that are zero take nothing.
+    let mut file = triangle();
+    file["accessors"]
+        .as_array_mut()
+        .unwrap()
+        .push(json!({"componentType": 5126, "count": 3, "type": "VEC3"}));
+    file["meshes"][0]["primitives"][0]["targets"] =
+        (0..1000).map(|_| json!({"POSITION": 5})).collect();
+    assert!(limited(&file.to_string(), 4).is_ok());
+    // Nodes in nodes, deeper than any stack.
+    let mut file = triangle();
+    file["nodes"] = (0..50_000)
+        .map(|node| {
+            if node < 49_999 {
+                json!({"children": [node + 1]})
+            } else {
+                json!({"mesh": 0, "name": "last"})
+            }
+        })
+        .collect();
+    file["scenes"][0]["nodes"] = json!([0]);
+    file["skins"] = json!([]);
+    file["animations"] = json!([]);
+    assert!(limited(&file.to_string(), 64).is_ok());
+}
+
+/// GLB files in a row are frames, if each is one body.
+#[test]
+fn files_in_a_row_are_frames() {
+    let folder = Folder::new();
+    for (number, x) in [1.0, 2.0, 3.0].into_iter().enumerate() {
+        let mut file = triangle();
+        file["animations"] = json!([]);
+        file["nodes"][1]["translation"] = json!([x, 0, 0]);
+        folder.write(&format!("f{number}.gltf"), file.to_string());
+    }
+    let frames = all_frames(&mut folder.open("f*.gltf").unwrap()).unwrap();
+    let moved: Vec<_> = frames.iter().map(|frame| frame[0][0]).collect();
+    assert_eq!(moved, [1.0, 2.0, 3.0]);
+    std::fs::copy(fixture("kinds.glb"), folder.path().join("f3.gltf")).unwrap();
+    assert!(
+        folder
+            .error("f*.gltf")
+            .starts_with("f3.gltf: holds 6 bodies"),
+        "{}",
+        folder.error("f*.gltf")
+    );
+}
+
+/// Vertices are moved some thousand at a time, and a target is passed over once.
+#[test]
+fn morph_targets_move_vertices_of_large_meshes_too() {
+    const COUNT: usize = 10_000;
+    let moved = [0, 1, 4095, 4096, 8191, 8192, 9999];
+    let floats = |row: &dyn Fn(usize) -> [f32; 3]| -> Vec<u8> {
+        let numbers = (0..COUNT).flat_map(row);
+        numbers.flat_map(f32::to_le_bytes).collect()
+    };
+    let lift = |vertex: usize| (vertex % 7) as f32;
+    let push = |vertex: usize| f32::from(u8::from(moved.contains(&vertex)));
+    let bytes = [
+        floats(&|vertex| [vertex as f32, 0.0, 0.0]),
+        floats(&|vertex| [0.0, lift(vertex), 0.0]),
+        floats(&|vertex| [0.0, 0.5 * push(vertex), push(vertex)]),
+    ];
+    let size = 12 * COUNT;
+    let accessor = |view: usize| json!({"bufferView": view, "componentType": 5126, "count": COUNT, "type": "VEC3"});
+    let view = |at: usize| json!({"buffer": 0, "byteOffset": at * size, "byteLength": size});
+    let data = STANDARD.encode(bytes.concat());
+    let file = json!({
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0, "weights": [2.0, 0.0, 4.0]}],
+        "meshes": [{"primitives": [{
+            "attributes": {"POSITION": 0},
+            "mode": 5,
+            "targets": [{"POSITION": 1}, {"POSITION": 1}, {"POSITION": 2}],
+        }]}],
+        "accessors": [accessor(0), accessor(1), accessor(2)],
+        "bufferViews": [view(0), view(1), view(2)],
+        "buffers": [{"byteLength": 3 * size, "uri": format!("data:;base64,{data}")}],
+    });
+    let folder = Folder::new();
+    folder.write("large.gltf", file.to_string());
+    let frames = all_frames(&mut folder.open("large.gltf").unwrap()).unwrap();
+    let expected = (0..COUNT).map(|vertex| {
+        let [lift, push] = [lift(vertex), push(vertex)].map(f64::from);
+        [vertex as f64, 2.0 * (lift + push), 4.0 * push]
+    });
+    assert_eq!(frames, [expected.collect::<Vec<_>>()]);
+}

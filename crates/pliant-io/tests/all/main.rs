@@ -1,0 +1,14 @@
+//! The tests of the crate, one file a module, in one program: a program each is linked with the whole library each time.
+//! One file: `cargo test -p pliant-io --test all caches::`.
+
+mod caches;
+mod changes;
+mod common;
+mod gltf;
+mod hostile;
+mod npz;
+mod real_files;
+mod rewind;
+mod sequences;
+mod welding;
+mod writing;

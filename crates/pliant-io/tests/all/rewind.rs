@@ -1,0 +1,161 @@
+//! A body that is read twice: the same frames, and no file that is another one meanwhile.
+
+use crate::common::{Folder, all_frames, npy, npz, tetrahedron};
+use pliant_io::{Body, OpenOptions, Reason, Shape, WriteOptions, Writer};
+use std::path::Path;
+use zip::CompressionMethod;
+
+/// Three frames as files, and three as one file that is deflated and cannot be sought in.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    for frame in 0..3 {
+        folder.write(&format!("t{frame}.obj"), tetrahedron(f64::from(frame)));
+    }
+    let vertices: Vec<f32> = (0..3 * 3 * 3_u8).map(f32::from).collect();
+    let faces = [0_u32, 1, 2];
+    folder.write(
+        "t.npz",
+        npz(
+            CompressionMethod::Deflated,
+            &[
+                (
+                    "vertices",
+                    npy(
+                        "<f4",
+                        false,
+                        &[3, 3, 3],
+                        &crate::common::bytes(&vertices, f32::to_le_bytes),
+                    ),
+                ),
+                (
+                    "faces",
+                    npy(
+                        "<u4",
+                        false,
+                        &[1, 3],
+                        &crate::common::bytes(&faces, u32::to_le_bytes),
+                    ),
+                ),
+            ],
+        ),
+    );
+    folder
+}
+
+/// Writes the body that is called `from` as `to`.
+fn convert(folder: &Folder, from: &str, to: &str) {
+    let mut body = folder.open(from).unwrap();
+    let shape = Shape {
+        triangles: body.triangles().to_vec(),
+        faces: None,
+        vertex_count: body.vertex_count(),
+        frame_count: body.frame_count(),
+        precision: body.precision(),
+    };
+    let mut writer = Writer::create(to, shape, WriteOptions::default()).unwrap();
+    while let Some(positions) = body.next_frame().unwrap() {
+        writer.frame(positions).unwrap();
+    }
+    writer.finish().unwrap();
+}
+
+/// All kinds of bodies: the arguments that name them.
+fn every_kind(folder: &Folder) -> Vec<String> {
+    let path = folder.path().display();
+    let caches = ["pc2", "mdd"].map(|ending| format!("{path}/m.obj+{path}/s.{ending}"));
+    convert(folder, "t.npz", &caches[0]);
+    std::fs::remove_file(folder.path().join("m.obj")).unwrap();
+    convert(folder, "t.npz", &caches[1]);
+    let fixture = |name| {
+        Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("tests/fixtures")
+            .join(name)
+    };
+    for name in ["k0.gltf", "k1.gltf"] {
+        std::fs::copy(fixture("skin.gltf"), folder.path().join(name)).unwrap();
+    }
+    std::fs::copy(fixture("hierarchy.gltf"), folder.path().join("h.gltf")).unwrap();
+    let files = ["t*.obj", "t.npz", "k0.gltf", "k*.gltf", "h.gltf"];
+    files
+        .map(|name| folder.argument(name))
+        .into_iter()
+        .chain(caches)
+        .collect()
+}
+
+#[test]
+fn frames_come_again_from_wherever_the_reading_was() {
+    let folder = folder();
+    for argument in every_kind(&folder) {
+        let options = OpenOptions {
+            fps: 5.0,
+            ..OpenOptions::default()
+        };
+        let open = || pliant_io::open_all(&argument, &options).unwrap();
+        for number in 0..open().len() {
+            let body = || open().swap_remove(number);
+            let all = all_frames(&mut body()).unwrap();
+            assert!(all.len() >= 3 || body().name().contains('#'));
+            for read in 0..=all.len() {
+                for passed_over in 0..=read {
+                    let mut body: Body = body();
+                    body.skip(passed_over);
+                    for frame in &all[passed_over..read] {
+                        body.next_frame().unwrap();
+                        assert_eq!(body.positions().get(0), frame[0]);
+                    }
+                    body.rewind().unwrap();
+                    body.rewind().unwrap();
+                    // From the beginning, and from somewhere else.
+                    let case = format!("{argument} {number} after {passed_over} and {read}");
+                    body.skip(passed_over);
+                    assert_eq!(all_frames(&mut body).unwrap(), all[passed_over..], "{case}");
+                    body.rewind().unwrap();
+                    assert_eq!(all_frames(&mut body).unwrap(), all, "{case}");
+                    assert!(body.next_frame().unwrap().is_none());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn seams_still_hold_the_second_time() {
+    let folder = Folder::new();
+    let strip = |z: f64| {
+        format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 {z}\nv 0 1 0\nf 1 2 3\nf 4 5 6\n")
+    };
+    folder
+        .write("s0.obj", strip(0.0))
+        .write("s1.obj", strip(1.0));
+    let mut body = folder.open("s*.obj").unwrap();
+    let all = all_frames(&mut body).unwrap();
+    body.rewind().unwrap();
+    assert_eq!((body.welded(), all_frames(&mut body).unwrap()), (2, all));
+}
+
+#[test]
+fn a_file_that_changed_meanwhile_is_refused() {
+    let folder = folder();
+    let mut body = folder.open("t*.obj").unwrap();
+    all_frames(&mut body).unwrap();
+    folder.write("t0.obj", tetrahedron(0.0) + "# and more\n");
+    let error = body.rewind().unwrap_err();
+    assert!(matches!(error.reason(), Reason::Changed), "{error}");
+    let again = body.rewind().unwrap_err();
+    assert!(matches!(again.reason(), Reason::AfterError), "{again}");
+    assert!(body.next_frame().is_err());
+
+    // A cache stays open, and a change in it is seen all the same.
+    let caches = every_kind(&folder).split_off(5);
+    for cache in caches {
+        let mut body = pliant_io::open(&cache, &OpenOptions::default()).unwrap();
+        all_frames(&mut body).unwrap();
+        let file = cache.rsplit_once('+').unwrap().1;
+        let whole = std::fs::read(file).unwrap();
+        std::fs::write(file, &whole[..whole.len() - 1]).unwrap();
+        let error = body.rewind().unwrap_err();
+        assert!(matches!(error.reason(), Reason::Changed), "{error}");
+        assert!(body.next_frame().is_err());
+    }
+}

@@ -1,0 +1,5 @@
+//! The tests of the crate, one file a module, in one program: a program each is linked with the whole library each time.
+//! One file: `cargo test -p pliant-report --test all page::`.
+
+mod page;
+mod picture;

@@ -1,0 +1,180 @@
+//! A frame as an image: the same bytes everywhere, the nearest in front, what intersects in red, also behind others.
+
+use pliant::{Selection, World};
+use pliant_report::picture::Picture;
+
+/// A folded sheet, and a thorn through it.
+fn world() -> (World<f32>, Vec<[u32; 4]>) {
+    let mut world = World::new();
+    let side = 6_u32;
+    let positions: Vec<[f32; 3]> = (0..side * side)
+        .map(|i| {
+            [
+                (i % side) as f32,
+                (i / side) as f32 * 0.5,
+                (i % side % 2) as f32,
+            ]
+        })
+        .collect();
+    let triangles: Vec<[u32; 3]> = (0..(side - 1) * side)
+        .filter(|i| i % side < side - 1)
+        .flat_map(|i| [[i, i + 1, i + side], [i + 1, i + side + 1, i + side]])
+        .collect();
+    world.add(&triangles, &positions).unwrap();
+    let thorn = [
+        [2.6, 1.2, -2.0],
+        [2.9, 1.2, -2.0],
+        [2.7, 1.5, -2.0],
+        [2.8, 1.3, 3.0],
+    ];
+    world
+        .add(&[[0, 1, 3], [1, 2, 3], [2, 0, 3]], &thorn)
+        .unwrap();
+    let pairs = world.intersections(Selection::World).all().unwrap().iter();
+    let rows = pairs.map(|pair| {
+        [
+            pair.body_a.0,
+            pair.triangle_a,
+            pair.body_b.0,
+            pair.triangle_b,
+        ]
+    });
+    let rows = rows.collect();
+    (world, rows)
+}
+
+fn is_reddish(pixel: &[u8]) -> bool {
+    pixel[0] / 2 > pixel[1] && pixel[0] / 2 > pixel[2]
+}
+
+fn png(picture: &Picture) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    picture.write_png(&mut bytes).unwrap();
+    bytes
+}
+
+fn decode(bytes: &[u8]) -> Picture {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    Picture {
+        size: [info.width as usize, info.height as usize],
+        pixels,
+    }
+}
+
+/// `PLIANT_GOLDEN=write cargo test -p pliant-report` writes it anew; then look at it.
+#[test]
+fn the_picture_is_the_one_that_was_looked_at() {
+    let (world, pairs) = world();
+    assert!(!pairs.is_empty());
+    let picture = Picture::of(&world, &pairs, [160, 120]);
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/thorn.png");
+    if std::env::var_os("PLIANT_GOLDEN").is_some() {
+        std::fs::write(path, png(&picture)).unwrap();
+    }
+    let golden = decode(&std::fs::read(path).unwrap());
+    assert_eq!(picture.size, golden.size);
+    assert!(
+        picture.pixels == golden.pixels,
+        "the pixels differ; PLIANT_GOLDEN=write to see how"
+    );
+}
+
+#[test]
+fn a_picture_survives_its_file() {
+    let (world, pairs) = world();
+    let picture = Picture::of(&world, &pairs, [33, 20]);
+    assert!(decode(&png(&picture)) == picture);
+}
+
+#[test]
+fn red_is_what_intersects_and_nothing_else() {
+    let (world, pairs) = world();
+    let red = |pairs: &[[u32; 4]]| {
+        let picture = Picture::of(&world, pairs, [160, 120]);
+        picture
+            .pixels
+            .chunks(3)
+            .filter(|pixel| is_reddish(pixel))
+            .count()
+    };
+    assert_eq!(red(&[]), 0);
+    assert!(red(&pairs) > 50);
+    // A body that there is not, a triangle that there is not: nobody is painted for them.
+    assert_eq!(red(&[[7, 0, 8, 1], [0, 9999, 1, 9999]]), 0);
+}
+
+#[test]
+fn the_nearer_triangle_hides_the_other() {
+    let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    let faces = [[0, 1, 2], [0, 2, 3]];
+    // The eye is at larger z, whatever the order of the bodies.
+    for heights in [[0.0, 1e-3], [1e-3, 0.0]] {
+        let mut world = World::<f64>::new();
+        for z in heights {
+            world.add(&faces, &square(z)).unwrap();
+        }
+        let front = u32::from(heights[1] > heights[0]);
+        let red = |body: u32| {
+            let picture = Picture::of(&world, &[[body, 0, body, 1]], [40, 40]);
+            let middle = 3 * (20 * 40 + 20);
+            is_reddish(&picture.pixels[middle..middle + 3])
+        };
+        assert!(red(front) && !red(1 - front), "{heights:?}");
+    }
+}
+
+#[test]
+fn what_intersects_shines_through_what_hides_it() {
+    let square = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, z], [0.0, 1.0, z]];
+    let faces = [[0, 1, 2], [0, 2, 3]];
+    // Whatever the order, and however much hides it or is hidden.
+    let sheets = [0.0, 1e-3, 2e-3, 3e-3];
+    let orders = [[0, 1, 2, 3], [3, 2, 1, 0], [2, 0, 3, 1], [1, 3, 0, 2]];
+    for order in orders {
+        let mut world = World::<f64>::new();
+        for sheet in order {
+            world.add(&faces, &square(sheets[sheet])).unwrap();
+        }
+        let centre = |red: &[usize]| {
+            let at = |sheet| order.iter().position(|&other| other == sheet).unwrap() as u32;
+            let pairs: Vec<_> = red.iter().map(|&s| [at(s), 0, at(s), 1]).collect();
+            let picture = Picture::of(&world, &pairs, [40, 40]);
+            let middle = 3 * (20 * 40 + 20);
+            let colour: [u8; 3] = picture.pixels[middle..middle + 3].try_into().unwrap();
+            colour.map(i32::from)
+        };
+        let (plain, red) = (centre(&[]), [0xd6, 0x2f, 0x2b]);
+        for hidden in [&[0][..], &[1], &[2], &[0, 1, 2]] {
+            let faint = centre(hidden);
+            for part in 0..3 {
+                let third = (2 * plain[part] + red[part]) / 3;
+                assert!((faint[part] - third).abs() <= 1, "{order:?}: {hidden:?}");
+            }
+        }
+        // In front it is as red as alone, whatever is behind.
+        assert_eq!(centre(&[3]), centre(&[0, 1, 2, 3]));
+        assert_ne!(centre(&[3]), centre(&[2]));
+    }
+}
+
+#[test]
+fn any_shape_gives_a_picture() {
+    let corners = |scale: f64| [[0.0, 0.0, 0.0], [scale, 0.0, 0.0], [0.0, scale, scale]];
+    for scale in [5e-324, 1e-300, 1e-30, 1.0, 1e30, f64::from(f32::MAX), 0.0] {
+        let mut world = World::<f64>::new();
+        world
+            .add(&[[0, 1, 2], [0, 0, 1], [2, 2, 2]], &corners(scale))
+            .unwrap();
+        let picture = Picture::of(&world, &[[0, 0, 0, 1]], [16, 12]);
+        assert_eq!(picture.pixels.len(), 3 * 16 * 12);
+        let drawn = picture.pixels.chunks(3).any(is_reddish);
+        // The smallest numbers have no products to tell sides by.
+        assert!(drawn || scale < 1e-150, "{scale}");
+    }
+    let empty = Picture::of(&World::<f32>::new(), &[], [4, 2]);
+    assert_eq!(empty.pixels, [255; 24]);
+}

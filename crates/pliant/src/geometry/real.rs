@@ -1,0 +1,241 @@
+//! The two coordinate types, `f32` and `f64`, and the only place where they differ.
+//!
+//! Precision lives at the edges. Positions are kept in the caller's type and decisions are exact on them; in between everything is
+//! done on boxes, which are `f32` whatever the coordinates are. A box only ever *skips* work, so it must hold its triangles; how
+//! tightly is a matter of speed. For `f32` it is exact. For `f64` it is relative to one origin of the world (far from zero an `f32`
+//! has no digits left for the shape) and rounded outward.
+
+use std::hint::black_box;
+use std::ops::{Add, Mul};
+
+/// A coordinate: `f32` or `f64`. What differs between them, one number at a time; what registers do is `kernels::Coordinate`.
+pub(crate) trait Real:
+    Copy
+    + PartialOrd
+    + Add<Output = Self>
+    + Mul<Output = Self>
+    + std::fmt::Debug
+    + Default
+    + Send
+    + Sync
+    + 'static
+{
+    /// The value that no position may have; a buffer is filled with it before the caller writes.
+    const NAN: Self;
+    const INFINITY: Self;
+    const NEG_INFINITY: Self;
+    /// What a sign's filter allows for results below the normal range: see `predicates::orientation`. Zero if there are none; then no
+    /// coordinate is too small for adaptive expansions either.
+    const UNDERFLOW: f64;
+    /// Whether boxes are exact, so that an origin has no use.
+    const BOXES_ARE_EXACT: bool;
+
+    /// The same value; exact.
+    fn to_f64(self) -> f64;
+    /// Finite and at most `f32::MAX` in magnitude.
+    fn is_in_range(self) -> bool;
+    /// Whether a thread that flushes subnormal numbers loses this coordinate, or may lose a difference of it and another.
+    fn needs_subnormals(self) -> bool;
+    /// An `f32` that is not above `self - origin`; for `f32` itself, the origin being zero.
+    fn round_down(self, origin: f64) -> f32;
+    /// An `f32` that is not below `self - origin`; for `f32` itself, the origin being zero.
+    fn round_up(self, origin: f64) -> f32;
+}
+
+impl Real for f32 {
+    const NAN: Self = f32::NAN;
+    const INFINITY: Self = f32::INFINITY;
+    const NEG_INFINITY: Self = f32::NEG_INFINITY;
+    // The smallest difference of two f32 is 2^-149; the product of three of them is far inside f64.
+    const UNDERFLOW: f64 = 0.0;
+    const BOXES_ARE_EXACT: bool = true;
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self.into()
+    }
+    #[inline]
+    fn is_in_range(self) -> bool {
+        self.abs() <= f32::MAX
+    }
+    fn needs_subnormals(self) -> bool {
+        // Bits, because such a thread takes a subnormal number for zero; zero, less one, is the largest of all.
+        self.abs().to_bits().wrapping_sub(1) < f32::MIN_POSITIVE.to_bits() - 1
+    }
+    #[inline]
+    fn round_down(self, _origin: f64) -> f32 {
+        self
+    }
+    #[inline]
+    fn round_up(self, _origin: f64) -> f32 {
+        self
+    }
+}
+
+impl Real for f64 {
+    const NAN: Self = f64::NAN;
+    const INFINITY: Self = f64::INFINITY;
+    const NEG_INFINITY: Self = f64::NEG_INFINITY;
+    // 2^-1018, sixteen times the smallest normal number.
+    const UNDERFLOW: f64 = f64::from_bits(5 << 52);
+    const BOXES_ARE_EXACT: bool = false;
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn is_in_range(self) -> bool {
+        self.abs() <= f32::MAX.into()
+    }
+    fn needs_subnormals(self) -> bool {
+        // 2^-969: from there on coordinates, and so their differences, are multiples of 2^-1021.
+        let smallest = f64::from_bits((1023 - 969) << 52);
+        self.abs().to_bits().wrapping_sub(1) < smallest.to_bits() - 1
+    }
+    #[inline]
+    fn round_down(self, origin: f64) -> f32 {
+        // Two roundings to nearest, to f64 and to f32, are off by less than a quarter of what is taken away here; so is that
+        // of this line itself. Below the normal range the absolute term is for what is lost there. A difference beyond
+        // f32 is brought back to the largest f32, which is below it.
+        let nearest = smaller((self - origin) as f32, f32::MAX);
+        nearest - (nearest.abs() * OUTWARD + f32::MIN_POSITIVE)
+    }
+    #[inline]
+    fn round_up(self, origin: f64) -> f32 {
+        let nearest = larger((self - origin) as f32, -f32::MAX);
+        nearest + (nearest.abs() * OUTWARD + f32::MIN_POSITIVE)
+    }
+}
+
+/// 2^-22, four times the most by which rounding to the nearest `f32` is off.
+pub(crate) const OUTWARD: f32 = 2.0 * f32::EPSILON;
+
+/// The smaller of two; `a` if either is NaN. One instruction, which `f32::min`, careful on both sides, is not.
+#[inline]
+pub(crate) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
+    if b < a { b } else { a }
+}
+
+/// The larger of two; `a` if either is NaN.
+#[inline]
+pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
+    if b > a { b } else { a }
+}
+
+/// Whether this thread keeps subnormal numbers: neither flushes results to zero nor takes operands for zero.
+pub(crate) fn denormals_are_kept() -> bool {
+    // Made, and read: the first is lost by flush-to-zero, the second by denormals-are-zero. Computed now, not by the compiler.
+    let half = black_box(black_box(f64::MIN_POSITIVE) * 0.5);
+    half * 2.0 == f64::MIN_POSITIVE
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Compares `bound` with the exact `x - origin`, in integers: all values are multiples of 2^-40 below 2^60.
+    fn exact(x: f64) -> i128 {
+        (x * 2f64.powi(40)) as i128
+    }
+
+    #[test]
+    fn outward_rounding_holds_the_exact_difference_and_little_more() {
+        let values = [
+            0.0,
+            1.0,
+            -1.0,
+            0.1f32 as f64,
+            1e7 + 2f64.powi(-20),
+            -1e7 - 2f64.powi(-21),
+            2f64.powi(50) + 1.0,
+            3.0 + 2f64.powi(-40),
+            16_777_217.0,
+        ];
+        for x in values {
+            for origin in values {
+                let true_value = exact(x) - exact(origin);
+                let (below, above) = (x.round_down(origin), x.round_up(origin));
+                assert!(exact(below as f64) <= true_value, "{x} - {origin}");
+                assert!(exact(above as f64) >= true_value, "{x} - {origin}");
+                let gap = f64::from(above) - f64::from(below);
+                let size = f64::from(below.abs().max(above.abs()));
+                assert!(
+                    gap <= size * 2f64.powi(-20) + 2f64.powi(-120),
+                    "{x} - {origin}: {gap}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn rounding_survives_the_ends_of_the_range() {
+        let max = f64::from(f32::MAX);
+        assert_eq!(max.round_up(-max), f32::INFINITY);
+        assert!((1e38..f32::MAX).contains(&max.round_down(-max)));
+        assert_eq!((-max).round_down(max), f32::NEG_INFINITY);
+        assert!((1e38..f32::MAX).contains(&-(-max).round_up(max)));
+        assert!(1e-300.round_down(0.0) <= 0.0);
+        assert!(1e-300.round_up(0.0) > 0.0);
+        assert!((-1e-300).round_down(0.0) < 0.0);
+    }
+
+    #[test]
+    fn a_thread_that_flushes_is_found_out() {
+        assert!(denormals_are_kept());
+        assert_ne!(
+            pliant_oracle::subnormals_flushed(denormals_are_kept),
+            Some(true)
+        );
+        assert!(denormals_are_kept());
+    }
+
+    #[test]
+    fn coordinates_that_need_subnormals_are_known_in_any_thread() {
+        let smallest = 2f64.powi(-969);
+        let singles = [0.0, -0.0, f32::MIN_POSITIVE, -1.0, 1e-38, -1e-45];
+        let doubles = [0.0, -0.0, smallest, -1.0, smallest.next_down(), -5e-324];
+        let ask = || {
+            let (singles, doubles) = (black_box(singles), black_box(doubles));
+            (
+                singles.map(f32::needs_subnormals),
+                doubles.map(f64::needs_subnormals),
+            )
+        };
+        let expected = [false, false, false, false, true, true];
+        assert_eq!(ask(), (expected, expected));
+        let flushed = pliant_oracle::subnormals_flushed(ask);
+        assert!(flushed.is_none_or(|flushed| flushed == (expected, expected)));
+    }
+
+    #[test]
+    fn a_thread_that_flushes_rounds_outward() {
+        let values = [
+            -1e-38,
+            -1e-40,
+            -1e-45,
+            -1e-290,
+            0.0,
+            1e-290,
+            1e-45,
+            1e-40,
+            1.175_494_3e-38,
+            1e-38,
+            3e-38,
+        ];
+        let bounds = || black_box(values).map(|x: f64| [x.round_down(0.0), x.round_up(0.0)]);
+        // Compared here, where no operand is taken for zero.
+        let check = |bounds: [[f32; 2]; 11]| {
+            for (x, [below, above]) in values.into_iter().zip(bounds) {
+                assert!(
+                    f64::from(below) <= x && x <= f64::from(above),
+                    "{below:e} {x:e} {above:e}"
+                );
+            }
+        };
+        check(bounds());
+        if let Some(flushed) = pliant_oracle::subnormals_flushed(bounds) {
+            check(flushed);
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! The lanes set in a mask, written to a list without a branch for each.
+//!
+//! How many bits a mask has cannot be predicted, and a wrong guess costs as much as ten items. So items are written four at a
+//! time whether there are so many or not, none included, and the length is then set by the number of bits.
+
+/// A list with room for the items of one more mask behind its end.
+#[derive(Debug)]
+pub(crate) struct Buffer<T> {
+    items: Vec<T>,
+    len: usize,
+}
+
+impl<T> Default for Buffer<T> {
+    fn default() -> Self {
+        Self {
+            items: Vec::new(),
+            len: 0,
+        }
+    }
+}
+
+/// The bits of a mask.
+const ROOM: usize = 64;
+
+impl<T: Copy + Default> Buffer<T> {
+    pub(crate) fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    #[inline]
+    pub(crate) fn as_slice(&self) -> &[T] {
+        &self.items[..self.len]
+    }
+
+    /// The items by eights; what is missing to the last eight is the last item again.
+    pub(crate) fn eights(&mut self) -> &[[T; 8]] {
+        if self.len == 0 {
+            return &[];
+        }
+        let last = self.items[self.len - 1];
+        let _ = self.room();
+        let end = self.len.next_multiple_of(8);
+        self.items[self.len..end].fill(last);
+        self.items[..end].as_chunks().0
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    pub(crate) fn extend(&mut self, items: &[T]) {
+        let end = self.len + items.len();
+        if self.items.len() < end {
+            self.items.resize(end, T::default());
+        }
+        self.items[self.len..end].copy_from_slice(items);
+        self.len = end;
+    }
+
+    #[inline]
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Keeps the first `len` items, or all there are.
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.len = self.len.min(len);
+    }
+
+    /// Takes the last `count` items, or all there are, and puts them into `taken` in their order.
+    pub(crate) fn take_last(&mut self, count: usize, taken: &mut Vec<T>) {
+        let rest = self.len.saturating_sub(count);
+        taken.clear();
+        taken.extend_from_slice(&self.items[rest..self.len]);
+        self.len = rest;
+    }
+
+    pub(crate) fn push(&mut self, item: T) {
+        self.room().slots[0] = item;
+        self.len += 1;
+    }
+
+    /// Makes room for so many items, which [`push_if`](Self::push_if) may then write.
+    #[inline(always)]
+    pub(crate) fn make_room(&mut self, count: usize) {
+        if self.items.len() < self.len + count {
+            self.items.resize(2 * self.len + 2 * count, T::default());
+        }
+    }
+
+    /// Appends an item if it is to be kept, without a branch. Room was made.
+    #[inline(always)]
+    pub(crate) fn push_if(&mut self, item: T, keep: bool) {
+        self.items[self.len] = item;
+        self.len += usize::from(keep);
+    }
+
+    /// Room for the items of one mask. To be asked for before the mask is computed: compilers would keep all that it is made of
+    /// in memory, across the call that makes room.
+    #[inline(always)]
+    pub(crate) fn room(&mut self) -> Room<'_, T> {
+        if self.items.len() < self.len + ROOM {
+            self.grow();
+        }
+        let slots = self.items[self.len..]
+            .first_chunk_mut()
+            .expect("room was made");
+        Room {
+            slots,
+            len: &mut self.len,
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn grow(&mut self) {
+        self.items.resize(2 * self.len + 2 * ROOM, T::default());
+    }
+}
+
+/// Room at the end of a list.
+pub(crate) struct Room<'l, T> {
+    slots: &'l mut [T; ROOM],
+    len: &'l mut usize,
+}
+
+impl<T: Copy> Room<'_, T> {
+    /// Appends an item for every bit set in a mask, lowest first.
+    #[inline(always)]
+    pub(crate) fn push_bits(self, mask: u64, item: impl Fn(u32) -> T) {
+        let mut rest = mask;
+        let mut place = 0;
+        loop {
+            for next in 0..4 {
+                self.slots[(place + next) % ROOM] = item(rest.trailing_zeros() % u64::BITS);
+                rest &= rest.wrapping_sub(1);
+            }
+            if rest == 0 {
+                break;
+            }
+            place += 4;
+        }
+        *self.len += mask.count_ones() as usize;
+    }
+
+    /// Appends an item for every bit set in a mask of which `keep` says so.
+    #[inline(always)]
+    pub(crate) fn push_bits_if(self, mask: u64, item: impl Fn(u32) -> T, keep: impl Fn(T) -> bool) {
+        let mut rest = mask;
+        let mut place = 0;
+        while rest != 0 {
+            let item = item(rest.trailing_zeros());
+            self.slots[place % ROOM] = item;
+            place += usize::from(keep(item));
+            rest &= rest.wrapping_sub(1);
+        }
+        *self.len += place;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_bits_of_any_mask_in_order() {
+        let mut list = Buffer::default();
+        let mut expected = Vec::new();
+        let mut mask = 0x9e37_79b9_7f4a_7c15_u64;
+        for round in 0..200 {
+            let mask_now = match round {
+                0 => 0,
+                1 => u64::MAX,
+                _ => mask & mask.rotate_left(round),
+            };
+            list.push(1000 + round);
+            list.room().push_bits(mask_now, |bit| bit);
+            list.room()
+                .push_bits_if(mask_now, |bit| bit, |bit| bit % 3 == 1);
+            let bits = (0..64).filter(|bit| mask_now >> bit & 1 == 1);
+            expected.push(1000 + round);
+            expected.extend(bits.clone());
+            expected.extend(bits.filter(|bit| bit % 3 == 1));
+            mask = mask.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        }
+        assert_eq!(list.as_slice(), expected);
+        assert_eq!(list.len(), expected.len());
+        let mut twice = Buffer::default();
+        twice.extend(list.as_slice());
+        twice.extend(list.as_slice());
+        assert_eq!(twice.as_slice(), [&expected[..]; 2].concat());
+        assert!(!twice.is_empty());
+        let eights = list.eights().as_flattened().to_vec();
+        assert_eq!(eights.len(), expected.len().next_multiple_of(8));
+        assert_eq!(eights[..expected.len()], expected);
+        assert!(
+            eights[expected.len()..]
+                .iter()
+                .all(|item| Some(item) == expected.last())
+        );
+        let mut taken = vec![7];
+        list.take_last(10, &mut taken);
+        assert_eq!(taken, expected[expected.len() - 10..]);
+        assert_eq!(list.as_slice(), &expected[..expected.len() - 10]);
+        list.take_last(1 << 20, &mut taken);
+        assert_eq!((taken.len(), list.len()), (expected.len() - 10, 0));
+    }
+}

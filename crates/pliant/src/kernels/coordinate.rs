@@ -1,0 +1,169 @@
+//! A point in one register, and how points become lanes.
+//!
+//! A register holds a point's three coordinates and padding. Eight points turned by a quarter (their x in
+//! one register, their y in the next, their z in a third) are lanes, which is how boxes are kept and how eight decisions are
+//! made at once.
+
+use crate::geometry::{OUTWARD, Points, Real};
+use crate::ids::TreeVertex;
+use fearless_simd::prelude::*;
+use fearless_simd::{f32x4, f32x8, f64x4};
+
+/// A coordinate type whose points fit registers of four.
+pub(crate) trait Coordinate: Real {
+    /// Four coordinates.
+    type Four<I: Simd>: SimdBase<I, Element = Self>;
+
+    /// Four numbers from memory: a point and padding.
+    fn load<I: Simd>(i: I, four: &[Self; 4]) -> Self::Four<I>;
+
+    /// The same corners of a box in f32, relative to the origin and rounded outward: lo, hi.
+    fn outward<I: Simd>(
+        lo: Self::Four<I>,
+        hi: Self::Four<I>,
+        origin: &[f64; 4],
+    ) -> (f32x4<I>, f32x4<I>);
+
+    /// Differences of points as lanes, each coordinate rounded to the nearest f32 (of f64 to the nearest f64 before): for every
+    /// (a, b) corner a minus corner b.
+    fn differences<I: Simd, const D: usize>(
+        i: I,
+        corners: &Corners<Self>,
+        of: [(usize, usize); D],
+    ) -> [Vectors<I>; D];
+}
+
+/// The corners of eight pairs of triangles A and B; of A 0, 1 and 2, of B 3, 4 and 5.
+#[derive(Clone, Copy)]
+pub(crate) struct Corners<'p, S> {
+    pub(crate) positions: [&'p Points<S>; 2],
+    pub(crate) vertices: [[TreeVertex; 6]; 8],
+}
+
+impl<S> Corners<'_, S> {
+    #[inline(always)]
+    fn get(&self, corner: usize, lane: usize) -> &[S; 4] {
+        self.positions[corner / 3].padded(self.vertices[lane][corner])
+    }
+}
+
+/// Eight vectors as lanes: their x, their y, their z.
+pub(crate) type Vectors<I> = [f32x8<I>; 3];
+
+impl Coordinate for f32 {
+    type Four<I: Simd> = f32x4<I>;
+
+    #[inline(always)]
+    fn load<I: Simd>(i: I, four: &[Self; 4]) -> Self::Four<I> {
+        f32x4::load_array_ref(i, four)
+    }
+
+    #[inline(always)]
+    fn outward<I: Simd>(
+        lo: Self::Four<I>,
+        hi: Self::Four<I>,
+        _origin: &[f64; 4],
+    ) -> (f32x4<I>, f32x4<I>) {
+        (lo, hi)
+    }
+
+    #[inline(always)]
+    fn differences<I: Simd, const D: usize>(
+        i: I,
+        corners: &Corners<Self>,
+        of: [(usize, usize); D],
+    ) -> [Vectors<I>; D] {
+        // Lanes first, differences of lanes then: six turns instead of one for every difference.
+        let zero = f32x8::splat(i, 0.0);
+        let mut points = [[zero; 3]; 6];
+        for corner in 0..6 {
+            let mut eight = [f32x4::splat(i, 0.0); 8];
+            for lane in 0..8 {
+                eight[lane] = f32x4::load_array_ref(i, corners.get(corner, lane));
+            }
+            points[corner] = lanes_of(eight);
+        }
+        let mut rows = [[zero; 3]; D];
+        for which in 0..D {
+            let (a, b) = of[which];
+            for axis in 0..3 {
+                rows[which][axis] = points[a][axis] - points[b][axis];
+            }
+        }
+        rows
+    }
+}
+
+impl Coordinate for f64 {
+    type Four<I: Simd> = f64x4<I>;
+
+    #[inline(always)]
+    fn load<I: Simd>(i: I, four: &[Self; 4]) -> Self::Four<I> {
+        f64x4::load_array_ref(i, four)
+    }
+
+    #[inline(always)]
+    fn outward<I: Simd>(
+        lo: Self::Four<I>,
+        hi: Self::Four<I>,
+        origin: &[f64; 4],
+    ) -> (f32x4<I>, f32x4<I>) {
+        let i = lo.token();
+        let origin = f64x4::load_array_ref(i, origin);
+        let (lo, hi) = (lo - origin).narrow(hi - origin).split();
+        // As `Real::round_down` and `round_up` of f64 say, lane by lane.
+        let lo = lo.min(f32x4::splat(i, f32::MAX));
+        let hi = hi.max(f32x4::splat(i, -f32::MAX));
+        (
+            lo - (lo.abs() * OUTWARD + f32::MIN_POSITIVE),
+            hi + (hi.abs() * OUTWARD + f32::MIN_POSITIVE),
+        )
+    }
+
+    #[inline(always)]
+    fn differences<I: Simd, const D: usize>(
+        i: I,
+        corners: &Corners<Self>,
+        of: [(usize, usize); D],
+    ) -> [Vectors<I>; D] {
+        // In f64, because an f32 may not hold the points.
+        let mut rows = [[f32x8::splat(i, 0.0); 3]; D];
+        for which in 0..D {
+            let (a, b) = of[which];
+            let mut eight = [f32x4::splat(i, 0.0); 8];
+            for half in 0..4 {
+                let mut two = [f64x4::splat(i, 0.0); 2];
+                for next in 0..2 {
+                    let lane = 2 * half + next;
+                    two[next] = f64x4::load_array_ref(i, corners.get(a, lane))
+                        - f64x4::load_array_ref(i, corners.get(b, lane));
+                }
+                (eight[2 * half], eight[2 * half + 1]) = two[0].narrow(two[1]).split();
+            }
+            rows[which] = lanes_of(eight);
+        }
+        rows
+    }
+}
+
+/// Eight points as lanes: their x, their y, their z.
+#[inline(always)]
+pub(super) fn lanes_of<I: Simd>(points: [f32x4<I>; 8]) -> Vectors<I> {
+    let [a, b, c, d, e, f, g, h] = points;
+    let low = turn([a, b, c, d]);
+    let high = turn([e, f, g, h]);
+    [
+        low[0].combine(high[0]),
+        low[1].combine(high[1]),
+        low[2].combine(high[2]),
+    ]
+}
+
+/// Four points as x, y, z.
+#[inline(always)]
+pub(super) fn turn<I: Simd>([a, b, c, d]: [f32x4<I>; 4]) -> [f32x4<I>; 3] {
+    // ax cx ay cy, az cz .. ..; bx dx by dy, ...; zipped again: ax bx cx dx, ay by cy dy, az bz cz dz.
+    let (ac, bd) = (a.zip_low(c), b.zip_low(d));
+    let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));
+    [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high)]
+}

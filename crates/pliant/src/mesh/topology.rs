@@ -1,0 +1,104 @@
+//! What the caller said: triangles by their corners, in the caller's numbers; and what follows from that alone.
+
+use crate::ErrorKind;
+use crate::ids::{CallerTriangle, CallerVertex};
+
+/// With more triangles than this, numbers of nodes would not fit 32 bits.
+const MAX_TRIANGLES: usize = 1 << 28;
+/// With more vertices than this, no 32-bit number would be left for "none".
+const MAX_VERTICES: usize = u32::MAX as usize;
+
+/// Validated triangles.
+#[derive(Debug)]
+pub(crate) struct Topology {
+    triangles: Vec<[u32; 3]>,
+    vertices: usize,
+}
+
+/// Refuses what no body can be made of.
+pub(crate) fn validate(triangles: &[[u32; 3]], vertices: usize) -> Result<(), ErrorKind> {
+    if triangles.is_empty() {
+        return Err(ErrorKind::NoTriangles);
+    }
+    let limits = [
+        ("triangles", triangles.len(), MAX_TRIANGLES),
+        ("vertices", vertices, MAX_VERTICES),
+    ];
+    for (what, count, limit) in limits {
+        if count > limit {
+            return Err(ErrorKind::TooLarge { what, count, limit });
+        }
+    }
+    for (triangle, corners) in triangles.iter().enumerate() {
+        if let Some(&vertex) = corners.iter().find(|&&vertex| vertex as usize >= vertices) {
+            return Err(ErrorKind::VertexOutOfRange {
+                triangle,
+                vertex,
+                vertices,
+            });
+        }
+    }
+    Ok(())
+}
+
+impl Topology {
+    /// Of validated triangles.
+    pub(crate) fn new(triangles: &[[u32; 3]], vertices: usize) -> Self {
+        Self {
+            triangles: triangles.to_vec(),
+            vertices,
+        }
+    }
+
+    /// The triangles as the caller gave them.
+    pub(crate) fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// How many vertices there are, used or not.
+    pub(crate) fn vertex_count(&self) -> usize {
+        self.vertices
+    }
+
+    #[inline]
+    pub(crate) fn corners(&self, triangle: CallerTriangle) -> [CallerVertex; 3] {
+        self.triangles[triangle.index()].map(CallerVertex)
+    }
+}
+
+/// Whether two triangles of one mesh have a vertex in common.
+#[inline]
+pub(crate) fn share_a_vertex<V: Copy + PartialEq>(a: [V; 3], b: [V; 3]) -> bool {
+    // No early exit: nine comparisons without a branch are cheaper than one branch that goes wrong.
+    let mut shared = false;
+    for corner in a {
+        for other in b {
+            shared |= corner == other;
+        }
+    }
+    shared
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_the_triangle_and_the_vertex() {
+        assert_eq!(validate(&[], 3), Err(ErrorKind::NoTriangles));
+        let error = ErrorKind::VertexOutOfRange {
+            triangle: 1,
+            vertex: 3,
+            vertices: 3,
+        };
+        assert_eq!(validate(&[[0, 1, 2], [0, 3, 9]], 3), Err(error));
+        let too_many = validate(&[[0, 1, 2]], MAX_VERTICES + 1).unwrap_err();
+        assert!(matches!(
+            too_many,
+            ErrorKind::TooLarge {
+                what: "vertices",
+                ..
+            }
+        ));
+    }
+}

@@ -1,0 +1,168 @@
+//! Signs in integers, for two triangles whose six corners lie on one lattice: the middle stage, for contact that is exact.
+//!
+//! Floating point is never certain of a zero, and adaptive expansions take long to find one; two flat faces that touch have fifteen
+//! for every pair of triangles. But coordinates that give zeros are seldom far apart in size. If all are multiples of 2^-38
+//! times the largest, then scaled they are integers below 2^39, differences are below 2^40, and a determinant of them is a sum of
+//! six products below 2^120: it fits 128 bits, and its sign is exact.
+//!
+//! ```text
+//! largest of 18 coordinates in [2^k, 2^(k+1))     scale 2^(38 - k): a power of two, so that scaling is exact
+//! each coordinate, scaled, an integer?            else there is no such lattice, and the caller does without
+//! ```
+
+use super::orientation::{Orientation, are_from};
+use super::point::{Point, Sign, Triangle};
+
+/// The largest coordinate, scaled, is below twice 2 to this power.
+const BITS: u64 = 38;
+
+/// Two triangles scaled to integers, if that is exact.
+pub(super) fn on_lattice(a: &Triangle, b: &Triangle) -> Option<[Triangle; 2]> {
+    let coordinates = a.as_flattened().iter().chain(b.as_flattened());
+    let largest = coordinates.fold(0, |largest, x| largest.max(x.to_bits() & !SIGN));
+    // Of the scale: the exponent as it is stored, 1023 for one. Where there is none, coordinates are too small, or all are zero.
+    let exponent = 2 * 1023 + BITS - (largest >> 52);
+    if exponent >= 2 * 1023 {
+        return None;
+    }
+    let scale = f64::from_bits(exponent << 52);
+    let step = f64::from_bits((2 * 1023 - exponent) << 52);
+    let mut are_integers = true;
+    let mut scaled = [*a, *b];
+    for point in scaled.as_flattened_mut() {
+        // What is smaller is no integer, and might be taken for zero.
+        are_integers &= are_from(step, point);
+        for x in point {
+            *x *= scale;
+            are_integers &= *x as i64 as f64 == *x;
+        }
+    }
+    are_integers.then_some(scaled)
+}
+
+const SIGN: u64 = 1 << 63;
+
+/// Signs of points whose coordinates are integers below 2^39.
+pub(super) struct Lattice;
+
+impl Orientation for Lattice {
+    #[inline]
+    fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+        let along = |p: &Point, axis: usize| whole(p[axis] - a[axis]);
+        let difference = |p: &Point| [along(p, 0), along(p, 1), along(p, 2)];
+        let (e1, e2, t) = (difference(b), difference(c), difference(d));
+        let normal = |i: usize, j: usize| e1[i] * e2[j] - e1[j] * e2[i];
+        (normal(1, 2) * t[0] + normal(2, 0) * t[1] + normal(0, 1) * t[2]).signum() as Sign
+    }
+
+    #[inline]
+    fn sign_in_plane(&mut self, a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+        let difference = |p: [f64; 2]| [whole(p[0] - a[0]), whole(p[1] - a[1])];
+        let (e, t) = (difference(b), difference(c));
+        (e[0] * t[1] - e[1] * t[0]).signum() as Sign
+    }
+}
+
+/// An integer below 2^40, which a difference of two below 2^39 is, exactly.
+#[inline]
+fn whole(x: f64) -> i128 {
+    i128::from(x as i64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pliant_oracle::{Class, Random, subnormals_flushed};
+
+    /// Checks both signs of some corners of a pair, if it is on a lattice.
+    fn check(a: &Triangle, b: &Triangle) -> bool {
+        let Some([p, q]) = on_lattice(a, b) else {
+            return false;
+        };
+        let corners = |a: &Triangle, b: &Triangle| [a[0], a[1], a[2], b[0], b[1], b[2]];
+        let (exact, scaled) = (corners(a, b), corners(&p, &q));
+        for i in [[0, 1, 2, 3], [3, 4, 5, 1], [0, 1, 3, 4], [2, 0, 5, 3]] {
+            let [a, b, c, d] = i.map(|i| exact[i]);
+            let expected = pliant_oracle::orientation(&a, &b, &c, &d);
+            let [p, q, r, s] = i.map(|i| scaled[i]);
+            assert_eq!(
+                Lattice.sign(&p, &q, &r, &s),
+                expected,
+                "{a:?} {b:?} {c:?} {d:?}"
+            );
+            for (x, y) in [(0, 1), (1, 2), (2, 0)] {
+                let [a, b, c] = [a, b, d].map(|point| [point[x], point[y]]);
+                let [p, q, r] = [p, q, s].map(|point| [point[x], point[y]]);
+                let expected = pliant_oracle::orientation_2d(a, b, c);
+                assert_eq!(
+                    Lattice.sign_in_plane(p, q, r),
+                    expected,
+                    "{a:?} {b:?} {c:?}"
+                );
+            }
+        }
+        true
+    }
+
+    #[test]
+    fn signs_of_hard_pairs_are_those_of_big_integers() {
+        let mut random = Random::new(31);
+        let mut on_it = 0;
+        for class in Class::ALL {
+            for _ in 0..1_500 {
+                let [a, b] = class.pair(&mut random);
+                on_it += u32::from(check(&a, &b));
+            }
+        }
+        assert!(on_it > 5_000, "{on_it} of 24,000");
+    }
+
+    #[test]
+    fn the_largest_integers_there_can_be_fit() {
+        let mut random = Random::new(32);
+        let most = (1_i64 << 39) - 1;
+        for round in 0..4_000 {
+            let mut coordinate = || match random.below(4) {
+                0 => most as f64,
+                1 => -most as f64,
+                2 => (random.bits() as i64 >> 24) as f64,
+                _ => random.below(7) as f64 - 3.0,
+            };
+            let mut triangle = || -> Triangle { [0; 3].map(|_| [0; 3].map(|_: i32| coordinate())) };
+            let (mut a, b) = (triangle(), triangle());
+            a[0][0] = most as f64;
+            // At any scale the same integers.
+            let by = 2f64.powi([0, -38, 60, -900][round % 4]);
+            let [a, b] = [a, b].map(|triangle| triangle.map(|point| point.map(|x| x * by)));
+            assert!(check(&a, &b), "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_on_no_lattice_is_said_so() {
+        let flat = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
+        let step = 2f64.powi(-38);
+        let with = |x: f64| on_lattice(&flat, &[[x, 0.0, 0.0], [0.0; 3], [1.0; 3]]).is_some();
+        assert!(with(step) && with(-step) && with(0.0) && with(-0.0) && with(1.0 - step));
+        for x in [
+            step / 2.0,
+            1.0 - step / 2.0,
+            -5e-324,
+            5e-324,
+            1e-310,
+            f64::MIN_POSITIVE,
+            0.1,
+        ] {
+            assert!(!with(x), "{x}");
+        }
+        // The largest may be negative; zero alone, and the smallest numbers, have none.
+        assert!(on_lattice(&flat, &[[-1024.0, step * 1024.0, 0.0]; 3]).is_some());
+        assert!(on_lattice(&flat, &[[-1024.0, step * 512.0, 0.0]; 3]).is_none());
+        assert!(on_lattice(&[[0.0; 3]; 3], &[[0.0; 3]; 3]).is_none());
+        assert!(on_lattice(&[[5e-324; 3]; 3], &[[0.0; 3]; 3]).is_none());
+        // Nor does a thread that flushes subnormal numbers take them for zero.
+        let tiny = [5e-324, -1e-310, 2f64.powi(-1030)];
+        let in_flushed = subnormals_flushed(move || tiny.map(with));
+        assert!(in_flushed.is_none_or(|found| found == [false; 3]));
+    }
+}

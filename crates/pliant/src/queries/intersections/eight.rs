@@ -1,0 +1,209 @@
+//! Candidates eight at a time, by signs of which single precision is certain; the few others one by one.
+//!
+//! 1. The six plane signs of `predicates::triangles`. If one triangle lies on one side of the other's plane: **no**. That is most.
+//! 2. If none of the six is zero, each triangle has one corner alone on its side of the other's plane, and both triangles meet
+//!    the line of the two planes in a segment. Let p1 be that corner of one and p2 of the other, q and r the others in order,
+//!    exchanged where p would lie below the plane of the other triangle. Then the segments overlap, and the answer is **yes**, if
+//!    and only if neither p1 q1 p2 q2 nor p1 r1 r2 p2 is positively oriented (Guigue and Devillers 2003; two signs instead of
+//!    up to nine).
+//! 3. Where a sign is not certain, `predicates` decide on exact signs.
+//!
+//! The tests compare it with the exact decision on every kind of pair, at every level of instructions.
+
+use super::{Candidate, LeafTest};
+use crate::geometry::Shape;
+use crate::ids::TreeVertex;
+use crate::kernels::{Buffer, Coordinate, Corners, Simd, dispatch, signs};
+use crate::predicates::intersect;
+use crate::statistics::Statistics;
+
+/// Candidates that are not known to be apart.
+#[derive(Debug, Default)]
+pub(crate) struct Undecided {
+    /// Those of which the first step knows all signs, and the second is to decide.
+    crossing: Buffer<Crossing>,
+    /// Those that are left to exact signs.
+    uncertain: Buffer<Candidate>,
+}
+
+/// Two triangles that cross each other's planes.
+#[derive(Clone, Copy, Debug, Default)]
+struct Crossing {
+    candidate: Candidate,
+    /// Bits 0 to 2: the corners of A above the plane of B; 3 to 5: those of B above the plane of A.
+    above: u8,
+}
+
+/// Decides candidates, and appends those that intersect to `hits`; the order depends on nothing but the candidates.
+pub(super) fn decide<S: Coordinate>(
+    leaves: &LeafTest<S>,
+    candidates: &mut Buffer<Candidate>,
+    undecided: &mut Undecided,
+    hits: &mut Buffer<Candidate>,
+    statistics: &mut Statistics,
+) {
+    let shapes = leaves.shapes;
+    let count = candidates.len();
+    statistics.candidate_pairs += count as u64;
+    let hits_before = hits.len();
+    undecided.crossing.clear();
+    undecided.uncertain.clear();
+    dispatch!(leaves.instructions, i => {
+        for (eight, lanes) in candidates.eights().iter().zip(lanes_used(count)) {
+            by_planes(i, eight, lanes, shapes, undecided);
+        }
+        let Undecided { crossing, uncertain } = undecided;
+        let count = crossing.len();
+        for (eight, lanes) in crossing.eights().iter().zip(lanes_used(count)) {
+            by_lines(i, eight, lanes, shapes, uncertain, hits);
+        }
+    });
+    let exact = &mut statistics.exact_decisions;
+    for &[a, b] in undecided.uncertain.as_slice() {
+        // One of these may take microseconds, and there may be thousands.
+        if leaves.interrupt.is_set() {
+            return;
+        }
+        if intersect::<S>(&shapes[0].corners(a), &shapes[1].corners(b), exact) {
+            hits.push([a, b]);
+        }
+    }
+    statistics.pairs += (hits.len() - hits_before) as u64;
+}
+
+/// Which of each eight lanes are used by so many items: all, and in the last the first few.
+fn lanes_used(count: usize) -> impl Iterator<Item = u8> {
+    (0..count)
+        .step_by(8)
+        .map(move |first| 0xff >> (8 - (count - first).min(8)))
+}
+
+/// Leaves out the pairs of which one lies on one side of the other's plane.
+#[inline(always)]
+fn by_planes<I: Simd, S: Coordinate>(
+    i: I,
+    candidates: &[Candidate; 8],
+    lanes: u8,
+    shapes: [&Shape<S>; 2],
+    Undecided {
+        crossing,
+        uncertain,
+    }: &mut Undecided,
+) {
+    let mut corners = Corners {
+        positions: [shapes[0].positions, shapes[1].positions],
+        vertices: [[TreeVertex(0); 6]; 8],
+    };
+    for lane in 0..8 {
+        let [a, b] = candidates[lane];
+        let [a0, a1, a2] = shapes[0].triangles[a.index()];
+        let [b0, b1, b2] = shapes[1].triangles[b.index()];
+        corners.vertices[lane] = [a0, a1, a2, b0, b1, b2];
+    }
+    let room = crossing.room();
+    let signs = signs::plane_signs(i, &corners);
+    let [a0, a1, a2, b0, b1, b2] = signs.positive;
+    let positive = u64::from_le_bytes([a0, a1, a2, b0, b1, b2, 0, 0]);
+    let not_apart = !signs.apart & lanes;
+    room.push_bits(u64::from(not_apart & signs.certain), |lane| {
+        // Byte k of the product's factor is 0 or 1; the multiplier moves it to bit k of the highest byte.
+        let bits = positive >> (lane % 8) & 0x0101_0101_0101_0101;
+        Crossing {
+            candidate: candidates[lane as usize % 8],
+            above: (bits.wrapping_mul(0x0102_0408_1020_4080) >> 56) as u8,
+        }
+    });
+    keep(candidates, not_apart & !signs.certain, uncertain);
+}
+
+/// Appends the few of eight candidates that a mask names.
+#[inline(always)]
+fn keep(candidates: &[Candidate; 8], lanes: u8, kept: &mut Buffer<Candidate>) {
+    if lanes != 0 {
+        kept.room()
+            .push_bits(u64::from(lanes), |lane| candidates[lane as usize % 8]);
+    }
+}
+
+/// By which of three corners lie above a plane (not none or all, which are never asked for): the order that puts the one first
+/// that is alone on its side, seen from one side of the triangle and from the other.
+const ALONE_FIRST: [[[u8; 3]; 8]; 2] = [
+    [
+        [0, 1, 2],
+        [0, 1, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 0, 1],
+        [1, 2, 0],
+        [0, 1, 2],
+        [0, 1, 2],
+    ],
+    [
+        [0, 2, 1],
+        [0, 2, 1],
+        [1, 0, 2],
+        [2, 1, 0],
+        [2, 1, 0],
+        [1, 0, 2],
+        [0, 2, 1],
+        [0, 2, 1],
+    ],
+];
+
+/// Bit `above` is set if the corner that is alone lies below.
+const ALONE_IS_BELOW: u8 = 1 << 3 | 1 << 5 | 1 << 6;
+
+/// By [`Crossing::above`]: which corners, of A 0, 1 and 2, of B 3, 4 and 5, are p1 q1 r1 p2 q2 r2.
+const IN_ORDER: [[u8; 6]; 64] = {
+    let mut orders = [[0; 6]; 64];
+    let mut above = 0;
+    while above < 64 {
+        let (above_a, above_b) = (above & 7, above >> 3);
+        // The corner of the other that is alone is to lie above; a triangle seen from its other side is the same triangle.
+        let order_a = ALONE_FIRST[(ALONE_IS_BELOW >> above_b & 1) as usize][above_a];
+        let order_b = ALONE_FIRST[(ALONE_IS_BELOW >> above_a & 1) as usize][above_b];
+        let mut corner = 0;
+        while corner < 3 {
+            orders[above][corner] = order_a[corner];
+            orders[above][3 + corner] = 3 + order_b[corner];
+            corner += 1;
+        }
+        above += 1;
+    }
+    orders
+};
+
+/// Decides pairs that cross each other's planes.
+#[inline(always)]
+fn by_lines<I: Simd, S: Coordinate>(
+    i: I,
+    crossing: &[Crossing; 8],
+    lanes: u8,
+    shapes: [&Shape<S>; 2],
+    uncertain: &mut Buffer<Candidate>,
+    hits: &mut Buffer<Candidate>,
+) {
+    let mut corners = Corners {
+        positions: [shapes[0].positions, shapes[1].positions],
+        vertices: [[TreeVertex(0); 6]; 8],
+    };
+    let mut candidates = [Candidate::default(); 8];
+    for lane in 0..8 {
+        let Crossing { candidate, above } = crossing[lane];
+        candidates[lane] = candidate;
+        let [a0, a1, a2] = shapes[0].triangles[candidate[0].index()];
+        let [b0, b1, b2] = shapes[1].triangles[candidate[1].index()];
+        let six = [a0, a1, a2, b0, b1, b2, a0, a0];
+        let order = IN_ORDER[usize::from(above) % 64];
+        for corner in 0..6 {
+            corners.vertices[lane][corner] = six[usize::from(order[corner]) % 8];
+        }
+    }
+    let room = hits.room();
+    let signs = signs::line_signs(i, &corners);
+    room.push_bits(u64::from(signs.both_negative & lanes), |lane| {
+        candidates[lane as usize % 8]
+    });
+    let decided = signs.both_negative | signs.one_positive;
+    keep(&candidates, !decided & lanes, uncertain);
+}

@@ -1,0 +1,69 @@
+//! Triangles that intersect, as closed sets: exactly, as `predicates` says, on the shape of now.
+//!
+//! Within a body, triangles that share a vertex of the mesh are left out: they always touch. `eight` decides candidates side by side on
+//! signs that single precision makes certain, and leaves few to `predicates`.
+
+mod eight;
+
+use super::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest};
+use crate::Pair;
+use crate::geometry::Shape;
+use crate::kernels::{Buffer, Coordinate};
+use crate::statistics::Statistics;
+use eight::Undecided;
+use std::marker::PhantomData;
+
+/// Pairs of triangles that intersect.
+#[derive(Debug)]
+pub(crate) struct Intersections<S>(PhantomData<S>);
+
+impl<S> Default for Intersections<S> {
+    fn default() -> Self {
+        Self(PhantomData)
+    }
+}
+
+impl<S: Coordinate> Kind for Intersections<S> {
+    type Scalar = S;
+    type Hit = Pair;
+    type TreeHit = Candidate;
+    type Buffers = Undecided;
+    type Source<'s> = Shape<'s, S>;
+
+    const BOX_SET: BoxSetNumber = 0;
+    const LEAVES_OUT_NEIGHBOURS: bool = true;
+
+    fn source<'s>(&self, shape: Shape<'s, S>) -> Shape<'s, S> {
+        shape
+    }
+
+    fn test(
+        &self,
+        leaves: &LeafTest<S>,
+        candidates: &mut Buffer<Candidate>,
+        undecided: &mut Undecided,
+        hits: &mut Buffer<Candidate>,
+        statistics: &mut Statistics,
+    ) {
+        eight::decide(leaves, candidates, undecided, hits, statistics);
+    }
+
+    #[inline]
+    fn to_caller(&self, ids: &CallerIds, [a, b]: Candidate) -> Pair {
+        let [body_a, body_b] = ids.bodies;
+        let a = ids.orders[0].caller_triangle(a).0;
+        let b = ids.orders[1].caller_triangle(b).0;
+        // In one body the smaller triangle is first.
+        let [triangle_a, triangle_b] = if body_a == body_b {
+            [a.min(b), a.max(b)]
+        } else {
+            [a, b]
+        };
+        Pair {
+            body_a,
+            triangle_a,
+            body_b,
+            triangle_b,
+        }
+    }
+}

@@ -1,0 +1,337 @@
+//! One thread or many: the only folder that names a thread pool.
+//!
+//! Work is cut into jobs by its size, never by the number of threads; every job writes what is its own, and what the jobs have
+//! found is put together in their order. So answers, their order and all counters are the same for any number of threads. Only
+//! jobs whose result depends on no order may be cut as the threads are: those of `conflict_free`, tasks of a descent of which all
+//! hits are wanted, which are then sorted, and runs of what is sorted.
+//!
+//! A step is some dozens of such parts, each shorter than it takes to wake a thread. So threads of a private pool that were woken
+//! stay awake from one part to the next, and a little longer. Each begins with jobs of its own, side by side, and helps others when
+//! these are done: what a thread wrote in one part it is likely to read in the next. The threads of a pool that an application has
+//! lent are not kept awake: they have other things to do.
+
+mod conflict_free;
+mod interrupt;
+
+pub(crate) use interrupt::{Interrupt, Question};
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// More threads than anyone has.
+const MOST: usize = 256;
+/// How long a thread looks for more to do before it sleeps: longer than what one thread alone does in the middle of a query.
+const AWAKE: Duration = Duration::from_micros(200);
+/// How often a thread that waits looks before it lets others have its core in between.
+const LOOKS: u32 = 100;
+
+/// The threads of a world.
+#[derive(Debug)]
+pub(crate) struct Threads {
+    /// The others beside the one that calls; none if that is all.
+    helpers: Option<Helpers>,
+}
+
+#[derive(Debug)]
+struct Helpers {
+    pool: Arc<rayon::ThreadPool>,
+    /// The most of them that are used.
+    count: usize,
+    /// How many threads of a private pool are awake; none for a pool that was lent.
+    awake: Option<Arc<AtomicUsize>>,
+}
+
+impl Threads {
+    /// The calling thread alone.
+    pub(crate) fn one() -> Self {
+        Self { helpers: None }
+    }
+
+    /// `count` threads, the calling one included, but not more than [`MOST`]. Where the system gives none, the calling thread does
+    /// all work.
+    pub(crate) fn private(count: NonZeroUsize) -> Self {
+        let count = count.get().min(MOST) - 1;
+        let pool = (count > 0).then(|| {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(count)
+                .thread_name(|thread| format!("pliant {}", thread + 1))
+                .build()
+        });
+        let helpers = |pool| Helpers {
+            pool: Arc::new(pool),
+            count,
+            awake: Some(Arc::default()),
+        };
+        Self {
+            helpers: pool.and_then(Result::ok).map(helpers),
+        }
+    }
+
+    /// At most `count` threads, the calling one included; the others are of a pool of the caller's.
+    pub(crate) fn lent(count: NonZeroUsize, pool: Arc<rayon::ThreadPool>) -> Self {
+        let count = (count.get().min(MOST) - 1).min(pool.current_num_threads());
+        let helpers = Helpers {
+            pool,
+            count,
+            awake: None,
+        };
+        Self {
+            helpers: (count > 0).then_some(helpers),
+        }
+    }
+}
+
+/// The threads that work on a query, and what may interrupt them.
+#[derive(Clone, Copy)]
+pub(crate) struct Executor<'q> {
+    pub(crate) threads: &'q Threads,
+    pub(crate) interrupt: &'q Interrupt<'q>,
+}
+
+impl Executor<'_> {
+    /// Whether there are others than the calling thread.
+    pub(crate) fn are_many(&self) -> bool {
+        self.threads.helpers.is_some()
+    }
+
+    /// How many threads there are, the calling one included.
+    pub(crate) fn count(&self) -> usize {
+        1 + self
+            .threads
+            .helpers
+            .as_ref()
+            .map_or(0, |helpers| helpers.count)
+    }
+
+    /// Whether to end early. After a yes nothing that was computed can be relied on.
+    #[inline]
+    pub(crate) fn is_interrupted(&self) -> bool {
+        self.interrupt.is_set()
+    }
+
+    /// Does all jobs, or, interrupted, some of them; returns when nothing is under way.
+    pub(crate) fn run<J: Send>(&self, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
+        let work = |number: usize, job: &mut J| {
+            if !self.is_interrupted() {
+                work(number, job);
+            }
+        };
+        match &self.threads.helpers {
+            Some(helpers) if jobs.len() > 1 => helpers.share(jobs, &work),
+            _ => {
+                for (number, job) in jobs.iter_mut().enumerate() {
+                    work(number, job);
+                }
+            }
+        }
+    }
+}
+
+/// Locks a mutex, whatever happened to others that had it.
+pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Helpers {
+    /// Does all jobs together with the calling thread.
+    fn share<J: Send>(&self, jobs: &mut [J], work: &(impl Fn(usize, &mut J) + Sync)) {
+        self.wake();
+        let helpers = self.count.min(jobs.len() - 1);
+        let size = jobs.len().div_ceil(helpers + 1);
+        let shares: Vec<_> = jobs
+            .chunks_mut(size)
+            .enumerate()
+            .map(|(which, jobs)| {
+                Mutex::new(Share {
+                    first: which * size,
+                    jobs,
+                })
+            })
+            .collect();
+        let done = AtomicUsize::new(0);
+        self.pool.in_place_scope(|scope| {
+            for _ in 0..helpers {
+                scope.spawn(|_| {
+                    let own = rayon::current_thread_index().map_or(0, |thread| thread + 1);
+                    do_all(&shares, own % shares.len(), work);
+                    done.fetch_add(1, Ordering::Release);
+                });
+            }
+            do_all(&shares, 0, work);
+            // The end of the scope would put this thread to sleep at once.
+            let mut backoff = Backoff::default();
+            while done.load(Ordering::Acquire) < helpers && backoff.waits() {}
+        });
+    }
+
+    /// Has every thread of a private pool look for work from now on, unless they do.
+    fn wake(&self) {
+        let Some(awake) = &self.awake else { return };
+        if awake.load(Ordering::Acquire) > 0 {
+            return;
+        }
+        awake.store(self.pool.current_num_threads(), Ordering::Release);
+        let awake = Arc::clone(awake);
+        self.pool.spawn_broadcast(move |_| {
+            let mut backoff = Backoff::default();
+            while backoff.waits() {
+                if rayon::yield_now() == Some(rayon::Yield::Executed) {
+                    backoff = Backoff::default();
+                }
+            }
+            awake.fetch_sub(1, Ordering::Release);
+        });
+    }
+}
+
+/// Jobs side by side: one thread takes them from the front, others from the back.
+struct Share<'j, J> {
+    first: usize,
+    jobs: &'j mut [J],
+}
+
+impl<'j, J> Share<'j, J> {
+    /// A job and its number.
+    fn take(&mut self, from_front: bool) -> Option<(usize, &'j mut J)> {
+        let jobs = std::mem::take(&mut self.jobs);
+        let (job, rest) = if from_front {
+            jobs.split_first_mut()?
+        } else {
+            jobs.split_last_mut()?
+        };
+        self.jobs = rest;
+        let number = if from_front {
+            self.first += 1;
+            self.first - 1
+        } else {
+            self.first + self.jobs.len()
+        };
+        Some((number, job))
+    }
+}
+
+/// Does the jobs of one share, and then of the others, until none is left.
+fn do_all<J>(shares: &[Mutex<Share<'_, J>>], own: usize, work: &impl Fn(usize, &mut J)) {
+    let (before, after) = shares.split_at(own);
+    for (which, share) in after.iter().chain(before).enumerate() {
+        // Not in the condition of the loop: the lock would be held while the job is done.
+        let take = || locked(share).take(which == 0);
+        while let Some((number, job)) = take() {
+            work(number, job);
+        }
+    }
+}
+
+/// Waiting for something that is about to happen: spinning at first, then giving way to other threads, and not for long.
+#[derive(Default)]
+struct Backoff {
+    looks: u32,
+    since: Option<Instant>,
+}
+
+impl Backoff {
+    /// Waits a moment; whether to go on waiting.
+    fn waits(&mut self) -> bool {
+        self.looks += 1;
+        if self.looks < LOOKS {
+            std::hint::spin_loop();
+            return true;
+        }
+        std::thread::yield_now();
+        self.since.get_or_insert_with(Instant::now).elapsed() < AWAKE
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn threads(count: usize) -> Threads {
+        Threads::private(NonZeroUsize::new(count).unwrap())
+    }
+
+    /// All jobs, by threads that nothing interrupts.
+    fn run<J: Send>(threads: &Threads, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
+        let interrupt = &Interrupt::default();
+        Executor { threads, interrupt }.run(jobs, work);
+    }
+
+    #[test]
+    fn shares_are_taken_from_both_ends() {
+        let mut jobs = [10, 11, 12];
+        let mut share = Share {
+            first: 4,
+            jobs: &mut jobs[..],
+        };
+        let mut take = |from_front| {
+            share
+                .take(from_front)
+                .map(|(number, &mut job)| (number, job))
+        };
+        assert_eq!(take(false), Some((6, 12)));
+        assert_eq!(take(true), Some((4, 10)));
+        assert_eq!(take(false), Some((5, 11)));
+        assert_eq!(take(true), None);
+    }
+
+    /// Many short parts one after the other, with pauses in which threads fall asleep.
+    #[test]
+    fn threads_wake_and_sleep_and_lose_nothing() {
+        let threads = threads(3);
+        let mut jobs = [0_u64; 17];
+        for round in 0..2_000 {
+            run(&threads, &mut jobs, |number, job| *job += number as u64);
+            if round % 500 == 0 {
+                std::thread::sleep(2 * AWAKE);
+            }
+        }
+        assert!(
+            jobs.iter()
+                .enumerate()
+                .all(|(number, &job)| job == 2_000 * number as u64)
+        );
+    }
+
+    #[test]
+    fn every_job_is_done_once_and_knows_its_number() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
+        let pool = Arc::new(pool.unwrap());
+        let lent = |count| Threads::lent(NonZeroUsize::new(count).unwrap(), Arc::clone(&pool));
+        let check = |threads: &Threads| {
+            for count in [0, 1, 2, 100] {
+                let mut jobs = vec![0; count];
+                run(threads, &mut jobs, |number, job| *job += number + 1);
+                assert!(jobs.iter().copied().eq(1..=count));
+            }
+        };
+        for threads in [
+            threads(1),
+            threads(2),
+            threads(7),
+            lent(1),
+            lent(2),
+            lent(9),
+        ] {
+            check(&threads);
+            // From a thread of the pool itself.
+            pool.install(|| check(&threads));
+        }
+    }
+
+    #[test]
+    fn interrupted_threads_begin_no_more_jobs() {
+        for threads in [threads(1), threads(3)] {
+            let begun = AtomicUsize::new(0);
+            let question = || begun.load(Ordering::Relaxed) >= 10;
+            let interrupt = &Interrupt::new(Some(&question));
+            let threads = &threads;
+            let executor = Executor { threads, interrupt };
+            executor.run(&mut [(); 1000], |_, ()| {
+                begun.fetch_add(1, Ordering::Relaxed);
+            });
+            assert!(executor.is_interrupted());
+            assert!((10..=12).contains(&begun.load(Ordering::Relaxed)));
+        }
+    }
+}

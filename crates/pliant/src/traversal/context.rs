@@ -1,0 +1,26 @@
+//! What all tasks of a descent work with, and how far each goes before it gives way to the others.
+
+use crate::kernels::Instructions;
+use crate::threads::Interrupt;
+
+/// What all tasks work with.
+pub(super) struct Context<'q, K, P> {
+    pub(super) kind: &'q K,
+    pub(super) pair: &'q P,
+    pub(super) instructions: Instructions,
+    pub(super) interrupt: &'q Interrupt<'q>,
+    pub(super) budget: Budget,
+}
+
+/// How far a task goes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Budget {
+    /// Pairs of nodes that are taken from the stack at once.
+    pub(super) batch: usize,
+    /// With so many pairs of leaves on its list, a task tests them.
+    pub(super) leaf_pairs: usize,
+    /// After so many pairs of blocks, hits are shown.
+    pub(super) block_pairs: usize,
+    /// With so many pairs of nodes on its stack, a task gives some to others.
+    pub(super) stack: usize,
+}

@@ -1,0 +1,223 @@
+//! A task of a descent: some of its pairs of nodes, and all that comes of them.
+//!
+//! A task goes on by itself, depth first, on a stack and lists of its own, for as long as the boxes it asks for are valid.
+
+use super::context::Context;
+use super::expand::{NodePair, Worklists, expand};
+use super::leaf_pairs::{Cursor, LeafTests};
+use super::tree_pair::{Side, TreePair};
+use crate::kernels::dispatch;
+use crate::queries::Kind;
+use crate::tree::{BoxSource, Child, Neighbours};
+use crate::update::DirtySet;
+use std::ops::Range;
+
+/// Pairs of blocks that are tested before a task looks at what it has found.
+const BLOCK_PAIRS_BEFORE_LOOK: usize = 128;
+/// With this many hits a task stops until they are shown, so that what all tasks have found takes little memory.
+const MOST_HITS: usize = 2048;
+
+/// A task, and its buffers, kept from query to query.
+#[derive(Debug)]
+pub(super) struct Task<K: Kind> {
+    /// Pairs of nodes taken from the stack, to be expanded when what is below them is valid.
+    batch: Vec<NodePair>,
+    /// Wide nodes below the batch that are stale, of either tree.
+    pub(super) stale: [DirtySet; 2],
+    /// The stack, and pairs of leaves that are to be tested.
+    pub(super) found: Worklists,
+    /// The leaves in the pairs of leaves, of either tree.
+    pub(super) reached: [DirtySet; 2],
+    /// Up to where the pairs of leaves were tested.
+    cursor: Cursor,
+    /// Leaves that are still to be tested with themselves and their neighbours, where the descent leaves these out.
+    pub(super) run: Range<u32>,
+    /// What was found among the pairs of leaves that were tested last.
+    pub(super) tests: LeafTests<K>,
+}
+
+impl<K: Kind> Default for Task<K> {
+    fn default() -> Self {
+        Self {
+            batch: Vec::new(),
+            stale: Default::default(),
+            found: Worklists::default(),
+            reached: Default::default(),
+            cursor: Cursor::default(),
+            run: 0..0,
+            tests: LeafTests::default(),
+        }
+    }
+}
+
+/// Whether all boxes are known to be valid because they were completed at once, so that tasks need not wait for any, and pairs of leaves can be tested as soon as they are found.
+pub(super) fn are_free<const N: usize, B>(sides: [&Side<'_, N, B>; 2]) -> bool {
+    let is_complete =
+        |side: &&Side<N, B>| side.boxes.are_nodes_complete() && side.boxes.are_leaves_complete();
+    sides.iter().all(is_complete)
+}
+
+/// The neighbours in a body that meets itself, if the descent leaves them out: where they are known, leaves are blocks, and all boxes are
+/// valid. They overlap in any shape, so nothing is gained by looking for them.
+pub(super) fn left_out<const N: usize, K: Kind, P: TreePair<N>>(pair: &P) -> Option<&Neighbours> {
+    let sides = pair.sides();
+    let are_left_out = P::ITSELF
+        && K::LEAVES_OUT_NEIGHBOURS
+        && sides[0].tree.leaves.are_blocks()
+        && are_free(sides);
+    sides[0].tree.neighbours().filter(|_| are_left_out)
+}
+
+impl<K: Kind> Task<K> {
+    /// Forgets what it was about.
+    pub(super) fn clear(&mut self) {
+        self.tests.clear();
+        self.batch.clear();
+        self.stale.iter_mut().for_each(DirtySet::clear);
+        self.found.clear();
+        self.reached.iter_mut().for_each(DirtySet::clear);
+        self.cursor = Cursor::default();
+        self.run = 0..0;
+    }
+
+    /// Whether no pair of nodes is left.
+    pub(super) fn is_done(&self) -> bool {
+        self.batch.is_empty() && self.found.nodes.is_empty()
+    }
+
+    /// Whether all pairs of leaves were tested.
+    pub(super) fn all_tested(&self) -> bool {
+        self.cursor.pair == self.found.leaves.len()
+    }
+
+    /// Goes on until it asks for boxes that are stale, has found enough, or nothing is left. What it asked for before is valid now.
+    /// Where it is free, leaves are tested on the way.
+    pub(super) fn advance<const N: usize, P>(&mut self, context: &Context<K, P>)
+    where
+        P: TreePair<N>,
+        P::Source: BoxSource<Scalar = K::Scalar>,
+    {
+        self.found.node_pairs = 0;
+        self.tests.clear();
+        if !are_free(context.pair.sides()) {
+            return self.descend(context);
+        }
+        let budget = context.budget;
+        let mut tested = 0;
+        while tested < budget.block_pairs && self.tests.hits.len() < MOST_HITS {
+            if context.interrupt.is_set() {
+                return;
+            }
+            if self.all_tested() {
+                self.forget_leaves();
+                self.descend(context);
+            }
+            let blocks = budget.leaf_pairs.min(BLOCK_PAIRS_BEFORE_LOOK);
+            self.test(context, blocks);
+            tested += blocks;
+            let stack = self.found.nodes.len();
+            if self.all_tested() && (stack == 0 || stack >= budget.stack) {
+                return;
+            }
+        }
+    }
+
+    /// Goes on until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
+    fn descend<const N: usize, P: TreePair<N>>(&mut self, context: &Context<K, P>) {
+        let (budget, sides) = (context.budget, context.pair.sides());
+        let free = are_free(sides);
+        let complete = sides.iter().all(|side| side.boxes.are_nodes_complete());
+        let left_out = left_out::<N, K, P>(context.pair);
+        loop {
+            let (batch, found) = (&self.batch, &mut self.found);
+            dispatch!(context.instructions, i => expand::<_, N, P>(i, sides, batch, left_out, found));
+            self.batch.clear();
+            for (set, reached) in self.reached.iter_mut().zip(&mut self.found.reached) {
+                let asked_for = if free { &[] } else { reached.as_slice() };
+                for leaves in asked_for {
+                    set.insert_eight(leaves.first.0, leaves.lanes);
+                }
+                reached.clear();
+            }
+            let stack = self.found.nodes.len();
+            if stack == 0 || stack >= budget.stack || self.found.leaves.len() >= budget.leaf_pairs {
+                return;
+            }
+            if context.interrupt.is_set() {
+                return;
+            }
+            self.found.nodes.take_last(budget.batch, &mut self.batch);
+            if !complete && self.asks_for_stale(sides) {
+                return;
+            }
+        }
+    }
+
+    /// Notes the wide nodes below the batch that are stale; whether there are any.
+    fn asks_for_stale<const N: usize, B>(&mut self, sides: [&Side<'_, N, B>; 2]) -> bool {
+        for pair in &self.batch {
+            for which in 0..2 {
+                let Side { tree, boxes, .. } = sides[which];
+                if let Child::Inner(below) = tree.child(pair[which])
+                    && !boxes.is_valid(below)
+                {
+                    self.stale[which].insert(below.0);
+                }
+            }
+        }
+        !self.stale.iter().all(DirtySet::is_empty)
+    }
+
+    /// Tests pairs of leaves until all were, or many, or enough was found.
+    pub(super) fn test_some<const N: usize, P>(&mut self, context: &Context<K, P>)
+    where
+        P: TreePair<N>,
+        P::Source: BoxSource<Scalar = K::Scalar>,
+    {
+        self.tests.clear();
+        let budget = context.budget;
+        let blocks = budget.leaf_pairs.min(BLOCK_PAIRS_BEFORE_LOOK);
+        let mut tested = 0;
+        while tested < budget.block_pairs
+            && self.tests.hits.len() < MOST_HITS
+            && !self.all_tested()
+            && !context.interrupt.is_set()
+        {
+            self.test(context, blocks);
+            tested += blocks;
+        }
+    }
+
+    /// Tests the next pairs of leaves, so many pairs of their blocks.
+    fn test<const N: usize, P>(&mut self, context: &Context<K, P>, blocks: usize)
+    where
+        P: TreePair<N>,
+        P::Source: BoxSource<Scalar = K::Scalar>,
+    {
+        let leaves = self.found.leaves.as_slice();
+        self.cursor = self
+            .tests
+            .test::<N, P>(context, leaves, self.cursor, blocks);
+    }
+
+    /// Tests the next leaves of its run with themselves and their neighbours, until many were or enough was found.
+    pub(super) fn test_neighbours<const N: usize, P>(
+        &mut self,
+        context: &Context<K, P>,
+        neighbours: &Neighbours,
+    ) where
+        P: TreePair<N>,
+        P::Source: BoxSource<Scalar = K::Scalar>,
+    {
+        self.tests.clear();
+        let enough = (context.budget.block_pairs, MOST_HITS);
+        self.tests
+            .test_neighbours::<N, P>(context, neighbours, &mut self.run, enough);
+    }
+
+    /// Forgets the pairs of leaves, all of which were tested.
+    pub(super) fn forget_leaves(&mut self) {
+        self.found.clear_leaves();
+        self.cursor = Cursor::default();
+    }
+}

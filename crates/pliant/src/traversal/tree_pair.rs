@@ -1,0 +1,91 @@
+//! What is descended: the trees of two bodies, or the tree of one against itself.
+
+use crate::ids::BodyId;
+use crate::mesh::Order;
+use crate::queries::CallerIds;
+use crate::tree::{BoxSet, BoxSource, Tree};
+use crate::update::Refitted;
+
+/// One body as the traversal sees it.
+pub(crate) struct Side<'t, const N: usize, B> {
+    pub(crate) body: BodyId,
+    pub(crate) order: &'t Order,
+    pub(crate) tree: &'t Tree<N>,
+    pub(crate) boxes: &'t mut BoxSet<N>,
+    pub(crate) source: B,
+}
+
+impl<const N: usize, B: BoxSource> Side<'_, N, B> {
+    /// As the update sees it.
+    pub(crate) fn refitted(&mut self) -> Refitted<'_, N, B> {
+        Refitted {
+            tree: self.tree,
+            boxes: self.boxes,
+            source: &self.source,
+        }
+    }
+}
+
+/// Two trees, or one twice.
+pub(crate) trait TreePair<const N: usize>: Sync {
+    type Source: BoxSource;
+    /// Whether it is one tree against itself.
+    const ITSELF: bool;
+
+    /// Both bodies, or the one twice.
+    fn sides(&self) -> [&Side<'_, N, Self::Source>; 2];
+
+    /// The first or the second, to refit.
+    fn refitted(&mut self, which: usize) -> Refitted<'_, N, Self::Source>;
+
+    /// How the caller numbers what is in them.
+    fn caller_ids(&self) -> CallerIds<'_> {
+        let sides = self.sides();
+        CallerIds {
+            bodies: sides.map(|side| side.body),
+            orders: sides.map(|side| side.order),
+        }
+    }
+}
+
+/// Two bodies, whose root boxes are valid and overlap.
+pub(crate) struct TwoTrees<'t, const N: usize, B> {
+    pub(crate) a: Side<'t, N, B>,
+    pub(crate) b: Side<'t, N, B>,
+}
+
+impl<const N: usize, B: BoxSource> TreePair<N> for TwoTrees<'_, N, B> {
+    type Source = B;
+    const ITSELF: bool = false;
+
+    #[inline(always)]
+    fn sides(&self) -> [&Side<'_, N, B>; 2] {
+        [&self.a, &self.b]
+    }
+
+    fn refitted(&mut self, which: usize) -> Refitted<'_, N, B> {
+        [&mut self.a, &mut self.b][which].refitted()
+    }
+}
+
+/// One body with itself, every pair of its triangles once. Its root box is valid.
+///
+/// A pair of one node with itself stands for the pairs within it; it expands into its children with themselves and into
+/// the pairs of different children that overlap.
+pub(crate) struct OneTree<'t, const N: usize, B> {
+    pub(crate) side: Side<'t, N, B>,
+}
+
+impl<const N: usize, B: BoxSource> TreePair<N> for OneTree<'_, N, B> {
+    type Source = B;
+    const ITSELF: bool = true;
+
+    #[inline(always)]
+    fn sides(&self) -> [&Side<'_, N, B>; 2] {
+        [&self.side; 2]
+    }
+
+    fn refitted(&mut self, _: usize) -> Refitted<'_, N, B> {
+        self.side.refitted()
+    }
+}

@@ -1,0 +1,308 @@
+//! A set of boxes of a tree: of its nodes, and of the triangles in its leaves.
+//!
+//! The structure of a tree never changes between builds; its boxes do, and it may have more than one set of them, each made from a
+//! [`BoxSource`] of its own: the shape that the body has now, say, or that shape grown by a distance. A set knows the [`Version`] of the
+//! source that it was last asked for. Each time that changes it begins a new *stamp*; a wide node, and a leaf for the boxes of its
+//! triangles, carries the stamp with which these were made, and is **valid** only if that is the stamp of the set, else **stale**.
+//!
+//! Two rules hold at all times: nothing reads a stale box, and the wide node above a valid one, or above a valid leaf, is valid.
+//! `update` makes them valid, `traversal` asks for it, `validate` checks it.
+
+mod source;
+
+use super::{BLOCK_LANES, Tree};
+use crate::geometry::Aabb;
+use crate::ids::{BlockId, LeafId, NodeId, WideNodeId};
+use crate::kernels::{BoxLanes, QuantizedLanes};
+#[cfg(test)]
+pub(crate) use source::Grown;
+pub(crate) use source::{BoxSource, Version};
+
+/// The boxes of up to eight triangles.
+pub(crate) type Block = BoxLanes<BLOCK_LANES>;
+
+/// Before every stamp.
+const NEVER: u64 = 0;
+
+/// The boxes of one tree, from one source.
+#[derive(Debug)]
+pub(crate) struct BoxSet<const N: usize> {
+    version: Option<Version>,
+    stamp: u64,
+    /// Of every wide node the boxes of its nodes, and the stamp with which they were made.
+    nodes: Vec<BoxLanes<N>>,
+    node_stamps: Vec<u64>,
+    /// Of every block the boxes of its triangles, and of every leaf the stamp with which those of all its blocks were made. None where
+    /// every leaf is one triangle.
+    blocks: Vec<Block>,
+    leaf_stamps: Vec<u64>,
+    /// The stamp with which the nodes of all wide nodes were last made at once, and the triangles of all leaves.
+    complete_nodes: u64,
+    complete_leaves: u64,
+    /// How many leaves had the boxes of their triangles made since this was last asked.
+    reached: usize,
+    /// The boxes of triangles once more, quantized; none but in a body that meets itself and whose leaves are blocks.
+    quantized: Quantized,
+}
+
+/// Quantized boxes of the triangles in leaves that are blocks.
+#[derive(Debug, Default)]
+pub(crate) struct Quantized {
+    pub(crate) blocks: Vec<QuantizedLanes>,
+    /// Units to a length of one; those for the next time.
+    pub(crate) units: f32,
+    /// The stamp with which all of them were made.
+    stamp: u64,
+}
+
+impl Quantized {
+    /// Those of a block.
+    #[inline(always)]
+    pub(crate) fn of(&self, block: BlockId) -> &QuantizedLanes {
+        &self.blocks[block.index()]
+    }
+}
+
+/// The boxes of all nodes.
+#[derive(Clone, Copy)]
+pub(crate) struct NodeBoxes<'b, const N: usize>(&'b [BoxLanes<N>]);
+
+impl<'b, const N: usize> NodeBoxes<'b, N> {
+    #[inline(always)]
+    pub(crate) fn of(self, wide_node: WideNodeId) -> &'b BoxLanes<N> {
+        &self.0[wide_node.index()]
+    }
+
+    /// The box of one node.
+    #[inline(always)]
+    pub(crate) fn one(self, node: NodeId) -> Aabb {
+        let (wide_node, lane) = node.wide_node_and_lane::<N>();
+        self.of(wide_node).get(lane)
+    }
+}
+
+/// The boxes of the triangles of all blocks.
+#[derive(Clone, Copy)]
+pub(crate) struct BlockBoxes<'b>(&'b [Block]);
+
+impl<'b> BlockBoxes<'b> {
+    #[inline(always)]
+    pub(crate) fn of(self, block: BlockId) -> &'b Block {
+        &self.0[block.index()]
+    }
+}
+
+/// A run of what a set holds of its wide nodes, to write: boxes and stamps from the wide node `first` on.
+pub(crate) struct NodesMut<'b, const N: usize> {
+    pub(crate) first: usize,
+    pub(crate) boxes: &'b mut [BoxLanes<N>],
+    pub(crate) stamps: &'b mut [u64],
+}
+
+/// A run of what a set holds of its leaves, to write: blocks from `first_block` on, stamps from `first_leaf` on.
+pub(crate) struct LeavesMut<'b> {
+    pub(crate) first_leaf: usize,
+    pub(crate) stamps: &'b mut [u64],
+    pub(crate) first_block: usize,
+    pub(crate) blocks: &'b mut [Block],
+}
+
+impl<const N: usize> BoxSet<N> {
+    /// Boxes for a tree, all of them stale.
+    pub(crate) fn new(tree: &Tree<N>) -> Self {
+        let blocks = tree.leaves.block_count();
+        let leaves = if blocks > 0 { tree.leaves.len() } else { 0 };
+        Self {
+            version: None,
+            stamp: NEVER + 1,
+            nodes: vec![BoxLanes::EMPTY; tree.wide_nodes.len()],
+            node_stamps: vec![NEVER; tree.wide_nodes.len()],
+            blocks: vec![Block::EMPTY; blocks],
+            leaf_stamps: vec![NEVER; leaves],
+            complete_nodes: NEVER,
+            complete_leaves: NEVER,
+            reached: 0,
+            quantized: Quantized::default(),
+        }
+    }
+
+    /// From now on only boxes made from this version of a source are valid.
+    pub(crate) fn expect(&mut self, version: Version) {
+        if self.version != Some(version) {
+            self.version = Some(version);
+            self.stamp += 1;
+        }
+    }
+
+    /// All boxes are stale, whatever is expected next: some of them may have been left half made.
+    pub(crate) fn forget(&mut self) {
+        self.version = None;
+    }
+
+    /// The stamp of boxes that are made now.
+    #[inline]
+    pub(crate) fn stamp(&self) -> u64 {
+        self.stamp
+    }
+
+    /// Whether only boxes of this version are valid.
+    pub(crate) fn expects(&self, version: Version) -> bool {
+        self.version == Some(version)
+    }
+
+    /// Whether the boxes of a wide node are those of a version.
+    pub(crate) fn holds(&self, wide_node: WideNodeId, version: Version) -> bool {
+        self.expects(version) && self.is_valid(wide_node)
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_valid(&self, wide_node: WideNodeId) -> bool {
+        self.node_stamps[wide_node.index()] == self.stamp
+    }
+
+    /// Whether the boxes of a leaf's triangles are valid; they are if it has none.
+    pub(crate) fn is_leaf_valid(&self, leaf: LeafId) -> bool {
+        self.blocks.is_empty() || self.leaf_stamps[leaf.index()] == self.stamp
+    }
+
+    /// Whether the boxes of all nodes were made at once and are valid.
+    #[inline]
+    pub(crate) fn are_nodes_complete(&self) -> bool {
+        self.complete_nodes == self.stamp
+    }
+
+    /// Whether the boxes of the triangles in all leaves were made at once and are valid.
+    #[inline]
+    pub(crate) fn are_leaves_complete(&self) -> bool {
+        self.complete_leaves == self.stamp
+    }
+
+    /// All nodes are valid now.
+    pub(crate) fn complete_nodes(&mut self) {
+        self.complete_nodes = self.stamp;
+    }
+
+    /// All leaves are valid now.
+    pub(crate) fn complete_leaves(&mut self) {
+        self.complete_leaves = self.stamp;
+    }
+
+    /// The boxes of nodes, to read those that are valid.
+    #[inline(always)]
+    pub(crate) fn nodes(&self) -> NodeBoxes<'_, N> {
+        NodeBoxes(&self.nodes)
+    }
+
+    /// The boxes of triangles, to read those that are valid.
+    #[inline(always)]
+    pub(crate) fn blocks(&self) -> BlockBoxes<'_> {
+        BlockBoxes(&self.blocks)
+    }
+
+    /// The quantized boxes of triangles, if all are valid.
+    #[inline]
+    pub(crate) fn quantized(&self) -> Option<&Quantized> {
+        (self.quantized.stamp == self.stamp).then_some(&self.quantized)
+    }
+
+    /// The boxes of triangles, and where these are quantized to.
+    pub(crate) fn blocks_and_quantized(&mut self) -> (&[Block], &mut Quantized) {
+        (&self.blocks, &mut self.quantized)
+    }
+
+    /// All quantized boxes are valid now.
+    pub(crate) fn complete_quantized(&mut self) {
+        self.quantized.stamp = self.stamp;
+    }
+
+    /// Everything, to write: wide nodes, leaves, and quantized boxes.
+    pub(crate) fn all_mut(&mut self) -> (NodesMut<'_, N>, LeavesMut<'_>, &mut Quantized) {
+        let nodes = NodesMut {
+            first: 0,
+            boxes: &mut self.nodes,
+            stamps: &mut self.node_stamps,
+        };
+        let leaves = LeavesMut {
+            first_leaf: 0,
+            stamps: &mut self.leaf_stamps,
+            first_block: 0,
+            blocks: &mut self.blocks,
+        };
+        (nodes, leaves, &mut self.quantized)
+    }
+
+    /// Counts leaves whose triangles had boxes made.
+    pub(crate) fn count_reached(&mut self, leaves: usize) {
+        self.reached += leaves;
+    }
+
+    /// How many leaves were counted since this was last asked.
+    pub(crate) fn take_reached(&mut self) -> usize {
+        std::mem::take(&mut self.reached)
+    }
+
+    /// All wide nodes before `end`, to write, and the boxes of those from there on, to read.
+    pub(crate) fn nodes_before(&mut self, end: usize) -> (NodesMut<'_, N>, &[BoxLanes<N>]) {
+        let (boxes, below) = self.nodes.split_at_mut(end);
+        let nodes = NodesMut {
+            first: 0,
+            boxes,
+            stamps: &mut self.node_stamps[..end],
+        };
+        (nodes, below)
+    }
+
+    /// All leaves, to write.
+    pub(crate) fn leaves_mut(&mut self) -> LeavesMut<'_> {
+        LeavesMut {
+            first_leaf: 0,
+            stamps: &mut self.leaf_stamps,
+            first_block: 0,
+            blocks: &mut self.blocks,
+        }
+    }
+}
+
+impl<const N: usize> NodesMut<'_, N> {
+    /// Cuts the run in two before a wide node.
+    pub(crate) fn split_before(self, wide_node: WideNodeId) -> [Self; 2] {
+        let place = wide_node.index() - self.first;
+        let (boxes, later_boxes) = self.boxes.split_at_mut(place);
+        let (stamps, later_stamps) = self.stamps.split_at_mut(place);
+        let later = Self {
+            first: wide_node.index(),
+            boxes: later_boxes,
+            stamps: later_stamps,
+        };
+        [
+            Self {
+                boxes,
+                stamps,
+                ..self
+            },
+            later,
+        ]
+    }
+}
+
+impl LeavesMut<'_> {
+    /// Cuts the run in two before a leaf whose first block is `block`.
+    pub(crate) fn split_before(self, leaf: LeafId, block: BlockId) -> [Self; 2] {
+        let (stamps, later_stamps) = self.stamps.split_at_mut(leaf.index() - self.first_leaf);
+        let (blocks, later_blocks) = self.blocks.split_at_mut(block.index() - self.first_block);
+        let later = Self {
+            first_leaf: leaf.index(),
+            stamps: later_stamps,
+            first_block: block.index(),
+            blocks: later_blocks,
+        };
+        [
+            Self {
+                stamps,
+                blocks,
+                ..self
+            },
+            later,
+        ]
+    }
+}

@@ -1,0 +1,90 @@
+//! Quantized boxes of triangles, for a body that meets itself: nearly all its leaves overlap neighbours in the mesh none of whose triangles they touch but those that share a vertex, and
+//! quantized boxes say so sooner (see `kernels::quantized`).
+//!
+//! One unit is for all leaves, a part of their mean length. Leaves that are much longer do not fit and are not told apart from
+//! others; much shorter ones are told apart less often. Either way nothing is missed, for the boxes themselves are asked again.
+
+use super::{Refit, Refitted};
+use crate::ids::{BlockId, LeafId, NodeId};
+use crate::kernels::{FARTHEST, QuantizedLanes, dispatch, quantize};
+use crate::tree::{Block, BoxSet, BoxSource, Child, Quantized, Tree};
+
+/// Units in the mean of the longest sides of leaves.
+const UNITS: f32 = 32.0;
+/// Leaves in a job.
+const JOB: usize = 128;
+
+/// Quantizes the boxes of all leaves, unless leaves are not blocks, or they lie too far from zero for it. All other boxes are valid.
+pub(super) fn quantize_all<const N: usize, B: BoxSource>(refit: &Refit, one: &mut Refitted<N, B>) {
+    let tree = one.tree;
+    if !tree.leaves.are_blocks() || one.boxes.quantized().is_some() {
+        return;
+    }
+    let Some(units) = units_of(tree, one.boxes) else {
+        return;
+    };
+    let executor = refit.executor;
+    let (blocks, quantized) = one.boxes.blocks_and_quantized();
+    quantized.units = units;
+    let quantized = &mut quantized.blocks;
+    quantized.resize_with(blocks.len(), Default::default);
+    let make = |quantized: &mut [QuantizedLanes], blocks: &[Block]| {
+        dispatch!(refit.instructions, i => {
+            for (quantized, block) in quantized.iter_mut().zip(blocks) {
+                *quantized = quantize(i, block, units);
+            }
+        });
+    };
+    let parts = quantized.chunks_mut(JOB).zip(blocks.chunks(JOB));
+    if executor.are_many() {
+        let mut jobs: Vec<_> = parts.collect();
+        executor.run(&mut jobs, |_, (quantized, blocks)| make(quantized, blocks));
+    } else {
+        for (quantized, blocks) in parts {
+            if executor.is_interrupted() {
+                return;
+            }
+            make(quantized, blocks);
+        }
+    }
+    set_fits(tree, one.boxes, units);
+    one.boxes.complete_quantized();
+}
+
+/// Says of all leaves whether they are short enough.
+fn set_fits<const N: usize>(tree: &Tree<N>, boxes: &mut BoxSet<N>, units: f32) {
+    let (nodes, _, Quantized { blocks, .. }) = boxes.all_mut();
+    for (wide_node, boxes) in tree.wide_nodes.iter().zip(nodes.boxes) {
+        let longest = boxes.longest_sides();
+        for (lane, child) in wide_node.children().enumerate() {
+            if let Child::Leaf(LeafId(block)) = child {
+                blocks[BlockId(block).index()].set_fits(longest[lane], units);
+            }
+        }
+    }
+}
+
+/// How many units there are to a length of one; `None` if quantized boxes are of no use. All nodes are valid.
+pub(super) fn units_of<const N: usize>(tree: &Tree<N>, boxes: &BoxSet<N>) -> Option<f32> {
+    let nodes = boxes.nodes();
+    let (mut sum, mut count) = (0.0, 0);
+    for (id, wide_node) in tree.with_ids() {
+        if wide_node.first_leaf.is_some() {
+            for side in nodes.of(id).longest_sides() {
+                // Lanes that are not used are not numbers.
+                sum += side.max(0.0);
+            }
+            count += wide_node.len();
+        }
+    }
+    let units = UNITS * count as f32 / sum;
+    (units.is_finite() && is_near_enough(boxes, units)).then_some(units)
+}
+
+/// Whether nothing lies too many units from zero.
+pub(super) fn is_near_enough<const N: usize>(boxes: &BoxSet<N>, units: f32) -> bool {
+    let all = boxes.nodes().one(NodeId::ROOT);
+    let ends = all.lo.iter().chain(&all.hi);
+    let farthest = ends.fold(0.0, |most: f32, x| most.max(x.abs()));
+    farthest * units < FARTHEST
+}

@@ -1,0 +1,253 @@
+//! What a world keeps for one kind of query, and how one is answered: all that is found, or shown to a sink until it breaks.
+
+use super::bodies::Bodies;
+use super::body::Body;
+use super::body_pairs::{BodyPair, BodyPairs};
+use super::origin::FloatingOrigin;
+use super::query::Request;
+use super::scheduler::{Scheduler, is_worth_it};
+use super::step::Step;
+use crate::error::{Error, ErrorKind};
+use crate::hits::Hit;
+use crate::kernels::{Coordinate, Instructions};
+use crate::options::Options;
+use crate::queries::Kind;
+use crate::sort::{Keys, sort};
+use crate::statistics::Statistics;
+use crate::threads::{Executor, Interrupt, Threads};
+use crate::traversal::{Scratch, Sink, Wanted};
+use crate::update::{Partner, Refit};
+use std::ops::ControlFlow;
+
+/// What queries of every kind work on: all of a world but what single kinds keep.
+pub(super) struct Common<const N: usize, S> {
+    pub(super) options: Options,
+    pub(super) instructions: Instructions,
+    pub(super) threads: Threads,
+    pub(super) bodies: Bodies<N, S>,
+    pub(super) body_pairs: BodyPairs,
+    pub(super) origin: FloatingOrigin,
+    /// The work of the last query.
+    pub(super) statistics: Statistics,
+    /// The work that was done early since the last query.
+    pub(super) done_early: Statistics,
+}
+
+/// Buffers of one kind, kept from query to query.
+#[derive(Debug)]
+pub(super) struct Asked<K: Kind> {
+    pub(super) scratch: Scratch<K>,
+    scheduler: Scheduler<K>,
+    hits: Vec<K::Hit>,
+    keys: Keys,
+}
+
+impl<K: Kind> Default for Asked<K> {
+    fn default() -> Self {
+        Self {
+            scratch: Scratch::default(),
+            scheduler: Scheduler::default(),
+            hits: Vec::new(),
+            keys: Keys::default(),
+        }
+    }
+}
+
+impl<K: Kind> Asked<K>
+where
+    K::Scalar: Coordinate,
+{
+    /// All hits, sorted.
+    pub(super) fn all<const N: usize>(
+        &mut self,
+        kind: &K,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+    ) -> Result<&[K::Hit], Error> {
+        let interrupt = Interrupt::new(request.question);
+        let mut hits = std::mem::take(&mut self.hits);
+        hits.clear();
+        let is_all = self.collect(kind, common, request, &interrupt, &mut hits)?;
+        if !is_all {
+            let limit = request.most;
+            return Err(ErrorKind::TooManyHits { limit }.of_query());
+        }
+        let executor = Executor {
+            threads: &common.threads,
+            interrupt: &interrupt,
+        };
+        // First bodies come in order, those of pairs within a body before those of others.
+        let first = |hit: &K::Hit| hit.numbers()[0];
+        if !hits.is_sorted_by_key(first) {
+            hits.sort_unstable_by_key(first);
+        }
+        for of_one_body in hits.chunk_by_mut(|a, b| a.numbers()[0] == b.numbers()[0]) {
+            sort(executor, of_one_body, &mut self.keys);
+        }
+        common.end(&interrupt)?;
+        self.hits = hits;
+        Ok(&self.hits)
+    }
+
+    /// All hits, those of two bodies after the other. Returns false if there are more than the request allows.
+    fn collect<const N: usize>(
+        &mut self,
+        kind: &K,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+        interrupt: &Interrupt,
+        hits: &mut Vec<K::Hit>,
+    ) -> Result<bool, Error> {
+        common.begin(request)?;
+        self.scratch.begin(Wanted::All);
+        let most = request.most;
+        let (mut step, bodies, pairs) =
+            Self::step(&mut self.scratch, kind, common, request, interrupt, false);
+        // Bodies with themselves first: what is refitted then does not depend on the order in which threads take the others.
+        let (itself, different) = pairs.split_at(pairs.partition_point(|[a, b]| a == b));
+        let mut is_all = true;
+        for pairs in [itself, different] {
+            if !is_all {
+                break;
+            }
+            if is_worth_it(step.refit.executor, bodies, pairs) {
+                let most = most - hits.len();
+                is_all = self.scheduler.meet(&mut step, bodies, pairs, most);
+                let found = self.scheduler.found();
+                found.for_each(|found| hits.extend_from_slice(found));
+                continue;
+            }
+            for &pair in pairs {
+                let flow = step.meet(bodies, pair, &mut |found| {
+                    is_all = hits.len() + found.len() <= most;
+                    if !is_all {
+                        return ControlFlow::Break(0);
+                    }
+                    hits.extend_from_slice(found);
+                    ControlFlow::Continue(())
+                });
+                if flow.is_break() {
+                    break;
+                }
+            }
+        }
+        common.end(interrupt)?;
+        Ok(is_all)
+    }
+
+    /// Shows every hit once, until the sink breaks.
+    pub(super) fn visit<const N: usize>(
+        &mut self,
+        kind: &K,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+        sink: Sink<K::Hit>,
+    ) -> Result<(), Error> {
+        let interrupt = Interrupt::new(request.question);
+        common.begin(request)?;
+        self.scratch.begin(Wanted::UntilBreak);
+        let (mut step, bodies, pairs) =
+            Self::step(&mut self.scratch, kind, common, request, &interrupt, false);
+        for &pair in pairs {
+            if step.meet(bodies, pair, sink).is_break() {
+                break;
+            }
+        }
+        common.end(&interrupt)
+    }
+
+    /// Does early what a query would do first: finds the bodies that may meet and refits the upper levels of their trees.
+    pub(super) fn prepare<const N: usize>(
+        &mut self,
+        kind: &K,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+    ) -> Result<(), Error> {
+        let interrupt = Interrupt::new(request.question);
+        common.bodies.validate(request.of)?;
+        common.settle_origin();
+        let (mut step, bodies, pairs) =
+            Self::step(&mut self.scratch, kind, common, request, &interrupt, true);
+        for &[a, b] in pairs {
+            let partner = if a == b {
+                Partner::Itself
+            } else {
+                Partner::Another
+            };
+            for place in [a, b] {
+                let body = &mut bodies.list[place.index()];
+                if step.ahead(body, partner).is_break() {
+                    return common.end(&interrupt);
+                }
+            }
+        }
+        common.end(&interrupt)
+    }
+
+    /// A query, the bodies it works on, and which of them meet.
+    fn step<'q, const N: usize>(
+        scratch: &'q mut Scratch<K>,
+        kind: &'q K,
+        common: &'q mut Common<N, K::Scalar>,
+        request: &Request,
+        interrupt: &'q Interrupt<'q>,
+        early: bool,
+    ) -> (Step<'q, K>, &'q mut Bodies<N, K::Scalar>, &'q [BodyPair]) {
+        let Common {
+            options,
+            instructions,
+            threads,
+            bodies,
+            body_pairs,
+            origin,
+            statistics,
+            done_early,
+        } = common;
+        let refit = Refit {
+            executor: Executor { threads, interrupt },
+            instructions: *instructions,
+            update: options.update,
+        };
+        let pairs = body_pairs.select(request.of, bodies, kind, origin.point, interrupt);
+        let step = Step {
+            kind,
+            refit,
+            origin: origin.point,
+            scratch,
+            statistics: if early { done_early } else { statistics },
+        };
+        (step, bodies, pairs)
+    }
+}
+
+impl<const N: usize, S: Coordinate> Common<N, S> {
+    /// At the beginning of every query.
+    pub(super) fn begin(&mut self, request: &Request) -> Result<(), Error> {
+        self.bodies.validate(request.of)?;
+        self.settle_origin();
+        self.statistics = std::mem::take(&mut self.done_early);
+        Ok(())
+    }
+
+    /// At the end of every query: if it was interrupted, nothing that it left half done is believed.
+    pub(super) fn end(&mut self, interrupt: &Interrupt) -> Result<(), Error> {
+        if !interrupt.is_set() {
+            return Ok(());
+        }
+        self.bodies.list.iter_mut().for_each(Body::forget_boxes);
+        self.body_pairs.forget();
+        Err(ErrorKind::Interrupted.of_query())
+    }
+
+    fn settle_origin(&mut self) {
+        if self.origin.settle(&mut self.bodies.list) {
+            self.body_pairs.forget();
+        }
+    }
+
+    /// A body has a new shape or box.
+    pub(super) fn note_movement(&mut self) {
+        self.origin.note_movement();
+        self.body_pairs.forget();
+    }
+}

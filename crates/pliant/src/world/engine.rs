@@ -1,0 +1,384 @@
+//! A world behind its public face: the one place where the phases meet, and where the degree of the trees is a type.
+//!
+//! [`World`](super::World) holds an engine of which it knows neither the degree nor, in a user's code, anything generic: `Engine` is
+//! compiled here, once for every degree and for `f32` and `f64`, and a user's crate holds only calls.
+
+use super::asked::{Asked, Common};
+use super::bodies::Bodies;
+use super::body::{self, Body};
+use super::body_pairs::BodyPairs;
+use super::origin::FloatingOrigin;
+use super::query::{Ask, Request};
+use super::witness::{self, Witnesses};
+use super::{BodyId, NodeBox, Selection, TreeShape};
+use crate::Pair;
+use crate::error::{Error, ErrorKind};
+use crate::geometry::Bounds;
+use crate::ids::Place;
+use crate::kernels::{Coordinate, Instructions};
+use crate::options::{Degree, Options};
+use crate::queries::{Candidate, Intersections};
+use crate::statistics::Statistics;
+use crate::threads::{Executor, Interrupt, Threads};
+use crate::traversal::Sink;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+/// An engine of any degree. What its methods do is said where [`World`](super::World) has them.
+pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
+    fn options(&self) -> &Options;
+    fn use_instructions(&mut self, instructions: Instructions);
+    fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error>;
+    fn remove(&mut self, id: BodyId) -> Result<(), Error>;
+    fn places(&self) -> &BTreeMap<BodyId, Place>;
+    fn set_positions(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error>;
+    fn write_positions(
+        &mut self,
+        id: BodyId,
+        write: &mut dyn FnMut(&mut [[S; 3]]),
+    ) -> Result<(), Error>;
+    fn rebuild(&mut self, id: BodyId) -> Result<(), Error>;
+    fn set_filter(&mut self, id: BodyId, membership: u32, mask: u32) -> Result<(), Error>;
+    fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error>;
+    fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error>;
+    fn set_loose_box(&mut self, id: BodyId, corners: Option<([S; 3], [S; 3])>)
+    -> Result<(), Error>;
+    fn triangles(&self, id: BodyId) -> Result<&[[u32; 3]], Error>;
+    fn vertex_count(&self, id: BodyId) -> Result<usize, Error>;
+    fn positions(&self, id: BodyId) -> Result<Vec<[S; 3]>, Error>;
+    fn tree_shape(&self, id: BodyId) -> Result<TreeShape, Error>;
+    fn tree_cut(&self, id: BodyId, level: u32) -> Result<Vec<u32>, Error>;
+    fn tree_boxes(&self, id: BodyId, level: u32) -> Result<Vec<NodeBox<S>>, Error>;
+    fn vertex_order(&self, id: BodyId) -> Result<&[u32], Error>;
+    fn statistics(&self) -> &Statistics;
+    fn validate(&self) -> Result<(), String>;
+}
+
+/// An engine whose trees have degree `N`.
+pub(super) struct Engine<const N: usize, S: Coordinate> {
+    pub(super) common: Common<N, S>,
+    intersections: Asked<Intersections<S>>,
+    witnesses: Witnesses,
+    /// What `write_positions` lends.
+    lent: Vec<[S; 3]>,
+    #[cfg(test)]
+    pub(super) grown: Asked<crate::queries::grown::Near<S>>,
+}
+
+/// An engine of the degree that the options say.
+pub(super) fn engine<S: Coordinate>(options: Options, threads: Threads) -> Box<dyn AnyEngine<S>> {
+    match options.degree {
+        Degree::Two => Box::new(Engine::<2, S>::new(options, threads)),
+        Degree::Four => Box::new(Engine::<4, S>::new(options, threads)),
+        Degree::Eight => Box::new(Engine::<8, S>::new(options, threads)),
+    }
+}
+
+/// A refusal of a call about a body.
+fn about(body: BodyId) -> impl Fn(ErrorKind) -> Error {
+    move |kind| Error {
+        body: Some(body),
+        kind,
+    }
+}
+
+impl<const N: usize, S: Coordinate> Engine<N, S> {
+    pub(super) fn new(options: Options, threads: Threads) -> Self {
+        Self {
+            common: Common {
+                options,
+                instructions: Instructions::widest(),
+                threads,
+                bodies: Bodies::default(),
+                body_pairs: BodyPairs::new(options.broad_phase),
+                origin: FloatingOrigin::default(),
+                statistics: Statistics::default(),
+                done_early: Statistics::default(),
+            },
+            intersections: Asked::default(),
+            witnesses: Witnesses::default(),
+            lent: Vec::new(),
+            #[cfg(test)]
+            grown: Asked::default(),
+        }
+    }
+
+    fn body(&self, id: BodyId) -> Result<&Body<N, S>, Error> {
+        self.common.bodies.get(id)
+    }
+
+    /// Validates a new shape of a body and takes it over.
+    fn move_body(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
+        let Common {
+            instructions,
+            threads,
+            bodies,
+            ..
+        } = &mut self.common;
+        let executor = Executor {
+            threads,
+            interrupt: &Interrupt::default(),
+        };
+        bodies
+            .get_mut(id)?
+            .set_positions(*instructions, executor, positions)
+            .map_err(about(id))?;
+        self.common.note_movement();
+        Ok(())
+    }
+}
+
+impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
+    fn options(&self) -> &Options {
+        &self.common.options
+    }
+
+    fn use_instructions(&mut self, instructions: Instructions) {
+        self.common.instructions = instructions;
+    }
+
+    fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error> {
+        let refused = |kind| Error { body: None, kind };
+        let common = &mut self.common;
+        let id = common.bodies.next_id().map_err(refused)?;
+        body::validate(triangles, positions).map_err(refused)?;
+        let body = Body::new(id, triangles, positions, &common.options);
+        common.bodies.push(body);
+        common.note_movement();
+        Ok(id)
+    }
+
+    fn remove(&mut self, id: BodyId) -> Result<(), Error> {
+        let common = &mut self.common;
+        let place = common.bodies.remove(id)?;
+        let last = common.bodies.list.len();
+        common.body_pairs.swap_remove(place, last);
+        self.witnesses.forget(id);
+        Ok(())
+    }
+
+    fn places(&self) -> &BTreeMap<BodyId, Place> {
+        &self.common.bodies.places
+    }
+
+    fn set_positions(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
+        self.move_body(id, positions)
+    }
+
+    fn write_positions(
+        &mut self,
+        id: BodyId,
+        write: &mut dyn FnMut(&mut [[S; 3]]),
+    ) -> Result<(), Error> {
+        let vertices = self.vertex_count(id)?;
+        let mut lent = std::mem::take(&mut self.lent);
+        lent.clear();
+        lent.resize(vertices, [S::NAN; 3]);
+        write(&mut lent);
+        let moved = self.move_body(id, &lent);
+        self.lent = lent;
+        moved.map_err(|mut refused| {
+            if let ErrorKind::BadPosition { vertex, position } = refused.kind
+                && position.iter().any(|x| x.is_nan())
+            {
+                refused.kind = ErrorKind::NotWritten { vertex };
+            }
+            refused
+        })
+    }
+
+    fn rebuild(&mut self, id: BodyId) -> Result<(), Error> {
+        let common = &mut self.common;
+        common.bodies.get_mut(id)?.rebuild(&common.options);
+        self.witnesses.forget(id);
+        Ok(())
+    }
+
+    fn set_filter(&mut self, id: BodyId, membership: u32, mask: u32) -> Result<(), Error> {
+        let body = self.common.bodies.get_mut(id)?;
+        body.set_filter(membership, mask);
+        self.common.body_pairs.forget();
+        Ok(())
+    }
+
+    fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
+        self.body(a)?;
+        self.body(b)?;
+        self.common.bodies.ignore(a, b);
+        self.common.body_pairs.forget();
+        Ok(())
+    }
+
+    fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
+        self.body(a)?;
+        self.body(b)?;
+        self.common.bodies.meet_again(a, b);
+        self.common.body_pairs.forget();
+        Ok(())
+    }
+
+    fn set_loose_box(
+        &mut self,
+        id: BodyId,
+        corners: Option<([S; 3], [S; 3])>,
+    ) -> Result<(), Error> {
+        let loose = corners.map(|(lo, hi)| Bounds { lo, hi });
+        let body = self.common.bodies.get_mut(id)?;
+        body.set_loose_box(loose).map_err(about(id))?;
+        self.common.note_movement();
+        Ok(())
+    }
+
+    fn triangles(&self, id: BodyId) -> Result<&[[u32; 3]], Error> {
+        Ok(self.body(id)?.topology.triangles())
+    }
+
+    fn vertex_count(&self, id: BodyId) -> Result<usize, Error> {
+        Ok(self.body(id)?.vertex_count())
+    }
+
+    fn positions(&self, id: BodyId) -> Result<Vec<[S; 3]>, Error> {
+        Ok(self.body(id)?.positions().into_owned())
+    }
+
+    fn tree_shape(&self, id: BodyId) -> Result<TreeShape, Error> {
+        let tree = &self.body(id)?.tree;
+        Ok(TreeShape {
+            depth: tree.depth,
+            nodes: tree.node_count(),
+            leaves: tree.leaves.len(),
+        })
+    }
+
+    fn tree_cut(&self, id: BodyId, level: u32) -> Result<Vec<u32>, Error> {
+        Ok(self.body(id)?.tree_cut(level))
+    }
+
+    fn tree_boxes(&self, id: BodyId, level: u32) -> Result<Vec<NodeBox<S>>, Error> {
+        let origin = self.common.origin.point;
+        Ok(self.body(id)?.tree_boxes(level, origin))
+    }
+
+    fn vertex_order(&self, id: BodyId) -> Result<&[u32], Error> {
+        Ok(self.body(id)?.order.vertex_order())
+    }
+
+    fn statistics(&self) -> &Statistics {
+        &self.common.statistics
+    }
+
+    fn validate(&self) -> Result<(), String> {
+        let Common {
+            options,
+            bodies,
+            origin,
+            ..
+        } = &self.common;
+        for body in &bodies.list {
+            body.validate(options, origin.point)
+                .map_err(|what| format!("{}: {what}", body.id))?;
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize, S: Coordinate> Ask<Pair> for Engine<N, S> {
+    fn all(&mut self, request: &Request) -> Result<&[Pair], Error> {
+        let kind = &Intersections::default();
+        self.intersections.all(kind, &mut self.common, request)
+    }
+
+    /// Begins with the last answer: see `witness`.
+    fn first(&mut self, request: &Request) -> Result<Option<Pair>, Error> {
+        let last = match request.of {
+            Selection::World => self.witnesses.of_world[0],
+            Selection::Everything => self.witnesses.of_world[1],
+            Selection::Between(a, b) => Some([a, b]),
+            Selection::Within(a) => Some([a; 2]),
+        };
+        if let Some(bodies) = last.filter(|&bodies| self.do_meet(bodies, request.of))
+            && let Some(pair) = self.ask_witness(bodies, request)?
+        {
+            return Ok(Some(pair));
+        }
+        let mut found = None;
+        Ask::<Pair>::visit(self, request, &mut |pairs| {
+            let Some(&pair) = pairs.first() else {
+                return ControlFlow::Continue(());
+            };
+            found = Some(pair);
+            ControlFlow::Break(0)
+        })?;
+        let bodies = found.map(|pair: Pair| [pair.body_a, pair.body_b]);
+        match request.of {
+            Selection::World => self.witnesses.of_world[0] = bodies,
+            Selection::Everything => self.witnesses.of_world[1] = bodies,
+            Selection::Between(..) | Selection::Within(_) => {}
+        }
+        if let (Some(bodies), Some(at)) = (bodies, self.intersections.scratch.broke_at.take()) {
+            self.witnesses.keep(bodies, at);
+        }
+        Ok(found)
+    }
+
+    fn visit(&mut self, request: &Request, sink: Sink<Pair>) -> Result<(), Error> {
+        let kind = &Intersections::default();
+        self.intersections
+            .visit(kind, &mut self.common, request, sink)
+    }
+
+    fn prepare(&mut self, request: &Request) -> Result<(), Error> {
+        let kind = &Intersections::default();
+        self.intersections.prepare(kind, &mut self.common, request)
+    }
+}
+
+/// The pair that answered the last question for a first pair.
+impl<const N: usize, S: Coordinate> Engine<N, S> {
+    /// Whether bodies that were there are there still, and meet in a query of these.
+    fn do_meet(&self, [a, b]: [BodyId; 2], of: Selection) -> bool {
+        let (Ok(body_a), Ok(body_b)) = (self.body(a), self.body(b)) else {
+            return false;
+        };
+        match of {
+            Selection::World | Selection::Everything => self.common.bodies.do_meet(body_a, body_b),
+            Selection::Between(..) => a != b,
+            Selection::Within(_) => true,
+        }
+    }
+
+    /// A pair of these bodies at or near the last answer, if one intersects. What it does is counted in any case.
+    fn ask_witness(
+        &mut self,
+        bodies: [BodyId; 2],
+        request: &Request,
+    ) -> Result<Option<Pair>, Error> {
+        let Some(last) = self.witnesses.get(bodies) else {
+            return Ok(None);
+        };
+        let interrupt = Interrupt::new(request.question);
+        let mut statistics = self.common.done_early;
+        let both = [self.body(bodies[0])?, self.body(bodies[1])?];
+        let found = witness::near(both, last, &interrupt, &mut statistics);
+        let pair = found.map(|found| pair_of(both, found));
+        if let Some(found) = found {
+            self.common.statistics = statistics;
+            self.common.done_early = Statistics::default();
+            self.witnesses.keep(bodies, found);
+        } else {
+            self.common.done_early = statistics;
+            self.common.end(&interrupt)?;
+        }
+        Ok(pair)
+    }
+}
+
+/// Two triangles of two bodies, or of one, as the caller numbers them.
+fn pair_of<const N: usize, S: Coordinate>(both: [&Body<N, S>; 2], found: Candidate) -> Pair {
+    use crate::queries::{CallerIds, Kind};
+    let ids = CallerIds {
+        bodies: both.map(|body| body.id),
+        orders: both.map(|body| &body.order),
+    };
+    Intersections::<S>::default().to_caller(&ids, found)
+}

@@ -1,0 +1,54 @@
+//! The point that the boxes of an `f64` world are relative to. It follows the bodies, because the digits of an `f32` are best spent on
+//! their shapes.
+
+use super::body::Body;
+use crate::geometry::{Bounds, Origin};
+use crate::kernels::Coordinate;
+
+#[derive(Debug, Default)]
+pub(super) struct FloatingOrigin {
+    /// Zero for `f32`.
+    pub(super) point: Origin,
+    /// Shapes taken over since the bodies were last looked at.
+    moves: usize,
+}
+
+impl FloatingOrigin {
+    /// A body has a new shape.
+    pub(super) fn note_movement(&mut self) {
+        self.moves += 1;
+    }
+
+    /// Moves to the bodies if they have moved away; all boxes are then stale. Returns whether it moved.
+    ///
+    /// Looking at all bodies costs O(n), so it is done only when as many shapes were taken over as there are bodies.
+    pub(super) fn settle<const N: usize, S: Coordinate>(
+        &mut self,
+        bodies: &mut [Body<N, S>],
+    ) -> bool {
+        if S::BOXES_ARE_EXACT || self.moves < bodies.len() {
+            return false;
+        }
+        self.moves = 0;
+        let mut extent = Bounds::EMPTY;
+        for bounds in bodies.iter().map(Body::bounds) {
+            extent.include(bounds.lo);
+            extent.include(bounds.hi);
+        }
+        let (lo, hi) = (extent.lo.map(S::to_f64), extent.hi.map(S::to_f64));
+        let centre: [f64; 3] = std::array::from_fn(|axis| f64::midpoint(lo[axis], hi[axis]));
+        let largest = |values: [f64; 3]| values.into_iter().fold(0.0, f64::max);
+        let radius = largest(std::array::from_fn(|axis| (hi[axis] - lo[axis]) / 2.0));
+        let away = largest(std::array::from_fn(|axis| {
+            (centre[axis] - self.point[axis]).abs()
+        }));
+        // Within two radii a box loses two of its 24 bits at most; the slack keeps a moving world from settling every step.
+        let moves = away > 2.0 * radius;
+        if moves {
+            let [x, y, z] = centre;
+            self.point = [x, y, z, 0.0];
+            bodies.iter_mut().for_each(Body::origin_moved);
+        }
+        moves
+    }
+}

@@ -1,0 +1,166 @@
+//! A query on its way: who is asked about, how much is wanted of it, and what may end it early.
+
+use super::Selection;
+use crate::error::Error;
+use crate::threads::Question;
+use crate::traversal::Sink;
+use std::fmt;
+use std::ops::ControlFlow;
+
+/// What a query is asked with.
+#[derive(Clone, Copy)]
+pub(crate) struct Request<'q> {
+    pub(super) of: Selection,
+    /// The most hits that a list may have.
+    pub(super) most: usize,
+    pub(super) question: Option<Question<'q>>,
+}
+
+/// Answers queries of one kind.
+pub(crate) trait Ask<H> {
+    fn all(&mut self, request: &Request) -> Result<&[H], Error>;
+    fn first(&mut self, request: &Request) -> Result<Option<H>, Error>;
+    fn visit(&mut self, request: &Request, sink: Sink<H>) -> Result<(), Error>;
+    fn prepare(&mut self, request: &Request) -> Result<(), Error>;
+}
+
+/// A question that was put to a [`World`](crate::World), and waits to be told how much is wanted: [`all`](Self::all) hits,
+/// the [`first`](Self::first), or a [`visit`](Self::visit) to one after the other.
+///
+/// # Errors
+///
+/// Whatever is wanted, the answer is an error, and the world stays usable, with
+///
+/// - [`NoSuchBody`](crate::ErrorKind::NoSuchBody) if the selection names a body that is not there,
+///   [`SameBody`](crate::ErrorKind::SameBody) if it names one twice as two;
+/// - [`Interrupted`](crate::ErrorKind::Interrupted) if [`interrupt_if`](Self::interrupt_if) said so;
+/// - [`TooManyHits`](crate::ErrorKind::TooManyHits) if a list would be longer than [`at_most`](Self::at_most) allows.
+#[must_use = "a query does nothing until it is asked for all, for the first, or to visit"]
+pub struct Query<'w, H> {
+    engine: &'w mut dyn Ask<H>,
+    request: Request<'w>,
+}
+
+impl<'w, H: Copy> Query<'w, H> {
+    pub(super) fn new(engine: &'w mut dyn Ask<H>, of: Selection) -> Self {
+        let request = Request {
+            of,
+            most: usize::MAX,
+            question: None,
+        };
+        Self { engine, request }
+    }
+
+    /// Refuses a list of more hits than this, instead of making one that may fill the memory. While it is found, no more than
+    /// these are held, and some thousands a thread.
+    pub fn at_most(mut self, hits: usize) -> Self {
+        self.request.most = hits;
+        self
+    }
+
+    /// Ends the query early, with an error, when `question` says so. It is asked by every thread that works on the query, every 10
+    /// milliseconds at least and mostly much more often, so it should cost little: a flag that is read, a clock. Two things take
+    /// longer: memory for a list of millions is asked of the system in one piece, and a list of hundreds of thousands of pairs of
+    /// bodies is sorted in one.
+    ///
+    /// The boxes of all bodies are then made anew by the next query; nothing else is lost.
+    ///
+    /// ```
+    /// # use pliant::{ErrorKind, Selection, World};
+    /// use std::sync::atomic::{AtomicBool, Ordering};
+    ///
+    /// # let mut world = World::<f32>::new();
+    /// # let cloth = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// let stop = AtomicBool::new(true);
+    /// let stopped = || stop.load(Ordering::Relaxed);
+    /// let answer = world.intersections(Selection::Within(cloth)).interrupt_if(&stopped).all();
+    /// assert_eq!(answer.unwrap_err().kind, ErrorKind::Interrupted);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn interrupt_if(mut self, question: &'w (dyn Fn() -> bool + Sync)) -> Self {
+        self.request.question = Some(question);
+        self
+    }
+
+    /// All hits, sorted: the same for every option, history and number of threads. The slice is valid until the next call.
+    ///
+    /// Cost: the broad phase of a query of the whole world, O(n + overlaps) for bodies that move a little; and for bodies whose boxes
+    /// overlap, what grows with the region where they are close. Sorting is linear in the hits.
+    ///
+    /// # Errors
+    ///
+    /// See [`Query`].
+    pub fn all(self) -> Result<&'w [H], Error> {
+        self.engine.all(&self.request)
+    }
+
+    /// Some hit, if there is one. Much cheaper than all where there are many.
+    ///
+    /// Whether there is one never depends on options or history; which one may.
+    ///
+    /// # Errors
+    ///
+    /// See [`Query`].
+    pub fn first(self) -> Result<Option<H>, Error> {
+        self.engine.first(&self.request)
+    }
+
+    /// Shows `visit` every hit once, until it breaks; returns what it broke with. The order is deterministic, not sorted.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// use std::ops::ControlFlow;
+    ///
+    /// # let mut world = World::<f32>::new();
+    /// # for z in [0.0, 0.5] {
+    /// #     world.add(&[[0, 1, 2], [0, 1, 3]], &[[0.0, 0.0, z], [4.0, 0.0, z], [0.0, 4.0, z], [0.0, 0.0, z + 1.0]])?;
+    /// # }
+    /// let mut budget = 2;
+    /// let exhausted = world.intersections(Selection::World).visit(|pair| {
+    ///     println!("{} of {} and {} of {}", pair.triangle_a, pair.body_a, pair.triangle_b, pair.body_b);
+    ///     budget -= 1;
+    ///     if budget == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    /// })?;
+    /// # assert!(exhausted.is_break());
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// See [`Query`]. If it is interrupted, hits that were shown were true.
+    pub fn visit<B>(
+        self,
+        mut visit: impl FnMut(H) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let mut answer = ControlFlow::Continue(());
+        self.engine.visit(&self.request, &mut |found| {
+            for (place, &hit) in found.iter().enumerate() {
+                if let ControlFlow::Break(value) = visit(hit) {
+                    answer = ControlFlow::Break(value);
+                    return ControlFlow::Break(place);
+                }
+            }
+            ControlFlow::Continue(())
+        })?;
+        Ok(answer)
+    }
+
+    /// Does early what the query would do first, and asks nothing: finds the bodies that may meet and refits the upper levels of
+    /// their trees; all of it in a body that meets itself. Never needed for right answers; it is for whoever wants to time it, or has
+    /// time to spare.
+    ///
+    /// # Errors
+    ///
+    /// See [`Query`].
+    pub fn prepare(self) -> Result<(), Error> {
+        self.engine.prepare(&self.request)
+    }
+}
+
+impl<H> fmt::Debug for Query<'_, H> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Query")
+            .field("of", &self.request.of)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,52 @@
+//! The two types of coordinates as users name them, and where each gets its engines: here, and nowhere else, everything generic is
+//! compiled.
+
+use super::engine::{AnyEngine, engine};
+use crate::kernels::Coordinate;
+use crate::options::Options;
+use crate::threads::Threads;
+
+/// A coordinate: `f32` or `f64`. Sealed, because the proofs behind the decisions are for these two.
+#[expect(
+    private_bounds,
+    reason = "sealed; what the library needs of it is not for users"
+)]
+pub trait Scalar: sealed::HasEngine + Coordinate {
+    /// The same value; exact.
+    fn to_f64(self) -> f64;
+
+    /// Finite and at most `f32::MAX` in magnitude.
+    fn is_in_range(self) -> bool;
+}
+
+pub(super) mod sealed {
+    use super::{AnyEngine, Options, Threads};
+
+    pub(crate) trait HasEngine: Sized {
+        fn engine(options: Options, threads: Threads) -> Box<dyn AnyEngine<Self>>;
+    }
+}
+
+macro_rules! scalar {
+    ($($type:ty),*) => {$(
+        impl Scalar for $type {
+            #[inline]
+            fn to_f64(self) -> f64 {
+                self.into()
+            }
+
+            #[inline]
+            fn is_in_range(self) -> bool {
+                crate::geometry::Real::is_in_range(self)
+            }
+        }
+
+        impl sealed::HasEngine for $type {
+            fn engine(options: Options, threads: Threads) -> Box<dyn AnyEngine<Self>> {
+                engine(options, threads)
+            }
+        }
+    )*};
+}
+
+scalar!(f32, f64);

@@ -1,0 +1,59 @@
+//! A body's tree cut at a level: how it divides the triangles, and the boxes of its parts.
+
+use super::NodeBox;
+use super::body::Body;
+use crate::geometry::{Bounds, Origin};
+use crate::ids::TreeTriangle;
+use crate::kernels::Coordinate;
+use crate::queries::{Intersections, Kind};
+use crate::tree::BoxSource;
+use std::ops::Range;
+
+impl<const N: usize, S: Coordinate> Body<N, S> {
+    /// For each triangle, as the caller numbers them, the part it is in.
+    pub(super) fn tree_cut(&self, level: u32) -> Vec<u32> {
+        let order = self.order.triangle_order();
+        let mut part_of = vec![0; order.len()];
+        for (part, triangles) in (0..).zip(self.parts(level)) {
+            for &triangle in &order[triangles] {
+                part_of[triangle as usize] = part;
+            }
+        }
+        part_of
+    }
+
+    /// The box of every part.
+    pub(super) fn tree_boxes(&self, level: u32, origin: Origin) -> Vec<NodeBox<S>> {
+        let positions = self.positions();
+        let version = {
+            let points = self.in_tree_order();
+            self.shape(&points, origin).version()
+        };
+        let parts = self.parts(level);
+        let valid = match self.boxes(Intersections::<S>::BOX_SET) {
+            Some(boxes) => self.tree.valid_in_cut(level, boxes, version),
+            None => vec![false; parts.len()],
+        };
+        let node_box = |(triangles, valid): (Range<usize>, bool)| {
+            let mut bounds = Bounds::EMPTY;
+            for &vertex in self.order.all_corners()[triangles].as_flattened() {
+                bounds.include(positions[self.order.caller_vertex(vertex).index()]);
+            }
+            NodeBox {
+                lower: bounds.lo,
+                upper: bounds.hi,
+                valid,
+            }
+        };
+        parts.into_iter().zip(valid).map(node_box).collect()
+    }
+
+    /// The triangles of every part, as places in tree order.
+    fn parts(&self, level: u32) -> Vec<Range<usize>> {
+        let starts = self.tree.starts_of_cut(level);
+        let ends = starts[1..].iter().map(|start| start.index());
+        let ends = ends.chain([self.triangle_count()]);
+        let starts = starts.iter().copied().map(TreeTriangle::index);
+        starts.zip(ends).map(|(start, end)| start..end).collect()
+    }
+}

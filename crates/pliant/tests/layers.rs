@@ -1,0 +1,242 @@
+//! Which folder of the library may use which: arrows run one way.
+//!
+//! This is about structure, not style. Folders are listed from the bottom up; each may use those listed with it, which all stand before
+//! it. Within a folder, files beside each other do not use each other in circles. Unit tests may use what they like.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Folder, or file of the crate's root, and what it may use.
+const LAYERS: [(&str, &[&str]); 19] = [
+    ("ids", &[]),
+    ("options", &[]),
+    ("statistics", &[]),
+    ("threads", &[]),
+    ("error", &["ids"]),
+    ("hits", &["ids"]),
+    ("geometry", &["ids"]),
+    ("kernels", &["ids", "geometry"]),
+    ("mesh", &["ids", "error", "threads"]),
+    ("predicates", &["geometry"]),
+    ("sort", &["hits", "threads"]),
+    ("broad_phase", &["ids", "options", "geometry", "threads"]),
+    (
+        "tree",
+        &["ids", "options", "geometry", "kernels", "mesh", "threads"],
+    ),
+    (
+        "update",
+        &["ids", "options", "statistics", "kernels", "threads", "tree"],
+    ),
+    (
+        "queries",
+        &[
+            "ids",
+            "hits",
+            "statistics",
+            "geometry",
+            "kernels",
+            "mesh",
+            "predicates",
+            "threads",
+            "tree",
+        ],
+    ),
+    (
+        "traversal",
+        &[
+            "ids",
+            "statistics",
+            "kernels",
+            "mesh",
+            "threads",
+            "tree",
+            "update",
+            "queries",
+        ],
+    ),
+    (
+        "world",
+        &[
+            "ids",
+            "options",
+            "statistics",
+            "error",
+            "hits",
+            "geometry",
+            "kernels",
+            "mesh",
+            "predicates",
+            "sort",
+            "broad_phase",
+            "threads",
+            "tree",
+            "update",
+            "queries",
+            "traversal",
+        ],
+    ),
+    ("reference", &["error", "mesh", "predicates", "world"]),
+    ("lib", &[]),
+];
+
+/// What the root exports under a name of its own, and where it is from.
+const EXPORTED: [(&str, &str); 18] = [
+    ("BodyId", "ids"),
+    ("BroadPhase", "options"),
+    ("Degree", "options"),
+    ("Error", "error"),
+    ("ErrorKind", "error"),
+    ("Instructions", "kernels"),
+    ("NodeBox", "world"),
+    ("Options", "options"),
+    ("Pair", "hits"),
+    ("Partition", "options"),
+    ("Query", "world"),
+    ("Scalar", "world"),
+    ("Selection", "world"),
+    ("Statistics", "statistics"),
+    ("TreeShape", "world"),
+    ("Update", "options"),
+    ("World", "world"),
+    ("kernels", "kernels"),
+];
+
+fn source() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+}
+
+/// All files below a folder, and their code without comments and unit tests.
+fn files(folder: &Path) -> Vec<(PathBuf, String)> {
+    let mut all = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            all.extend(files(&path));
+        } else {
+            let text = fs::read_to_string(&path).unwrap();
+            let end = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+            let code = text[..end].lines();
+            let code = code.filter(|line| !line.trim_start().starts_with("//"));
+            all.push((path, code.collect::<Vec<_>>().join("\n")));
+        }
+    }
+    all
+}
+
+/// The names that stand behind a prefix such as `crate::`, each once, those in braces too.
+fn names_behind(prefix: &str, code: &str) -> BTreeSet<String> {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    let first = |text: &str| text.chars().take_while(|&c| is_part(c)).collect::<String>();
+    let mut names = BTreeSet::new();
+    for (at, _) in code.match_indices(prefix) {
+        // Not `super::super::`, and not a longer word.
+        if code[..at].ends_with("::") || code[..at].ends_with(is_part) {
+            continue;
+        }
+        let rest = &code[at + prefix.len()..];
+        let Some(list) = rest.strip_prefix('{') else {
+            names.insert(first(rest));
+            continue;
+        };
+        let (mut depth, mut item) = (0, String::new());
+        for c in list.chars() {
+            match c {
+                '{' => depth += 1,
+                '}' if depth == 0 => break,
+                '}' => depth -= 1,
+                ',' if depth == 0 => {
+                    names.insert(first(item.trim()));
+                    item.clear();
+                    continue;
+                }
+                _ => {}
+            }
+            item.push(c);
+        }
+        names.insert(first(item.trim()));
+    }
+    names.remove("");
+    names
+}
+
+/// The folder or file of the crate's root that a file is in.
+fn layer_of(path: &Path) -> String {
+    let relative = path.strip_prefix(source()).unwrap();
+    let first = relative.components().next().unwrap();
+    let name = Path::new(first.as_os_str()).file_stem().unwrap();
+    name.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn folders_use_what_stands_below_them() {
+    let mut below = BTreeSet::new();
+    for (layer, uses) in LAYERS {
+        assert!(uses.iter().all(|used| below.contains(used)), "{layer}");
+        below.insert(layer);
+    }
+    let exported: BTreeMap<_, _> = EXPORTED.into_iter().collect();
+    for (path, code) in files(&source()) {
+        let layer = layer_of(&path);
+        if layer == "lib" {
+            continue;
+        }
+        let (_, uses) = LAYERS
+            .into_iter()
+            .find(|(name, _)| *name == layer)
+            .unwrap_or_else(|| panic!("{layer} is not in the list: say what it may use"));
+        for name in names_behind("crate::", &code) {
+            let used = exported.get(name.as_str()).copied().unwrap_or(&name);
+            assert!(
+                used == layer || uses.contains(&used),
+                "{}: {layer} may not use {used}",
+                path.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn files_beside_each_other_use_each_other_in_no_circle() {
+    let mut folders: BTreeMap<PathBuf, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
+    for (path, code) in files(&source()) {
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        let folder = path.parent().unwrap().to_owned();
+        let uses = names_behind("super::", &code);
+        folders.entry(folder).or_default().insert(name, uses);
+    }
+    for (folder, mut files) in folders {
+        // What its parent exports of a file counts as the file, which is not known here; names of files do.
+        files.remove("mod");
+        let there: BTreeSet<_> = files.keys().cloned().collect();
+        for uses in files.values_mut() {
+            uses.retain(|used| there.contains(used));
+        }
+        while !files.is_empty() {
+            let free = files.iter().find(|(_, uses)| uses.is_empty());
+            let Some(free) = free.map(|(name, _)| name.clone()) else {
+                panic!("{}: in a circle: {files:?}", folder.display());
+            };
+            files.remove(&free);
+            files.values_mut().for_each(|uses| {
+                uses.remove(&free);
+            });
+        }
+    }
+}
+
+#[test]
+fn one_folder_knows_instruction_sets_and_one_knows_thread_pools() {
+    for (path, code) in files(&source()) {
+        let layer = layer_of(&path);
+        assert!(
+            layer == "kernels" || !code.contains("fearless_simd"),
+            "{}",
+            path.display()
+        );
+        // The public face hands a pool of the application's on.
+        let hands_on = layer == "threads" || layer == "world";
+        assert!(hands_on || !code.contains("rayon"), "{}", path.display());
+    }
+}

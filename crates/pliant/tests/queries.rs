@@ -1,0 +1,332 @@
+//! What a query is asked with: selections, limits, interruptions, threads that are lent, and what is done early.
+
+mod common;
+
+use common::sheet;
+use pliant::{BodyId, ErrorKind, Options, Pair, Selection, Statistics, Update, World};
+use pliant_scenes::Scene;
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// A cloth deep in itself, moved there from its first shape.
+fn cloth(options: Options, triangles: usize) -> (World<f32>, BodyId) {
+    let scene = Scene::new("cloth", Some(triangles), Scene::DEFAULT_SEED).unwrap();
+    let mut world = World::with_options(options);
+    let mut positions = Vec::new();
+    scene.positions(0, 1, &mut positions);
+    let body = world.add(scene.triangles(0), &positions).unwrap();
+    scene.positions(0, 50, &mut positions);
+    world.set_positions(body, &positions).unwrap();
+    (world, body)
+}
+
+/// Two spheres deep in each other and a third apart.
+fn spheres(options: Options) -> (World<f32>, Vec<BodyId>) {
+    let scene = Scene::new("spheres", Some(1_280), Scene::DEFAULT_SEED).unwrap();
+    let mut world = World::with_options(options);
+    let mut positions = Vec::new();
+    let bodies = [0, 1, 0].map(|body| {
+        scene.positions(body, 1, &mut positions);
+        world.add(scene.triangles(body), &positions).unwrap()
+    });
+    for (place, id) in bodies.into_iter().enumerate() {
+        scene.positions(place % 2, 200, &mut positions);
+        let shift = if place == 2 { 9.0 } else { 0.0 };
+        positions.iter_mut().for_each(|p| p[0] += shift);
+        world.set_positions(id, &positions).unwrap();
+    }
+    (world, bodies.to_vec())
+}
+
+#[test]
+fn preparing_does_what_the_query_would_do_first() {
+    let boxes = |work: &Statistics| {
+        [
+            work.boxes_bottom_up,
+            work.boxes_top_down,
+            work.triangle_boxes,
+        ]
+    };
+    for update in [Update::BottomUp, Update::TopDown, Update::HYBRID] {
+        let mut options = Options::default();
+        options.update = update;
+        let (mut asked, body) = cloth(options, 2_888);
+        let of = Selection::Within(body);
+        let expected = asked.intersections(of).all().unwrap().to_vec();
+        let (mut prepared, _) = cloth(options, 2_888);
+        prepared.intersections(of).prepare().unwrap();
+        assert_eq!(prepared.intersections(of).all().unwrap(), expected);
+        assert_eq!(prepared.statistics(), asked.statistics(), "{update:?}");
+        // Nothing is left for the query itself: it is prepared for all of a body that meets itself.
+        prepared.intersections(of).all().unwrap();
+        assert_eq!(boxes(prepared.statistics()), [0; 3], "{update:?}");
+        if update == Update::HYBRID {
+            assert_eq!(asked.statistics().boxes_top_down, 0);
+        }
+    }
+}
+
+#[test]
+fn a_last_answer_that_no_longer_holds_is_counted() {
+    let mut world = World::<f32>::new();
+    let lower = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 4.0]];
+    let body = world.add(&[[0, 1, 2]], &lower).unwrap();
+    let upper = |z: f32| lower.map(|[x, y, height]| [x, y, height + z]);
+    let other = world.add(&[[0, 1, 2]], &upper(0.0)).unwrap();
+    for of in [
+        Selection::World,
+        Selection::Everything,
+        Selection::Between(body, other),
+    ] {
+        world.set_positions(other, &upper(0.0)).unwrap();
+        assert!(world.intersections(of).first().unwrap().is_some());
+        // Now parallel, their boxes still overlapping: asked again in vain, and then by the traversal.
+        world.set_positions(other, &upper(1.0)).unwrap();
+        assert_eq!(world.intersections(of).first().unwrap(), None);
+        // (In vain thrice: the pair itself, its leaf, its leaf's siblings.)
+        assert_eq!(world.statistics().candidate_pairs, 3 + 1, "{of:?}");
+    }
+}
+
+/// All that a world can be asked, as plain data.
+fn answers(world: &mut World<f32>, bodies: &[BodyId]) -> Vec<Vec<Pair>> {
+    let mut of = vec![Selection::World, Selection::Everything];
+    of.extend(bodies.iter().map(|&body| Selection::Within(body)));
+    of.push(Selection::Between(bodies[0], bodies[1]));
+    let ask = |of| world.intersections(of).all().unwrap().to_vec();
+    of.into_iter().map(ask).collect()
+}
+
+/// Interrupted at every place where it looks, one after the other, a world answers as if nothing had happened.
+#[test]
+fn a_query_that_was_interrupted_anywhere_leaves_a_good_world() {
+    for threads in [1, 3] {
+        for (update, leaf_size) in [
+            (Update::HYBRID, 8),
+            (Update::BottomUp, 3),
+            (Update::TopDown, 1),
+        ] {
+            let mut options = Options::default();
+            options.threads = NonZeroUsize::new(threads).unwrap();
+            options.update = update;
+            options.leaf_size = NonZeroU32::new(leaf_size).unwrap();
+            let expected = {
+                let (mut world, bodies) = spheres(options);
+                answers(&mut world, &bodies)
+            };
+            let mut allowed = 0;
+            loop {
+                let (mut world, bodies) = spheres(options);
+                // Boxes of some are valid when it begins.
+                let between = Selection::Between(bodies[1], bodies[0]);
+                world.intersections(between).first().unwrap();
+                let looks = AtomicUsize::new(0);
+                let question = || looks.fetch_add(1, Ordering::Relaxed) >= allowed;
+                let everything = world.intersections(Selection::Everything);
+                let answer = everything.interrupt_if(&question).all();
+                let is_whole = answer.is_ok();
+                if let Err(refused) = answer {
+                    assert_eq!(refused.kind, ErrorKind::Interrupted);
+                    assert_eq!(refused.body, None);
+                }
+                world.validate().unwrap();
+                assert!(answers(&mut world, &bodies) == expected, "{allowed}");
+                world.validate().unwrap();
+                if is_whole {
+                    break;
+                }
+                // Every look at first, and then fewer of them.
+                allowed += 1 + allowed / 12;
+            }
+            assert!(allowed > 30, "{allowed} looks are no test");
+        }
+    }
+}
+
+#[test]
+fn visits_first_hits_and_preparation_can_be_interrupted() {
+    let (mut world, bodies) = spheres(Options::default());
+    let always = || true;
+    let interrupted = |error: pliant::Error| error.kind == ErrorKind::Interrupted;
+    for of in [Selection::World, Selection::Within(bodies[0])] {
+        let query = |world: &mut World<f32>| world.intersections(of).interrupt_if(&always).first();
+        assert!(query(&mut world).is_err_and(interrupted));
+        let query = world.intersections(of).interrupt_if(&always);
+        assert!(query.prepare().is_err_and(interrupted));
+        let query = world.intersections(of).interrupt_if(&always);
+        let visited = query.visit(|_| ControlFlow::Break(()));
+        assert!(visited.is_err_and(interrupted));
+    }
+    // Asked after a first answer, too, which would be the next.
+    let never = || false;
+    let first = world
+        .intersections(Selection::World)
+        .interrupt_if(&never)
+        .first();
+    assert!(first.unwrap().is_some());
+}
+
+/// Whatever a visitor was shown before it was interrupted was a hit, and no hit was shown twice.
+#[test]
+fn what_an_interrupted_visitor_was_shown_was_true() {
+    for threads in [1, 3] {
+        let mut options = Options::default();
+        options.threads = NonZeroUsize::new(threads).unwrap();
+        let (mut world, _) = spheres(options);
+        let expected = world
+            .intersections(Selection::Everything)
+            .all()
+            .unwrap()
+            .to_vec();
+        for allowed in (0..400).step_by(7) {
+            let (mut world, _) = spheres(options);
+            // Tasks have found something before.
+            world.intersections(Selection::Everything).all().unwrap();
+            let looks = AtomicUsize::new(0);
+            let question = || looks.fetch_add(1, Ordering::Relaxed) >= allowed;
+            let mut shown = Vec::new();
+            let everything = world.intersections(Selection::Everything);
+            let _ = everything.interrupt_if(&question).visit(|pair| {
+                shown.push(pair);
+                ControlFlow::<()>::Continue(())
+            });
+            let count = shown.len();
+            shown.sort_unstable();
+            shown.dedup();
+            assert_eq!(shown.len(), count, "{allowed}");
+            assert!(
+                shown
+                    .iter()
+                    .all(|pair| expected.binary_search(pair).is_ok())
+            );
+        }
+    }
+}
+
+/// The longest time between two looks of a query, of the shortest of some tries, because other work on the machine makes any of them
+/// long. `make` makes the world.
+fn longest_gap(
+    make: impl Fn() -> World<f32>,
+    ask: impl Fn(&mut World<f32>, &(dyn Fn() -> bool + Sync)),
+) -> Duration {
+    let tries = (0..4).map(|_| {
+        let mut world = make();
+        let start = Instant::now();
+        let (last, longest) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let look = || {
+            let now = start.elapsed().as_micros() as usize;
+            let before = last.swap(now, Ordering::Relaxed);
+            longest.fetch_max(now.saturating_sub(before), Ordering::Relaxed);
+            false
+        };
+        ask(&mut world, &look);
+        look();
+        Duration::from_micros(longest.into_inner() as u64)
+    });
+    tries.min().unwrap()
+}
+
+/// Looks come every ten milliseconds at least, whatever a query is at: a first query of a large body with itself, a query all of whose
+/// decisions are exact, long lists, many bodies.
+#[test]
+fn looks_are_never_far_apart() {
+    let most = Duration::from_millis(10);
+    let all = |of| {
+        move |world: &mut World<f32>, look: &(dyn Fn() -> bool + Sync)| {
+            let found = world.intersections(of).interrupt_if(look).all();
+            assert!(found.unwrap().len() > 5_000);
+        }
+    };
+    let within = all(Selection::Within(BodyId(0)));
+    let gap = longest_gap(|| cloth(Options::default(), 79_202).0, within);
+    assert!(gap < most, "a cloth: {gap:?}");
+
+    // Two flat sheets in one plane: signs are exact zeros, and nearly all candidates are hits.
+    let flat_sheets = || {
+        let (triangles, flat) = sheet(60);
+        let mut world = World::new();
+        world.add(&triangles, &flat).unwrap();
+        let shifted: Vec<_> = flat
+            .iter()
+            .map(|[x, y, z]| [x + 0.001, y - 0.002, *z])
+            .collect();
+        world.add(&triangles, &shifted).unwrap();
+        world
+    };
+    let gap = longest_gap(flat_sheets, all(Selection::World));
+    assert!(gap < most, "flat sheets: {gap:?}");
+
+    let in_one_place = || {
+        let mut world = World::new();
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let soup: Vec<[u32; 3]> = (0..700).map(|_| [0, 1, 2]).collect();
+        let _ = [0, 1].map(|_| world.add(&soup, &corners).unwrap());
+        world
+    };
+    let between = all(Selection::Between(BodyId(0), BodyId(1)));
+    let gap = longest_gap(in_one_place, between);
+    assert!(gap < most, "one place: {gap:?}");
+
+    let many_bodies = || {
+        let mut world = World::new();
+        for at in 0..300 {
+            let x = at as f32 * 0.001;
+            let corners = [[x, 0.0, 0.0], [x + 9.0, 0.0, 1.0], [x, 9.0, 0.0]];
+            world.add(&[[0, 1, 2]], &corners).unwrap();
+        }
+        world
+    };
+    let gap = longest_gap(many_bodies, |world, look| {
+        let first = world
+            .intersections(Selection::World)
+            .interrupt_if(look)
+            .first();
+        // All their boxes overlap, and nothing is found before every pair of them was asked.
+        assert!(first.unwrap().is_none());
+    });
+    assert!(gap < most, "many bodies: {gap:?}");
+}
+
+#[test]
+fn a_pool_that_is_lent_gives_the_same_answers_from_inside_and_outside() {
+    let (mut alone, bodies) = spheres(Options::default());
+    let expected = answers(&mut alone, &bodies);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
+    let pool = Arc::new(pool.unwrap());
+    for threads in [1, 2, 4, 9] {
+        let mut options = Options::default();
+        options.threads = NonZeroUsize::new(threads).unwrap();
+        let mut world = World::with_pool(options, Arc::clone(&pool));
+        for &body in &bodies {
+            let first = alone.positions(body).unwrap();
+            world.add(alone.triangles(body).unwrap(), &first).unwrap();
+        }
+        assert!(answers(&mut world, &bodies) == expected, "{threads}");
+        for &body in &bodies {
+            let positions = alone.positions(body).unwrap();
+            world.set_positions(body, &positions).unwrap();
+        }
+        let inside = pool.install(|| answers(&mut world, &bodies));
+        assert!(inside == expected, "{threads}, inside");
+    }
+    // Several worlds share it at once.
+    let ask = |_| {
+        let mut options = Options::default();
+        options.threads = NonZeroUsize::new(3).unwrap();
+        let mut world = World::with_pool(options, Arc::clone(&pool));
+        for &body in &bodies {
+            let positions = alone.positions(body).unwrap();
+            world
+                .add(alone.triangles(body).unwrap(), &positions)
+                .unwrap();
+        }
+        assert!(answers(&mut world, &bodies) == expected);
+    };
+    std::thread::scope(|scope| {
+        let all: Vec<_> = (0..4).map(|n| scope.spawn(move || ask(n))).collect();
+        all.into_iter().for_each(|one| one.join().unwrap());
+    });
+}

@@ -22,8 +22,8 @@ use std::ops::Range;
 
 /// A block with more later neighbours is crowded.
 const MOST_NEIGHBOURS: usize = 32;
-/// A block with a vertex at which more triangles meet is crowded, too.
-const MOST_TRIANGLES: usize = 256;
+/// A block with a vertex at which more blocks meet is crowded, too: only so far are they looked through.
+const MOST_AT_A_VERTEX: usize = 64;
 
 /// Of the pairs (i, j) of eight lanes, bit 8 i + j, those with j > i.
 pub(crate) const STRICT_UPPER: u64 = {
@@ -135,6 +135,8 @@ impl Neighbours {
             }
         }
         of_blocks.finish();
+        // As much memory as the lists, and no longer needed.
+        drop(blocks);
         let wide_nodes = if leaves.are_blocks() { wide_nodes } else { &[] };
         Some(Self {
             of_wide_nodes: lists_of_wide_nodes(wide_nodes, leaves, &of_blocks),
@@ -237,18 +239,18 @@ impl<'m> Blocks<'m> {
         list.push((block, 0));
         for (lane, place) in own.enumerate() {
             for vertex in self.order.corners(TreeTriangle(place as u32)) {
-                if self.at_vertices.count(vertex) > MOST_TRIANGLES {
+                if self.at_vertices.count(vertex) > MOST_AT_A_VERTEX {
                     list.clear();
                     return;
                 }
-                for (other, other_lane) in self.at_vertices.at(vertex) {
+                for (other, other_lanes) in self.at_vertices.at(vertex) {
                     if other.0 < block {
                         continue;
                     }
-                    let bit = 1 << (8 * lane as u32 + other_lane);
+                    let pairs = u64::from(other_lanes) << (8 * lane);
                     match list.iter_mut().find(|(known, _)| *known == other.0) {
-                        Some((_, mask)) => *mask |= bit,
-                        None => list.push((other.0, bit)),
+                        Some((_, mask)) => *mask |= pairs,
+                        None => list.push((other.0, pairs)),
                     }
                 }
             }

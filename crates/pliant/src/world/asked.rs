@@ -64,10 +64,24 @@ where
         common: &mut Common<N, K::Scalar>,
         request: &Request,
     ) -> Result<&[K::Hit], Error> {
-        let interrupt = Interrupt::new(request.question);
         let mut hits = std::mem::take(&mut self.hits);
         hits.clear();
-        let is_all = self.collect(kind, common, request, &interrupt, &mut hits)?;
+        let sorted = self.sorted(kind, common, request, &mut hits);
+        // Kept after an error too: what was reserved once need not be reserved again.
+        self.hits = hits;
+        sorted.map(|()| &self.hits[..])
+    }
+
+    /// All hits, sorted, into an empty list.
+    fn sorted<const N: usize>(
+        &mut self,
+        kind: &K,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+        hits: &mut Vec<K::Hit>,
+    ) -> Result<(), Error> {
+        let interrupt = Interrupt::new(request.question);
+        let is_all = self.collect(kind, common, request, &interrupt, hits)?;
         if !is_all {
             let limit = request.most;
             return Err(ErrorKind::TooManyHits { limit }.of_query());
@@ -84,9 +98,7 @@ where
         for of_one_body in hits.chunk_by_mut(|a, b| a.numbers()[0] == b.numbers()[0]) {
             sort(executor, of_one_body, &mut self.keys);
         }
-        common.end(&interrupt)?;
-        self.hits = hits;
-        Ok(&self.hits)
+        common.end(&interrupt)
     }
 
     /// All hits, those of two bodies after the other. Returns false if there are more than the request allows.

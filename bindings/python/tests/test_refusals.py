@@ -161,7 +161,14 @@ def test_options_reach_the_library() -> None:
     bottom_up, top_down, hybrid, level_0, level_1 = work.values()
     assert bottom_up[1] == 0 and top_down[0] == 0 < top_down[1]
     assert level_0[0] < level_1[0] < bottom_up[0] and level_1 == hybrid
-    # A body that meets itself is refitted as a whole, unless a level is asked for.
+    # A body that meets itself is refitted as a whole, unless a level is asked for; also if it met another before, and was in part.
+    world = pliant.World(leaf_size=1)
+    world.add(faces, flat)
+    world.add(faces, flat)
+    world.intersections(pliant.Selection.between(0, 1)).prepare()
+    world.intersections(pliant.Selection.within(0)).all()
+    statistics = world.statistics()
+    assert (statistics.boxes_bottom_up, statistics.boxes_top_down) == (level_1[0] + bottom_up[0] // 2, 0)
     world = pliant.World(leaf_size=1)
     world.add(faces, flat)
     world.intersections(pliant.Selection.within(0)).prepare()

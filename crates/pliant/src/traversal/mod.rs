@@ -37,4 +37,4 @@ mod task;
 mod tree_pair;
 
 pub(crate) use descent::{Scratch, Sink, Wanted, descend};
-pub(crate) use tree_pair::{OneTree, Side, TwoTrees};
+pub(crate) use tree_pair::{OneTree, Side, TreePair, TwoTrees};

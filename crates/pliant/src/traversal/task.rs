@@ -50,7 +50,8 @@ impl<K: Kind> Default for Task<K> {
     }
 }
 
-/// Whether all boxes are known to be valid because they were completed at once, so that tasks need not wait for any, and pairs of leaves can be tested as soon as they are found.
+/// Whether all boxes are known to be valid because they were completed at once, so that tasks need not wait for any, and pairs of
+/// leaves can be tested as soon as they are found.
 pub(super) fn are_free<const N: usize, B>(sides: [&Side<'_, N, B>; 2]) -> bool {
     let is_complete =
         |side: &&Side<N, B>| side.boxes.are_nodes_complete() && side.boxes.are_leaves_complete();

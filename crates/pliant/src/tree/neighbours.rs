@@ -177,8 +177,8 @@ impl Neighbours {
         self.of_blocks.get(i, a.0.min(b.0), a.0.max(b.0)).is_some()
     }
 
-    /// Which leaves are neighbours, of two wide nodes of leaves that are blocks, or one and itself: bit 8 i + j is set if leaf i of `a` and leaf j of `b`
-    /// are.
+    /// Which leaves are neighbours, of two wide nodes of leaves that are blocks, or one and itself: bit 8 i + j is set if leaf i of
+    /// `a` and leaf j of `b` are.
     #[inline(always)]
     pub(crate) fn among_leaves<I: Simd>(&self, i: I, a: WideNodeId, b: WideNodeId) -> u64 {
         if a <= b {

@@ -1,5 +1,5 @@
-//! Quantized boxes of triangles, for a body that meets itself: nearly all its leaves overlap neighbours in the mesh none of whose triangles they touch but those that share a vertex, and
-//! quantized boxes say so sooner (see `kernels::quantized`).
+//! Quantized boxes of triangles, for a body that meets itself: nearly all its leaves overlap neighbours in the mesh none of whose
+//! triangles they touch but those that share a vertex, and quantized boxes say so sooner (see `kernels::quantized`).
 //!
 //! One unit is for all leaves, a part of their mean length. Leaves that are much longer do not fit and are not told apart from
 //! others; much shorter ones are told apart less often. Either way nothing is missed, for the boxes themselves are asked again.

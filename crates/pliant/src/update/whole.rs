@@ -101,7 +101,7 @@ pub(super) fn refit_whole<const N: usize, B: BoxSource>(
     if all_leaves && now.is_some_and(is_near) && is_near_enough(one.boxes, units) {
         one.boxes.complete_quantized();
     }
-    let (.., quantized) = one.boxes.all_mut();
+    let (_, quantized) = one.boxes.blocks_and_quantized();
     quantized.units = now.unwrap_or_default();
     [made as u64 + merged, triangles as u64]
 }

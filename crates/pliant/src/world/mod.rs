@@ -1,7 +1,7 @@
 //! The world: bodies, their shapes, and the questions that users ask.
 //!
-//! `World` is what users see; behind it an `engine` of some degree is the one place where the phases meet. `bodies` are there, each a `body`
-//! whose `positions` are in the caller's order or in the tree's; `body_pairs` says who may meet whom in a `selection`, `asked` answers a
+//! `World` is what users see; behind it an `engine` of some degree is the one place where the phases meet. `bodies` are there, each a
+//! `body` whose `positions` are in the caller's order or in the tree's; `body_pairs` says who may meet whom in a `selection`, `asked` answers a
 //! `query` of some kind, pair by pair (`step`) or many pairs at once (`scheduler`); `witness` is the last first pair, `origin` what
 //! boxes are relative to. `debug_view` and `tree_cut` are for those who look at trees, `validate` looks at every invariant.
 
@@ -218,8 +218,8 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`BadLooseBox`](crate::ErrorKind::BadLooseBox) if a corner is not finite, is above `f32::MAX`
-    /// in magnitude, or the lower one is above the upper one on some axis, and
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`BadLooseBox`](crate::ErrorKind::BadLooseBox) if a corner is not finite, is
+    /// above `f32::MAX` in magnitude, or the lower one is above the upper one on some axis, and
     /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox) if the body is not inside now.
     pub fn set_loose_box(
         &mut self,

@@ -2,8 +2,8 @@
 //!
 //! Where bodies are small there is little to share within one pair of them. So, for a query that wants all there is, every thread
 //! takes pairs whose bodies no other has at that moment. Bodies with themselves go first; then which boxes are made does not depend on the
-//! order in which bodies meet, so neither do the counters; and what was found is put together in the order of the pairs. A pair that is much of all the
-//! work is met by all threads together.
+//! order in which bodies meet, so neither do the counters; and what was found is put together in the order of the pairs. A pair that is
+//! much of all the work is met by all threads together.
 
 use super::bodies::Bodies;
 use super::body::Body;

@@ -22,8 +22,8 @@ pub enum Selection {
     /// Every two bodies that may meet, as [`World::set_filter`](crate::World::set_filter) and
     /// [`ignore`](crate::World::ignore) say; no body with itself.
     World,
-    /// Every two bodies that may meet, and each body with itself: what a step of a simulator asks. A body meets itself unless its own membership and mask
-    /// have no bit in common, or it is ignored with itself.
+    /// Every two bodies that may meet, and each body with itself: what a step of a simulator asks. A body meets itself
+    /// unless its own membership and mask have no bit in common, or it is ignored with itself.
     Everything,
     /// Two different bodies, whatever filters say. The first is the first of every hit.
     Between(BodyId, BodyId),

@@ -8,7 +8,8 @@ use crate::geometry::Origin;
 use crate::kernels::Coordinate;
 use crate::queries::Kind;
 use crate::statistics::Statistics;
-use crate::traversal::{OneTree, Scratch, Side, Sink, TwoTrees, descend};
+use crate::traversal::{OneTree, Scratch, Side, Sink, TreePair, TwoTrees, descend};
+use crate::tree::BoxSource;
 use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
 
@@ -47,15 +48,7 @@ where
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
         let [a, b] = both.map(|body| self.ahead(body, Partner::Another));
-        let pair = &mut TwoTrees { a: a?, b: b? };
-        descend(
-            self.refit,
-            self.kind,
-            pair,
-            self.scratch,
-            self.statistics,
-            sink,
-        )
+        self.descend(&mut TwoTrees { a: a?, b: b? }, sink)
     }
 
     /// One body with itself.
@@ -66,7 +59,14 @@ where
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
         let side = self.ahead(body, Partner::Itself)?;
-        let pair = &mut OneTree { side };
+        self.descend(&mut OneTree { side }, sink)
+    }
+
+    fn descend<const N: usize, P>(&mut self, pair: &mut P, sink: Sink<K::Hit>) -> ControlFlow<()>
+    where
+        P: TreePair<N>,
+        P::Source: BoxSource<Scalar = K::Scalar>,
+    {
         descend(
             self.refit,
             self.kind,

@@ -222,12 +222,7 @@ impl<const N: usize> BoxSet<N> {
             boxes: &mut self.nodes,
             stamps: &mut self.node_stamps,
         };
-        let leaves = LeavesMut {
-            first_leaf: 0,
-            stamps: &mut self.leaf_stamps,
-            first_block: 0,
-            blocks: &mut self.blocks,
-        };
+        let leaves = LeavesMut::all(&mut self.leaf_stamps, &mut self.blocks);
         (nodes, leaves, &mut self.quantized)
     }
 
@@ -254,12 +249,7 @@ impl<const N: usize> BoxSet<N> {
 
     /// All leaves, to write.
     pub(crate) fn leaves_mut(&mut self) -> LeavesMut<'_> {
-        LeavesMut {
-            first_leaf: 0,
-            stamps: &mut self.leaf_stamps,
-            first_block: 0,
-            blocks: &mut self.blocks,
-        }
+        LeavesMut::all(&mut self.leaf_stamps, &mut self.blocks)
     }
 }
 
@@ -285,7 +275,16 @@ impl<const N: usize> NodesMut<'_, N> {
     }
 }
 
-impl LeavesMut<'_> {
+impl<'b> LeavesMut<'b> {
+    fn all(stamps: &'b mut [u64], blocks: &'b mut [Block]) -> Self {
+        Self {
+            first_leaf: 0,
+            stamps,
+            first_block: 0,
+            blocks,
+        }
+    }
+
     /// Cuts the run in two before a leaf whose first block is `block`.
     pub(crate) fn split_before(self, leaf: LeafId, block: BlockId) -> [Self; 2] {
         let (stamps, later_stamps) = self.stamps.split_at_mut(leaf.index() - self.first_leaf);

@@ -27,7 +27,7 @@ struct Life {
     update: u8,
     level: Option<u8>,
     levels_at_once: u8,
-    sweep: bool,
+    broad_phase: u8,
     calls: Vec<Call>,
 }
 
@@ -104,11 +104,11 @@ fn options(life: &Life) -> Options {
             levels_at_once: positive(life.levels_at_once, 4),
         },
     };
-    options.broad_phase = if life.sweep {
-        BroadPhase::SweepAndPrune
-    } else {
-        BroadPhase::BruteForce
-    };
+    options.broad_phase = [
+        BroadPhase::BruteForce,
+        BroadPhase::SweepAndPrune,
+        BroadPhase::Tree,
+    ][usize::from(life.broad_phase % 3)];
     options
 }
 

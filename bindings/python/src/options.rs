@@ -25,6 +25,7 @@ const UPDATES: &Names<Update> = &[
 const BROAD_PHASES: &Names<BroadPhase> = &[
     ("brute", BroadPhase::BruteForce),
     ("sweep", BroadPhase::SweepAndPrune),
+    ("tree", BroadPhase::Tree),
     ("auto", BroadPhase::Auto),
 ];
 

@@ -118,7 +118,7 @@ def test_the_message_names_the_vertex_and_where_it_is() -> None:
         ({"degree": 3}, "degree is 3; it can be 2, 4 or 8"),
         ({"partition": "octree"}, 'partition is "octree"; it can be one of "centre", "mean", "balanced", "connectivity"'),
         ({"update": "none"}, 'update is "none"; it can be one of "bottom-up", "top-down", "hybrid"'),
-        ({"broad": ""}, 'broad is ""; it can be one of "brute", "sweep", "auto"'),
+        ({"broad": ""}, 'broad is ""; it can be one of "brute", "sweep", "tree", "auto"'),
         ({"leaf_size": 0}, "leaf_size is 0; it must be at least 1"),
         ({"leaf_size": 2**32}, "leaf_size is 4294967296; it must be at least 1, and below"),
         ({"threads": 0}, "threads is 0; it must be at least 1"),

@@ -24,7 +24,7 @@ pub(crate) struct TreeOptions {
     /// The level down to which the hybrid makes boxes bottom-up; the root is 0 [default: n/2, where n is the level of the deepest leaf]
     #[arg(long, value_name = "L")]
     level: Option<u32>,
-    /// How bodies that may meet are found: every pair of boxes, sweep and prune, or by the number of bodies
+    /// How bodies that may meet are found: every pair of boxes, sweep and prune, a tree of bodies, or by the number of bodies
     #[arg(long, value_enum, default_value_t = Broad::Auto)]
     broad: Broad,
     /// How many threads share the work of a query
@@ -51,6 +51,7 @@ enum Update {
 enum Broad {
     Brute,
     Sweep,
+    Tree,
     Auto,
 }
 
@@ -84,6 +85,7 @@ impl TreeOptions {
         options.broad_phase = match self.broad {
             Broad::Brute => pliant::BroadPhase::BruteForce,
             Broad::Sweep => pliant::BroadPhase::SweepAndPrune,
+            Broad::Tree => pliant::BroadPhase::Tree,
             Broad::Auto => pliant::BroadPhase::Auto,
         };
         options.threads = self.threads;

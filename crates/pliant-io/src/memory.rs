@@ -11,8 +11,8 @@ use std::fmt;
 
 use crate::error::Reason;
 
-/// The first reservation, in items: large enough that small meshes grow once, small enough to mean nothing (under 2 MiB).
-const FIRST: usize = 1 << 16;
+/// The first reservation, in items: so few that a file of very many small bodies takes no more than it says.
+const FIRST: usize = 1 << 6;
 
 /// What a body holds, in bytes, and the most that it may.
 #[derive(Debug)]

@@ -30,8 +30,10 @@ numbers! {
     CallerVertex;
     /// A vertex, in the order of the tree.
     TreeVertex;
-    /// Where a body stands in the lists of its world.
+    /// Where a body stands in the list of its world.
     Place;
+    /// Where a body stands among those of its world in the order of their ids.
+    Rank;
     /// A wide node of a tree: up to N nodes side by side, the children of one node.
     WideNodeId;
     /// A leaf of a tree.

@@ -81,7 +81,7 @@
 //! geometry      f32 or f64 coordinates, boxes in f32, rounded outward
 //! tree          nodes of degree 2, 4, 8, and sets of their boxes; building: by shape, by mesh, balanced
 //! update        which boxes are made when: bottom-up, top-down, hybrid
-//! broad_phase   brute force; sweep and prune
+//! broad_phase   brute force; sweep and prune; a tree of bodies
 //! traversal     tree against tree, tree against itself, for any kind of query
 //! queries       one room a kind: what two leaves do to each other
 //! predicates    triangle against triangle, exact

@@ -114,12 +114,15 @@ impl Update {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BroadPhase {
-    /// Brute force up to 100 bodies, sweep and prune above: the paper's rule.
+    /// Brute force up to 100 bodies, as the paper found; above, a tree of bodies, for which the paper has sweep and prune.
     Auto,
     /// Every pair of boxes.
     BruteForce,
-    /// Three sorted lists of box ends, kept from query to query.
+    /// The paper's: three sorted lists of box ends and one of overlapping pairs, kept from query to query. Where there are more than 16
+    /// pairs a body, the tree finds them, and no list is kept.
     SweepAndPrune,
+    /// A tree of the boxes of all bodies, refitted before every query that follows a movement. Not in the paper.
+    Tree,
 }
 
 impl Default for Options {

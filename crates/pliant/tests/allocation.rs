@@ -62,6 +62,7 @@ fn a_second_time_allocates_nothing() {
         for (partition, broad_phase) in [
             (Partition::Balanced, BroadPhase::Auto),
             (Partition::Centre, BroadPhase::SweepAndPrune),
+            (Partition::Mean, BroadPhase::Tree),
         ] {
             let mut options = Options::default();
             (options.degree, options.partition, options.broad_phase) =

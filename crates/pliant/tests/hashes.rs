@@ -76,7 +76,7 @@ fn axes() -> Vec<Vec<Change>> {
 }
 
 /// Choices that have nothing to do with the others, each tried once.
-const ALONE: [Change; 13] = [
+const ALONE: [Change; 14] = [
     ("2 threads, f32", |c| c.options.threads = threads(2)),
     ("7 threads, f32", |c| c.options.threads = threads(7)),
     ("7 threads, f64", |c| {
@@ -106,6 +106,9 @@ const ALONE: [Change; 13] = [
     }),
     ("sweep and prune", |c| {
         c.options.broad_phase = BroadPhase::SweepAndPrune;
+    }),
+    ("a tree of bodies", |c| {
+        c.options.broad_phase = BroadPhase::Tree;
     }),
     ("flushed, f32", |c| c.flushed = true),
     ("flushed, f64", |c| {

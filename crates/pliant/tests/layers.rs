@@ -20,7 +20,10 @@ const LAYERS: [(&str, &[&str]); 19] = [
     ("mesh", &["ids", "error", "threads"]),
     ("predicates", &["geometry"]),
     ("sort", &["hits", "threads"]),
-    ("broad_phase", &["ids", "options", "geometry", "threads"]),
+    (
+        "broad_phase",
+        &["ids", "options", "geometry", "kernels", "threads"],
+    ),
     (
         "tree",
         &["ids", "options", "geometry", "kernels", "mesh", "threads"],

@@ -7,7 +7,7 @@
 mod common;
 
 use common::TrianglesOf;
-use pliant::{Options, Scalar, Selection, World};
+use pliant::{BroadPhase, Options, Scalar, Selection, World};
 use pliant_scenes::{Asks, Scene};
 use std::ops::ControlFlow;
 
@@ -110,4 +110,88 @@ fn a_triangle_takes_at_most_200_bytes() {
 #[ignore = "a million triangles: seconds, half a gigabyte"]
 fn a_triangle_of_a_million_takes_at_most_200_bytes() {
     within_bounds("spheres", 1_310_720);
+}
+
+/// A world of slanted triangles side by side in one place, each a body: every two boxes overlap, and no two triangles intersect.
+fn leaves_of_a_book(count: u32, options: Options) -> World<f32> {
+    let mut world = World::with_options(options);
+    for leaf in 0..count {
+        let x = leaf as f32 / 65_536.0;
+        let corners = [[x, 0.0, 0.0], [x + 1.0, 1.0, 0.25], [x + 1.0, 0.0, 1.0]];
+        world.add(&[[0, 1, 2]], &corners).unwrap();
+    }
+    world
+}
+
+/// Two million pairs of bodies would be 16 MB in one list.
+#[test]
+fn many_bodies_in_one_place_are_met_without_a_list_of_all_their_pairs() {
+    const COUNT: u32 = 2_000;
+    const MOST: u64 = 5 << 20;
+    let pairs = u64::from(COUNT * (COUNT - 1) / 2);
+    for broad_phase in [
+        BroadPhase::Auto,
+        BroadPhase::BruteForce,
+        BroadPhase::SweepAndPrune,
+    ] {
+        let mut options = Options::default();
+        options.broad_phase = broad_phase;
+        let mut world = leaves_of_a_book(COUNT, options);
+        let used = allocation_counter::measure(|| {
+            let query = world.intersections(Selection::World);
+            assert_eq!(query.first().unwrap(), None);
+        });
+        assert_eq!(world.statistics().body_pairs, pairs, "{broad_phase:?}");
+        let bytes = used.bytes_max;
+        assert!(bytes < MOST, "{broad_phase:?} takes {bytes} bytes");
+    }
+}
+
+/// Whoever wants the first pair waits for no other.
+#[test]
+fn the_first_pair_of_many_bodies_in_one_place_comes_at_once() {
+    let mut world = leaves_of_a_book(10_000, Options::default());
+    let across = [[0.0, 0.5, 0.25], [2.0, 0.5, 0.25], [1.0, 0.25, 0.5]];
+    // The reader comes last, and meets the first leaf in the first row.
+    let reader = world.add(&[[0, 1, 2]], &across).unwrap();
+    let first = world.intersections(Selection::World).first().unwrap();
+    assert_eq!(first.map(|pair| pair.body_b), Some(reader));
+    assert_eq!(world.statistics().body_pairs, 10_000);
+}
+
+/// Bytes that a body of one triangle may take: met by nobody, and after all bodies met themselves.
+const MOST_OF_A_SMALL_BODY: [i64; 2] = [1_400, 3_100];
+
+#[test]
+fn a_body_that_meets_nobody_takes_little() {
+    const COUNT: u32 = 10_000;
+    let corners = |body: u32, step: f32| {
+        let x = 3.0 * body as f32 + step;
+        [[x, 0.0, 0.0], [x + 1.0, 1.0, 0.25], [x + 1.0, 0.0, 1.0]]
+    };
+    let mut world = World::new();
+    let steps = |world: &mut World<f32>, of: Selection| {
+        for step in [0.25, 0.5] {
+            let ids: Vec<_> = world.bodies().collect();
+            for (body, id) in (0..).zip(ids) {
+                world.set_positions(id, &corners(body, step)).unwrap();
+            }
+            assert!(world.intersections(of).all().unwrap().is_empty());
+        }
+    };
+    let apart = allocation_counter::measure(|| {
+        for body in 0..COUNT {
+            world.add(&[[0, 1, 2]], &corners(body, 0.0)).unwrap();
+        }
+        steps(&mut world, Selection::World);
+    });
+    let met = allocation_counter::measure(|| steps(&mut world, Selection::Everything));
+    let taken = [apart.bytes_current, apart.bytes_current + met.bytes_current];
+    let of_one = taken.map(|bytes| bytes / i64::from(COUNT));
+    println!(
+        "a body of one triangle: {} bytes, {} when it met itself",
+        of_one[0], of_one[1]
+    );
+    assert!(of_one[0] <= MOST_OF_A_SMALL_BODY[0], "{of_one:?}");
+    assert!(of_one[1] <= MOST_OF_A_SMALL_BODY[1], "{of_one:?}");
 }

@@ -30,7 +30,7 @@ _Corner: TypeAlias = Sequence[float] | NDArray[np.floating[Any]]
 _Partition: TypeAlias = Literal["centre", "mean", "balanced", "connectivity"]
 _Update: TypeAlias = Literal["bottom-up", "top-down", "hybrid"]
 _Name: TypeAlias = str | PathLike[str] | int
-_Broad: TypeAlias = Literal["brute", "sweep", "auto"]
+_Broad: TypeAlias = Literal["brute", "sweep", "tree", "auto"]
 
 class _Options(TypedDict):
     degree: Literal[2, 4, 8]

@@ -20,6 +20,11 @@ const MULTIPLE: f64 = 3.5;
 /// What the program itself takes at most. Built for tests, most of it unoptimised, its code takes 3 MB more.
 const PROGRAM: u64 = if cfg!(debug_assertions) { 11 } else { 8 } << 20;
 
+/// What every body takes besides: its tree, its name, its place in every list; and where its box overlaps another's, its boxes. Of a body
+/// of a few triangles it is the most.
+const A_BODY: u64 = 2560;
+const A_BODY_THAT_IS_MET: u64 = 4096;
+
 fn peak(folder: &Path, arguments: &[&str]) -> Option<u64> {
     let arguments = [&["check", "--count"], arguments].concat();
     let Measured { said, peak } = measured(folder, &arguments);
@@ -227,4 +232,52 @@ fn memory_of_hits() {
     let hits = f64::from(pairs) * (2.0 * 16.0 + 2.0 * 300.0);
     println!("{:.1} MB with hits", peak as f64 / 1e6);
     assert!((peak as f64) < MULTIPLE * 2.0 * frame + hits + PROGRAM as f64);
+}
+
+/// A glTF file of so many bodies, each a triangle of one mesh: side by side, at this distance.
+fn many_triangles(count: u32, distance: f32) -> String {
+    // (0, 0, 0), (1, 1, 0.25), (1, 0, 1)
+    let corners = "AAAAAAAAAAAAAAAAAACAPwAAgD8AAIA+AACAPwAAAAAAAIA/";
+    let nodes: Vec<String> = (0..count)
+        .map(|node| {
+            format!(
+                r#"{{"mesh":0,"translation":[{},0,0]}}"#,
+                node as f32 * distance
+            )
+        })
+        .collect();
+    let numbers: Vec<String> = (0..count).map(|node| node.to_string()).collect();
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},
+        "buffers":[{{"byteLength":36,"uri":"data:application/octet-stream;base64,{corners}"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],
+        "nodes":[{}],"scenes":[{{"nodes":[{}]}}],"scene":0}}"#,
+        nodes.join(","),
+        numbers.join(",")
+    )
+}
+
+/// Apart, and in one place: four and a half million pairs of bodies, of which no list is made.
+#[test]
+fn very_many_small_bodies_take_what_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    for (count, distance, of_one) in [
+        (3_000, 2.0, A_BODY),
+        (10_000, 2.0, A_BODY),
+        (3_000, 1e-5, A_BODY_THAT_IS_MET),
+    ] {
+        let name = "many.gltf";
+        fs::write(folder.path().join(name), many_triangles(count, distance)).unwrap();
+        let Some(peak) = peak(folder.path(), &[name, "--max-memory", "64MiB"]) else {
+            return;
+        };
+        let most = PROGRAM + of_one * u64::from(count);
+        println!("{count} bodies, {distance} apart: {peak} bytes");
+        assert!(
+            peak < most,
+            "{count} bodies, {distance} apart: {peak} bytes"
+        );
+    }
 }

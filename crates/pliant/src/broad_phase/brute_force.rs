@@ -2,20 +2,12 @@
 
 use super::Overlap;
 use crate::geometry::Aabb;
-use crate::ids::Place;
-use crate::threads::Interrupt;
+use crate::ids::Rank;
 
-pub(super) fn overlapping(boxes: &[Aabb], interrupt: &Interrupt, overlaps: &mut Vec<Overlap>) {
-    overlaps.clear();
-    let places = || (0..).map(Place).zip(boxes);
-    for (a, box_a) in places() {
-        if interrupt.is_set() {
-            return;
-        }
-        for (b, box_b) in places().skip(a.index() + 1) {
-            if box_a.overlaps(box_b) {
-                overlaps.push([a, b]);
-            }
-        }
-    }
+/// Appends the pairs of a body and those after it whose boxes overlap its own, in order.
+pub(super) fn row(boxes: &[Aabb], body: Rank, pairs: &mut Vec<Overlap>) {
+    let its_box = &boxes[body.index()];
+    let others = (0..).map(Rank).zip(boxes).skip(body.index() + 1);
+    let overlapping = others.filter(|(_, other)| its_box.overlaps(other));
+    pairs.extend(overlapping.map(|(other, _)| [body, other]));
 }

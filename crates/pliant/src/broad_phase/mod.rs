@@ -1,66 +1,115 @@
 //! From the boxes of all bodies to the pairs that overlap (paper, 3.4).
 //!
-//! Bodies are numbered by their place in the world. A body's box is its exact one, or a loose one that holds for every pose and
-//! stands still.
+//! Bodies are numbered by their rank, which is the order of their ids. A body's box is its exact one, or a loose one that holds for every pose and
+//! stands still. Pairs come in order, the smaller rank first: row by row, a row being a body and those after it, so that whoever asks
+//! holds as many at once as it likes; or, from sweep and prune, as the list that it keeps.
 
+mod body_tree;
 mod brute_force;
 mod sweep_and_prune;
 
 use crate::geometry::Aabb;
-use crate::ids::Place;
+use crate::ids::Rank;
+use crate::kernels::Instructions;
 use crate::threads::Interrupt;
-use sweep_and_prune::SweepAndPrune;
+use body_tree::BodyTree;
+use sweep_and_prune::{Outcome, SweepAndPrune};
 
-/// Two bodies whose boxes overlap, the smaller place first.
-type Overlap = [Place; 2];
+/// Two bodies whose boxes overlap, the smaller rank first.
+pub(crate) type Overlap = [Rank; 2];
 
 /// Up to so many bodies, comparing all pairs is as good as anything; "approximately 100" (paper, 3.4).
 const MOST_FOR_BRUTE_FORCE: usize = 100;
+/// The most pairs a body that sweep and prune keeps: so many bodies in one place are left to the tree.
+const MOST_PAIRS_A_BODY: usize = 16;
 
-/// The broad phase of a world, with what it keeps between queries.
+/// The broad phase of a world, with what it keeps between passes.
 #[derive(Debug)]
 pub(crate) struct BroadPhase {
     rule: crate::BroadPhase,
-    /// None as long as brute force does.
-    sweep: Option<SweepAndPrune>,
-    overlaps: Vec<Overlap>,
+    way: Way,
+    sweep: SweepAndPrune,
+    tree: BodyTree,
+    /// The body whose row is next.
+    next: Rank,
+}
+
+/// How a pass finds its pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    BruteForce,
+    Sweep,
+    Tree,
 }
 
 impl BroadPhase {
     pub(crate) fn new(rule: crate::BroadPhase) -> Self {
         Self {
             rule,
-            sweep: None,
-            overlaps: Vec::new(),
+            way: Way::BruteForce,
+            sweep: SweepAndPrune::default(),
+            tree: BodyTree::default(),
+            next: Rank(0),
         }
     }
 
-    /// The pairs of overlapping boxes, by the places of the boxes, in no order. Bodies are those of the last call, but for
-    /// removals told by [`BroadPhase::swap_remove`], then added ones at the end. Interrupted, it finds some of them, and begins anew
-    /// the next time.
-    pub(crate) fn overlapping(&mut self, boxes: &[Aabb], interrupt: &Interrupt) -> &[Overlap] {
-        let sweep = match self.rule {
-            crate::BroadPhase::Auto => boxes.len() > MOST_FOR_BRUTE_FORCE,
-            crate::BroadPhase::BruteForce => false,
-            crate::BroadPhase::SweepAndPrune => true,
+    /// Begins a pass over the boxes of all bodies, by their ranks. Bodies are those of the last pass, but for removals told by
+    /// [`BroadPhase::remove`], then added ones at the end. Interrupted, it begins anew the next time.
+    pub(crate) fn begin(&mut self, boxes: &[Aabb], interrupt: &Interrupt) {
+        self.next = Rank(0);
+        self.way = match self.rule {
+            crate::BroadPhase::Auto if boxes.len() > MOST_FOR_BRUTE_FORCE => Way::Tree,
+            crate::BroadPhase::Auto | crate::BroadPhase::BruteForce => Way::BruteForce,
+            crate::BroadPhase::SweepAndPrune => Way::Sweep,
+            crate::BroadPhase::Tree => Way::Tree,
         };
-        if !sweep {
-            self.sweep = None;
-            brute_force::overlapping(boxes, interrupt, &mut self.overlaps);
-            return &self.overlaps;
+        if self.way == Way::Sweep {
+            let most = boxes.len() * MOST_PAIRS_A_BODY;
+            match self.sweep.overlapping(boxes, most, interrupt) {
+                Outcome::Found => {}
+                Outcome::Interrupted => self.sweep = SweepAndPrune::default(),
+                Outcome::TooMany => {
+                    self.sweep = SweepAndPrune::default();
+                    self.way = Way::Tree;
+                }
+            }
         }
-        let sweep = self.sweep.get_or_insert_default();
-        if sweep.overlapping(boxes, interrupt).is_none() {
-            *sweep = SweepAndPrune::default();
+        if self.way == Way::Tree {
+            self.tree.refit(boxes);
         }
-        &sweep.pairs
     }
 
-    /// The body at `place` goes, and the last one, at `last`, takes its place.
-    pub(crate) fn swap_remove(&mut self, place: usize, last: usize) {
-        if let Some(sweep) = &mut self.sweep {
-            sweep.swap_remove(place, last);
+    /// Appends the next pairs of the pass, in order: all of one body at least. Returns false if there are no more. Interrupted, it says
+    /// that there are.
+    pub(crate) fn next(
+        &mut self,
+        instructions: Instructions,
+        boxes: &[Aabb],
+        pairs: &mut Vec<Overlap>,
+    ) -> bool {
+        if self.way == Way::Sweep {
+            pairs.extend_from_slice(&self.sweep.pairs);
+            return false;
         }
+        let body = self.next;
+        let Some(its_box) = boxes.get(body.index()) else {
+            if self.way == Way::Tree {
+                self.tree.end_of_pass();
+            }
+            return false;
+        };
+        self.next = Rank(body.0 + 1);
+        if self.way == Way::Tree {
+            self.tree.row(instructions, body, its_box, pairs);
+        } else {
+            brute_force::row(boxes, body, pairs);
+        }
+        true
+    }
+
+    /// The body of a rank goes, and those after it are one rank higher.
+    pub(crate) fn remove(&mut self, rank: Rank) {
+        self.sweep.remove(rank);
     }
 }
 
@@ -68,25 +117,185 @@ impl BroadPhase {
 mod tests {
     use super::*;
 
+    struct Lcg(u64);
+
+    impl Lcg {
+        fn below(&mut self, range: u32) -> u32 {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 33) as u32 % range
+        }
+
+        /// On a lattice, so that many faces are equal.
+        fn cube(&mut self, range: u32) -> Aabb {
+            let lo = [(); 3].map(|()| self.below(range) as f32);
+            let hi = lo.map(|x| x + self.below(3) as f32);
+            Aabb { lo, hi }
+        }
+    }
+
+    const RULES: [crate::BroadPhase; 4] = [
+        crate::BroadPhase::Auto,
+        crate::BroadPhase::BruteForce,
+        crate::BroadPhase::SweepAndPrune,
+        crate::BroadPhase::Tree,
+    ];
+
+    /// All pairs of a pass.
+    fn pairs(broad_phase: &mut BroadPhase, boxes: &[Aabb]) -> Vec<Overlap> {
+        let mut pairs = Vec::new();
+        broad_phase.begin(boxes, &Interrupt::default());
+        for instructions in Instructions::all().into_iter().cycle() {
+            if !broad_phase.next(instructions, boxes, &mut pairs) {
+                break;
+            }
+        }
+        pairs
+    }
+
+    /// What a pass is to find.
+    fn expected(boxes: &[Aabb]) -> Vec<Overlap> {
+        let ranks = || (0..boxes.len() as u32).map(Rank);
+        let later = |a: Rank| ranks().filter(move |&b| b > a).map(move |b| [a, b]);
+        let overlap = |[a, b]: &Overlap| boxes[a.index()].overlaps(&boxes[b.index()]);
+        ranks().flat_map(later).filter(overlap).collect()
+    }
+
+    #[test]
+    fn every_rule_finds_all_pairs_in_order_whatever_bodies_do() {
+        for seed in 0..12 {
+            let mut random = Lcg(seed);
+            let range = 8 + random.below(30);
+            let mut all = RULES.map(BroadPhase::new);
+            let mut boxes: Vec<Aabb> = (0..random.below(700)).map(|_| random.cube(range)).collect();
+            for step in 0..30 {
+                let expected = expected(&boxes);
+                for broad_phase in &mut all {
+                    let found = pairs(broad_phase, &boxes);
+                    assert_eq!(found, expected, "seed {seed}, step {step}, {broad_phase:?}");
+                }
+                match random.below(6) {
+                    // All move a little.
+                    0..=2 => {
+                        for value in &mut boxes {
+                            let by = [(); 3].map(|()| random.below(3) as f32 - 1.0);
+                            for axis in 0..3 {
+                                value.lo[axis] += by[axis];
+                                value.hi[axis] += by[axis];
+                            }
+                        }
+                    }
+                    // All jump, most of them into one place.
+                    3 => {
+                        for value in &mut boxes {
+                            let to = if random.below(4) == 0 { range } else { 2 };
+                            *value = random.cube(to);
+                        }
+                    }
+                    4 => boxes.extend((0..random.below(99)).map(|_| random.cube(range))),
+                    // Several go between two passes, one just added perhaps among them.
+                    _ => {
+                        boxes.push(random.cube(range));
+                        for _ in 0..random.below(99) {
+                            if !boxes.is_empty() {
+                                let rank = random.below(boxes.len() as u32);
+                                all.iter_mut()
+                                    .for_each(|broad_phase| broad_phase.remove(Rank(rank)));
+                                boxes.remove(rank as usize);
+                            }
+                        }
+                        boxes.extend((0..random.below(9)).map(|_| random.cube(range)));
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn boxes_without_end_overlap_what_they_hold() {
+        let point = |x: f32| Aabb {
+            lo: [x; 3],
+            hi: [x; 3],
+        };
+        let everything = Aabb {
+            lo: [f32::NEG_INFINITY; 3],
+            hi: [f32::INFINITY; 3],
+        };
+        for count in [0, 1, 2, 8, 9, 64, 65, 600] {
+            let mut boxes: Vec<Aabb> = (0..count)
+                .map(|at| point((at * 7 % count) as f32))
+                .collect();
+            boxes.push(everything);
+            for rule in RULES {
+                let found = pairs(&mut BroadPhase::new(rule), &boxes);
+                assert_eq!(found, expected(&boxes), "{count} {rule:?}");
+            }
+        }
+    }
+
+    /// Bodies in a row, each apart from the next; or all in one place.
+    fn row(count: usize, distance: f32) -> Vec<Aabb> {
+        let lo = (0..count).map(|at| [at as f32 * distance; 3]);
+        lo.map(|lo| Aabb {
+            lo,
+            hi: lo.map(|x| x + 0.5),
+        })
+        .collect()
+    }
+
     #[test]
     fn the_number_of_bodies_chooses() {
-        let apart = |count: usize| -> Vec<Aabb> {
-            (0..count)
-                .map(|i| Aabb {
-                    lo: [i as f32; 3],
-                    hi: [i as f32 + 0.5; 3],
-                })
-                .collect()
-        };
         let mut broad_phase = BroadPhase::new(crate::BroadPhase::Auto);
-        for (count, sweeps) in [(100, false), (101, true), (100, false)] {
-            let interrupt = Interrupt::default();
-            assert!(
-                broad_phase
-                    .overlapping(&apart(count), &interrupt)
-                    .is_empty()
-            );
-            assert_eq!(broad_phase.sweep.is_some(), sweeps, "{count} bodies");
+        for (count, way) in [
+            (100, Way::BruteForce),
+            (101, Way::Tree),
+            (100, Way::BruteForce),
+        ] {
+            assert!(pairs(&mut broad_phase, &row(count, 1.0)).is_empty());
+            assert_eq!(broad_phase.way, way, "{count} bodies");
         }
+    }
+
+    #[test]
+    fn many_bodies_in_one_place_are_not_swept() {
+        let mut broad_phase = BroadPhase::new(crate::BroadPhase::SweepAndPrune);
+        for (count, distance, way) in [
+            (200, 1.0, Way::Sweep),
+            (200, 0.0, Way::Tree),
+            (30, 0.0, Way::Sweep),
+            (200, 0.01, Way::Tree),
+            (200, 1.0, Way::Sweep),
+        ] {
+            let boxes = row(count, distance);
+            assert_eq!(pairs(&mut broad_phase, &boxes), expected(&boxes));
+            assert_eq!(broad_phase.way, way, "{count} bodies, {distance}");
+        }
+    }
+
+    /// A crowd in which everybody goes elsewhere keeps finding its neighbours among few nodes.
+    #[test]
+    fn a_tree_whose_order_is_worn_is_ordered_anew() {
+        let mut random = Lcg(5);
+        let mut boxes: Vec<Aabb> = (0..4096).map(|_| random.cube(300)).collect();
+        let mut broad_phase = BroadPhase::new(crate::BroadPhase::Tree);
+        let mut tested = Vec::new();
+        for _ in 0..4 {
+            for _ in 0..2 {
+                assert_eq!(pairs(&mut broad_phase, &boxes), expected(&boxes));
+                tested.push(broad_phase.tree.tested());
+            }
+            boxes.iter_mut().for_each(|value| *value = random.cube(300));
+        }
+        let first = tested[0];
+        assert!(
+            tested
+                .iter()
+                .skip(1)
+                .step_by(2)
+                .all(|&tested| tested < 2 * first)
+        );
+        assert!(tested[2] > 2 * first, "it was worn: {tested:?}");
     }
 }

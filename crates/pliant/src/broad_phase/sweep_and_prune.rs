@@ -18,9 +18,10 @@
 
 use super::Overlap;
 use crate::geometry::Aabb;
-use crate::ids::Place;
+use crate::ids::Rank;
 use crate::threads::Interrupt;
 use std::cmp::Ordering;
+use std::ops::ControlFlow;
 
 /// Exchanges per end before sorting from scratch is cheaper. An exchange is a few nanoseconds, a place in a full sort about
 /// log2(n) comparisons.
@@ -30,13 +31,13 @@ const EXCHANGES_PER_END: usize = 16;
 #[derive(Clone, Copy, Debug)]
 struct End {
     value: f32,
-    /// The body's place, doubled; plus one for the upper end.
+    /// The body's rank, doubled; plus one for the upper end.
     body_and_side: u32,
 }
 
 impl End {
-    fn body(self) -> Place {
-        Place(self.body_and_side >> 1)
+    fn body(self) -> Rank {
+        Rank(self.body_and_side >> 1)
     }
 
     fn is_upper(self) -> bool {
@@ -59,32 +60,54 @@ impl End {
     }
 }
 
+/// How a pass over the lists ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    Found,
+    Interrupted,
+    /// There are more pairs than were to be kept.
+    TooMany,
+}
+
 /// The lists and the pairs, as the last query left them.
 #[derive(Debug, Default)]
 pub(super) struct SweepAndPrune {
     axes: [Vec<End>; 3],
     /// Sorted, without duplicates.
     pub(super) pairs: Vec<Overlap>,
-    /// For the bodies as they stand now, the place of each in the lists, or `NEW`.
-    listed_as: Vec<Place>,
+    /// For the bodies of now, by rank: the rank that each has in the lists, or `NEW`.
+    listed_as: Vec<Rank>,
     /// Whether any are gone that the lists still hold.
     some_are_gone: bool,
     // Scratch: pairs that began and ceased to overlap, the next list of pairs, and intervals open in a sweep.
     new: Vec<Overlap>,
     gone: Vec<Overlap>,
     next: Vec<Overlap>,
-    open: Vec<Place>,
+    open: Vec<Rank>,
 }
 
-/// The place in the lists of a body that is not in them.
-const NEW: Place = Place(u32::MAX);
+/// The rank in the lists of a body that is not in them.
+const NEW: Rank = Rank(u32::MAX);
 
 /// So many ends are sorted, or swept, before it is asked whether the query was interrupted.
 const UNINTERRUPTED: usize = 256;
 
 impl SweepAndPrune {
-    /// Brings `pairs` up to date: see [`super::BroadPhase::overlapping`]. `None` if it was interrupted; it can then not be used again.
-    pub(super) fn overlapping(&mut self, boxes: &[Aabb], interrupt: &Interrupt) -> Option<()> {
+    /// Brings `pairs` up to date: see [`super::BroadPhase::begin`]. If that did not come to an end, it can not be used again.
+    pub(super) fn overlapping(
+        &mut self,
+        boxes: &[Aabb],
+        most: usize,
+        interrupt: &Interrupt,
+    ) -> Outcome {
+        match self.sort(boxes, most, interrupt) {
+            ControlFlow::Break(outcome) => outcome,
+            ControlFlow::Continue(()) => Outcome::Found,
+        }
+    }
+
+    /// Sorts the lists and finds at most so many pairs. Breaks if that does not come to an end.
+    fn sort(&mut self, boxes: &[Aabb], most: usize, interrupt: &Interrupt) -> ControlFlow<Outcome> {
         self.listed_as.resize(boxes.len(), NEW);
         if std::mem::take(&mut self.some_are_gone) {
             self.forget_the_gone();
@@ -111,65 +134,65 @@ impl SweepAndPrune {
                 });
             }
         }
-        let new = self.listed_as.iter().filter(|&&place| place == NEW).count();
-        for (listed_as, place) in self.listed_as.iter_mut().zip((0..).map(Place)) {
-            *listed_as = place;
+        let new = self.listed_as.iter().filter(|&&rank| rank == NEW).count();
+        for (listed_as, rank) in self.listed_as.iter_mut().zip((0..).map(Rank)) {
+            *listed_as = rank;
         }
         let mut budget = self.axes[0].len() * EXCHANGES_PER_END;
         let many_are_new = new > boxes.len() / 2;
-        if many_are_new || !self.sort_by_exchanges(boxes, &mut budget, interrupt)? {
-            self.sort_from_scratch(boxes, interrupt)?;
+        if many_are_new || !self.sort_by_exchanges(boxes, most, &mut budget, interrupt)? {
+            self.sort_from_scratch(boxes, most, interrupt)?;
         }
         self.reserve(boxes.len());
-        Some(())
+        ControlFlow::Continue(())
     }
 
-    /// See [`super::BroadPhase::swap_remove`]; `last` is the place of the last body. The lists are put right by the next query,
-    /// in one pass for all that are gone.
-    pub(super) fn swap_remove(&mut self, place: usize, last: usize) {
-        self.listed_as.resize(last + 1, NEW);
-        self.listed_as.swap_remove(place);
-        self.some_are_gone = true;
+    /// See [`super::BroadPhase::remove`]. The lists are put right by the next query, in one pass for all that are gone.
+    pub(super) fn remove(&mut self, rank: Rank) {
+        // One that was added since the last query is in no list yet.
+        if rank.index() < self.listed_as.len() {
+            self.listed_as.remove(rank.index());
+            self.some_are_gone = true;
+        }
     }
 
-    /// Takes bodies that are gone out of the lists, and gives the others their places of now.
+    /// Takes bodies that are gone out of the lists, and gives the others their ranks of now.
     fn forget_the_gone(&mut self) {
         let listed = self.axes[0].len() / 2;
-        let mut places = vec![NEW; listed];
-        for (&listed_as, place) in self.listed_as.iter().zip((0..).map(Place)) {
+        let mut ranks = vec![NEW; listed];
+        for (&listed_as, rank) in self.listed_as.iter().zip((0..).map(Rank)) {
             if listed_as != NEW {
-                places[listed_as.index()] = place;
+                ranks[listed_as.index()] = rank;
             }
         }
-        let place_of = |body: Place| places[body.index()];
+        let rank_of = |body: Rank| ranks[body.index()];
         for ends in &mut self.axes {
             ends.retain_mut(|end| {
-                let place = place_of(end.body());
-                end.body_and_side = place.0.wrapping_mul(2) + u32::from(end.is_upper());
-                place != NEW
+                let rank = rank_of(end.body());
+                end.body_and_side = rank.0.wrapping_mul(2) + u32::from(end.is_upper());
+                rank != NEW
             });
         }
         self.pairs.retain_mut(|pair| {
-            let [a, b] = pair.map(place_of);
-            *pair = [a.min(b), a.max(b)];
-            a != NEW && b != NEW
+            *pair = pair.map(rank_of);
+            !pair.contains(&NEW)
         });
-        self.pairs.sort_unstable();
     }
 
-    /// Returns false if the budget did not suffice; pairs and order are then to be made anew. `None` if it was interrupted.
+    /// Returns false if the budget did not suffice; pairs and order are then to be made anew.
     fn sort_by_exchanges(
         &mut self,
         boxes: &[Aabb],
+        most: usize,
         budget: &mut usize,
         interrupt: &Interrupt,
-    ) -> Option<bool> {
+    ) -> ControlFlow<Outcome, bool> {
         self.new.clear();
         self.gone.clear();
         for ends in &mut self.axes {
             for sorted in 1..ends.len() {
                 if sorted.is_multiple_of(UNINTERRUPTED) && interrupt.is_set() {
-                    return None;
+                    return ControlFlow::Break(Outcome::Interrupted);
                 }
                 let moving = ends[sorted];
                 let mut place = sorted;
@@ -194,13 +217,16 @@ impl SweepAndPrune {
                 }
                 ends[place] = moving;
                 let Some(rest) = budget.checked_sub(sorted - place) else {
-                    return Some(false);
+                    return ControlFlow::Continue(false);
                 };
                 *budget = rest;
             }
         }
         self.merge();
-        Some(true)
+        if self.pairs.len() > most {
+            return ControlFlow::Break(Outcome::TooMany);
+        }
+        ControlFlow::Continue(true)
     }
 
     /// pairs = (pairs without the gone) with the new.
@@ -248,10 +274,15 @@ impl SweepAndPrune {
     }
 
     /// Sorts all three lists and finds the pairs along the axis on which the fewest intervals overlap.
-    fn sort_from_scratch(&mut self, boxes: &[Aabb], interrupt: &Interrupt) -> Option<()> {
+    fn sort_from_scratch(
+        &mut self,
+        boxes: &[Aabb],
+        most: usize,
+        interrupt: &Interrupt,
+    ) -> ControlFlow<Outcome> {
         for ends in &mut self.axes {
             if interrupt.is_set() {
-                return None;
+                return ControlFlow::Break(Outcome::Interrupted);
             }
             ends.sort_unstable_by(|a, b| a.order(*b));
         }
@@ -264,7 +295,10 @@ impl SweepAndPrune {
         self.open.clear();
         for (at, end) in sparsest.iter().enumerate() {
             if at.is_multiple_of(UNINTERRUPTED) && interrupt.is_set() {
-                return None;
+                return ControlFlow::Break(Outcome::Interrupted);
+            }
+            if self.pairs.len() > most {
+                return ControlFlow::Break(Outcome::TooMany);
             }
             let body = end.body();
             if end.is_upper() {
@@ -281,7 +315,7 @@ impl SweepAndPrune {
             self.open.push(body);
         }
         self.pairs.sort_unstable();
-        Some(())
+        ControlFlow::Continue(())
     }
 }
 
@@ -304,6 +338,9 @@ mod tests {
     use super::super::brute_force;
     use super::*;
 
+    /// More pairs than there are.
+    const MANY: usize = 1 << 20;
+
     struct Lcg(u64);
 
     impl Lcg {
@@ -325,8 +362,8 @@ mod tests {
 
     fn check(sweep: &mut SweepAndPrune, boxes: &[Aabb]) {
         let (mut expected, never) = (Vec::new(), Interrupt::default());
-        brute_force::overlapping(boxes, &never, &mut expected);
-        assert_eq!(sweep.overlapping(boxes, &never), Some(()));
+        (0..boxes.len() as u32).for_each(|body| brute_force::row(boxes, Rank(body), &mut expected));
+        assert_eq!(sweep.overlapping(boxes, MANY, &never), Outcome::Found);
         assert_eq!(sweep.pairs, expected);
     }
 
@@ -364,9 +401,9 @@ mod tests {
                         boxes.push(random.cube(range));
                         for _ in 0..random.below(4) {
                             if !boxes.is_empty() {
-                                let place = random.below(boxes.len() as u32) as usize;
-                                sweep.swap_remove(place, boxes.len() - 1);
-                                boxes.swap_remove(place);
+                                let rank = random.below(boxes.len() as u32);
+                                sweep.remove(Rank(rank));
+                                boxes.remove(rank as usize);
                             }
                         }
                         boxes.extend(
@@ -414,7 +451,7 @@ mod tests {
         };
         let mut sweep = SweepAndPrune::default();
         let never = Interrupt::default();
-        sweep.overlapping(&row(0.0), &never);
+        sweep.overlapping(&row(0.0), MANY, &never);
         for step in 1..10 {
             let boxes = row(step as f32 * 0.05);
             check(&mut sweep, &boxes);
@@ -432,8 +469,8 @@ mod tests {
         }
         let mut budget = 1000;
         assert_eq!(
-            sweep.sort_by_exchanges(&row(0.6), &mut budget, &never),
-            Some(true),
+            sweep.sort_by_exchanges(&row(0.6), MANY, &mut budget, &never),
+            ControlFlow::Continue(true),
             "sorted within the budget"
         );
         assert!(budget < 1000, "and not for nothing");
@@ -450,11 +487,12 @@ mod tests {
                 };
             }
         }
-        let sorted = sweep.sort_by_exchanges(&reversed, &mut 16_000, &never);
-        assert_eq!(sorted, Some(false));
+        let sorted = sweep.sort_by_exchanges(&reversed, MANY, &mut 16_000, &never);
+        assert_eq!(sorted, ControlFlow::Continue(false));
         // Interrupted, it says so.
         let question = || true;
         let interrupt = Interrupt::new(Some(&question));
-        assert_eq!(sweep.overlapping(&reversed, &interrupt), None);
+        let outcome = sweep.overlapping(&reversed, MANY, &interrupt);
+        assert_eq!(outcome, Outcome::Interrupted);
     }
 }

@@ -26,7 +26,7 @@ impl<const N: usize> BoxLanes<N> {
         }
     }
 
-    #[cfg(test)]
+    #[inline]
     pub(crate) fn set(&mut self, lane: usize, value: &Aabb) {
         for axis in 0..3 {
             self.lo[axis][lane] = value.lo[axis];

@@ -8,7 +8,7 @@
 //! A step is some dozens of such parts, each shorter than it takes to wake a thread. So threads of a private pool that were woken
 //! stay awake from one part to the next, and a little longer. Each begins with jobs of its own, side by side, and helps others when
 //! these are done: what a thread wrote in one part it is likely to read in the next. The threads of a pool that an application has
-//! lent are not kept awake: they have other things to do.
+//! lent are not kept awake: they have other things to do. The child of a fork has none of these threads: see [`Threads::here`].
 
 mod conflict_free;
 mod interrupt;
@@ -40,6 +40,17 @@ struct Helpers {
     count: usize,
     /// How many threads of a private pool are awake; none for a pool that was lent.
     awake: Option<Arc<AtomicUsize>>,
+    /// The process that has them: the child of a fork has the pool, but none of its threads.
+    process: u32,
+}
+
+impl Drop for Helpers {
+    fn drop(&mut self) {
+        if self.are_elsewhere() {
+            // What a thread of the parent had locked when it forked nobody will unlock. So the pool is left as it is.
+            std::mem::forget(Arc::clone(&self.pool));
+        }
+    }
 }
 
 impl Threads {
@@ -62,6 +73,7 @@ impl Threads {
             pool: Arc::new(pool),
             count,
             awake: Some(Arc::default()),
+            process: std::process::id(),
         };
         Self {
             helpers: pool.and_then(Result::ok).map(helpers),
@@ -75,10 +87,28 @@ impl Threads {
             pool,
             count,
             awake: None,
+            process: std::process::id(),
         };
         Self {
             helpers: (count > 0).then_some(helpers),
         }
+    }
+
+    /// The threads that this process has. In the child of a fork, private ones are made anew; of a pool that was lent, nobody can say
+    /// what became of it, so the calling thread does all work.
+    pub(crate) fn here(&mut self) -> &Self {
+        if let Some(helpers) = self
+            .helpers
+            .as_ref()
+            .filter(|helpers| helpers.are_elsewhere())
+        {
+            let count = NonZeroUsize::MIN.saturating_add(helpers.count);
+            *self = match helpers.awake {
+                Some(_) => Self::private(count),
+                None => Self::one(),
+            };
+        }
+        self
     }
 }
 
@@ -134,6 +164,10 @@ pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl Helpers {
+    fn are_elsewhere(&self) -> bool {
+        self.process != std::process::id()
+    }
+
     /// Does all jobs together with the calling thread.
     fn share<J: Send>(&self, jobs: &mut [J], work: &(impl Fn(usize, &mut J) + Sync)) {
         self.wake();
@@ -316,6 +350,28 @@ mod tests {
             check(&threads);
             // From a thread of the pool itself.
             pool.install(|| check(&threads));
+        }
+    }
+
+    /// A fork itself needs code that is not safe: the tests of the Python package have one.
+    #[test]
+    fn the_child_of_a_fork_has_threads_of_its_own() {
+        let pool = Arc::new(
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(3)
+                .build()
+                .unwrap(),
+        );
+        let lent = Threads::lent(NonZeroUsize::new(4).unwrap(), Arc::clone(&pool));
+        for (mut threads, many) in [(threads(4), true), (lent, false), (threads(1), false)] {
+            if let Some(helpers) = &mut threads.helpers {
+                helpers.process = helpers.process.wrapping_add(1);
+            }
+            let mut jobs = vec![0; 100];
+            run(threads.here(), &mut jobs, |number, job| *job += number + 1);
+            assert!(jobs.iter().copied().eq(1..=100));
+            assert_eq!(threads.helpers.is_some(), many);
+            assert!(threads.helpers.is_none_or(|helpers| helpers.count == 3));
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::bodies::Bodies;
 use super::body::Body;
-use super::body_pairs::{BodyPair, BodyPairs};
+use super::body_pairs::BodyPairs;
 use super::origin::FloatingOrigin;
 use super::query::Request;
 use super::scheduler::{Scheduler, is_worth_it};
@@ -87,7 +87,7 @@ where
             return Err(ErrorKind::TooManyHits { limit }.of_query());
         }
         let executor = Executor {
-            threads: &common.threads,
+            threads: common.threads.here(),
             interrupt: &interrupt,
         };
         // First bodies come in order, those of pairs within a body before those of others.
@@ -113,15 +113,13 @@ where
         common.begin(request)?;
         self.scratch.begin(Wanted::All);
         let most = request.most;
-        let (mut step, bodies, pairs) =
-            Self::step(&mut self.scratch, kind, common, request, interrupt, false);
-        // Bodies with themselves first: what is refitted then does not depend on the order in which threads take the others.
-        let (itself, different) = pairs.split_at(pairs.partition_point(|[a, b]| a == b));
+        let (mut step, bodies, body_pairs) =
+            Self::step(&mut self.scratch, kind, common, request, interrupt, false)?;
+        let instructions = step.refit.instructions;
         let mut is_all = true;
-        for pairs in [itself, different] {
-            if !is_all {
-                break;
-            }
+        // Bodies with themselves are a batch of their own, the first: what is refitted then does not depend on the order in which
+        // threads take the others.
+        while is_all && let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
             if is_worth_it(step.refit.executor, bodies, pairs) {
                 let most = most - hits.len();
                 is_all = self.scheduler.meet(&mut step, bodies, pairs, most);
@@ -158,11 +156,14 @@ where
         let interrupt = Interrupt::new(request.question);
         common.begin(request)?;
         self.scratch.begin(Wanted::UntilBreak);
-        let (mut step, bodies, pairs) =
-            Self::step(&mut self.scratch, kind, common, request, &interrupt, false);
-        for &pair in pairs {
-            if step.meet(bodies, pair, sink).is_break() {
-                break;
+        let (mut step, bodies, body_pairs) =
+            Self::step(&mut self.scratch, kind, common, request, &interrupt, false)?;
+        let instructions = step.refit.instructions;
+        'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, &interrupt) {
+            for &pair in pairs {
+                if step.meet(bodies, pair, sink).is_break() {
+                    break 'batches;
+                }
             }
         }
         common.end(&interrupt)
@@ -178,25 +179,28 @@ where
         let interrupt = Interrupt::new(request.question);
         common.bodies.validate(request.of)?;
         common.settle_origin();
-        let (mut step, bodies, pairs) =
-            Self::step(&mut self.scratch, kind, common, request, &interrupt, true);
-        for &[a, b] in pairs {
-            let partner = if a == b {
-                Partner::Itself
-            } else {
-                Partner::Another
-            };
-            for place in [a, b] {
-                let body = &mut bodies.list[place.index()];
-                if step.ahead(body, partner).is_break() {
-                    return common.end(&interrupt);
+        let (mut step, bodies, body_pairs) =
+            Self::step(&mut self.scratch, kind, common, request, &interrupt, true)?;
+        let instructions = step.refit.instructions;
+        'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, &interrupt) {
+            for &[a, b] in pairs {
+                let partner = if a == b {
+                    Partner::Itself
+                } else {
+                    Partner::Another
+                };
+                for place in [a, b] {
+                    let body = &mut bodies.list[place.index()];
+                    if step.ahead(body, partner).is_break() {
+                        break 'batches;
+                    }
                 }
             }
         }
         common.end(&interrupt)
     }
 
-    /// A query, the bodies it works on, and which of them meet.
+    /// A query that begins, the bodies it works on, and which of them meet.
     fn step<'q, const N: usize>(
         scratch: &'q mut Scratch<K>,
         kind: &'q K,
@@ -204,7 +208,7 @@ where
         request: &Request,
         interrupt: &'q Interrupt<'q>,
         early: bool,
-    ) -> (Step<'q, K>, &'q mut Bodies<N, K::Scalar>, &'q [BodyPair]) {
+    ) -> Result<(Step<'q, K>, &'q mut Bodies<N, K::Scalar>, &'q mut BodyPairs), Error> {
         let Common {
             options,
             instructions,
@@ -216,11 +220,14 @@ where
             done_early,
         } = common;
         let refit = Refit {
-            executor: Executor { threads, interrupt },
+            executor: Executor {
+                threads: threads.here(),
+                interrupt,
+            },
             instructions: *instructions,
             update: options.update,
         };
-        let pairs = body_pairs.select(request.of, bodies, kind, origin.point, interrupt);
+        body_pairs.begin(request.of, bodies, kind, origin.point, interrupt)?;
         let step = Step {
             kind,
             refit,
@@ -228,7 +235,7 @@ where
             scratch,
             statistics: if early { done_early } else { statistics },
         };
-        (step, bodies, pairs)
+        Ok((step, bodies, body_pairs))
     }
 }
 

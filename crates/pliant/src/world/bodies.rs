@@ -3,14 +3,16 @@
 use super::body::Body;
 use super::{BodyId, Selection};
 use crate::error::{Error, ErrorKind};
-use crate::ids::Place;
+use crate::ids::{Place, Rank};
 use crate::kernels::Coordinate;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 pub(super) struct Bodies<const N: usize, S> {
     /// In no order that matters: a removed body's place is taken by the last.
     pub(super) list: Vec<Body<N, S>>,
-    pub(super) places: BTreeMap<BodyId, Place>,
+    /// By rank: the ids in order, and where the bodies stand in the list.
+    pub(super) ids: Vec<BodyId>,
+    pub(super) places: Vec<Place>,
     next_id: Option<u32>,
     /// Pairs of bodies that do not meet in queries of the whole world, each pair in both orders.
     ignored: BTreeSet<(BodyId, BodyId)>,
@@ -20,7 +22,8 @@ impl<const N: usize, S> Default for Bodies<N, S> {
     fn default() -> Self {
         Self {
             list: Vec::new(),
-            places: BTreeMap::new(),
+            ids: Vec::new(),
+            places: Vec::new(),
             next_id: Some(0),
             ignored: BTreeSet::new(),
         }
@@ -36,33 +39,46 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
     /// Adds a body that has the next id.
     pub(super) fn push(&mut self, body: Body<N, S>) {
         self.next_id = body.id.0.checked_add(1);
-        let place = Place(self.list.len() as u32);
-        self.places.insert(body.id, place);
+        self.ids.push(body.id);
+        self.places.push(Place(self.list.len() as u32));
         self.list.push(body);
     }
 
-    /// Removes a body. Returns its place, which the last body has now.
-    pub(super) fn remove(&mut self, id: BodyId) -> Result<Place, Error> {
-        let place = self.place(id)?;
-        self.places.remove(&id);
+    /// Removes a body. Returns the rank that it had; those after it are one rank higher now.
+    pub(super) fn remove(&mut self, id: BodyId) -> Result<Rank, Error> {
+        let rank = self.rank(id)?;
+        self.ids.remove(rank.index());
+        let place = self.places.remove(rank.index());
         self.list.swap_remove(place.index());
         if let Some(moved) = self.list.get(place.index()) {
-            self.places.insert(moved.id, place);
+            let rank = self.rank(moved.id)?;
+            self.places[rank.index()] = place;
         }
         let ends = (id, BodyId(0))..=(id, BodyId(u32::MAX));
         let others: Vec<_> = self.ignored.range(ends).copied().collect();
         for (_, other) in others {
             self.meet_again(id, other);
         }
-        Ok(place)
+        Ok(rank)
+    }
+
+    /// Where a body stands among those that there are.
+    fn rank(&self, id: BodyId) -> Result<Rank, Error> {
+        let rank = self.ids.binary_search(&id);
+        rank.map(|rank| Rank(rank as u32)).map_err(|_| Error {
+            body: Some(id),
+            kind: ErrorKind::NoSuchBody,
+        })
     }
 
     /// Where a body stands in the list.
     pub(super) fn place(&self, id: BodyId) -> Result<Place, Error> {
-        self.places.get(&id).copied().ok_or(Error {
-            body: Some(id),
-            kind: ErrorKind::NoSuchBody,
-        })
+        Ok(self.places[self.rank(id)?.index()])
+    }
+
+    /// All bodies in the order of their ids.
+    pub(super) fn in_order(&self) -> impl Iterator<Item = &Body<N, S>> {
+        self.places.iter().map(|place| &self.list[place.index()])
     }
 
     pub(super) fn get(&self, id: BodyId) -> Result<&Body<N, S>, Error> {

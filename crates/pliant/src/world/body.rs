@@ -1,7 +1,7 @@
 //! One body: its mesh, its tree and boxes, the shape it has now, and what it may meet.
 
 use super::BodyId;
-use super::positions::Positions;
+use super::positions::{Positions, SMALL};
 use crate::error::ErrorKind;
 use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape, denormals_are_kept};
 use crate::ids::{TreeTriangle, TreeVertex};
@@ -21,8 +21,8 @@ pub(super) struct Body<const N: usize, S> {
     pub(super) topology: Topology,
     pub(super) order: Order,
     pub(super) tree: Tree<N>,
-    /// By the number of the set. The first, of the shape as it is, is there from the beginning; others are made when a kind of query
-    /// asks for them.
+    /// By the number of the set. They are made when a kind of query asks for them; but in a large body the first, of the shape as it is,
+    /// is there from the beginning.
     boxes: Vec<Option<BoxSet<N>>>,
     positions: Positions<S>,
     /// Of the vertices that triangles use.
@@ -87,7 +87,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             id,
             topology,
             order,
-            boxes: vec![Some(BoxSet::new(&tree))],
+            boxes: first_boxes(&tree, triangles.len()),
             tree,
             positions: Positions::new(positions),
             bounds,
@@ -103,7 +103,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let positions = self.positions();
         let (order, tree) = build(&self.topology, &positions, options);
         self.positions.forget_tree_order(self.order.vertex_order());
-        self.boxes = vec![Some(BoxSet::new(&tree))];
+        self.boxes = first_boxes(&tree, self.triangle_count());
         (self.order, self.tree) = (order, tree);
         self.epoch += 1;
     }
@@ -288,6 +288,15 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         }
         self.loose = loose;
         Ok(())
+    }
+}
+
+/// The boxes that a body has before anybody asks for some.
+fn first_boxes<const N: usize>(tree: &Tree<N>, triangles: usize) -> Vec<Option<BoxSet<N>>> {
+    if triangles > SMALL {
+        vec![Some(BoxSet::new(tree))]
+    } else {
+        Vec::new()
     }
 }
 

@@ -1,11 +1,15 @@
-//! Which bodies may meet: the broad phase, filters and exact boxes, into one list of pairs.
+//! Which bodies may meet: the broad phase, filters and exact boxes.
+//!
+//! Pairs come in batches, each found when the one before has met, so many bodies in one place cost time and no memory, and a query that
+//! ends early has not looked for pairs that it does not need. If one batch holds all pairs it is kept for as long as nothing moves.
 
+use super::Selection;
 use super::bodies::Bodies;
-use super::{BodyId, Selection};
-use crate::broad_phase::BroadPhase;
+use crate::broad_phase::{BroadPhase, Overlap};
+use crate::error::Error;
 use crate::geometry::{Aabb, Origin};
-use crate::ids::Place;
-use crate::kernels::Coordinate;
+use crate::ids::{Place, Rank};
+use crate::kernels::{Coordinate, Instructions};
 use crate::options;
 use crate::queries::Kind;
 use crate::threads::Interrupt;
@@ -13,19 +17,44 @@ use crate::threads::Interrupt;
 /// Two bodies by their places, or one twice: a body with itself.
 pub(super) type BodyPair = [Place; 2];
 
-/// The list, kept from query to query.
+/// Pairs of a batch, or of the bodies if there are more of these, times [`PAIRS_A_BODY`]; and those of one body more.
+const BATCH: usize = 1 << 16;
+const PAIRS_A_BODY: usize = 4;
+
+/// The batches of one query, and what is kept from query to query.
 #[derive(Debug)]
 pub(super) struct BodyPairs {
     broad_phase: BroadPhase,
-    /// Of every body, by its place: its exact box, and the one that the broad phase works with, which is the loose one if there is one.
+    /// Of every body, by its rank: its exact box, and the one that the broad phase works with, which is the loose one if there is one.
     exact: Vec<Aabb>,
     broad: Vec<Aabb>,
-    /// Of different bodies, the smaller id first, in the order of ids.
+    /// Scratch: the last row of the broad phase.
+    row: Vec<Overlap>,
+    /// The last batch of different bodies of the whole world, in the order of ids, the smaller first.
     of_world: Vec<BodyPair>,
-    /// By how much bodies' boxes were grown for it, if nothing has happened since that could change it.
+    /// By how much bodies' boxes were grown for it, if it holds all pairs and nothing has happened since that could change it.
     holds_for: Option<f32>,
-    /// What a query asked for last.
-    selected: Vec<BodyPair>,
+    /// What a query asked for by name.
+    named: Vec<BodyPair>,
+    /// What the query has not been given yet, and by how much it grows the boxes of bodies.
+    next: Next,
+    grows_by: f32,
+}
+
+/// What comes after the batches that a query was given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Next {
+    /// Those named, and then perhaps those of the whole world.
+    Named {
+        and_world: bool,
+    },
+    /// All pairs of the whole world, which are known.
+    Known,
+    /// Pairs of the whole world that are still to be found: all, or those after the last batch.
+    Found {
+        is_first: bool,
+    },
+    Nothing,
 }
 
 impl BodyPairs {
@@ -34,9 +63,12 @@ impl BodyPairs {
             broad_phase: BroadPhase::new(rule),
             exact: Vec::new(),
             broad: Vec::new(),
+            row: Vec::new(),
             of_world: Vec::new(),
             holds_for: None,
-            selected: Vec::new(),
+            named: Vec::new(),
+            next: Next::Nothing,
+            grows_by: 0.0,
         }
     }
 
@@ -45,92 +77,140 @@ impl BodyPairs {
         self.holds_for = None;
     }
 
-    /// A body is gone from a place, and the last, whose place was `last`, is there now.
-    pub(super) fn swap_remove(&mut self, place: Place, last: usize) {
-        self.broad_phase.swap_remove(place.index(), last);
+    /// The body of a rank is gone, and those after it are one rank higher.
+    pub(super) fn remove(&mut self, rank: Rank) {
+        self.broad_phase.remove(rank);
         self.forget();
     }
 
-    /// The pairs of a valid selection whose boxes overlap: bodies with themselves first, for which all their boxes are refitted, and then
-    /// different bodies; each in the order of ids. Interrupted, some of them.
-    pub(super) fn select<const N: usize, S: Coordinate>(
+    /// Begins with the pairs of a selection whose boxes overlap: bodies with themselves first, for which all their boxes are refitted,
+    /// and then different bodies; each in the order of ids.
+    pub(super) fn begin<const N: usize, S: Coordinate>(
         &mut self,
         of: Selection,
         bodies: &Bodies<N, S>,
         kind: &impl Kind,
         origin: Origin,
         interrupt: &Interrupt,
-    ) -> &[BodyPair] {
-        let place = |id: BodyId| bodies.places[&id];
-        self.selected.clear();
+    ) -> Result<(), Error> {
+        self.named.clear();
         match of {
-            Selection::Within(a) => self.selected.push([place(a); 2]),
+            Selection::Within(a) => self.named.push([bodies.place(a)?; 2]),
             Selection::Between(a, b) => {
-                let places = [place(a), place(b)];
+                let places = [bodies.place(a)?, bodies.place(b)?];
                 let [box_a, box_b] =
                     places.map(|place| kind.body_box(bodies.list[place.index()].exact_box(origin)));
                 if box_a.overlaps(&box_b) {
-                    self.selected.push(places);
+                    self.named.push(places);
                 }
             }
-            Selection::World => {
-                self.find(bodies, kind, origin, interrupt);
-                return &self.of_world;
-            }
+            Selection::World => {}
             Selection::Everything => {
-                self.find(bodies, kind, origin, interrupt);
-                for &place in bodies.places.values() {
+                let meet = |place: &Place| {
                     let body = &bodies.list[place.index()];
-                    if bodies.do_meet(body, body) {
-                        self.selected.push([place; 2]);
-                    }
-                }
-                self.selected.extend_from_slice(&self.of_world);
+                    bodies.do_meet(body, body)
+                };
+                let places = bodies.places.iter().copied();
+                self.named
+                    .extend(places.filter(meet).map(|place| [place; 2]));
             }
         }
-        &self.selected
+        let and_world = matches!(of, Selection::World | Selection::Everything);
+        self.next = Next::Named { and_world };
+        self.grows_by = kind.grows_by();
+        if and_world && self.holds_for != Some(self.grows_by) {
+            self.holds_for = None;
+            self.take_boxes(bodies, kind, origin);
+            self.broad_phase.begin(&self.broad, interrupt);
+        }
+        Ok(())
     }
 
-    /// The pairs of different bodies of the whole world, unless they are known.
+    /// The next batch of the query that has begun, which may be empty; none after the last. Interrupted, it is the last.
+    pub(super) fn next<const N: usize, S: Coordinate>(
+        &mut self,
+        bodies: &Bodies<N, S>,
+        instructions: Instructions,
+        interrupt: &Interrupt,
+    ) -> Option<&[BodyPair]> {
+        match self.next {
+            Next::Named { and_world } => {
+                self.next = match and_world {
+                    false => Next::Nothing,
+                    true if self.holds_for == Some(self.grows_by) => Next::Known,
+                    true => Next::Found { is_first: true },
+                };
+                Some(&self.named)
+            }
+            Next::Known => {
+                self.next = Next::Nothing;
+                Some(&self.of_world)
+            }
+            Next::Found { is_first } => {
+                let are_more = self.find(bodies, instructions, interrupt);
+                self.next = if are_more {
+                    Next::Found { is_first: false }
+                } else {
+                    Next::Nothing
+                };
+                if is_first && !are_more && !interrupt.is_set() {
+                    self.holds_for = Some(self.grows_by);
+                }
+                Some(&self.of_world)
+            }
+            Next::Nothing => None,
+        }
+    }
+
+    /// Finds the next batch of the whole world, or, interrupted, some of it. Returns whether there may be more.
     fn find<const N: usize, S: Coordinate>(
         &mut self,
         bodies: &Bodies<N, S>,
-        kind: &impl Kind,
-        origin: Origin,
+        instructions: Instructions,
         interrupt: &Interrupt,
-    ) {
-        if self.holds_for == Some(kind.grows_by()) {
-            return;
-        }
-        self.holds_for = None;
+    ) -> bool {
         let Self {
             broad_phase,
             exact,
             broad,
+            row,
             of_world,
             ..
         } = self;
+        let that_meet = |&pair: &Overlap| {
+            let [exact_a, exact_b] = pair.map(|rank| &exact[rank.index()]);
+            let places = pair.map(|rank| bodies.places[rank.index()]);
+            let [a, b] = places.map(|place| &bodies.list[place.index()]);
+            (exact_a.overlaps(exact_b) && bodies.do_meet(a, b)).then_some(places)
+        };
+        let most = BATCH.max(PAIRS_A_BODY * bodies.list.len());
+        of_world.clear();
+        while of_world.len() < most && !interrupt.is_set() {
+            row.clear();
+            let are_more = broad_phase.next(instructions, broad, row);
+            of_world.extend(row.iter().filter_map(that_meet));
+            if !are_more {
+                return false;
+            }
+        }
+        !interrupt.is_set()
+    }
+
+    /// The boxes of all bodies as they are now.
+    fn take_boxes<const N: usize, S: Coordinate>(
+        &mut self,
+        bodies: &Bodies<N, S>,
+        kind: &impl Kind,
+        origin: Origin,
+    ) {
+        let Self { exact, broad, .. } = self;
         exact.clear();
-        let list = bodies.list.iter();
+        let list = bodies.in_order();
         exact.extend(list.map(|body| kind.body_box(body.exact_box(origin))));
         broad.clear();
-        broad.extend(bodies.list.iter().zip(&*exact).map(|(body, &exact)| {
+        broad.extend(bodies.in_order().zip(&*exact).map(|(body, &exact)| {
             let loose = body.loose_box(origin);
             loose.map_or(exact, |loose| kind.body_box(loose))
         }));
-        let in_order = |[a, b]: BodyPair| {
-            let id = |place: Place| bodies.list[place.index()].id;
-            if id(a) < id(b) { [a, b] } else { [b, a] }
-        };
-        let found = broad_phase.overlapping(broad, interrupt).iter();
-        of_world.clear();
-        of_world.extend(found.map(|&pair| in_order(pair)).filter(|pair| {
-            let [a, b] = pair.map(Place::index);
-            exact[a].overlaps(&exact[b]) && bodies.do_meet(&bodies.list[a], &bodies.list[b])
-        }));
-        of_world.sort_unstable_by_key(|pair| pair.map(|place| bodies.list[place.index()].id));
-        if !interrupt.is_set() {
-            self.holds_for = Some(kind.grows_by());
-        }
     }
 }

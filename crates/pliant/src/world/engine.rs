@@ -14,14 +14,12 @@ use super::{BodyId, NodeBox, Selection, TreeShape};
 use crate::Pair;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Bounds;
-use crate::ids::Place;
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
 use crate::queries::{Candidate, Intersections};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Threads};
 use crate::traversal::Sink;
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 /// An engine of any degree. What its methods do is said where [`World`](super::World) has them.
@@ -30,7 +28,7 @@ pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
     fn use_instructions(&mut self, instructions: Instructions);
     fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error>;
     fn remove(&mut self, id: BodyId) -> Result<(), Error>;
-    fn places(&self) -> &BTreeMap<BodyId, Place>;
+    fn ids(&self) -> &[BodyId];
     fn set_positions(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error>;
     fn write_positions(
         &mut self,
@@ -116,7 +114,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             ..
         } = &mut self.common;
         let executor = Executor {
-            threads,
+            threads: threads.here(),
             interrupt: &Interrupt::default(),
         };
         bodies
@@ -150,15 +148,14 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
 
     fn remove(&mut self, id: BodyId) -> Result<(), Error> {
         let common = &mut self.common;
-        let place = common.bodies.remove(id)?;
-        let last = common.bodies.list.len();
-        common.body_pairs.swap_remove(place, last);
+        let rank = common.bodies.remove(id)?;
+        common.body_pairs.remove(rank);
         self.witnesses.forget(id);
         Ok(())
     }
 
-    fn places(&self) -> &BTreeMap<BodyId, Place> {
-        &self.common.bodies.places
+    fn ids(&self) -> &[BodyId] {
+        &self.common.bodies.ids
     }
 
     fn set_positions(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {

@@ -129,7 +129,7 @@ impl<S: Scalar> World<S> {
 
     /// The bodies of this world, in the order in which they were added.
     pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyId> {
-        self.engine.places().keys().copied()
+        self.engine.ids().iter().copied()
     }
 
     /// Gives a body a new shape: one position for each of its vertices, shape (n, 3), in the order in which it was added.

@@ -18,13 +18,17 @@ const JOB: usize = 64 * IN_A_ROW;
 /// So many points, or fewer, are not worth waking a thread.
 const SHARED: usize = 4 * JOB;
 
+/// A body of so many triangles, or vertices, or fewer, takes memory when somebody looks at it: among many small ones most are never
+/// looked at. Larger ones take it when they are added, because a query may not go on for long before it asks whether to stop.
+pub(super) const SMALL: usize = 1 << 12;
+
 pub(super) struct Positions<S> {
     len: usize,
     /// The shape of now, if it is in the caller's order. Nothing in a body that was looked at in every shape so far.
     callers: Vec<[S; 3]>,
     /// Where the next shape is copied to, so that a bad one never replaces a good one; nothing until one is copied.
     spare: Vec<[S; 3]>,
-    /// The shape of now, if it is in tree order.
+    /// The shape of now, if it is in tree order; nothing as long as a small body was not looked at.
     trees: Points<S>,
     order: InOrder,
 }
@@ -56,7 +60,11 @@ impl<S: Coordinate> Positions<S> {
             len: positions.len(),
             callers: positions.to_vec(),
             spare: Vec::new(),
-            trees: Points::with_len(positions.len()),
+            trees: Points::with_len(if positions.len() > SMALL {
+                positions.len()
+            } else {
+                0
+            }),
             order: InOrder::Callers,
         }
     }
@@ -197,8 +205,12 @@ fn gather_all<S: Coordinate>(
     executor: Executor,
     from: &[[S; 3]],
     order: &[u32],
-    Points { points, bounds }: &mut Points<S>,
+    to: &mut Points<S>,
 ) {
+    if to.points.len() != order.len() {
+        *to = Points::with_len(order.len());
+    }
+    let Points { points, bounds } = to;
     let parts = points
         .chunks_mut(JOB)
         .zip(bounds.chunks_mut(JOB / IN_A_ROW))

@@ -328,3 +328,58 @@ fn ten_million_triangles() {
     };
     stack.spawn(all).unwrap().join().unwrap();
 }
+
+/// The lid of a cylinder as a fan, and a mesh that lies in one point: the triangles round a vertex are not met by the square.
+#[test]
+fn triangles_round_one_vertex_cost_no_more_than_others() {
+    const COUNT: u32 = 40_000;
+    let rim = |t: u32| {
+        let angle = f64::from(t) * std::f64::consts::TAU / f64::from(COUNT);
+        let (sin, cos) = angle.sin_cos();
+        [cos, sin, 0.1 * (7.0 * angle).sin()].map(|x| x as f32)
+    };
+    let lid: Vec<[u32; 3]> = (0..COUNT)
+        .map(|t| [0, 1 + t, 1 + (t + 1) % COUNT])
+        .collect();
+    let mut corners = vec![[0.0, 0.0, 1.0]];
+    corners.extend((0..COUNT).map(rim));
+    let point = vec![[0_u32; 3]; COUNT as usize];
+    for (triangles, positions) in [(&lid, &corners[..]), (&point, &corners[..1])] {
+        let mut world = World::<f32>::new();
+        let body = world.add(triangles, positions).unwrap();
+        let found = world.intersections(Selection::Within(body)).all().unwrap();
+        assert!(found.is_empty(), "all share a vertex");
+        let work = *world.statistics();
+        // By the square it would be 12 million pairs of leaves.
+        assert!(work.node_pairs < u64::from(COUNT), "{work:?}");
+    }
+}
+
+/// Two fans that cross, as one body and as two.
+#[test]
+fn fans_of_one_body_meet_each_other() {
+    const COUNT: u32 = 2_000;
+    let fan = |apex: [f32; 3], lift: f32| -> Vec<[f32; 3]> {
+        let rim = |t: u32| {
+            let (sin, cos) = (t as f32 * std::f32::consts::TAU / COUNT as f32).sin_cos();
+            [cos, sin, lift * cos]
+        };
+        std::iter::once(apex).chain((0..COUNT).map(rim)).collect()
+    };
+    let triangles = |first: u32| -> Vec<[u32; 3]> {
+        (0..COUNT)
+            .map(|t| [0, 1 + t, 1 + (t + 1) % COUNT].map(|vertex| first + vertex))
+            .collect()
+    };
+    let shapes = [fan([0.0, 0.0, 0.7], 0.3), fan([0.1, 0.0, -0.2], -0.4)];
+    let mut world = World::<f32>::new();
+    let [a, b] = [0, 1].map(|which| world.add(&triangles(0), &shapes[which]).unwrap());
+    let apart = world.triangles_of(Selection::Between(a, b));
+    assert!(apart.len() > 100, "{}", apart.len());
+
+    let both = [triangles(0), triangles(COUNT + 1)].concat();
+    let one = world.add(&both, &shapes.concat()).unwrap();
+    let together = world.triangles_of(Selection::Within(one));
+    let expected: Vec<_> = apart.iter().map(|&[a, b]| [a, COUNT + b]).collect();
+    assert_eq!(together, expected);
+}

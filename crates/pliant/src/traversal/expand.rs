@@ -89,6 +89,9 @@ pub(super) fn expand<I: Simd, const N: usize, P: TreePair<N>>(
                 });
             }
             (Child::Inner(below_a), Child::Inner(below_b)) => {
+                if left_out.is_some_and(|known| known.are_one_fan(below_a, below_b)) {
+                    continue;
+                }
                 let (wide_a, wide_b) = (nodes_a.wide(below_a), nodes_b.wide(below_b));
                 let (boxes_a, boxes_b) = (boxes_a.of(below_a), boxes_b.of(below_b));
                 if let (Some(first_a), Some(first_b)) = (wide_a.first_leaf, wide_b.first_leaf) {

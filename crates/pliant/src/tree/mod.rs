@@ -14,6 +14,7 @@
 mod boxes;
 pub(crate) mod build;
 mod cut;
+mod fans;
 mod lanes_at_vertices;
 mod leaves;
 mod neighbours;

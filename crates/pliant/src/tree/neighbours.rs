@@ -10,8 +10,9 @@
 //!
 //! Where a mesh is no surface (a hundred thousand triangles round one vertex) masks would take memory by the square. Blocks
 //! with that many neighbours are *crowded*: their lists are empty, they are found like all others, and corners are compared
-//! when their triangles are.
+//! when their triangles are; but not those of nodes that are one fan (`fans`).
 
+use super::fans::Fans;
 use super::lanes_at_vertices::LanesAtVertices;
 use super::{BLOCK_LANES, Leaves, WideNode};
 use crate::ids::{BlockId, LeafId, TreeTriangle, WideNodeId};
@@ -105,6 +106,8 @@ pub(crate) struct Neighbours {
     of_blocks: LaneLists,
     /// Of wide nodes of leaves that are blocks: the pairs of leaves that are neighbours and not crowded; every leaf is with itself.
     of_wide_nodes: LaneLists,
+    /// Nothing if no block is crowded.
+    fans: Fans,
 }
 
 impl Neighbours {
@@ -138,7 +141,14 @@ impl Neighbours {
         // As much memory as the lists, and no longer needed.
         drop(blocks);
         let wide_nodes = if leaves.are_blocks() { wide_nodes } else { &[] };
+        let is_crowded = |block: u32| of_blocks.list(block).is_empty();
+        let fans = if (0..count as u32).any(is_crowded) {
+            Fans::new(wide_nodes, leaves, order)
+        } else {
+            Fans::default()
+        };
         Some(Self {
+            fans,
             of_wide_nodes: lists_of_wide_nodes(wide_nodes, leaves, &of_blocks),
             of_blocks,
         })
@@ -158,6 +168,12 @@ impl Neighbours {
     #[inline(always)]
     pub(crate) fn is_crowded(&self, block: BlockId) -> bool {
         self.of_blocks.list(block.0).is_empty()
+    }
+
+    /// Where leaves are blocks: whether all triangles below the nodes of two wide nodes are known to be neighbours.
+    #[inline(always)]
+    pub(crate) fn are_one_fan(&self, a: WideNodeId, b: WideNodeId) -> bool {
+        self.fans.are_one(a, b)
     }
 
     /// A block itself and its later neighbours, and which of their triangles are to be compared with its own. Of a crowded block

@@ -20,7 +20,7 @@ const SHARED: usize = 4 * JOB;
 
 /// A body of so many triangles, or vertices, or fewer, takes memory when somebody looks at it: among many small ones most are never
 /// looked at. Larger ones take it when they are added, because a query may not go on for long before it asks whether to stop.
-pub(super) const SMALL: usize = 1 << 12;
+pub(super) const SMALL: usize = 1 << 8;
 
 pub(super) struct Positions<S> {
     len: usize,

@@ -13,12 +13,11 @@
 
 use std::path::Path;
 
-use glob::{MatchOptions, Pattern};
-
 use crate::error::{Error, Reason};
 use crate::file::Found;
 use crate::format::Format;
 use crate::natural;
+use crate::pattern::{is_pattern, matching};
 
 /// What an argument names.
 #[derive(Debug)]
@@ -30,13 +29,6 @@ pub(crate) enum Named {
     /// A mesh, and the positions of its vertices.
     Cache { mesh: Found, positions: Found },
 }
-
-/// Patterns as shells read them: `*` does not match a leading dot, nor does it cross a folder.
-const AS_IN_SHELLS: MatchOptions = MatchOptions {
-    case_sensitive: true,
-    require_literal_separator: true,
-    require_literal_leading_dot: true,
-};
 
 /// What `argument` names.
 pub(crate) fn named(argument: &str) -> Result<Named, Error> {
@@ -92,13 +84,7 @@ fn files(argument: &str) -> Result<Vec<Found>, Error> {
         return Ok(vec![file(argument)?]);
     }
     let mut files = Vec::new();
-    for path in
-        glob::glob_with(argument, AS_IN_SHELLS).map_err(|bad| error(Reason::Pattern(bad.msg)))?
-    {
-        let path = path.map_err(|unreadable| {
-            let folder = unreadable.path().to_owned();
-            Error::new(folder, Reason::Io(unreadable.into()))
-        })?;
+    for path in matching(argument)? {
         match path.metadata() {
             // A pattern for files may well match folders beside them.
             Ok(metadata) if metadata.is_dir() => {}
@@ -112,9 +98,4 @@ fn files(argument: &str) -> Result<Vec<Found>, Error> {
     }
     files.sort_by(|a, b| natural::compare(a.path(), b.path()));
     Ok(files)
-}
-
-/// Whether any character has a meaning in patterns.
-fn is_pattern(argument: &str) -> bool {
-    Pattern::escape(argument) != argument
 }

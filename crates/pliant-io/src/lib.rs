@@ -98,6 +98,7 @@ mod memory;
 mod natural;
 mod npz;
 mod obj;
+mod pattern;
 mod ply;
 mod polygons;
 mod positions;

@@ -1,0 +1,197 @@
+//! The files that a pattern names, as shells read patterns.
+//!
+//! `*` and `?` match no leading dot and cross no folder; `**` is any number of folders, links to folders left out, so it ends. Names of
+//! files are bytes on most systems and need not be text: what is no text in one is matched by `*` and `?` like any character, and
+//! stands in nobody's way otherwise.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use glob::{MatchOptions, Pattern};
+
+use crate::error::{Error, Reason};
+
+const AS_IN_SHELLS: MatchOptions = MatchOptions {
+    case_sensitive: true,
+    require_literal_separator: true,
+    require_literal_leading_dot: true,
+};
+
+/// A pattern for the names in one folder, or for any number of folders.
+enum Part {
+    Literal(PathBuf),
+    Names(Pattern),
+    Folders,
+}
+
+/// Whether any character has a meaning in patterns.
+pub(crate) fn is_pattern(text: &str) -> bool {
+    Pattern::escape(text) != text
+}
+
+/// What there is that matches, in no order; files, folders and all else.
+pub(crate) fn matching(pattern: &str) -> Result<Vec<PathBuf>, Error> {
+    let parts = parts(pattern)?;
+    let mut found = Vec::new();
+    walk(PathBuf::new(), &parts, &mut found)?;
+    Ok(found)
+}
+
+/// Cuts a pattern where folders end.
+fn parts(pattern: &str) -> Result<Vec<Part>, Error> {
+    let mut parts: Vec<Part> = Vec::new();
+    for component in Path::new(pattern).components() {
+        let text = component.as_os_str().to_str().unwrap_or_default();
+        parts.push(match component {
+            Component::Normal(_) if text == "**" => Part::Folders,
+            Component::Normal(_) if is_pattern(text) => {
+                let bad = |bad: glob::PatternError| Error::new(pattern, Reason::Pattern(bad.msg));
+                Part::Names(Pattern::new(text).map_err(bad)?)
+            }
+            _ => Part::Literal(component.as_os_str().into()),
+        });
+    }
+    Ok(parts)
+}
+
+/// Appends what matches the parts that are left, seen from a folder.
+fn walk(folder: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(), Error> {
+    let Some((part, rest)) = parts.split_first() else {
+        found.push(folder);
+        return Ok(());
+    };
+    match part {
+        Part::Literal(name) => {
+            let path = folder.join(name);
+            let is_there = if rest.is_empty() {
+                path.symlink_metadata().is_ok()
+            } else {
+                path.is_dir()
+            };
+            if is_there {
+                walk(path, rest, found)?;
+            }
+        }
+        Part::Names(pattern) => {
+            for name in names(&folder)? {
+                if pattern.matches_with(&name.to_string_lossy(), AS_IN_SHELLS) {
+                    let path = folder.join(name);
+                    if rest.is_empty() || path.is_dir() {
+                        walk(path, rest, found)?;
+                    }
+                }
+            }
+        }
+        Part::Folders => {
+            // Without this part, and with one folder more before it.
+            walk(folder.clone(), rest, found)?;
+            for name in names(&folder)? {
+                let path = folder.join(&name);
+                let is_hidden = name.to_string_lossy().starts_with('.');
+                let is_folder = path.symlink_metadata().is_ok_and(|its| its.is_dir());
+                if is_folder && !is_hidden {
+                    walk(path, parts, found)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The names in a folder; of the folder without a name those in the one where the program runs.
+fn names(folder: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
+    let here = if folder.as_os_str() == OsStr::new("") {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let list = || -> io::Result<Vec<_>> {
+        fs::read_dir(here)?
+            .map(|entry| Ok(entry?.file_name()))
+            .collect()
+    };
+    list().map_err(|error| Error::new(here, Reason::Io(error)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A folder with these files, and what patterns name in it, in order.
+    fn found(files: &[&str], pattern: &str) -> Vec<String> {
+        let folder = tempfile::tempdir().unwrap();
+        for file in files {
+            let path = folder.path().join(file);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "").unwrap();
+        }
+        let within = folder.path().to_str().unwrap();
+        let all = matching(&format!("{}/{pattern}", Pattern::escape(within))).unwrap();
+        let name = |path: &PathBuf| path.strip_prefix(within).unwrap().to_str().unwrap().into();
+        let mut names: Vec<String> = all.iter().map(name).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn patterns_are_read_as_in_shells() {
+        let files = &[
+            "a1.obj",
+            "a2.obj",
+            "b1.obj",
+            ".a3.obj",
+            "c/a4.obj",
+            "c/d/a5.obj",
+            ".e/a6.obj",
+        ];
+        assert_eq!(found(files, "a*.obj"), ["a1.obj", "a2.obj"]);
+        assert_eq!(found(files, "?1.obj"), ["a1.obj", "b1.obj"]);
+        assert_eq!(found(files, "[!a]1.obj"), ["b1.obj"]);
+        assert_eq!(found(files, "*"), ["a1.obj", "a2.obj", "b1.obj", "c"]);
+        assert_eq!(found(files, ".a*"), [".a3.obj"]);
+        assert_eq!(found(files, "*/a*.obj"), ["c/a4.obj"]);
+        assert_eq!(found(files, "c/*/a*.obj"), ["c/d/a5.obj"]);
+        let all = ["a1.obj", "a2.obj", "c/a4.obj", "c/d/a5.obj"];
+        assert_eq!(found(files, "**/a*.obj"), all);
+        assert!(found(files, "nobody/*.obj").is_empty());
+        assert!(found(files, "a1.obj/*").is_empty());
+    }
+
+    #[test]
+    fn a_pattern_that_is_none_is_refused() {
+        let error = matching("a[.obj").unwrap_err().to_string();
+        assert!(error.contains("a[.obj"), "{error}");
+    }
+
+    /// Linux takes any bytes as a name; other systems refuse these.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn names_that_are_no_text_are_names() {
+        use std::os::unix::ffi::OsStrExt;
+        let folder = tempfile::tempdir().unwrap();
+        for name in [&b"a\xff.obj"[..], b"a1.obj", b".\xfe.obj", b"\xfd"] {
+            fs::write(folder.path().join(OsStr::from_bytes(name)), "").unwrap();
+        }
+        let count = |pattern: &str| {
+            let pattern = format!("{}/{pattern}", folder.path().display());
+            matching(&pattern).unwrap().len()
+        };
+        assert_eq!(count("a*.obj"), 2);
+        assert_eq!(count("a?.obj"), 2);
+        assert_eq!(count("a1*"), 1);
+        assert_eq!(count("*"), 3);
+        assert_eq!(count("**/*.obj"), 2);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_in_a_circle_end() {
+        let folder = tempfile::tempdir().unwrap();
+        std::os::unix::fs::symlink(folder.path(), folder.path().join("again")).unwrap();
+        fs::write(folder.path().join("a.obj"), "").unwrap();
+        let pattern = format!("{}/**/*.obj", folder.path().display());
+        assert_eq!(matching(&pattern).unwrap().len(), 1);
+    }
+}

@@ -1,27 +1,35 @@
-//! numpy arrays read where they lie, and made.
+//! numpy arrays of callers, and arrays made for them.
 //!
-//! A C-contiguous, aligned (n, 3) array of float32 or float64, and an (m, 3) array of uint32, are read in place. Other integers
-//! are converted to uint32 and checked on the way; other layouts and byte orders are copied once, by numpy. No value is ever
-//! changed: what would have to be rounded is refused.
+//! An (n, 3) array of float32 or float64, and an (m, 3) array of any integers, in any layout, is copied once, by numpy, to where
+//! nobody else can write (`copies.rs`); integers are checked on their way to uint32. No value is ever changed: what would have to
+//! be rounded is refused, and so is a masked array that hides any.
 
+use crate::copies::{self, Copied};
 use crate::error::{Fact, Refused};
 use numpy::{
-    Element, IntoPyArray, PyArray2, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray2,
-    PyUntypedArray, PyUntypedArrayMethods, dtype,
+    Element, IntoPyArray, PyArray2, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray,
+    PyUntypedArrayMethods, dtype,
 };
 use pliant_io::Positions;
 use pyo3::intern;
 use pyo3::prelude::*;
+use pyo3::types::{PyList, PyTuple};
 
-/// Positions of a caller's.
+/// Positions of a caller's, which anybody may write to: to be copied.
 pub(crate) enum Coordinates<'py> {
-    F32(PyReadonlyArray2<'py, f32>),
-    F64(PyReadonlyArray2<'py, f64>),
+    F32(Bound<'py, PyArray2<f32>>),
+    F64(Bound<'py, PyArray2<f64>>),
 }
 
-/// Triangles of a caller's.
-pub(crate) enum Faces<'py> {
-    AsGiven(PyReadonlyArray2<'py, u32>),
+/// A copy of them.
+pub(crate) enum CopiedCoordinates<'py> {
+    F32(Copied<'py, f32>),
+    F64(Copied<'py, f64>),
+}
+
+/// A copy of triangles of a caller's.
+pub(crate) enum CopiedFaces<'py> {
+    AsGiven(Copied<'py, u32>),
     Converted(Vec<[u32; 3]>),
 }
 
@@ -31,8 +39,8 @@ impl<'py> Coordinates<'py> {
         let array = as_array(given, "positions", "n")?;
         let dtype = array.dtype();
         match (dtype.kind(), dtype.itemsize()) {
-            (b'f', 4) => in_place(&array).map(Self::F32),
-            (b'f', 8) => in_place(&array).map(Self::F64),
+            (b'f', 4) => typed(&array).map(Self::F32),
+            (b'f', 8) => typed(&array).map(Self::F64),
             (kind, _) => {
                 let hint = if matches!(kind, b'i' | b'u') {
                     "; or were faces and positions exchanged?"
@@ -50,22 +58,40 @@ impl<'py> Coordinates<'py> {
         }
     }
 
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::F32(array) => array.shape()[0],
+            Self::F64(array) => array.shape()[0],
+        }
+    }
+}
+
+impl<'py> CopiedCoordinates<'py> {
+    /// Copies an (n, 3) array of float32 or float64, or what numpy makes one of.
+    pub(crate) fn of(given: &Bound<'py, PyAny>) -> Result<Self, Refused> {
+        Ok(match Coordinates::read(given)? {
+            Coordinates::F32(array) => Self::F32(copies::anew(&array)?),
+            Coordinates::F64(array) => Self::F64(copies::anew(&array)?),
+        })
+    }
+
     /// As the Rust libraries have them.
     pub(crate) fn get(&self) -> Result<Positions<'_>, Refused> {
         Ok(match self {
-            Self::F32(array) => Positions::F32(rows(array)?),
-            Self::F64(array) => Positions::F64(rows(array)?),
+            Self::F32(copied) => Positions::F32(copied.rows()?),
+            Self::F64(copied) => Positions::F64(copied.rows()?),
         })
     }
 }
 
-impl<'py> Faces<'py> {
-    /// Reads an (m, 3) array of integers, or what numpy makes one of, the corners of triangles over `vertices` vertices.
-    pub(crate) fn read(given: &Bound<'py, PyAny>, vertices: usize) -> Result<Self, Refused> {
+impl<'py> CopiedFaces<'py> {
+    /// Copies an (m, 3) array of integers, or what numpy makes one of, the corners of triangles over `vertices` vertices.
+    pub(crate) fn of(given: &Bound<'py, PyAny>, vertices: usize) -> Result<Self, Refused> {
         let array = as_array(given, "faces", "m")?;
         let dtype = array.dtype();
         let converted = match (dtype.kind(), dtype.itemsize()) {
-            (b'u', 4) => return in_place(&array).map(Self::AsGiven),
+            (b'u', 4) => return copies::anew(&typed(&array)?).map(Self::AsGiven),
             (b'u', 1) => convert::<u8>(&array, vertices),
             (b'u', 2) => convert::<u16>(&array, vertices),
             (b'u', 8) => convert::<u64>(&array, vertices),
@@ -87,7 +113,7 @@ impl<'py> Faces<'py> {
     /// As the Rust library has them.
     pub(crate) fn get(&self) -> Result<&[[u32; 3]], Refused> {
         match self {
-            Self::AsGiven(array) => rows(array),
+            Self::AsGiven(copied) => copied.rows(),
             Self::Converted(triangles) => Ok(triangles),
         }
     }
@@ -130,12 +156,13 @@ pub(crate) fn rows_of<T: Element, const K: usize>(
     rows.into_flattened().into_pyarray(py).reshape([count, K])
 }
 
-/// An array of rows of three.
+/// An array of rows of three, without a mask.
 fn as_array<'py>(
     given: &Bound<'py, PyAny>,
     what: &str,
     rows: &str,
 ) -> Result<Bound<'py, PyUntypedArray>, Refused> {
+    refuse_masks(given, what)?;
     let array = match given.cast::<PyUntypedArray>() {
         Ok(array) => array.clone(),
         Err(_) => given
@@ -161,34 +188,57 @@ fn as_array<'py>(
     ))
 }
 
-/// The array itself where it can be read in place, else one copy.
-fn in_place<'py, T: Element>(
-    array: &Bound<'py, PyUntypedArray>,
-) -> Result<PyReadonlyArray2<'py, T>, Refused> {
-    let readable = array.is_c_contiguous() && array.is_aligned();
-    let array = match array.cast::<PyArray2<T>>() {
-        Ok(array) if readable => array.clone(),
-        _ => {
-            let py = array.py();
-            py.import("numpy")?
-                .call_method1("require", (array, dtype::<T>(py), ["C", "ALIGNED"]))?
-                .cast_into()
-                .map_err(PyErr::from)?
+/// Refuses a masked array that hides any number, and a list of such: what is hidden is there all the same, and would be read.
+fn refuse_masks(given: &Bound<'_, PyAny>, what: &str) -> Result<(), Refused> {
+    let py = given.py();
+    let is_masked = |item: &Bound<'_, PyAny>| -> PyResult<bool> {
+        // Masked arrays are arrays of another class than numpy's own.
+        let of_another_class =
+            |array: &Bound<'_, PyUntypedArray>| !array.is_exact_instance_of::<PyUntypedArray>();
+        if !item.cast::<PyUntypedArray>().is_ok_and(of_another_class) {
+            return Ok(false);
         }
+        let masks = py.import("numpy.ma")?;
+        masks.call_method1("is_masked", (item,))?.extract()
     };
-    array.try_readonly().map_err(|_| {
-        Refused::new(
-            "BadArray",
-            "another extension module is writing to the array; call again when it has ended",
-        )
-    })
+    let found = if let Ok(list) = given.cast::<PyList>() {
+        any(list.iter(), is_masked)?
+    } else if let Ok(tuple) = given.cast::<PyTuple>() {
+        any(tuple.iter(), is_masked)?
+    } else {
+        is_masked(given)?
+    };
+    if !found {
+        return Ok(());
+    }
+    Err(Refused::new(
+        "BadArray",
+        format!(
+            "{what} are masked in places, and what is masked is no number; give an array without a mask: {what}.filled(...), \
+             or only what is not masked"
+        ),
+    ))
 }
 
-/// The rows of an array that `in_place` made.
-fn rows<'a, T: Element>(array: &'a PyReadonlyArray2<'_, T>) -> Result<&'a [[T; 3]], Refused> {
-    let numbers = array.as_slice().map_err(PyErr::from)?;
-    let (rows, _) = numbers.as_chunks();
-    Ok(rows)
+fn any<'py>(
+    mut items: impl Iterator<Item = Bound<'py, PyAny>>,
+    is: impl Fn(&Bound<'py, PyAny>) -> PyResult<bool>,
+) -> PyResult<bool> {
+    items.try_fold(false, |found, item| Ok(found || is(&item)?))
+}
+
+/// The array itself, in whatever layout; what is of another byte order is copied once.
+fn typed<'py, T: Element>(
+    array: &Bound<'py, PyUntypedArray>,
+) -> Result<Bound<'py, PyArray2<T>>, Refused> {
+    if let Ok(array) = array.cast::<PyArray2<T>>() {
+        return Ok(array.clone());
+    }
+    let py = array.py();
+    let required = py
+        .import("numpy")?
+        .call_method1("require", (array, dtype::<T>(py)))?;
+    Ok(required.cast_into().map_err(PyErr::from)?)
 }
 
 /// Integers of another type, as 32-bit ones; the first that cannot be a vertex is refused as the library would.
@@ -196,9 +246,10 @@ fn convert<T: Element + Copy + Into<i128>>(
     array: &Bound<'_, PyUntypedArray>,
     vertices: usize,
 ) -> Result<Vec<[u32; 3]>, Refused> {
-    let array = in_place::<T>(array)?;
-    let mut triangles = Vec::with_capacity(array.len() / 3);
-    for (triangle, corners) in rows(&array)?.iter().enumerate() {
+    let copied = copies::anew(&typed::<T>(array)?)?;
+    let rows = copied.rows()?;
+    let mut triangles = Vec::with_capacity(rows.len());
+    for (triangle, corners) in rows.iter().enumerate() {
         let mut converted = [0; 3];
         for (corner, &vertex) in converted.iter_mut().zip(corners) {
             *corner = u32::try_from(vertex.into()).map_err(|_| {

@@ -8,7 +8,7 @@ use pliant_io::Reason;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
 use std::fmt::{Debug, Display};
-use std::sync::{Mutex, TryLockError};
+use std::sync::{Mutex, MutexGuard, TryLockError};
 
 /// A call that was refused, or an exception of Python's on its way through.
 #[derive(Debug)]
@@ -221,23 +221,27 @@ pub(crate) fn named_tuple<'py>(
 }
 
 /// Does `work` on what `mutex` holds, without the interpreter lock.
-///
-/// Another call that is under way, of another thread or of this one with a visitor, is not waited for.
 pub(crate) fn alone_with<S: Send, T: Send>(
     py: Python<'_>,
     mutex: &Mutex<S>,
     work: impl FnOnce(&mut S) -> Result<T, Refused> + Send,
 ) -> Result<T, Refused> {
-    py.detach(|| match mutex.try_lock() {
-        Ok(mut state) => work(&mut state),
-        Err(TryLockError::WouldBlock) => Err(Refused::new(
+    py.detach(|| work(&mut *alone(mutex)?))
+}
+
+/// What `mutex` holds, for one call alone.
+///
+/// Another call that is under way, of another thread or of this one with a visitor, is not waited for.
+pub(crate) fn alone<S>(mutex: &Mutex<S>) -> Result<MutexGuard<'_, S>, Refused> {
+    mutex.try_lock().map_err(|taken| match taken {
+        TryLockError::WouldBlock => Refused::new(
             "Busy",
             "in use by another thread, or by the visitor that asks; one call at a time: give each thread its own, and let a \
              visitor keep what it is shown until the visit has ended",
-        )),
-        Err(TryLockError::Poisoned(_)) => Err(Refused::new(
+        ),
+        TryLockError::Poisoned(_) => Refused::new(
             "Broken",
             "an earlier call ended in a panic, which is a bug of pliant; please report it, and go on with a new one",
-        )),
+        ),
     })
 }

@@ -2,7 +2,8 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `arrays.rs` | numpy arrays read where they lie, and made |
+//! | `arrays.rs` | numpy arrays of callers, and arrays made for them |
+//! | `copies.rs` | copies of them, to which nobody else can write: what is checked is what is kept |
 //! | `state.rs` | a world whose precision the first body fixes |
 //! | `world.rs`, `query.rs` | `World`, `Selection` and `Query`, as Python sees them |
 //! | `signals.rs` | Ctrl-C while a query computes |
@@ -19,6 +20,7 @@
 
 mod arrays;
 mod check;
+mod copies;
 mod error;
 mod one_liners;
 mod options;

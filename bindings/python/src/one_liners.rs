@@ -1,6 +1,6 @@
 //! Questions that need no world to be made: two meshes, or one; and the same of the slow and obviously right reference.
 
-use crate::arrays::{self, Coordinates, Faces};
+use crate::arrays::{self, CopiedCoordinates, CopiedFaces};
 use crate::error::Refused;
 use crate::options::with_threads;
 use crate::signals::interruptible;
@@ -12,10 +12,10 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// What was given for one mesh.
+/// A copy of what was given for one mesh.
 struct Mesh<'py> {
-    positions: Coordinates<'py>,
-    faces: Faces<'py>,
+    positions: CopiedCoordinates<'py>,
+    faces: CopiedFaces<'py>,
 }
 
 impl<'py> Mesh<'py> {
@@ -24,9 +24,9 @@ impl<'py> Mesh<'py> {
         faces: &Bound<'py, PyAny>,
         name: &str,
     ) -> Result<Self, Refused> {
-        let positions = Coordinates::read(positions).map_err(|refused| refused.about(name))?;
+        let positions = CopiedCoordinates::of(positions).map_err(|refused| refused.about(name))?;
         let vertices = positions.get()?.len();
-        let faces = Faces::read(faces, vertices).map_err(|refused| refused.about(name))?;
+        let faces = CopiedFaces::of(faces, vertices).map_err(|refused| refused.about(name))?;
         Ok(Self { positions, faces })
     }
 

@@ -1,8 +1,10 @@
 //! A world whose precision the first body fixes: float32 or float64.
 
+use crate::arrays::{Coordinates, CopiedCoordinates};
+use crate::copies::Room;
 use crate::error::Refused;
-use pliant::{BodyId, Options};
-use pliant_check::{AnyWorld, NotTaken, double, single};
+use pliant::{BodyId, Error, ErrorKind, Options};
+use pliant_check::{AnyWorld, NotTaken, double, single, with_world};
 use pliant_io::{Positions, Precision};
 
 /// A world, and whether its precision is fixed.
@@ -13,6 +15,9 @@ pub(crate) struct State {
     precision_is_fixed: bool,
     /// 32-bit positions, widened.
     widened: Vec<[f64; 3]>,
+    /// Copies of the shapes that bodies are given.
+    narrow: Room<f32>,
+    wide: Room<f64>,
 }
 
 impl State {
@@ -22,6 +27,8 @@ impl State {
             options,
             precision_is_fixed: false,
             widened: Vec::new(),
+            narrow: Room::default(),
+            wide: Room::default(),
         }
     }
 
@@ -52,6 +59,31 @@ impl State {
             return Ok(body);
         }
         Ok(self.world.add(triangles, positions, &mut self.widened)?)
+    }
+
+    /// Copies a new shape of a body, as many positions as it has vertices, in the world's type: 32-bit ones are widened on the way.
+    /// Takes the interpreter lock, which the caller has.
+    pub(crate) fn copy<'py>(
+        &mut self,
+        body: BodyId,
+        given: &Coordinates<'py>,
+    ) -> Result<CopiedCoordinates<'py>, Refused> {
+        let single = matches!(self.world, AnyWorld::F32(_));
+        if single && matches!(given, Coordinates::F64(_)) {
+            return Err(of_body(body, NotTaken::WouldBeRounded));
+        }
+        let expected = with_world!(&self.world, world => world.vertex_count(body))?;
+        let found = given.len();
+        if expected != found {
+            let body = Some(body);
+            let kind = ErrorKind::WrongLength { expected, found };
+            return Err(Error { body, kind }.into());
+        }
+        Ok(match given {
+            Coordinates::F32(given) if single => CopiedCoordinates::F32(self.narrow.copy(given)?),
+            Coordinates::F32(given) => CopiedCoordinates::F64(self.wide.copy(given)?),
+            Coordinates::F64(given) => CopiedCoordinates::F64(self.wide.copy(given)?),
+        })
     }
 
     /// Gives a body a new shape.

@@ -1,7 +1,7 @@
 //! `World` as Python sees it: the Rust library's, method by method.
 
-use crate::arrays::{self, Coordinates, Faces};
-use crate::error::{Refused, alone_with, named_tuple};
+use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedFaces};
+use crate::error::{Refused, alone, alone_with, named_tuple};
 use crate::options::Keywords;
 use crate::query::{Query, Selection};
 use crate::state::State;
@@ -31,8 +31,9 @@ use std::sync::Mutex;
 ///   broad       how bodies that may meet are found: "brute", "sweep", or by their number ("auto")
 ///   threads     how many share the work of a query; no number changes an answer
 ///
-/// The interpreter lock is released while a call computes. Meanwhile no other thread may write to an array that the call was
-/// given. A world is in use by one call at a time; a second is refused.
+/// The interpreter lock is released while a call computes. Arrays are copied before: whoever writes to one while a call is given it
+/// may see some of what was written in the shape, but never what was not checked. A world is in use by one call at a time; a second
+/// is refused.
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct World {
     state: Mutex<State>,
@@ -161,9 +162,9 @@ impl World {
             None => arrays::parts_of_mesh(faces)?,
         };
         let of_new = |refused: Refused| refused.of_body(None);
-        let positions = Coordinates::read(&positions).map_err(of_new)?;
+        let positions = CopiedCoordinates::of(&positions).map_err(of_new)?;
         let positions = positions.get()?;
-        let faces = Faces::read(&faces, positions.len()).map_err(of_new)?;
+        let faces = CopiedFaces::of(&faces, positions.len()).map_err(of_new)?;
         let faces = faces.get()?;
         self.with(py, |state| {
             Ok(state.add(faces, positions).map_err(of_new)?.0)
@@ -187,8 +188,8 @@ impl World {
 
     /// Gives a body a new shape: one position for each of its vertices, (n, 3), in the order in which it was added.
     ///
-    /// One pass over the positions: checked, copied, and taken over only if all are good. A C-contiguous array of the world's
-    /// type is read where it lies; float32 is widened in a float64 world; other layouts are copied once before.
+    /// The positions are copied once, whatever their layout, into memory that the world keeps for it; float32 is widened in a float64
+    /// world on the way. The copy is checked, and taken over only if all are good.
     fn set_positions(
         &self,
         py: Python<'_>,
@@ -198,13 +199,15 @@ impl World {
         let body = body.0;
         let positions =
             Coordinates::read(positions).map_err(|refused| refused.of_body(Some(body)))?;
-        let positions = positions.get()?;
-        self.with(py, |state| state.set_positions(body, positions))
+        let mut state = alone(&self.state)?;
+        let copied = state.copy(body, &positions)?;
+        let (state, copied) = (&mut *state, copied.get()?);
+        py.detach(|| state.set_positions(body, copied))
     }
 
     /// Like set_positions, but write(positions) fills an array (n, 3) of the world's type, which comes filled with NaN: every
     /// vertex must be written, or the shape is refused. Where speed matters, reuse an array of your own and set_positions:
-    /// unlike in Rust, this form costs a copy more.
+    /// unlike in Rust, this form costs copies more.
     fn write_positions(
         &self,
         py: Python<'_>,
@@ -217,7 +220,8 @@ impl World {
             .import("numpy")?
             .call_method1("full", ((vertices, 3), f64::NAN, dtype))?;
         write.call1((&array,))?;
-        let written = Coordinates::read(&array)?;
+        // Whoever wrote may have kept the array, and write again.
+        let written = CopiedCoordinates::of(&array)?;
         let written = written.get()?;
         self.with(py, |state| state.write_positions(body, written))
     }

@@ -1,4 +1,4 @@
-"""What arrays are taken, which are read where they lie, and what is refused."""
+"""What arrays are taken, where they are copied, and what is refused."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def test_a_face_that_names_no_vertex_is_named(dtype: Any, bad: int) -> None:
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_arrays_of_the_worlds_type_are_read_where_they_lie(dtype: Any) -> None:
+def test_shapes_are_copied_into_memory_that_the_world_keeps(dtype: Any) -> None:
     faces, flat = grid(100)
     flat = flat.astype(dtype)
     world = pliant.World()
@@ -88,10 +88,69 @@ def test_arrays_of_the_worlds_type_are_read_where_they_lie(dtype: Any) -> None:
         tracemalloc.stop()
         return peak
 
-    world.set_positions(body, flat)
-    assert allocated(flat) < 10_000
-    # The same measure sees a copy where there is one.
-    assert allocated(np.asfortranarray(flat)) > flat.nbytes
+    # The same measure sees memory that is allocated: for the first shape, and each time for one in another byte order.
+    assert allocated(flat) > flat.nbytes
+    swapped = flat.astype(flat.dtype.newbyteorder())
+    assert allocated(swapped) > flat.nbytes
+    for layout in (np.ascontiguousarray, np.asfortranarray, LAYOUTS["every second row"], LAYOUTS["unaligned"]):
+        assert allocated(layout(flat)) < 10_000
+    # Smaller bodies are copied to the same place.
+    faces, small = grid(50)
+    body = world.add(faces, small.astype(dtype))
+    assert allocated(small.astype(np.float32)) < 10_000
+
+
+def masked(array: NDArray[Any], row: int | None) -> Any:
+    hidden = np.zeros(array.shape, bool)
+    if row is not None:
+        hidden[row, 1] = True
+    return np.ma.array(array, mask=hidden)
+
+
+def test_masked_arrays_that_hide_a_number_are_refused() -> None:
+    world = pliant.World()
+    # A mask that hides nothing changes nothing.
+    body = world.add(masked(FACES, None), masked(FLAT, None))
+    world.set_positions(body, masked(SHAPE, None))
+    assert pairs_within(world, body).tolist() == EXPECTED["f8"]
+    bad_positions, bad_faces = masked(FLAT, 7), masked(FACES.astype(np.int64), 7)
+    calls: list[tuple[str, Callable[[], object]]] = [
+        ("new body: positions", lambda: world.add(FACES, bad_positions)),
+        ("new body: faces", lambda: world.add(bad_faces, FLAT)),
+        ("new body: faces", lambda: world.add(masked(FACES, 0), FLAT)),
+        ("new body: positions", lambda: world.add(SimpleNamespace(faces=FACES, vertices=bad_positions))),
+        ("new body: faces", lambda: world.add(SimpleNamespace(triangles=bad_faces, vertices=FLAT))),
+        ("body 0: positions", lambda: world.set_positions(body, bad_positions)),
+        ("body 0: positions", lambda: world.set_positions(body, bad_positions.astype(np.float32))),
+        ("body 0: positions", lambda: world.set_positions(body, list(bad_positions))),
+        ("body 0: positions", lambda: world.set_positions(body, tuple(bad_positions))),
+        ("b: faces", lambda: pliant.intersection_pairs(FLAT, FACES, FLAT, bad_faces)),
+        ("mesh: positions", lambda: pliant.self_intersection_pairs(bad_positions, FACES)),
+        ("mesh: positions", lambda: pliant.reference.self_intersection_pairs(bad_positions, FACES)),
+    ]
+    for about, call in calls:
+        with pytest.raises(pliant.Error, match=f"^{about} are masked in places, .*filled") as refused:
+            call()
+        assert refused.value.kind == "BadArray" and len(str(refused.value).splitlines()) == 1
+    assert world.bodies() == [body]
+    assert pairs_within(world, body).tolist() == EXPECTED["f8"]
+
+
+def test_arrays_larger_than_any_memory_are_refused() -> None:
+    """A view that repeats three numbers, and claims to be 10^15 rows."""
+    huge = np.broadcast_to(np.zeros(3), (10**15, 3))
+    world = pliant.World()
+    body = world.add(FACES, FLAT)
+    with pytest.raises(pliant.Error, match=r"10{15}") as refused:
+        world.set_positions(body, huge)
+    assert (refused.value.kind, refused.value.expected, refused.value.found) == ("WrongLength", len(FLAT), 10**15)
+    with pytest.raises(MemoryError):
+        world.add(FACES, huge)
+    with pytest.raises(MemoryError):
+        world.add(np.broadcast_to(np.zeros(3, np.uint32), (10**15, 3)), FLAT)
+    with pytest.raises(MemoryError):
+        world.add(np.broadcast_to(np.zeros(3, np.int64), (10**15, 3)), FLAT)
+    assert world.bodies() == [body]
 
 
 def test_the_first_body_fixes_the_precision() -> None:

@@ -87,6 +87,13 @@ impl Trs {
 
 /// Of length 1; of no number where it has no direction.
 pub(super) fn normalised(q: Quaternion) -> Quaternion {
+    let largest = q.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    // The squares of others are beyond all numbers, or nothing.
+    let q = if (1e-100..1e100).contains(&largest) {
+        q
+    } else {
+        q.map(|x| x / largest)
+    };
     let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
     q.map(|x| x / length)
 }

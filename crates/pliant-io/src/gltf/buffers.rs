@@ -1,9 +1,9 @@
 //! Where the bytes of a glTF file are: behind its JSON (GLB), in files beside it, or in the JSON itself.
 //!
 //! Bytes in files stay there and are read where an accessor asks; those in the JSON are decoded once. No other place is ever
-//! looked at: no network, no folder above.
+//! looked at: no network, no folder above, and none where a link leads.
 
-use std::io::{Read, Seek, SeekFrom};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 
 use base64::Engine as _;
@@ -203,9 +203,35 @@ impl Buffers {
             .into());
         }
         let path = self.folder.join(path);
-        let opened = Found::find(path.clone()).and_then(|found| found.open());
+        let opened = self
+            .without_leaving(&path)
+            .and_then(Found::find)
+            .and_then(|found| found.open());
         let opened = opened.map_err(|reason| Fault::from(reason).or_in(&path))?;
         Ok(Bytes::Beside(path, opened))
+    }
+
+    /// Where a file in the folder is when links are followed: in the folder still. A folder from strangers may hold links, and what
+    /// they lead to is nobody's shape.
+    fn without_leaving(&self, path: &Path) -> Result<PathBuf, Reason> {
+        let folder = if self.folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            &self.folder
+        };
+        let real = match path.canonicalize() {
+            Err(absent) if absent.kind() == io::ErrorKind::NotFound => {
+                return Err(Reason::NotFound);
+            }
+            real => real?,
+        };
+        if real.starts_with(folder.canonicalize()?) {
+            return Ok(real);
+        }
+        Err(Reason::Unsupported(
+            "a link leads out of the folder of the glTF file, and is not followed; copy the file there, or export all as .glb"
+                .into(),
+        ))
     }
 
     /// Refuses files that are not as they were found.

@@ -105,7 +105,7 @@ impl Mesh {
             return Err(Reason::Malformed("a primitive has no positions".into()).into());
         };
         let count = reader.count(positions)?;
-        if begin as u64 + count > u64::from(u32::MAX) {
+        if (begin as u64).saturating_add(count) > u64::from(u32::MAX) {
             return Err(Reason::TooMany { what: "vertices" }.into());
         }
         let rest = &mut self.rest;

@@ -223,7 +223,7 @@ fn frames_are_at_the_rate_asked_for_and_at_the_end() {
 }
 
 /// A file of one triangle, as JSON to spoil; bytes are those of nine floats, then of four times four bytes and floats.
-fn triangle() -> Value {
+pub(crate) fn triangle() -> Value {
     let mut bytes: Vec<u8> = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0_f32]
         .iter()
         .flat_map(|x| x.to_le_bytes())

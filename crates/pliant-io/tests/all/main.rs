@@ -10,5 +10,6 @@ mod npz;
 mod real_files;
 mod rewind;
 mod sequences;
+mod strange_gltf;
 mod welding;
 mod writing;

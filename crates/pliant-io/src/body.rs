@@ -3,6 +3,7 @@
 
 use std::fmt;
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::arguments::{self, Named};
 use crate::error::{Error, Fault, Place, Reason};
@@ -55,7 +56,7 @@ impl Default for OpenOptions {
 
 /// One body: connectivity known, frames still to come.
 pub struct Body {
-    argument: String,
+    argument: Arc<str>,
     name: String,
     files: Vec<FrameFile>,
     /// The frames of the file that is being read.
@@ -63,7 +64,7 @@ pub struct Body {
     file: usize,
     frame: Frame,
     welding: Option<Welding>,
-    options: OpenOptions,
+    options: Arc<OpenOptions>,
     /// The number that follows the frame read last, and the frame handed out or skipped last.
     read: usize,
     handed_out: usize,
@@ -72,7 +73,7 @@ pub struct Body {
 
 /// In place of the source of a body of one frame, which is never read again: what that one held is free.
 struct AllRead {
-    clip: Option<String>,
+    clip: Option<Arc<str>>,
 }
 
 impl FrameSource for AllRead {
@@ -88,8 +89,8 @@ impl FrameSource for AllRead {
         Ok(())
     }
 
-    fn clip(&self) -> Option<&str> {
-        self.clip.as_deref()
+    fn clip(&self) -> Option<&Arc<str>> {
+        self.clip.as_ref()
     }
 }
 
@@ -145,16 +146,20 @@ pub fn open(argument: &str, options: &OpenOptions) -> Result<Body, Error> {
 ///
 /// As [`open`], but for several bodies.
 pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Error> {
+    let asked = Asked {
+        argument: argument.into(),
+        options: Arc::new(options.clone()),
+    };
     match arguments::named(argument)? {
         Named::Files(mut files) if files.len() == 1 => {
             let found = files.swap_remove(0);
             match format_of(&found)? {
-                Format::Gltf => open_scene(argument, &found, None, options),
-                _ => open_files(argument, vec![found], options).map(|body| vec![body]),
+                Format::Gltf => asked.open_scene(&found, None),
+                _ => asked.open_files(vec![found]).map(|body| vec![body]),
             }
         }
-        Named::Files(files) => open_files(argument, files, options).map(|body| vec![body]),
-        Named::Part { file, name } => open_scene(argument, &file, Some(&name), options),
+        Named::Files(files) => asked.open_files(files).map(|body| vec![body]),
+        Named::Part { file, name } => asked.open_scene(&file, Some(&name)),
         Named::Cache { mesh, positions } => {
             let format = format_of(&positions)?;
             let path = positions.path().to_owned();
@@ -166,8 +171,8 @@ pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Erro
                 format,
                 end,
             }];
-            let frame = Frame::new(options.max_memory, options.weld);
-            Body::begin(argument, files, Box::new(source), frame, options).map(|body| vec![body])
+            let body = Body::begin(asked, argument.to_owned(), files, Box::new(source), 0)?;
+            Ok(vec![body])
         }
     }
 }
@@ -176,87 +181,98 @@ fn format_of(found: &Found) -> Result<Format, Error> {
     Format::of(found.path()).map_err(|reason| Error::new(found.path(), reason))
 }
 
-/// The body whose frames are these files.
-fn open_files(argument: &str, found: Vec<Found>, options: &OpenOptions) -> Result<Body, Error> {
-    let mut files = Vec::new();
-    let mut end = 0_usize;
-    for found in found {
-        let format = format_of(&found)?;
-        let frames = format
-            .frame_count(&found, options)
-            .map_err(|fault| Error::new(found.path(), fault))?;
-        end = end.saturating_add(frames);
-        files.push(FrameFile { found, format, end });
-    }
-    let first = files
-        .first()
-        .ok_or_else(|| Error::new(argument, Reason::NoMatch))?;
-    let source = first.open(first.end, options)?;
-    let frame = Frame::new(options.max_memory, options.weld);
-    Body::begin(argument, files, source, frame, options)
+/// What was asked; the bodies of a file, of which there may be very many, share it.
+#[derive(Clone)]
+struct Asked {
+    argument: Arc<str>,
+    options: Arc<OpenOptions>,
 }
 
-/// The bodies of a file that holds several, or the one that is called `name`. Together they keep to the limit of memory.
-fn open_scene(
-    argument: &str,
-    found: &Found,
-    name: Option<&str>,
-    options: &OpenOptions,
-) -> Result<Vec<Body>, Error> {
-    let scene =
-        gltf::open(found, name, options).map_err(|fault| Error::new(found.path(), fault))?;
-    let mut held = scene.held;
-    let alone = scene.bodies.len() == 1;
-    let mut bodies = Vec::new();
-    for (part, source) in scene.bodies {
-        let end = source.frame_count();
-        let files = vec![FrameFile {
-            found: found.clone(),
-            format: Format::Gltf,
-            end,
-        }];
-        let frame = Frame::new(options.max_memory, options.weld).beside(held);
-        let mut body = Body::begin(argument, files, Box::new(source), frame, options)?;
-        if !alone {
-            body.name = format!("{argument}#{part}");
+impl Asked {
+    /// The body whose frames are these files.
+    fn open_files(self, found: Vec<Found>) -> Result<Body, Error> {
+        let mut files = Vec::new();
+        let mut end = 0_usize;
+        for found in found {
+            let format = format_of(&found)?;
+            let frames = format
+                .frame_count(&found, &self.options)
+                .map_err(|fault| Error::new(found.path(), fault))?;
+            end = end.saturating_add(frames);
+            files.push(FrameFile { found, format, end });
         }
-        held = body.frame.held();
-        bodies.push(body);
+        let argument = self.argument.to_string();
+        let first = files
+            .first()
+            .ok_or_else(|| Error::new(&argument, Reason::NoMatch))?;
+        let source = first.open(first.end, &self.options)?;
+        Body::begin(self, argument, files, source, 0)
     }
-    Ok(bodies)
+
+    /// The bodies of a file that holds several, or the one that is called `name`. Together they keep to the limit of memory.
+    fn open_scene(&self, found: &Found, name: Option<&str>) -> Result<Vec<Body>, Error> {
+        let scene = gltf::open(found, name, &self.options)
+            .map_err(|fault| Error::new(found.path(), fault))?;
+        let mut held = scene.held;
+        let alone = scene.bodies.len() == 1;
+        let mut bodies = Vec::new();
+        for (part, source) in scene.bodies {
+            let files = vec![FrameFile {
+                found: found.clone(),
+                format: Format::Gltf,
+                end: source.frame_count(),
+            }];
+            let Self { argument, .. } = self;
+            let name = if alone {
+                argument.to_string()
+            } else {
+                format!("{argument}#{part}")
+            };
+            // The part is counted already.
+            let itself = argument.len() + size_of::<Body>() + size_of::<FrameFile>();
+            held = held.saturating_add(itself as u64);
+            let body = Body::begin(self.clone(), name, files, Box::new(source), held)?;
+            held = body.frame.held();
+            bodies.push(body);
+        }
+        Ok(bodies)
+    }
 }
 
 impl Body {
-    /// Reads the first frame, by which all others are held.
+    /// Reads the first frame, by which all others are held; `held` is what is held already for bodies that are counted with it.
     fn begin(
-        argument: &str,
+        Asked { argument, options }: Asked,
+        name: String,
         files: Vec<FrameFile>,
         mut source: Box<dyn FrameSource>,
-        mut frame: Frame,
-        options: &OpenOptions,
+        held: u64,
     ) -> Result<Self, Error> {
-        let path = files.first().map(|file| file.path().to_owned());
-        let path = path.unwrap_or_default();
-        let in_first = |fault: Fault| Error::new(&path, fault);
-        let held = frame.fill_from(source.held());
-        held.map_err(|reason| in_first(reason.into()))?;
+        let path: Arc<Path> = match files.first() {
+            Some(file) => file.found.shared_path(),
+            None => Path::new("").into(),
+        };
+        let in_first = |fault: Fault| Error::new(&*path, fault);
+        let mut frame = Frame::new(options.max_memory, options.weld).beside(held);
+        let filled = frame.fill_from(source.held());
+        filled.map_err(|reason| in_first(reason.into()))?;
         let _complete = source.read(&mut frame).map_err(in_first)?;
         frame.becomes_first(path);
         let welding = frame.weld(|| source.alike());
         if files.last().is_some_and(|file| file.end == 1) {
             source = Box::new(AllRead {
-                clip: source.clip().map(str::to_owned),
+                clip: source.clip().cloned(),
             });
         }
         Ok(Self {
-            argument: argument.to_owned(),
-            name: argument.to_owned(),
+            argument,
+            name,
             files,
             source,
             file: 0,
             frame,
             welding,
-            options: options.clone(),
+            options,
             read: 1,
             handed_out: 0,
             failed: false,
@@ -317,7 +333,7 @@ impl Body {
 
     /// The name of the animation of a glTF file that moves the body; None where none does.
     pub fn clip(&self) -> Option<&str> {
-        self.source.clip()
+        self.source.clip().map(|clip| &**clip)
     }
 
     /// Passes over so many frames, or all that are left: [`next_frame`](Self::next_frame) hands out the one behind them.

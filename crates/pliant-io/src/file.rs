@@ -10,6 +10,7 @@
 use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::SystemTime;
 
 use crate::error::Reason;
@@ -17,7 +18,7 @@ use crate::error::Reason;
 /// A regular file as it was found; not open.
 #[derive(Debug, Clone)]
 pub(crate) struct Found {
-    path: PathBuf,
+    path: Arc<Path>,
     state: State,
 }
 
@@ -58,11 +59,17 @@ impl Found {
     /// `metadata` is that of `path`, and of a regular file.
     pub(crate) fn new(path: PathBuf, metadata: &Metadata) -> Self {
         let state = State::of(metadata);
+        let path = path.into();
         Self { path, state }
     }
 
     pub(crate) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// For the bodies of a file, of which there may be very many.
+    pub(crate) fn shared_path(&self) -> Arc<Path> {
+        self.path.clone()
     }
 
     /// A file that was not named but is needed: found now.

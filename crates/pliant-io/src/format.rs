@@ -7,6 +7,7 @@
 
 use std::io::BufReader;
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::body::OpenOptions;
 use crate::error::{Fault, Reason};
@@ -58,7 +59,7 @@ pub(crate) trait FrameSource: Send {
     }
 
     /// The name of the animation that moves it.
-    fn clip(&self) -> Option<&str> {
+    fn clip(&self) -> Option<&Arc<str>> {
         None
     }
 }

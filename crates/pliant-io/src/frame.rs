@@ -3,7 +3,8 @@
 //! The first frame of a body fixes its precision, its faces and its number of vertices; the later
 //! ones are held to them. Readers need not know which they read.
 
-use std::path::PathBuf;
+use std::path::Path;
+use std::sync::Arc;
 
 use crate::error::{Fault, Place, Reason};
 use crate::memory::{Account, Excess};
@@ -34,7 +35,7 @@ pub(crate) struct Announced {
 /// What later frames are held to.
 #[derive(Debug)]
 struct First {
-    file: PathBuf,
+    file: Arc<Path>,
     vertices: usize,
 }
 
@@ -86,7 +87,7 @@ impl Frame {
         match &self.first {
             None => self.vertices.set_precision(precision),
             Some(first) if precision > self.vertices.precision() => {
-                let than = first.file.clone();
+                let than = first.file.to_path_buf();
                 return Err(Reason::Precision { than });
             }
             Some(_) => {}
@@ -150,7 +151,7 @@ impl Frame {
         let equal = self.polygons.push(corners, place, &mut self.account)?;
         match (equal, &self.first) {
             (false, Some(first)) => {
-                let than = first.file.clone();
+                let than = first.file.to_path_buf();
                 Err(Reason::FacesDiffer { face, than })
             }
             _ => Ok(()),
@@ -179,7 +180,7 @@ impl Frame {
             vertices: before,
         }) = &self.first
         {
-            let than = file.clone();
+            let than = file.to_path_buf();
             if vertices != *before {
                 let (vertices, expected) = (vertices as u64, *before as u64);
                 return Err(Reason::VertexCount {
@@ -206,7 +207,7 @@ impl Frame {
     }
 
     /// Holds all later frames to this one, which came from `file`.
-    pub(crate) fn becomes_first(&mut self, file: PathBuf) {
+    pub(crate) fn becomes_first(&mut self, file: Arc<Path>) {
         let vertices = self.vertices.len();
         self.first = Some(First { file, vertices });
         self.polygons.compare_from_now_on();

@@ -9,7 +9,7 @@
 use super::buffers::Buffers;
 use super::document::{Accessor, Document, Sparse};
 use crate::error::{Fault, Place, Reason};
-use crate::memory::Account;
+use crate::memory::{Account, bytes_of};
 
 /// Rows read at a time.
 const ROWS: u64 = 4096;
@@ -23,6 +23,8 @@ pub(super) struct Reader {
     pub(super) buffers: Buffers,
     /// All that is held for the bodies.
     pub(super) account: Account,
+    /// How often a morph target said that a vertex stays where it is.
+    pub(super) stay: u64,
 }
 
 /// What an accessor must be to be what it is used as.
@@ -209,8 +211,9 @@ impl Reader {
             }
             None => Vec::new(),
         };
+        let bytes = bytes_of(&replaced);
         let mut replaced = &replaced[..];
-        match view {
+        let read = match view {
             Some(view) => self
                 .rows(rows(view), |account, number, row| match replaced {
                     [(first, values), rest @ ..] if *first == number => {
@@ -222,16 +225,18 @@ impl Reader {
                 .map_err(at),
             // What is zero is as it was: it is not handed out.
             None if wanted.optional_data => {
-                for (number, values) in replaced {
-                    each(&mut self.account, *number, &values[..wanted.width]).map_err(at)?;
-                }
-                Ok(())
+                let mut rows = replaced.iter();
+                rows.try_for_each(|(number, values)| {
+                    each(&mut self.account, *number, &values[..wanted.width]).map_err(at)
+                })
             }
             None => Err(wrong(
                 accessor,
                 "has no data; only morph targets may be zero throughout",
             )),
-        }
+        };
+        self.account.take_off(bytes);
+        read
     }
 
     /// Where the places and the values of a sparse accessor are, which is of such `rows`.
@@ -261,7 +266,8 @@ impl Reader {
         ])
     }
 
-    /// The rows that a sparse accessor of `count` replaces, and by what; their numbers rise.
+    /// The rows that a sparse accessor of `count` replaces, and by what; their numbers rise. They stay entered: until the accessor was
+    /// read they are held.
     fn replaced(
         &mut self,
         [places, values]: [Rows; 2],
@@ -289,8 +295,6 @@ impl Reader {
             }
             Ok(())
         })?;
-        // Free when this accessor was read.
-        self.account.take_off(size_of_val(&replaced[..]) as u64);
         Ok(replaced)
     }
 
@@ -304,6 +308,7 @@ impl Reader {
             document,
             buffers,
             account,
+            ..
         } = self;
         let Some(view) = document.buffer_views.get(rows.view) else {
             let reason = format!("there is no buffer view {}", rows.view);

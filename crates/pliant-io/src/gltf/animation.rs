@@ -4,6 +4,7 @@
 //! (STEP), the straight line or for rotations the arc (LINEAR), or Hermite's cubic through both with their tangents (CUBICSPLINE).
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::accessor::{Reader, Wanted};
 use super::affine::{Trs, slerp};
@@ -11,7 +12,7 @@ use crate::error::{Fault, Place, Reason};
 
 /// The animation that moves the nodes.
 pub(super) struct Clip {
-    pub(super) name: String,
+    pub(super) name: Arc<str>,
     /// When its last key is, in seconds.
     pub(super) end: f64,
     pub(super) channels: Vec<Channel>,
@@ -50,7 +51,7 @@ enum Interpolation {
 
 impl Path {
     /// Numbers of a value.
-    fn width(self) -> usize {
+    pub(super) fn width(self) -> usize {
         match self {
             Self::Translation | Self::Scale => 3,
             Self::Rotation => 4,
@@ -68,7 +69,7 @@ impl Clip {
     ) -> Result<Self, Fault> {
         let at = |fault: Fault| fault.or_at(Place::Part("animation", animation));
         let mut clip = Self {
-            name: reader.document.clip_name(animation),
+            name: reader.document.clip_name(animation).into(),
             end: 0.0,
             channels: Vec::new(),
             samplers: Vec::new(),

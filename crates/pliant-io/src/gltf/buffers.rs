@@ -234,6 +234,17 @@ impl Buffers {
         ))
     }
 
+    /// All bytes that there are, of the files opened so far.
+    pub(super) fn bytes(&self) -> u64 {
+        let of_buffer = |bytes: &Bytes| match bytes {
+            Bytes::Behind => 0, // in the file itself
+            Bytes::Beside(_, file) => file.length(),
+            Bytes::Within(bytes) => bytes.len() as u64,
+        };
+        let of_buffers = self.opened.iter().flatten().map(of_buffer);
+        of_buffers.fold(self.main.length(), u64::saturating_add)
+    }
+
     /// Refuses files that are not as they were found.
     pub(super) fn unchanged(&self) -> Result<(), Fault> {
         self.main.unchanged()?;

@@ -5,6 +5,8 @@
 //! data of the file.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
 
 use super::accessor::{Reader, Wanted, whole};
 use crate::error::{Fault, Place, Reason};
@@ -15,10 +17,17 @@ pub(super) struct Mesh {
     /// Each in the order of vertices.
     pub(super) targets: Vec<Vec<Delta>>,
     /// Of the morph targets, where neither a node nor an animation says.
-    pub(super) weights: Vec<f64>,
+    pub(super) weights: Arc<[f64]>,
     /// The joints of vertex v are from `starts[v]` up to `starts[v + 1]`; empty where a primitive has none.
     starts: Vec<u32>,
     influences: Vec<Influence>,
+}
+
+/// How often morph targets may say that a vertex stays where it is, in a file of so many bytes: sixteen times what it has room for,
+/// since primitives may share rows, and in no file more than seconds of work.
+fn most_that_stay(bytes: u64) -> u64 {
+    let rows = bytes / size_of::<[f32; 3]>() as u64;
+    rows.saturating_mul(16).saturating_add(1 << 24).min(1 << 28)
 }
 
 /// A vertex that a morph target moves, and by how much.
@@ -53,6 +62,7 @@ impl Mesh {
             return Err(malformed("there is no such mesh"));
         };
         let weights = std::mem::take(&mut entry.weights);
+        reader.account.enter(bytes_of(&weights))?;
         let primitives = std::mem::take(&mut entry.primitives);
         let surfaces = || {
             primitives
@@ -67,7 +77,7 @@ impl Mesh {
         let mut mesh = Self {
             rest: Vec::new(),
             targets: Vec::new(),
-            weights,
+            weights: weights.into(),
             starts: Vec::new(),
             influences: Vec::new(),
         };
@@ -112,23 +122,60 @@ impl Mesh {
         reader.each_row(positions, Wanted::POSITIONS, |account, _, row| {
             Ok(account.push(rest, [row[0], row[1], row[2]].map(|x| x as f32), 0)?)
         })?;
-        for (target, attributes) in self.targets.iter_mut().zip(&primitive.targets) {
-            let Some(&deltas) = attributes.get("POSITION") else {
-                continue;
-            };
-            reader.same_count(deltas, count, "morph target")?;
-            reader.each_row(deltas, Wanted::DELTAS, |account, vertex, row| {
-                let delta = [row[0], row[1], row[2]].map(|x| x as f32);
-                if delta != [0.0; 3] {
-                    account.push(target, ((begin as u64 + vertex) as u32, delta), 0)?;
-                }
-                Ok(())
-            })?;
-        }
+        self.read_targets(reader, primitive, begin as u64, count)?;
         if held {
             self.read_influences(reader, &primitive.attributes, count)?;
         }
         read_triangles(reader, primitive, begin as u32, count, triangles)
+    }
+
+    /// Where morph targets move the `count` vertices of a primitive, the first of which is `begin`.
+    ///
+    /// What moves nothing takes no memory, but time: an accessor is read once for all targets that name it, and there is a limit to
+    /// how often a file may say that a vertex stays, else a small one could say it for hours.
+    fn read_targets(
+        &mut self,
+        reader: &mut Reader,
+        primitive: &super::document::Primitive,
+        begin: u64,
+        count: u64,
+    ) -> Result<(), Fault> {
+        // Of each accessor the target that was read from it, and where there.
+        let mut known: BTreeMap<usize, (usize, Range<usize>)> = BTreeMap::new();
+        for (number, attributes) in primitive.targets.iter().enumerate() {
+            let Some(&deltas) = attributes.get("POSITION") else {
+                continue;
+            };
+            if let Some((same, moved)) = known.get(&deltas) {
+                for at in moved.clone() {
+                    let delta = self.targets[*same][at];
+                    reader.account.push(&mut self.targets[number], delta, 0)?;
+                }
+                continue;
+            }
+            reader.same_count(deltas, count, "morph target")?;
+            let target = &mut self.targets[number];
+            let first = target.len();
+            let mut stay = 0;
+            reader.each_row(deltas, Wanted::DELTAS, |account, vertex, row| {
+                let delta = [row[0], row[1], row[2]].map(|x| x as f32);
+                if delta == [0.0; 3] {
+                    stay += 1;
+                    return Ok(());
+                }
+                Ok(account.push(target, ((begin + vertex) as u32, delta), 0)?)
+            })?;
+            known.insert(deltas, (number, first..target.len()));
+            reader.stay += stay;
+            let most = most_that_stay(reader.buffers.bytes());
+            if reader.stay > most {
+                return Err(Reason::Malformed(format!(
+                    "its morph targets say more than {most} times that a vertex stays where it is"
+                ))
+                .into());
+            }
+        }
+        Ok(())
     }
 
     /// Which joints hold the vertices of a primitive: those of all sets that weigh something, in the order of joints, so that equal

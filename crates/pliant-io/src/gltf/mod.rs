@@ -22,8 +22,10 @@ mod document;
 mod mesh;
 mod scene;
 
-use std::collections::BTreeMap;
+use std::borrow::Cow;
 use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, HashMap};
+use std::fmt::Write as _;
 use std::sync::Arc;
 
 use crate::body::OpenOptions;
@@ -31,7 +33,7 @@ use crate::error::{Fault, Place, Reason};
 use crate::file::Found;
 use crate::format::FrameSource;
 use crate::frame::{Announced, Complete, Frame};
-use crate::memory::Account;
+use crate::memory::{Account, bytes_of};
 use crate::positions::Precision;
 use accessor::Reader;
 use animation::Clip;
@@ -56,8 +58,8 @@ pub(crate) struct GltfBody {
     triangles: Option<Arc<Vec<[u32; 3]>>>,
     node: usize,
     skin: Option<usize>,
-    /// Of the morph targets, where the clip does not say.
-    weights: Vec<f64>,
+    /// Of the morph targets, where the clip does not say: the node's, or those that all bodies of the mesh share.
+    weights: Arc<[f64]>,
     moves: bool,
     next: usize,
     /// What [`Bodies::held`] says of a body that is alone.
@@ -100,6 +102,7 @@ pub(crate) fn open(
         document,
         buffers,
         account,
+        stay: 0,
     };
     let bodies = read(&mut reader, name, options);
     // First: what looks wrong may be half of a change.
@@ -120,12 +123,13 @@ fn read(
     let clip = read_clip(reader, options.clip.as_deref())?;
     let scene = Arc::new(Scene::read(reader, clip, options.fps)?);
     let nodes = nodes_with_meshes(reader)?;
-    let names = names(reader, &nodes);
+    let mut names = names(reader, &nodes)?;
     let wanted = |at: &usize| name.is_none_or(|name| name == names[*at]);
-    let moved = scene.moved();
+    let wanted: Vec<usize> = (0..nodes.len()).filter(wanted).collect();
+    let moves = scene.moves();
     let mut meshes = BTreeMap::new();
     let mut bodies = Vec::new();
-    for at in (0..nodes.len()).filter(wanted) {
+    for at in wanted {
         let (node, number) = nodes[at];
         let mesh = match meshes.entry(number) {
             Entry::Occupied(mesh) => mesh.into_mut(),
@@ -137,12 +141,15 @@ fn read(
         let Some((mesh, triangles)) = mesh.clone() else {
             continue;
         };
-        let entry = &reader.document.nodes[node];
+        let entry = &mut reader.document.nodes[node];
         let skin = entry.skin;
-        let weights = entry
-            .weights
-            .clone()
-            .unwrap_or_else(|| mesh.weights.clone());
+        let weights = match entry.weights.take() {
+            Some(weights) => {
+                reader.account.enter(bytes_of(&weights))?;
+                weights.into()
+            }
+            None => mesh.weights.clone(),
+        };
         if let Some(skin) = skin {
             let joints = scene.skin_joints(skin);
             let joints =
@@ -150,24 +157,20 @@ fn read(
             let checked = joints.and_then(|joints| mesh.check_joints(joints));
             checked.map_err(|reason| reason.at(Place::Part("node", node)))?;
         }
-        let places = match skin {
-            Some(skin) => scene.moves_joints(skin, &moved),
-            None => moved[node],
+        let body = GltfBody {
+            moves: moves.body(node, skin),
+            scene: scene.clone(),
+            triangles: Some(triangles),
+            held: mesh.memory_of_alike(),
+            mesh,
+            node,
+            skin,
+            weights,
+            next: 0,
         };
-        bodies.push((
-            names[at].clone(),
-            GltfBody {
-                moves: places || scene.morphs(node),
-                scene: scene.clone(),
-                triangles: Some(triangles),
-                held: mesh.memory_of_alike(),
-                mesh,
-                node,
-                skin,
-                weights,
-                next: 0,
-            },
-        ));
+        let name = std::mem::take(&mut names[at]);
+        let account = &mut reader.account;
+        account.push(&mut bodies, (name, body), nodes.len())?;
     }
     if bodies.is_empty() {
         return Err(match name {
@@ -179,6 +182,7 @@ fn read(
         }
         .into());
     }
+    reader.account.take_off(memory_of(&names));
     Ok(bodies)
 }
 
@@ -247,27 +251,41 @@ fn nodes_with_meshes(reader: &Reader) -> Result<Vec<(usize, usize)>, Fault> {
         .collect())
 }
 
-/// A name for each body, all different: of its node, or else of its mesh.
-fn names(reader: &Reader, nodes: &[(usize, usize)]) -> Vec<String> {
-    let document = &reader.document;
-    let name = |&(node, mesh): &(usize, usize)| {
-        let own = document.nodes[node].name.clone();
-        own.or_else(|| document.meshes.get(mesh)?.name.clone())
-            .unwrap_or_else(|| format!("node {node}"))
+/// A name for each body, all different: of its node, or else of its mesh; behind it the number of the node, where several would have
+/// the same. Names of a mesh are copied for each of its nodes, so they are counted before they are.
+fn names(reader: &mut Reader, nodes: &[(usize, usize)]) -> Result<Vec<String>, Fault> {
+    let Reader {
+        document, account, ..
+    } = reader;
+    let said = |&(node, mesh): &(usize, usize)| -> Cow<'_, str> {
+        let own = document.nodes[node].name.as_deref();
+        let said = own.or_else(|| document.meshes.get(mesh)?.name.as_deref());
+        said.map_or_else(|| format!("node {node}").into(), Cow::Borrowed)
     };
-    let names: Vec<String> = nodes.iter().map(name).collect();
-    let mut times: BTreeMap<&str, usize> = BTreeMap::new();
-    for name in &names {
+    let all: Vec<Cow<'_, str>> = nodes.iter().map(said).collect();
+    account.enter(all.iter().map(|name| name.len() as u64).sum())?;
+    let mut times: HashMap<&str, u32> = HashMap::new();
+    for name in &all {
         *times.entry(name).or_default() += 1;
     }
-    let different = names
-        .iter()
-        .zip(nodes)
-        .map(|(name, (node, _))| match times[&name[..]] {
-            1 => name.clone(),
-            _ => format!("{name} (node {node})"),
-        });
-    different.collect()
+    let mut names = Vec::with_capacity(all.len());
+    for (name, (node, _)) in all.iter().zip(nodes) {
+        let mut different = name.clone().into_owned();
+        if times[&name[..]] > 1 {
+            // Again where a node is called so: what ends in another number is another name.
+            while times.contains_key(&different[..]) {
+                let _ = write!(different, " (node {node})");
+            }
+            account.enter((different.len() - name.len()) as u64)?;
+        }
+        names.push(different);
+    }
+    Ok(names)
+}
+
+/// The bytes of names.
+fn memory_of(names: &[String]) -> u64 {
+    names.iter().map(|name| name.len() as u64).sum()
 }
 
 /// Why a file of several bodies is not one.
@@ -331,7 +349,8 @@ impl GltfBody {
     /// The positions of a pose: some at a time, so that what morph targets make of them takes no memory to speak of.
     fn place(&self, pose: &Pose, frame: &mut Frame) -> Result<(), Reason> {
         let Self { mesh, .. } = self;
-        let weights = pose.weights.get(&self.node).unwrap_or(&self.weights);
+        let moved = pose.weights.get(&self.node);
+        let weights = moved.map_or(&*self.weights, |weights| weights);
         // Of each morph target that moves anything, its weight and what is left of it: it is in the order of vertices.
         let mut targets: Vec<(f64, &[Delta])> = mesh
             .targets
@@ -408,8 +427,8 @@ impl FrameSource for GltfBody {
         Some(self.mesh.alike(self.skin.is_some()))
     }
 
-    fn clip(&self) -> Option<&str> {
+    fn clip(&self) -> Option<&Arc<str>> {
         let clip = self.scene.clip.as_ref().filter(|_| self.moves);
-        clip.map(|clip| &clip.name[..])
+        clip.map(|clip| &clip.name)
     }
 }

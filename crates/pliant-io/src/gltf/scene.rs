@@ -11,7 +11,7 @@ use super::affine::{Affine, Trs};
 use super::animation::{Clip, Path};
 use super::document::Node;
 use crate::error::{Fault, Place, Reason};
-use crate::memory::Account;
+use crate::memory::{Account, bytes_of};
 
 pub(super) struct Scene {
     parents: Vec<Option<u32>>,
@@ -51,6 +51,27 @@ pub(super) struct Pose {
     pub(super) weights: BTreeMap<usize, Vec<f64>>,
 }
 
+/// What a clip moves: looked up once, not for each body among all channels and joints.
+pub(super) struct Moves {
+    /// By themselves or with a parent.
+    nodes: Vec<bool>,
+    /// Those with any joint that moves.
+    skins: Vec<bool>,
+    /// The nodes whose morph targets it moves.
+    weights: Vec<bool>,
+}
+
+impl Moves {
+    /// Whether it moves the body of a node.
+    pub(super) fn body(&self, node: usize, skin: Option<usize>) -> bool {
+        let places = match skin {
+            Some(skin) => self.skins.get(skin),
+            None => self.nodes.get(node),
+        };
+        places.is_some_and(|moves| *moves) || self.weights[node]
+    }
+}
+
 /// The most frames of a clip: six days at thirty a second.
 const MOST_STEPS: u32 = 1 << 24;
 
@@ -59,6 +80,9 @@ impl Scene {
     pub(super) fn read(reader: &mut Reader, clip: Option<Clip>, fps: f64) -> Result<Self, Fault> {
         let nodes = &reader.document.nodes;
         let (parents, order) = tree(nodes)?;
+        reader
+            .account
+            .enter(bytes_of(&parents) + bytes_of(&order))?;
         let mut rest = Vec::new();
         for (number, node) in nodes.iter().enumerate() {
             let at = |reason: Reason| reason.at(Place::Part("node", number));
@@ -125,8 +149,15 @@ impl Scene {
         })
     }
 
-    /// Enters what a pose takes.
+    /// Enters what a pose takes: also the weights of morph targets, of which many nodes may have the many of one mesh.
     fn enter_pose(&self, account: &mut Account) -> Result<(), Reason> {
+        let channels = self.clip.iter().flat_map(|clip| &clip.channels);
+        let widths: BTreeMap<usize, usize> = channels
+            .filter(|channel| !channel.path.places())
+            .map(|channel| (channel.node, channel.path.width()))
+            .collect();
+        let weights = widths.values().sum::<usize>() * size_of::<f64>();
+        account.enter(weights as u64)?;
         let nodes = (self.rest.len() * (size_of::<Trs>() + size_of::<Affine>())) as u64;
         let joints: usize = self.skins.iter().map(|skin| skin.joints.len()).sum();
         Ok(account.enter(nodes + (joints * size_of::<Affine>()) as u64)?)
@@ -136,30 +167,29 @@ impl Scene {
         self.skins.get(skin).map(|skin| skin.joints.len())
     }
 
-    /// Which nodes the clip moves, by themselves or with a parent.
-    pub(super) fn moved(&self) -> Vec<bool> {
-        let mut moved = vec![false; self.parents.len()];
+    /// What the clip moves.
+    pub(super) fn moves(&self) -> Moves {
+        let mut nodes = vec![false; self.parents.len()];
+        let mut weights = nodes.clone();
         for channel in self.clip.iter().flat_map(|clip| &clip.channels) {
-            moved[channel.node] |= channel.path.places();
+            let moved = if channel.path.places() {
+                &mut nodes
+            } else {
+                &mut weights
+            };
+            moved[channel.node] = true;
         }
         for &node in &self.order {
             if let Some(parent) = self.parents[node as usize] {
-                moved[node as usize] |= moved[parent as usize];
+                nodes[node as usize] |= nodes[parent as usize];
             }
         }
-        moved
-    }
-
-    /// Whether any joint of a skin is one of the nodes `moved`.
-    pub(super) fn moves_joints(&self, skin: usize, moved: &[bool]) -> bool {
-        let skin = self.skins.get(skin);
-        skin.is_some_and(|skin| skin.joints.iter().any(|&joint| moved[joint as usize]))
-    }
-
-    /// Whether the clip moves the morph targets of a node.
-    pub(super) fn morphs(&self, node: usize) -> bool {
-        let mut channels = self.clip.iter().flat_map(|clip| &clip.channels);
-        channels.any(|channel| channel.node == node && !channel.path.places())
+        let any_joint = |skin: &Skin| skin.joints.iter().any(|&joint| nodes[joint as usize]);
+        Moves {
+            skins: self.skins.iter().map(any_joint).collect(),
+            nodes,
+            weights,
+        }
     }
 
     /// When a frame is.

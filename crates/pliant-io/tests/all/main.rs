@@ -6,6 +6,7 @@ mod changes;
 mod common;
 mod gltf;
 mod hostile;
+mod n_of_m;
 mod npz;
 mod real_files;
 mod rewind;

@@ -17,6 +17,7 @@ use crate::file::{Found, Opened};
 use crate::format::{Format, FrameSource};
 use crate::frame::{Announced, Complete, Frame};
 use crate::positions::Precision;
+use crate::shown::shown;
 
 /// How a PC2 file begins, and its version.
 pub(crate) const PC2: [u8; 16] = *b"POINTCACHE2\0\x01\0\0\0";
@@ -28,7 +29,7 @@ const ROWS: u64 = 4096;
 
 /// Why positions alone cannot be read.
 pub(crate) fn alone(path: &Path) -> Reason {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let name = shown(path.file_name().unwrap_or_default());
     Reason::Unsupported(format!(
         "holds positions but no faces; name the mesh that they move too: 'mesh.obj+{name}'"
     ))

@@ -8,11 +8,12 @@
 //! body, which opened the file, makes an [`Error`] of it. Vertices, faces and frames are numbered
 //! from zero, as in pliant's results; an index quoted from a file is quoted as the file writes it.
 
-use std::fmt::{self, Write as _};
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::memory::Size;
+use crate::shown::{shown, shown_within};
 
 /// Why a body could not be read. Its message is one line, whatever the file or its name holds.
 #[derive(Debug)]
@@ -61,16 +62,22 @@ pub enum Reason {
     UnknownFormat { readable: &'static str },
     #[error("cannot be read: {0}")]
     Io(#[from] io::Error),
-    #[error("{0}")]
+    #[error("{}", sentence(.0))]
     Malformed(String),
-    #[error("ends too early: {0}")]
+    #[error("ends too early: {}", sentence(.0))]
     Truncated(String),
-    #[error("{0}")]
+    #[error("{}", sentence(.0))]
     Unsupported(String),
     #[error("the data of `{array}` does not match its checksum; the file is damaged")]
     Checksum { array: &'static str },
     #[error("face {face} has {corners} corners; a face needs at least 3")]
     FewCorners { face: u64, corners: usize },
+    #[error("face {face} has {corners} corners, of which only {different} are different")]
+    RepeatedCorners {
+        face: u64,
+        corners: usize,
+        different: usize,
+    },
     #[error(
         "face {face} uses vertex {index}, but {}", numbering(*first, *last)
     )]
@@ -100,15 +107,15 @@ pub enum Reason {
         "a frame needs at least {} of memory while its seams are found, {} are allowed", Size(*needed), Size(*limit)
     )]
     SeamsTooLarge { needed: u64, limit: u64 },
-    #[error("holds {count} bodies: {names}; name one: '{example}'")]
+    #[error("holds {count} bodies: {names}; name one: '{}'", shown(example))]
     ManyBodies {
         count: usize,
         names: String,
         example: String,
     },
-    #[error("there is no body {name:?}; there is: {names}")]
+    #[error("there is no body \"{}\"; there is: {names}", shown(name))]
     NoBody { name: String, names: String },
-    #[error("there is no clip {name:?}; there is: {names}")]
+    #[error("there is no clip \"{}\"; there is: {names}", shown(name))]
     NoClip { name: String, names: String },
     #[error("{fps} frames a second cannot be evaluated; a rate must be finite and above 0")]
     BadRate { fps: f64 },
@@ -126,21 +133,33 @@ pub enum Reason {
     ManyCorners { most: usize },
     #[error("does not fit in memory")]
     OutOfMemory,
-    #[error("face {face} is not that of {}; the frames of a body need the same faces", than.display())]
+    #[error(
+        "face {face} is not that of {}; the frames of a body need the same faces",
+        shown(than)
+    )]
     FacesDiffer { face: u64, than: PathBuf },
-    #[error("has {faces} faces, {} has {expected}; the frames of a body need the same faces", than.display())]
+    #[error(
+        "has {faces} faces, {} has {expected}; the frames of a body need the same faces",
+        shown(than)
+    )]
     FaceCount {
         faces: u64,
         expected: u64,
         than: PathBuf,
     },
-    #[error("has {vertices} vertices, {} has {expected}; the frames of a body need the same number", than.display())]
+    #[error(
+        "has {vertices} vertices, {} has {expected}; the frames of a body need the same number",
+        shown(than)
+    )]
     VertexCount {
         vertices: u64,
         expected: u64,
         than: PathBuf,
     },
-    #[error("holds 64-bit coordinates, but the body began with 32-bit ones in {}; convert the frames to one type", than.display())]
+    #[error(
+        "holds 64-bit coordinates, but the body began with 32-bit ones in {}; convert the frames to one type",
+        shown(than)
+    )]
     Precision { than: PathBuf },
     #[error(
         "vertices {a} and {b} were welded, since edges of theirs coincide in the first frame, but are apart here"
@@ -150,6 +169,16 @@ pub enum Reason {
     Changed,
     #[error("an earlier frame could not be read, so the frames after it are not handed out")]
     AfterError,
+}
+
+/// What a reader says of a file, in which it may quote it.
+fn sentence(text: &str) -> String {
+    shown_within(text, 1000)
+}
+
+/// A name where there may be many: in a list, or before a number.
+pub(crate) fn listed_name(name: &str) -> String {
+    shown_within(name, 40)
 }
 
 /// Which numbers there are; a file whose vertices are not counted yet allows all that a vertex can have.
@@ -197,16 +226,12 @@ impl std::error::Error for Error {}
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let line = format!("{}{}: {}", self.file.display(), self.place, self.reason);
-        // Names of files, and words quoted from them, may hold line breaks or terminal controls.
-        for c in line.chars() {
-            if c.is_control() {
-                write!(f, "{}", c.escape_default())?;
-            } else {
-                f.write_char(c)?;
-            }
-        }
-        Ok(())
+        let Self {
+            file,
+            place,
+            reason,
+        } = self;
+        write!(f, "{}{place}: {reason}", shown(file))
     }
 }
 
@@ -215,7 +240,7 @@ impl fmt::Display for Place {
         match self {
             Place::File => Ok(()),
             Place::Line(number) => write!(f, ", line {number}"),
-            Place::Element(name, number) => write!(f, ", {name} {number}"),
+            Place::Element(name, number) => write!(f, ", {} {number}", listed_name(name)),
             Place::Array(name) => write!(f, ", array `{name}`"),
             Place::Frame(number) => write!(f, ", frame {number}"),
             Place::Byte(number) => write!(f, ", byte {number}"),

@@ -84,7 +84,7 @@
 //! | `write/` | one format each, and files that appear when they are whole |
 //! | `weld.rs` | boundary edges that coincide |
 //! | `memory.rs`, `text.rs` | nothing is allocated on a claim, nor beyond the limit; lines and numbers of text formats |
-//! | `error.rs` | one type, one line |
+//! | `error.rs`, `shown.rs` | one type, one line; names as people are shown them |
 
 mod arguments;
 mod body;
@@ -103,6 +103,7 @@ mod ply;
 mod polygons;
 mod positions;
 mod series;
+mod shown;
 mod stl;
 mod text;
 mod weld;
@@ -112,4 +113,5 @@ pub use body::{Body, OpenOptions, open, open_all};
 pub use error::{Error, Place, Reason};
 pub use positions::{Positions, Precision};
 pub use series::looks_like_a_series;
+pub use shown::{shown, shown_within};
 pub use write::{Shape, WriteOptions, Writer};

@@ -19,7 +19,16 @@ pub(crate) struct Polygons {
     met: u64,
     met_triangles: usize,
     largest: Option<Largest>,
+    /// Reused: the corners of a large polygon.
+    sorted: Vec<u32>,
 }
+
+/// Up to so many corners a polygon may have whichever it likes.
+const MOST_UNCOUNTED: usize = 64;
+
+/// A larger one may be at each of its corners so often, on average. A hole is tied to the rim around it by an edge there and back,
+/// which visits two corners twice; of holes that are triangles five corners are three different ones.
+const MOST_VISITS: usize = 3;
 
 /// The largest index used in this frame, with a face that uses it: faces may come before vertices,
 /// so the range is known only at the end.
@@ -40,6 +49,7 @@ impl Polygons {
             met: 0,
             met_triangles: 0,
             largest: None,
+            sorted: Vec::new(),
         }
     }
 
@@ -77,6 +87,9 @@ impl Polygons {
         if rim.len() < 2 {
             return Err(self.too_few(corners.len()));
         }
+        if corners.len() > MOST_UNCOUNTED {
+            self.check_corners(corners)?;
+        }
         let index = rim
             .iter()
             .fold(apex, |largest, &corner| largest.max(corner));
@@ -96,6 +109,25 @@ impl Polygons {
         };
         self.met += 1;
         Ok(equal)
+    }
+
+    /// Refuses a large polygon that goes to and fro between few corners. No surface has one, and all triangles of its fan share
+    /// vertices with each other: to find that none of them is an answer takes time by the square.
+    fn check_corners(&mut self, corners: &[u32]) -> Result<(), Reason> {
+        let sorted = &mut self.sorted;
+        sorted.clear();
+        sorted.extend(corners);
+        sorted.sort_unstable();
+        sorted.dedup();
+        let (face, corners, different) = (self.met, corners.len(), sorted.len());
+        if corners > MOST_VISITS * different {
+            return Err(Reason::RepeatedCorners {
+                face,
+                corners,
+                different,
+            });
+        }
+        Ok(())
     }
 
     fn too_few(&self, corners: usize) -> Reason {
@@ -256,6 +288,37 @@ mod tests {
                 matches!(refused, Err(Reason::FewCorners { face: 1, corners: n }) if n == corners.len())
             );
         }
+    }
+
+    #[test]
+    fn large_polygons_between_few_corners_are_refused() {
+        let push = |corners: &[u32]| {
+            let pushed = Polygons::new().push(corners, || Place::File, &mut account());
+            pushed.map(|_| ()).map_err(|reason| reason.to_string())
+        };
+        let to_and_fro = |count: u32, different: u32| -> Vec<u32> {
+            (0..count).map(|corner| corner % different).collect()
+        };
+        assert_eq!(
+            push(&to_and_fro(80_000, 2)).unwrap_err(),
+            "face 0 has 80000 corners, of which only 2 are different"
+        );
+        for (count, different, is_taken) in [
+            (64, 2, true),
+            (65, 21, false),
+            (66, 22, true),
+            (1000, 1000, true),
+        ] {
+            assert_eq!(
+                push(&to_and_fro(count, different)).is_ok(),
+                is_taken,
+                "{count}"
+            );
+        }
+        // A sheet with a thousand triangular holes, each tied to its first corner.
+        let hole = |first: u32| [0, first, first + 1, first + 2, first];
+        let sheet: Vec<u32> = (4..3004).step_by(3).flat_map(hole).chain(0..4).collect();
+        assert!(push(&sheet).is_ok());
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::io::{BufRead, Read as _};
 use std::str::FromStr;
 
 use crate::error::{Fault, Place, Reason};
+use crate::shown::shown_within;
 
 /// The longest line, in bytes: a polygon of a million corners fits, a file without line breaks is
 /// not swallowed whole.
@@ -82,14 +83,9 @@ pub(crate) fn expected(wanted: &str, found: Option<&[u8]>) -> Reason {
 }
 
 /// A word of a file in quotes, shortened where it is long.
-pub(crate) fn quoted(word: &[u8]) -> String {
-    const LONGEST: usize = 40;
-    let text = String::from_utf8_lossy(&word[..word.len().min(4 * LONGEST)]);
-    let mut short: String = text.chars().take(LONGEST).collect();
-    if short.len() < word.len() {
-        short.push('…');
-    }
-    format!("{short:?}")
+pub(crate) fn quoted(word: impl AsRef<[u8]>) -> String {
+    let text = String::from_utf8_lossy(word.as_ref());
+    format!("\"{}\"", shown_within(&*text, 40))
 }
 
 #[cfg(test)]
@@ -118,9 +114,9 @@ mod tests {
 
     #[test]
     fn long_words_are_quoted_in_part() {
-        assert_eq!(quoted(b"a\"b\n"), r#""a\"b\n""#);
-        assert_eq!(quoted(&[b'7'; 99]).chars().count(), 43);
-        assert_eq!(quoted("é".repeat(40).as_bytes()).chars().count(), 42);
-        assert!(quoted(&[0xff; 1000]).chars().count() <= 43);
+        assert_eq!(quoted(b"a\"b\n"), r#""a"b\n""#);
+        assert_eq!(quoted([b'7'; 99]).chars().count(), 42);
+        assert_eq!(quoted("é".repeat(40)).chars().count(), 42);
+        assert!(quoted([0xff; 1000]).chars().count() <= 42);
     }
 }

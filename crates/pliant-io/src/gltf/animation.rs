@@ -9,6 +9,7 @@ use std::sync::Arc;
 use super::accessor::{Reader, Wanted};
 use super::affine::{Trs, slerp};
 use crate::error::{Fault, Place, Reason};
+use crate::text::quoted;
 
 /// The animation that moves the nodes.
 pub(super) struct Clip {
@@ -92,9 +93,9 @@ impl Clip {
                 "scale" => Path::Scale,
                 "weights" => Path::Weights(targets(reader, node)),
                 other => {
-                    let other: String = other.chars().take(40).collect();
                     return Err(at(Reason::Unsupported(format!(
-                        "moves {other:?}, which is not evaluated; export it without"
+                        "moves {}, which is not evaluated; export it without",
+                        quoted(other)
                     ))
                     .into()));
                 }
@@ -163,9 +164,9 @@ impl Sampler {
             "LINEAR" => Interpolation::Linear,
             "CUBICSPLINE" => Interpolation::CubicSpline,
             other => {
-                let other: String = other.chars().take(40).collect();
                 return Err(malformed(format!(
-                    "interpolation {other:?} is none of the format"
+                    "interpolation {} is none of the format",
+                    quoted(other)
                 )));
             }
         };

@@ -13,6 +13,7 @@ use super::document::{Document, memory};
 use crate::error::{Fault, Place, Reason};
 use crate::file::{Found, Opened};
 use crate::memory::Account;
+use crate::text::quoted;
 
 /// An open file and what buffers it has.
 pub(super) struct Buffers {
@@ -196,9 +197,9 @@ impl Buffers {
         let path = Path::new(&name);
         let plain = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
         if name.is_empty() || name.contains([':', '\\', '\0']) || !path.components().all(plain) {
-            let uri: String = uri.chars().take(60).collect();
             return Err(Reason::Unsupported(format!(
-                "its bytes are at {uri:?}; only files beside this one, and data URIs, are read: export it as .glb"
+                "its bytes are at {}; only files beside this one, and data URIs, are read: export it as .glb",
+                quoted(uri)
             ))
             .into());
         }

@@ -6,6 +6,8 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use crate::error::Reason;
+use crate::shown::shown_within;
+use crate::text::quoted;
 
 #[derive(Deserialize, Debug, Default)]
 #[serde(default, rename_all = "camelCase")]
@@ -183,7 +185,7 @@ impl Document {
         let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
         let document: Self = serde_json::from_slice(text).map_err(|error| {
             // The message may quote a string of the file, however long.
-            let mut message: String = error.to_string().chars().take(200).collect();
+            let mut message = shown_within(error.to_string(), 200);
             if error.is_eof() {
                 message = format!(
                     "the JSON is cut short at line {} column {}",
@@ -196,9 +198,9 @@ impl Document {
         })?;
         let version = &document.asset.version;
         if !version.is_empty() && !version.starts_with("2.") {
-            let version: String = version.chars().take(20).collect();
             return Err(Reason::Unsupported(format!(
-                "is glTF {version:?}; only version 2 can be read, so convert it"
+                "is glTF {}; only version 2 can be read, so convert it",
+                quoted(version)
             )));
         }
         document.refuse_extensions()?;
@@ -223,9 +225,9 @@ impl Document {
                 }
                 name if is_of_looks(name) => {}
                 name => {
-                    let name: String = name.chars().take(60).collect();
                     return unsupported(format!(
-                        "needs the extension {name:?}, which is not evaluated; export it without"
+                        "needs the extension {}, which is not evaluated; export it without",
+                        quoted(name)
                     ));
                 }
             }

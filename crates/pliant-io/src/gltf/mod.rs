@@ -29,7 +29,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use crate::body::OpenOptions;
-use crate::error::{Fault, Place, Reason};
+use crate::error::{Fault, Place, Reason, listed_name};
 use crate::file::Found;
 use crate::format::FrameSource;
 use crate::frame::{Announced, Complete, Frame};
@@ -175,7 +175,7 @@ fn read(
     if bodies.is_empty() {
         return Err(match name {
             Some(name) if !names.iter().any(|known| known == name) => Reason::NoBody {
-                name: name.chars().take(60).collect(),
+                name: name.to_owned(),
                 names: listed(names.into_iter()),
             },
             _ => Reason::NoFaces,
@@ -197,7 +197,7 @@ fn read_clip(reader: &mut Reader, name: Option<&str>) -> Result<Option<Clip>, Fa
         Some(name) => {
             let known = (0..count).position(|clip| document.clip_name(clip) == name);
             known.ok_or_else(|| Reason::NoClip {
-                name: name.chars().take(60).collect(),
+                name: name.to_owned(),
                 names: listed((0..count).map(|clip| document.clip_name(clip))),
             })?
         }
@@ -304,9 +304,7 @@ fn listed(names: impl Iterator<Item = String> + Clone) -> String {
     if count == 0 {
         return "none".to_owned();
     }
-    let short = names
-        .take(10)
-        .map(|name| name.chars().take(40).collect::<String>());
+    let short = names.take(10).map(|name| listed_name(&name));
     let mut list = short.collect::<Vec<_>>().join(", ");
     if count > 10 {
         list = format!("{list} and {} more", count - 10);

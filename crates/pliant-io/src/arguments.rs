@@ -18,6 +18,7 @@ use crate::file::Found;
 use crate::format::Format;
 use crate::natural;
 use crate::pattern::{is_pattern, matching};
+use crate::shown::shown;
 
 /// What an argument names.
 #[derive(Debug)]
@@ -33,15 +34,17 @@ pub(crate) enum Named {
 /// What `argument` names.
 pub(crate) fn named(argument: &str) -> Result<Named, Error> {
     if !Path::new(argument).exists() {
-        if let Some((mesh, positions)) = mesh_and_positions(argument) {
+        let part = file_and_name(argument);
+        let holds_it = part.is_some_and(|(path, ..)| is_file(path));
+        if let Some((mesh, positions)) = cache(argument)
+            && (is_file(positions) || !holds_it)
+        {
             return Ok(Named::Cache {
                 mesh: file(mesh)?,
                 positions: file(positions)?,
             });
         }
-        if let Some((path, name)) = argument.split_once('#')
-            && let Ok(format) = Format::of(Path::new(path))
-        {
+        if let Some((path, name, format)) = part {
             if format.holds_bodies() {
                 return Ok(Named::Part {
                     file: file(path)?,
@@ -50,7 +53,8 @@ pub(crate) fn named(argument: &str) -> Result<Named, Error> {
             }
             if Path::new(path).exists() {
                 let reason = format!(
-                    "holds one body, not one called {name:?}; leave out what begins with the #"
+                    "holds one body, not one called \"{}\"; leave out what begins with the #",
+                    shown(name)
                 );
                 return Err(Error::new(path, Reason::Unsupported(reason)));
             }
@@ -59,9 +63,41 @@ pub(crate) fn named(argument: &str) -> Result<Named, Error> {
     files(argument).map(Named::Files)
 }
 
+/// The file, its format, and the name of a body in `scene.glb#arm`. Folders and bodies may have a `#` in their names: of the places
+/// where it may end, the first where there is a file is meant.
+fn file_and_name(argument: &str) -> Option<(&str, &str, Format)> {
+    let cut = |(at, _)| {
+        let (path, name): (&str, &str) = (&argument[..at], &argument[at + 1..]);
+        Some((path, name, Format::of(Path::new(path)).ok()?))
+    };
+    let cuts = || argument.match_indices('#').filter_map(cut);
+    cuts()
+        .find(|(path, ..)| is_file(path))
+        .or_else(|| cuts().next())
+}
+
+/// The two names in `shirt.obj+walk.pc2`, if folders have a `+` in theirs too: those of two files, where there are such.
+fn cache(argument: &str) -> Option<(&str, &str)> {
+    let cut = |(at, _): (usize, &str)| as_cache(&argument[..at], &argument[at + 1..]);
+    let are_files = |(mesh, positions): &(&str, &str)| is_file(mesh) && is_file(positions);
+    let mut cuts = argument.match_indices('+').filter_map(cut);
+    cuts.find(are_files)
+        .or_else(|| mesh_and_positions(argument))
+}
+
+/// Whether there is a file of this name, and no folder.
+fn is_file(path: &str) -> bool {
+    Path::new(path).is_file()
+}
+
 /// The two names in `shirt.obj+walk.pc2`.
 pub(crate) fn mesh_and_positions(argument: &str) -> Option<(&str, &str)> {
     let (mesh, positions) = argument.rsplit_once('+')?;
+    as_cache(mesh, positions)
+}
+
+/// A mesh and positions, if the one may be a mesh and the other is called as positions are.
+fn as_cache<'a>(mesh: &'a str, positions: &'a str) -> Option<(&'a str, &'a str)> {
     let is_cache = Format::of(Path::new(positions)).is_ok_and(Format::is_cache);
     (is_cache && !mesh.is_empty()).then_some((mesh, positions))
 }

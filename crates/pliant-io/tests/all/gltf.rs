@@ -197,6 +197,86 @@ fn bodies_are_the_nodes_with_meshes_in_the_default_scene() {
     assert_eq!(triangles[3], [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]]);
 }
 
+/// Names that look like those that we make are other bodies' names.
+#[test]
+fn bodies_have_names_of_their_own_whatever_the_file_calls_them() {
+    let folder = Folder::new();
+    let mut file = triangle();
+    let again = "a (node 0) (node 0)";
+    let names = [
+        "a",
+        "a",
+        "a (node 1)",
+        "a (node 0)",
+        again,
+        "a (node 0)",
+        "node 7",
+    ];
+    let mut nodes: Vec<Value> = names.map(|name| json!({"mesh": 0, "name": name})).into();
+    nodes.push(json!({"mesh": 0}));
+    file["scenes"][0]["nodes"] = (0..nodes.len()).collect();
+    file["nodes"] = nodes.into();
+    file["skins"] = json!([]);
+    file["animations"] = json!([]);
+    folder.write("names.gltf", file.to_string());
+    let argument = folder.argument("names.gltf");
+    let bodies = open_all(&argument, &OpenOptions::default()).unwrap();
+    let names: Vec<_> = bodies.iter().map(Body::name).collect();
+    let expected = [
+        "a (node 0) (node 0) (node 0)",
+        "a (node 1) (node 1)",
+        "a (node 1)",
+        "a (node 0) (node 3)",
+        again,
+        "a (node 0) (node 5)",
+        "node 7 (node 6)",
+        "node 7 (node 7)",
+    ];
+    assert_eq!(names, expected.map(|name| format!("{argument}#{name}")));
+    for (number, name) in names.iter().enumerate() {
+        let one = open(name, &OpenOptions::default()).unwrap();
+        assert_eq!(one.name(), *name, "{number}");
+    }
+}
+
+/// The first `#` behind a file that is there begins the name of the body, and a `+` between two files parts them.
+#[test]
+fn folders_and_bodies_may_have_signs_in_their_names() {
+    let folder = Folder::new();
+    let mut file = triangle();
+    let names = ["arm#2", "b.glb#c", "leg+d.pc2"];
+    file["nodes"] = names.map(|name| json!({"mesh": 0, "name": name})).into();
+    file["scenes"][0]["nodes"] = json!([0, 1, 2]);
+    file["skins"] = json!([]);
+    file["animations"] = json!([]);
+    let options = OpenOptions::default();
+    for within in ["take#1", "a.gltf#b", "#", "take+1", "+a.pc2"] {
+        let inner = folder.path().join(within);
+        std::fs::create_dir(&inner).unwrap();
+        std::fs::write(inner.join("s#1.gltf"), file.to_string()).unwrap();
+        std::fs::write(inner.join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+        let mut cache = b"POINTCACHE2\0\x01\0\0\0".to_vec();
+        cache.extend([3, 0, 0, 1].map(u32::to_le_bytes).as_flattened());
+        cache.extend([0; 36]);
+        std::fs::write(inner.join("m.pc2"), cache).unwrap();
+        let scene = folder.argument(&format!("{within}/s#1.gltf"));
+        for body in open_all(&scene, &options).unwrap() {
+            assert_eq!(open(body.name(), &options).unwrap().name(), body.name());
+        }
+        let [mesh, positions] =
+            ["m.obj", "m.pc2"].map(|name| folder.argument(&format!("{within}/{name}")));
+        assert_eq!(
+            open(&format!("{mesh}+{positions}"), &options)
+                .unwrap()
+                .vertex_count(),
+            3
+        );
+    }
+    // Where there is no such file, the message is about the first that was meant.
+    assert_eq!(folder.error("no.gltf#a.gltf#b"), "no.gltf: no such file");
+    assert_eq!(folder.error("no.obj+no.pc2"), "no.obj: no such file");
+}
+
 #[test]
 fn frames_are_at_the_rate_asked_for_and_at_the_end() {
     let file = fixture("skin.gltf");

@@ -3,9 +3,10 @@
 use crate::arrays;
 use crate::error::{Fact, Refused, after_checking, alone_with, named_tuple};
 use crate::options::with_threads;
+use crate::signals::interruptible;
 use numpy::IntoPyArray;
 use pliant_check::{Error, Found, Frames, Group, Settings, Split};
-use pliant_io::OpenOptions;
+use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyRange, PyRangeMethods, PyTuple};
@@ -14,7 +15,8 @@ use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
-/// A check of files that is under way: an iterator of its frames, each read and checked when it is asked for.
+/// A check of files that is under way: an iterator of its frames, each read and checked when it is asked for. What a signal handler
+/// raises while pairs are looked for, KeyboardInterrupt after Ctrl-C, ends that early; the same frame is then the next one.
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct Check {
     running: Mutex<pliant_check::Check>,
@@ -38,7 +40,7 @@ impl Name {
         match self {
             Self::Number(number) => Ok(number.to_string()),
             Self::Path(path) => path.into_os_string().into_string().map_err(|name| {
-                let name = name.display();
+                let name = shown(&name);
                 Refused::new(
                     "CannotRead",
                     format!("{name}: the name is not UTF-8; rename the file"),
@@ -109,8 +111,9 @@ pub(crate) fn check(
     let paths: Vec<_> = paths.collect::<Result<_, _>>()?;
     if let Some(pattern) = pliant_io::looks_like_a_series(&paths) {
         let text = format!(
-            "{} paths are {0} bodies; if they are frames of one body, give the pattern: {pattern:?}",
-            paths.len()
+            "{} paths are {0} bodies; if they are frames of one body, give the pattern: \"{}\"",
+            paths.len(),
+            shown(&pattern)
         );
         let text = CString::new(text).unwrap_or_default();
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
@@ -136,7 +139,9 @@ impl Check {
     }
 
     fn __next__<'py>(&self, py: Python<'py>) -> Result<Option<Bound<'py, PyAny>>, Refused> {
-        let next = |running: &mut pliant_check::Check| Ok(running.next_frame()?);
+        let next = |running: &mut pliant_check::Check| {
+            interruptible(|question| running.next_frame_unless(Some(question)))
+        };
         let Some(found) = alone_with(py, &self.running, next)? else {
             return Ok(None);
         };
@@ -230,17 +235,24 @@ impl From<Error> for Refused {
                 frame,
                 error,
             } => Self::from(error)
-                .about(format!("{source_name}, frame {frame}"))
+                .about(format!("{}, frame {frame}", shown(&source_name)))
                 .with("file", Fact::Text(source_name))
                 .with("frame", frame),
             Error::Missing { source_name, frame } => Self::new("CannotRead", message)
                 .with("file", Fact::Text(source_name))
                 .with("frame", frame),
             Error::FrameCounts { .. } | Error::AfterError => Self::new("CannotRead", message),
-            Error::TooManyPairs { frame, most } => Self::new("TooLarge", message)
-                .with("what", Fact::Text("pairs".to_owned()))
-                .with("limit", most)
-                .with("frame", frame),
+            Error::TooManyPairs { frame, most } | Error::Endless { frame, most } => {
+                Self::new("TooLarge", message)
+                    .with("what", Fact::Text("pairs".to_owned()))
+                    .with("limit", most)
+                    .with("frame", frame)
+            }
+            Error::OnePoint {
+                source_name, count, ..
+            } => Self::new("TooLarge", message)
+                .with("file", Fact::Text(source_name))
+                .with("count", count),
             _ => Self::new("BadOption", message),
         };
         refused.advising(advice)

@@ -151,7 +151,10 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
     match error {
         Error::NoClip => Some("leave out clip="),
         Error::EmptyGroup { .. } => Some("give each group a list of its bodies"),
-        Error::TooManyPairs { .. } => Some("ask for one pair of each frame with first=True"),
+        Error::TooManyPairs { .. } | Error::Endless { .. } => {
+            Some("ask for one pair of each frame with first=True")
+        }
+        Error::OnePoint { .. } => Some("export the mesh without them"),
         _ => None,
     }
 }

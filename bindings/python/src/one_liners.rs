@@ -68,7 +68,7 @@ fn triangles_of_all(state: &mut State, of: Selection) -> Result<Vec<[u32; 2]>, R
     interruptible(|question| {
         let query = with_world!(&mut state.world, world => world.intersections(of));
         let pairs = query.interrupt_if(question).all()?;
-        Ok(pairs.iter().map(Pair::triangles).collect())
+        Ok::<_, pliant::Error>(pairs.iter().map(Pair::triangles).collect())
     })
 }
 

@@ -37,8 +37,8 @@ struct Signals {
 
 /// Asks a query, for which it is called without the interpreter lock, and gives it what interrupts it. What a signal handler raised
 /// meanwhile, `KeyboardInterrupt` if nobody set another, is what comes back then.
-pub(crate) fn interruptible<T>(
-    ask: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, pliant::Error>,
+pub(crate) fn interruptible<T, E: Into<Refused>>(
+    ask: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, E>,
 ) -> Result<T, Refused> {
     let signals = Signals {
         began: Instant::now(),
@@ -50,7 +50,7 @@ pub(crate) fn interruptible<T>(
     // Also where the query came to its end in spite of it: no exception is lost.
     match signals.raised.into_inner() {
         Some(raised) => Err(Refused::Python(raised)),
-        None => Ok(answer?),
+        None => answer.map_err(Into::into),
     }
 }
 

@@ -12,6 +12,7 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -115,6 +116,17 @@ def test_first(threads: int) -> None:
     world = world_of(layers(20_000, 0.0), layers(20_000, 0.5), threads=threads)
     is_stopped(world.intersections().first)
     answers_rightly(world)
+
+
+def test_check(tmp_path: Path) -> None:
+    faces, positions = coplanar(9000)
+    lines = [*("v {} {} {}".format(*vertex) for vertex in positions), *("f {} {} {}".format(*face) for face in faces + 1)]
+    (tmp_path / "many.obj").write_text("\n".join(lines))
+    frames = pliant.check(tmp_path / "many.obj")
+    # The frame that was interrupted is the next one.
+    is_stopped(lambda: next(frames))
+    # And where a frame before it is looked for.
+    is_stopped(lambda: next(pliant.check(tmp_path / "many.obj", baseline=0)))
 
 
 def test_visit() -> None:

@@ -4,13 +4,17 @@ use crate::any_world::AnyWorld;
 use crate::bodies::{Bodies, BodyFacts};
 use crate::error::Error;
 use crate::filter::Filter;
-use crate::found::{Found, Row, Stop, Taker};
+use crate::found::{Found, MOST_COUNTED, Row, Stop, Taker};
+use crate::one_point;
 use crate::sequence::Sequence;
 use crate::settings::{Frames, Settings};
 use crate::with_world;
-use pliant::{Pair, Selection};
+use pliant::{ErrorKind, Pair, Query, Selection};
 use pliant_io::{Body as Source, OpenOptions};
 use std::ops::{ControlFlow, Range};
+
+/// The caller's "stop now?".
+type Question<'q> = &'q (dyn Fn() -> bool + Sync);
 
 /// A check of sources, frame by frame: each frame is read and checked when it is asked for.
 pub struct Check {
@@ -24,6 +28,14 @@ pub struct Check {
     frames: Frames,
     baseline: Option<Baseline>,
     failed: bool,
+}
+
+/// A query that is interrupted if the caller wants that.
+fn unless<'q>(stop: Option<Question<'q>>, query: Query<'q, Pair>) -> Query<'q, Pair> {
+    match stop {
+        Some(stop) => query.interrupt_if(stop),
+        None => query,
+    }
 }
 
 /// Pairs that are left out.
@@ -61,6 +73,7 @@ impl Check {
     ///
     /// There is no source, their frame counts differ, or a frame or a name in the settings is none that there is.
     pub fn new(sources: Vec<Source>, settings: &Settings) -> Result<Self, Error> {
+        sources.iter().try_for_each(one_point::check)?;
         let sequence = Sequence::new(sources, settings.options)?;
         let bodies = Bodies::of(&sequence.sources, settings.split);
         let filter = Filter::new(
@@ -165,8 +178,22 @@ impl Check {
     ///
     /// # Errors
     ///
-    /// A file cannot be read, or there are more pairs than may be listed. No frame follows: every later call is an error too.
+    /// A file cannot be read, or there are more pairs than may be listed, or counted. No frame follows: every later call is an error
+    /// too.
     pub fn next_frame(&mut self) -> Result<Option<Found>, Error> {
+        self.next_frame_unless(None)
+    }
+
+    /// As [`next_frame`](Self::next_frame), unless `stop` says so: it is asked again and again while pairs are looked for, as
+    /// [`pliant::Query::interrupt_if`] describes.
+    ///
+    /// # Errors
+    ///
+    /// As `next_frame`, or [`Error::Interrupted`]: after that alone the same frame can be asked for again.
+    pub fn next_frame_unless(
+        &mut self,
+        stop: Option<&(dyn Fn() -> bool + Sync)>,
+    ) -> Result<Option<Found>, Error> {
         if self.failed {
             return Err(Error::AfterError);
         }
@@ -176,20 +203,33 @@ impl Check {
         // Set first, so that an error on any way out leaves it set.
         self.failed = true;
         if let Some(Baseline { frame, pairs: None }) = self.baseline {
-            self.go_to(frame)?;
-            let found = self.find(frame, false, true)?;
+            let found = self.found_in(frame, false, true, stop)?;
             self.baseline = Some(Baseline {
                 frame,
                 pairs: Some(found.pairs),
             });
         }
         let frame = self.frames.start;
-        self.go_to(frame)?;
-        let found = self.find(frame, self.asked.first, self.asked.listed)?;
+        let found = self.found_in(frame, self.asked.first, self.asked.listed, stop)?;
         self.frames.start = frame.saturating_add(self.frames.step);
         self.frames.count -= 1;
         self.failed = false;
         Ok(Some(found))
+    }
+
+    /// The pairs of a frame, which is read.
+    fn found_in(
+        &mut self,
+        frame: usize,
+        first: bool,
+        listed: bool,
+        stop: Option<Question>,
+    ) -> Result<Found, Error> {
+        self.go_to(frame)?;
+        let found = self.find(frame, first, listed, stop);
+        // What was read stays, and nothing else was lost.
+        self.failed = !matches!(found, Err(Error::Interrupted { .. }));
+        found
     }
 
     fn go_to(&mut self, frame: usize) -> Result<(), Error> {
@@ -215,6 +255,10 @@ impl Check {
                 }
             }
         }
+        if self.filter.lets_all_meet() {
+            // Of very many sources very many pairs would be asked about.
+            return Ok(());
+        }
         for b in 0..ids.len() {
             for a in 0..b {
                 let bodies = [a, b].map(|source| self.bodies.of_source(source));
@@ -228,35 +272,55 @@ impl Check {
     }
 
     /// The pairs of the frame that the world is in.
-    fn find(&mut self, frame: usize, first: bool, listed: bool) -> Result<Found, Error> {
+    fn find(
+        &mut self,
+        frame: usize,
+        first: bool,
+        listed: bool,
+        stop: Option<Question>,
+    ) -> Result<Found, Error> {
         let baseline = self.baseline.take();
         let known = baseline.as_ref().and_then(|it| it.pairs.as_deref());
         let most = self.asked.max_list / size_of::<Row>() as u64;
         let most = usize::try_from(most).unwrap_or(usize::MAX);
         let mut taker = Taker::new(frame, first, listed, most, known);
         let visited = if first && known.is_none() && !self.bodies.are_pieces() {
-            self.take_first(&mut taker)
+            self.take_first(&mut taker, stop)
         } else {
-            self.take_all(&mut taker)
+            self.take_all(&mut taker, stop)
         };
         let found = taker.end();
         self.baseline = baseline;
         match visited.map_err(|error| self.refused(frame, error))? {
             ControlFlow::Break(Stop::Full) => Err(Error::TooManyPairs { frame, most }),
+            ControlFlow::Break(Stop::Endless) => {
+                let most = MOST_COUNTED;
+                Err(Error::Endless { frame, most })
+            }
             ControlFlow::Continue(()) | ControlFlow::Break(Stop::First) => Ok(found),
         }
     }
 
     /// Any pair will do: the world knows a shorter way.
-    fn take_first(&mut self, taker: &mut Taker) -> Result<ControlFlow<Stop>, pliant::Error> {
+    fn take_first(
+        &mut self,
+        taker: &mut Taker,
+        stop: Option<Question>,
+    ) -> Result<ControlFlow<Stop>, pliant::Error> {
         let of = self.of;
         let world = &mut self.sequence.world;
-        let first = with_world!(world, world => world.intersections(of).first())?;
+        let first = with_world!(world, world => {
+            unless(stop, world.intersections(of)).first()
+        })?;
         Ok(first.map_or(ControlFlow::Continue(()), |pair| taker.take(pair.into())))
     }
 
     /// Shows `taker` all pairs of bodies that meet, until it has enough.
-    fn take_all(&mut self, taker: &mut Taker) -> Result<ControlFlow<Stop>, pliant::Error> {
+    fn take_all(
+        &mut self,
+        taker: &mut Taker,
+        question: Option<Question>,
+    ) -> Result<ControlFlow<Stop>, pliant::Error> {
         let Self {
             of,
             sequence,
@@ -281,7 +345,9 @@ impl Check {
             }
         };
         let world = &mut sequence.world;
-        let _ = with_world!(world, world => world.intersections(*of).visit(take))?;
+        let _ = with_world!(world, world => {
+            unless(question, world.intersections(*of)).visit(take)
+        })?;
         Ok(stop)
     }
 
@@ -296,6 +362,9 @@ impl Check {
     }
 
     fn refused(&self, frame: usize, error: pliant::Error) -> Error {
+        if error.kind == ErrorKind::Interrupted {
+            return Error::Interrupted { frame };
+        }
         let sources = &self.sequence.sources;
         let source = error.body.and_then(|body| sources.get(body.0 as usize));
         Error::Refused {

@@ -1,7 +1,13 @@
 //! Why a check could not begin, or could not go on. Each message is one line, and names no option as a program or Python writes
 //! it: whoever shows the message adds what to do.
 
+use pliant_io::{shown, shown_within};
 use thiserror::Error;
+
+/// A name in quotes.
+pub(crate) fn quoted(name: &str) -> String {
+    format!("\"{}\"", shown_within(name, 100))
+}
 
 /// Why frames could not be checked.
 #[derive(Debug, Error)]
@@ -18,7 +24,9 @@ pub enum Error {
     NoClip,
     /// Sources move, but not together.
     #[error(
-        "frame counts must be equal or 1: {longest} has {frames} frames, {other} has {other_frames}"
+        "frame counts must be equal or 1: {} has {frames} frames, {} has {other_frames}",
+        shown(longest),
+        shown(other)
     )]
     FrameCounts {
         /// The source with the most frames.
@@ -31,7 +39,7 @@ pub enum Error {
         other_frames: usize,
     },
     /// A source ended before the frame that it said it has.
-    #[error("{source_name}: frame {frame} is missing")]
+    #[error("{}: frame {frame} is missing", shown(source_name))]
     Missing {
         /// The source.
         source_name: String,
@@ -39,7 +47,7 @@ pub enum Error {
         frame: usize,
     },
     /// The library refused what was read.
-    #[error("{source_name}, frame {frame}: {error}")]
+    #[error("{}, frame {frame}: {error}", shown(source_name))]
     Refused {
         /// The source.
         source_name: String,
@@ -58,6 +66,37 @@ pub enum Error {
         /// So many may be listed.
         most: usize,
     },
+    /// More pairs intersect than anybody would wait for, or look at.
+    #[error("frame {frame}: more than {most} pairs intersect, and the rest is not looked for")]
+    Endless {
+        /// The frame.
+        frame: usize,
+        /// So many are counted.
+        most: usize,
+    },
+    /// Very many triangles are points, and at one place: each of them meets every other.
+    #[error(
+        "{}: {count} triangles are one point, ({x:e}, {y:e}, {z:e}), where each meets every other",
+        shown(source_name)
+    )]
+    OnePoint {
+        /// The source.
+        source_name: String,
+        /// How many there are.
+        count: usize,
+        /// Where.
+        x: f64,
+        /// Where.
+        y: f64,
+        /// Where.
+        z: f64,
+    },
+    /// The caller did not want to wait any longer.
+    #[error("frame {frame}: interrupted")]
+    Interrupted {
+        /// The frame.
+        frame: usize,
+    },
     /// There is no such frame.
     #[error("{what} is frame {frame}, but the frames of these files are 0 to {last}")]
     NoSuchFrame {
@@ -69,7 +108,7 @@ pub enum Error {
         last: usize,
     },
     /// A name in a group or in a pair to be ignored is nobody's.
-    #[error("no {wanted} is called {name:?}; {there}")]
+    #[error("no {wanted} is called {}; {there}", quoted(name))]
     NoSuchName {
         /// What it could have been.
         wanted: &'static str,
@@ -79,7 +118,7 @@ pub enum Error {
         there: String,
     },
     /// A group cannot have this name.
-    #[error("no group can be called {name:?}: {why}")]
+    #[error("no group can be called {}: {why}", quoted(name))]
     BadGroup {
         /// The name.
         name: String,
@@ -87,7 +126,7 @@ pub enum Error {
         why: &'static str,
     },
     /// A group has no bodies.
-    #[error("no bodies are named for the group {name:?}")]
+    #[error("no bodies are named for the group {}", quoted(name))]
     EmptyGroup {
         /// The name.
         name: String,

@@ -4,7 +4,7 @@
 //! entry however many bodies are called A and B: thousands of pieces of a file, say.
 
 use crate::bodies::Bodies;
-use crate::error::Error;
+use crate::error::{Error, quoted};
 use crate::settings::Group;
 use pliant_io::Body as Source;
 use std::collections::{BTreeMap, BTreeSet};
@@ -68,12 +68,17 @@ impl Filter {
 
     /// Whether two bodies meet, or a body itself.
     pub(crate) fn meet(&self, a: u32, b: u32) -> bool {
-        self.ignored.is_empty() || self.classes_meet(self.class(a), self.class(b))
+        self.lets_all_meet() || self.classes_meet(self.class(a), self.class(b))
+    }
+
+    /// Whether nobody is kept apart.
+    pub(crate) fn lets_all_meet(&self) -> bool {
+        self.ignored.is_empty()
     }
 
     /// Whether any of some bodies meets any of others.
     pub(crate) fn any_meet(&self, some: Range<u32>, others: Range<u32>) -> bool {
-        if self.ignored.is_empty() {
+        if self.lets_all_meet() {
             return true;
         }
         let classes =
@@ -185,14 +190,18 @@ impl<'a> Names<'a> {
         for body in 0..count.min(MOST) {
             let separator = if body > 0 { ", " } else { "" };
             let name = self.bodies.facts(self.sources, body).name;
-            let _ = write!(there, "{separator}{body} = {name:?}");
+            let _ = write!(there, "{separator}{body} = {}", quoted(&name));
         }
         if count > MOST {
             let _ = write!(there, ", and {} more", count - MOST);
         }
-        for (number, group) in self.groups.keys().enumerate() {
+        let groups = self.groups.len().saturating_sub(MOST as usize);
+        for (number, group) in self.groups.keys().take(MOST as usize).enumerate() {
             let separator = if number > 0 { ", " } else { "; groups: " };
-            let _ = write!(there, "{separator}{group:?}");
+            let _ = write!(there, "{separator}{}", quoted(group));
+        }
+        if groups > 0 {
+            let _ = write!(there, ", and {groups} more");
         }
         Error::NoSuchName {
             wanted,

@@ -33,7 +33,13 @@ pub(crate) enum Stop {
     First,
     /// The list would be longer than it may be.
     Full,
+    /// There are more than are counted.
+    Endless,
 }
+
+/// So many pairs are counted. A small file can hold more (each of 100,000 copies of a triangle meets every other), but none that
+/// anybody would look at, and to find them all would take hours.
+pub(crate) const MOST_COUNTED: usize = 1 << 31;
 
 /// Takes pairs as they are found.
 pub(crate) struct Taker<'a> {
@@ -78,6 +84,9 @@ impl<'a> Taker<'a> {
             *left_out += 1;
             return ControlFlow::Continue(());
         }
+        if found.count >= MOST_COUNTED {
+            return ControlFlow::Break(Stop::Endless);
+        }
         found.count += 1;
         found.smallest = Some(found.smallest.map_or(row, |smallest| smallest.min(row)));
         if self.listed {
@@ -98,5 +107,20 @@ impl<'a> Taker<'a> {
         let mut found = self.found;
         found.pairs.sort_unstable();
         found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_more_pairs_are_counted_than_anybody_waits_for() {
+        let mut taker = Taker::new(0, false, false, usize::MAX, None);
+        taker.found.count = MOST_COUNTED - 1;
+        assert_eq!(taker.take([0, 1, 0, 2]), ControlFlow::Continue(()));
+        let stopped = taker.take([0, 1, 0, 3]);
+        assert_eq!(stopped, ControlFlow::Break(Stop::Endless));
+        assert_eq!(taker.end().count, MOST_COUNTED);
     }
 }

@@ -40,7 +40,7 @@
 //! | `sequence.rs`, `any_world.rs` | sources side by side; the world, of either precision, in a frame of theirs |
 //! | `bodies.rs`, `pieces.rs` | what an answer calls a body; connected pieces of a mesh |
 //! | `filter.rs` | names and groups; who may meet whom |
-//! | `found.rs` | the pairs of one frame |
+//! | `found.rs`, `one_point.rs` | the pairs of one frame; what cannot be checked for their number |
 //! | `error.rs` | one type, one line |
 
 mod any_world;
@@ -49,6 +49,7 @@ mod check;
 mod error;
 mod filter;
 mod found;
+mod one_point;
 mod pieces;
 mod sequence;
 mod settings;

@@ -3,6 +3,7 @@
 use pliant_check::{Check, Error, Frames, Group, Settings, Split};
 use pliant_io::OpenOptions;
 use std::fs;
+use std::sync::atomic::{AtomicU32, Ordering};
 use tempfile::TempDir;
 
 /// Three bodies that all meet in frame 0 and move apart: two sequences of six frames, and one that stands still.
@@ -71,6 +72,47 @@ fn frames_are_those_of_the_range_whatever_the_baseline() {
         ..Settings::default()
     };
     assert_eq!(counts(&arguments, &settings).unwrap(), []);
+}
+
+/// Whenever it is interrupted, nothing is lost: the same frame is checked the next time.
+#[test]
+fn an_interrupted_frame_can_be_asked_for_again() {
+    let (_folder, arguments) = folder();
+    for (baseline, first) in [
+        (None, false),
+        (None, true),
+        (Some(5), false),
+        (Some(5), true),
+    ] {
+        let settings = Settings {
+            baseline,
+            first,
+            ..Settings::default()
+        };
+        let expected = counts(&arguments, &settings).unwrap();
+        let open = || Check::open(&arguments, &OpenOptions::default(), &settings).unwrap();
+        let mut interrupted = 0;
+        for looks in 0..100 {
+            let mut check = open();
+            let looked = AtomicU32::new(0);
+            let stop = || looked.fetch_add(1, Ordering::Relaxed) >= looks;
+            let mut found = Vec::new();
+            loop {
+                let frame = match check.next_frame_unless(Some(&stop)) {
+                    Err(Error::Interrupted { frame }) => {
+                        assert!(frame == found.len() || baseline == Some(frame));
+                        interrupted += 1;
+                        check.next_frame()
+                    }
+                    other => other,
+                };
+                let Some(frame) = frame.unwrap() else { break };
+                found.push((frame.frame, frame.count));
+            }
+            assert_eq!(found, expected, "{looks}");
+        }
+        assert!(interrupted > 100, "{interrupted}");
+    }
 }
 
 #[test]

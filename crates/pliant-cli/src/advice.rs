@@ -7,12 +7,12 @@ use pliant_check::Error as CheckError;
 use pliant_io::{Place, Reason};
 use std::io::{self, ErrorKind};
 
-/// All that is said of an error, wherever it is shown: what is wrong, `"; "` and what to do.
+/// All that is said of an error, wherever it is shown: what is wrong, `"; "` and what to do; in one line.
 pub(crate) fn with_advice(error: &anyhow::Error) -> String {
-    match error.chain().find_map(advice) {
+    crate::one_line(&match error.chain().find_map(advice) {
         Some(advice) => format!("{error:#}; {advice}"),
         None => format!("{error:#}"),
-    }
+    })
 }
 
 fn advice(error: &(dyn std::error::Error + 'static)) -> Option<&'static str> {
@@ -39,6 +39,7 @@ fn reading(error: &pliant_io::Error) -> Option<&'static str> {
         Reason::Io(_) => "see that you may read it and that its disk is there",
         Reason::Malformed(_)
         | Reason::FewCorners { .. }
+        | Reason::RepeatedCorners { .. }
         | Reason::VertexIndex { .. }
         | Reason::Coordinate { .. }
         | Reason::NoVertices
@@ -80,6 +81,8 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         }
         CheckError::NoClip => Some("leave out `--clip`"),
         CheckError::EmptyGroup { .. } => Some("write NAME=BODY,BODY"),
+        CheckError::Endless { .. } => Some("ask for less with `--first`, or mend the mesh"),
+        CheckError::OnePoint { .. } => Some("mend it, or export it without them"),
         CheckError::TooManyPairs { .. } => {
             Some("allow more with `--max-memory`, or ask for less with `--count` or `--first`")
         }

@@ -1,7 +1,7 @@
 //! The program `pliant`: one file or folder a verb, this one chooses among them.
 //!
-//! Whatever goes wrong ends in one line on standard error that says what, where and what to do, and in exit code 2. If
-//! standard output is closed before the end, as `head` does, the exit code is 2 too, without a line.
+//! Whatever goes wrong, wrong usage too, ends in one line on standard error that says what, where and what to do, and in exit
+//! code 2; only where nothing at all was asked, help is shown. If standard output is closed before the end, as `head` does, the exit code is 2 too, without a line.
 
 mod advice;
 mod bench;
@@ -15,6 +15,7 @@ mod report;
 mod run;
 mod table;
 mod tree_options;
+mod usage;
 
 use anyhow::Context;
 use clap::{CommandFactory, Parser, Subcommand};
@@ -69,7 +70,11 @@ enum Outcome {
 }
 
 fn main() -> ExitCode {
-    let outcome = match Arguments::parse().verb {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return usage::said(&error),
+    };
+    let outcome = match arguments.verb {
         Verb::Run(arguments) => run::run(&arguments),
         Verb::Check(arguments) => check::check(&arguments),
         Verb::Convert(arguments) => convert::convert(&arguments),
@@ -83,7 +88,7 @@ fn main() -> ExitCode {
         Err(error) => {
             // Whoever reads has gone (`| head`): nobody to tell.
             if !is_broken_pipe(&error) {
-                complain(&format!("pliant: {}", advice::with_advice(&error)));
+                complain(&advice::with_advice(&error));
             }
             ExitCode::from(2)
         }
@@ -112,9 +117,14 @@ fn progress(length: u64, quiet: bool) -> ProgressBar {
     }
 }
 
-/// A line on standard error; if even that is closed, there is nothing left to do.
+/// A line on standard error, whatever is quoted in it; if even that is closed, there is nothing left to do.
 fn complain(line: &str) {
-    let _ = writeln!(io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "pliant: {}", one_line(line));
+}
+
+/// What is said in one line: of very many or very long names its beginning and its end.
+fn one_line(text: &str) -> String {
+    pliant_io::shown_within(text, 4000)
 }
 
 fn is_broken_pipe(error: &anyhow::Error) -> bool {

@@ -4,6 +4,7 @@ use crate::{Outcome, command, print_all};
 use anyhow::Context;
 use clap::Args;
 use clap_mangen::Man;
+use pliant_io::shown;
 use std::fs;
 use std::path::PathBuf;
 
@@ -28,10 +29,10 @@ pub(crate) fn write(arguments: &Arguments) -> anyhow::Result<Outcome> {
         print_all(&page.unwrap_or_default())?;
         return Ok(Outcome::Clear);
     };
-    fs::create_dir_all(folder).with_context(|| format!("cannot write {}", folder.display()))?;
+    fs::create_dir_all(folder).with_context(|| format!("cannot write {}", shown(folder)))?;
     for (name, page) in pages {
         let file = folder.join(name);
-        fs::write(&file, page).with_context(|| format!("cannot write {}", file.display()))?;
+        fs::write(&file, page).with_context(|| format!("cannot write {}", shown(&file)))?;
     }
     Ok(Outcome::Clear)
 }

@@ -6,6 +6,7 @@ use crate::table::grouped;
 use anyhow::{Context, bail};
 use clap::Args;
 use pliant::{Scalar, World};
+use pliant_io::{shown, shown_within};
 use pliant_report::picture::{self, Picture};
 use pliant_report::{BodyLabel, Chart, Motion, Play, Recorder, Report, Series};
 use std::fs::File;
@@ -62,7 +63,7 @@ pub(crate) fn prepare(path: &Path) -> anyhow::Result<()> {
 }
 
 pub(crate) fn cannot_write(path: &Path) -> String {
-    format!("cannot write {}", path.display())
+    format!("cannot write {}", shown(path))
 }
 
 /// Looks at each frame, if anybody wants to see it.
@@ -156,7 +157,8 @@ impl Watcher {
 /// The command, as it could be typed again.
 pub(crate) fn asked() -> String {
     let words = std::env::args_os().skip(1).map(|word| {
-        let word = word.to_string_lossy().into_owned();
+        // Whole: it is to be typed again.
+        let word = shown_within(word, usize::MAX);
         let is_plain = |c: char| c.is_alphanumeric() || "-_./=:,+@%".contains(c);
         if !word.is_empty() && word.chars().all(is_plain) {
             word

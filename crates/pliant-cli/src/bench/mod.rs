@@ -10,6 +10,7 @@ use indicatif::ProgressStyle;
 use pliant_bench::experiments::{EXPERIMENTS, Experiment, Form};
 use pliant_bench::machine::this_machine;
 use pliant_bench::record::Record;
+use pliant_io::shown;
 use std::path::PathBuf;
 
 #[derive(Args, Debug)]
@@ -67,14 +68,14 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
             .map(|experiment| experiment.name)
             .collect();
         bail!(
-            "there is no experiment {:?}; there are {} and all",
-            arguments.name,
+            "there is no experiment \"{}\"; there are {} and all",
+            shown(&arguments.name),
             names.join(", ")
         );
     }
     if let Some(file) = &arguments.json {
         // Before hours are spent: can it be written?
-        std::fs::write(file, "").with_context(|| format!("cannot write {}", file.display()))?;
+        std::fs::write(file, "").with_context(|| format!("cannot write {}", shown(file)))?;
     }
     if let Some(page) = &arguments.report {
         crate::report::prepare(page)?;
@@ -121,7 +122,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
             // After each experiment: what was measured is not lost if a later one fails.
             let text = serde_json::to_string(&record)?;
             std::fs::write(file, text + "\n")
-                .with_context(|| format!("cannot write {}", file.display()))?;
+                .with_context(|| format!("cannot write {}", shown(file)))?;
         }
     }
     bar.finish_and_clear();

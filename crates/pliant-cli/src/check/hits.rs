@@ -9,7 +9,7 @@
 use anyhow::{Context, bail};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use pliant_check::{Check, Found};
-use pliant_io::Precision;
+use pliant_io::{Precision, shown};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -55,10 +55,7 @@ impl Hits {
         let kind = match ending.to_str() {
             Some("vtp") => Kind::PolyData,
             Some("vtu") => Kind::UnstructuredGrid,
-            _ => bail!(
-                "--hits {}: the name must end in .vtp or .vtu",
-                path.display()
-            ),
+            _ => bail!("--hits {}: the name must end in .vtp or .vtu", shown(path)),
         };
         Ok(Self {
             path: path.to_owned(),
@@ -241,7 +238,7 @@ fn write(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> a
         write(&mut out)?;
         out.flush()
     });
-    written.with_context(|| format!("cannot write {}", path.display()))
+    written.with_context(|| format!("cannot write {}", shown(path)))
 }
 
 /// A name as the value of an attribute.

@@ -16,7 +16,7 @@ use output::Output;
 use pictures::Pictures;
 use pliant::Options;
 use pliant_check::{Check, Error, Group, Settings};
-use pliant_io::OpenOptions;
+use pliant_io::{OpenOptions, shown};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -117,8 +117,9 @@ enum Format {
 pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if let Some(pattern) = pliant_io::looks_like_a_series(&arguments.bodies) {
         crate::complain(&format!(
-            "pliant: note: {} arguments are {0} bodies; if they are frames of one body, quote the pattern: '{pattern}'",
-            arguments.bodies.len()
+            "note: {} arguments are {0} bodies; if they are frames of one body, quote the pattern: '{}'",
+            arguments.bodies.len(),
+            shown(&pattern)
         ));
     }
     let mut check = open(arguments).or_else(|error| {

@@ -6,6 +6,7 @@ use super::Arguments;
 use crate::advice;
 use crate::report::{Watcher, fact};
 use pliant_check::{AnyWorld, Check, Found, Row, with_world};
+use pliant_io::shown;
 use pliant_report::BodyLabel;
 
 /// Looks at the frames of one check.
@@ -62,8 +63,11 @@ impl Pictures {
                 ));
             }
             for [a, b] in &arguments.ignore {
-                play.notes
-                    .push(format!("Pairs of {a} and {b} are left out."));
+                play.notes.push(format!(
+                    "Pairs of {} and {} are left out.",
+                    shown(a),
+                    shown(b)
+                ));
             }
             if let Err(error) = checked {
                 let why = advice::with_advice(error);
@@ -76,7 +80,7 @@ impl Pictures {
 /// What the page calls the sources.
 fn labels(check: &Check) -> Vec<BodyLabel> {
     let label = |source: &pliant_io::Body| BodyLabel {
-        name: source.name().to_owned(),
+        name: shown(source.name()),
         faces: source.faces().map(<[u32]>::to_vec),
     };
     check.sources().iter().map(label).collect()

@@ -11,7 +11,7 @@ use crate::table::grouped;
 use anyhow::{Context, bail};
 use clap::Args;
 use frames::Frames;
-use pliant_io::{Body, OpenOptions, Positions, Shape, WriteOptions, Writer};
+use pliant_io::{Body, OpenOptions, Positions, Shape, WriteOptions, Writer, shown};
 
 #[derive(Args, Debug)]
 #[command(after_help = FORMATS)]
@@ -81,7 +81,8 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         },
     )?;
     if arguments.clip.is_some() && body.clip().is_none() {
-        bail!("{}: has no animation; leave out `--clip`", body.name());
+        let name = shown(body.name());
+        bail!("{name}: has no animation; leave out `--clip`");
     }
     let frames = arguments.frames.within(body.frame_count())?;
     let (vertices, triangles) = kept(&body);
@@ -107,7 +108,7 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     body.skip(frames.start);
     let mut some = Picked::default();
     for frame in frames {
-        let name = body.name().to_owned();
+        let name = shown(body.name());
         let positions = body.next_frame()?;
         let positions = positions.with_context(|| format!("{name}: frame {frame} is missing"))?;
         writer.frame(match &vertices {
@@ -116,15 +117,14 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         })?;
     }
     if writer.rounded() {
-        let name = &arguments.to;
+        let [to, from] = [&arguments.to, body.name()].map(shown);
         crate::complain(&format!(
-            "pliant: note: {name} has 32-bit coordinates, {} has 64-bit ones: they were rounded",
-            body.name()
+            "note: {to} has 32-bit coordinates, {from} has 64-bit ones: they were rounded"
         ));
     }
     writer.finish()?;
     if !arguments.quiet {
-        crate::print_all(&format!("{}: {said}\n", arguments.to))?;
+        crate::print_all(&format!("{}: {said}\n", shown(&arguments.to)))?;
     }
     Ok(Outcome::Clear)
 }

@@ -8,6 +8,7 @@ mod convert;
 mod formats;
 mod hits;
 mod memory;
+mod names;
 mod people;
 mod real_meshes;
 mod repeatable;

@@ -576,6 +576,50 @@ fn more_pairs_than_memory() {
 }
 
 #[test]
+fn what_would_take_hours_is_refused_with_its_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    // A polygon that goes to and fro; all triangles of its fan share vertices.
+    let corners = "1 2 ".repeat(80_000);
+    fs::write(
+        path.join("fro.obj"),
+        format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf {corners}\n"),
+    )
+    .unwrap();
+    refused(
+        path,
+        "fro.obj",
+        &["face 0 has 160000 corners, of which only 2 are different; mend it"],
+    );
+    let list: Vec<u8> = (0..160_000_u32)
+        .flat_map(|corner| (corner % 2).to_le_bytes())
+        .collect();
+    let face = [&[0; 36][..], &160_000_u32.to_le_bytes(), &list].concat();
+    fs::write(
+        path.join("fro.ply"),
+        ply("binary_little_endian", ["3", "1"], &face),
+    )
+    .unwrap();
+    refused(path, "fro.ply", &["of which only 2 are different"]);
+    // A sparse file: triangles that are all one point. Each meets each other: two thousand million pairs, or twenty.
+    for (count, is_refused) in [(1 << 16, false), (200_000, true)] {
+        let mut file = File::create(path.join("point.stl")).unwrap();
+        file.write_all(&[&[b' '; 80][..], &u32::to_le_bytes(count)].concat())
+            .unwrap();
+        file.set_len(84 + 50 * u64::from(count)).unwrap();
+        let arguments = ["check", "point.stl", "--first"];
+        let said = measured(path, &arguments).said;
+        if is_refused {
+            said.assert_refused(&[
+                "point.stl: 200000 triangles are one point, (0e0, 0e0, 0e0), where each meets every other; mend it",
+            ]);
+        } else {
+            assert_eq!((said.code, said.err.as_str()), (1, ""));
+        }
+    }
+}
+
+#[test]
 fn sizes_that_are_none_are_explained() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.obj"), OBJ).unwrap();

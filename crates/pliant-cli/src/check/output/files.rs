@@ -1,8 +1,7 @@
 //! The table's column of files: where each frame is a file of its own, people look for the file, not for the number.
 
-use super::table::printable;
 use pliant_check::Check;
-use pliant_io::Body;
+use pliant_io::{Body, shown};
 use std::path::PathBuf;
 
 /// Longer names are not lined up.
@@ -60,7 +59,7 @@ impl Files {
     fn name(&self, check: &Check, frame: usize) -> String {
         let path = check.sources()[self.source].frame_file(frame);
         let path = path.map(|path| path.strip_prefix(&self.folder).unwrap_or(path));
-        path.map_or_else(String::new, |path| printable(&path.display().to_string()))
+        path.map_or_else(String::new, shown)
     }
 }
 

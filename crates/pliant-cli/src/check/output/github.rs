@@ -7,6 +7,7 @@ use super::{Form, Tally, counted};
 use crate::advice;
 use crate::table::grouped;
 use pliant_check::{Check, Found, Row};
+use pliant_io::{shown, shown_within};
 use std::io::{self, Write};
 
 /// So many errors of one step are shown.
@@ -32,7 +33,11 @@ impl Form for Github {
         self.annotated += 1;
         let file = file_of(check, found.frame, [body_a, a, body_b, b]);
         let file = file.map_or_else(String::new, |file| format!("file={},", property(&file)));
-        let name = |body| check.body(body).map_or_else(String::new, |body| body.name);
+        let name = |body| {
+            check
+                .body(body)
+                .map_or_else(String::new, |body| shown(body.name))
+        };
         let pairs = if found.complete {
             counted((
                 found.count,
@@ -84,16 +89,14 @@ pub(super) fn failure(error: &anyhow::Error) -> String {
 fn file_of(check: &Check, frame: usize, [body, ..]: Row) -> Option<String> {
     let source = &check.sources()[check.source_of(body)?];
     let file = source.frame_file(frame).or_else(|| source.frame_file(0))?;
-    Some(file.display().to_string())
+    // Whole: the runner looks for the file.
+    Some(shown_within(file, usize::MAX))
 }
 
-/// What a message may hold: one line, in which `%` begins an escape.
+/// What a message, which is a line already, may hold: `%` begins an escape.
 fn data(text: &str) -> String {
     let escaped = text.chars().map(|c| match c {
         '%' => "%25".to_owned(),
-        '\r' => "%0D".to_owned(),
-        '\n' => "%0A".to_owned(),
-        c if c.is_control() => c.escape_default().to_string(),
         c => c.to_string(),
     });
     escaped.collect()

@@ -5,6 +5,7 @@ use super::{Form, Tally, counted};
 use crate::check::{Arguments, Names};
 use crate::table::grouped;
 use pliant_check::{BodyFacts, Check, Found};
+use pliant_io::shown;
 use std::io::{self, Write};
 
 /// A file in more pieces than this is one line of the head.
@@ -39,7 +40,7 @@ impl Table {
             (_, true) => "the bodies with each other, and each with itself",
             (_, false) => "the bodies with each other, not with themselves",
         };
-        let two = |[a, b]: &Names| format!("{} with {}", printable(a), printable(b));
+        let two = |[a, b]: &Names| format!("{} with {}", shown(a), shown(b));
         let ignored: Vec<_> = self.ignore.iter().map(two).collect();
         let ignored = match ignored.join(", ") {
             none if none.is_empty() => none,
@@ -59,7 +60,7 @@ impl Form for Table {
             let of_source = check.bodies_of(place);
             let (first, count) = (of_source.start, of_source.len());
             let each = bodies.by_ref().take(count);
-            let name = printable(source.name());
+            let name = shown(source.name());
             let [vertices, triangles] = sizes(source.vertex_count(), source.triangles().len());
             if !self.split {
                 each.for_each(drop);
@@ -74,7 +75,7 @@ impl Form for Table {
             } else {
                 for (number, body) in each {
                     let BodyFacts { first_triangle, .. } = body;
-                    let name = printable(&body.name);
+                    let name = shown(&body.name);
                     let [vertices, triangles] = sizes(body.vertices, body.triangles);
                     writeln!(
                         out,
@@ -88,7 +89,7 @@ impl Form for Table {
                 write!(out, ", {welded} welded where boundary edges coincide")?;
             }
             if let Some(clip) = source.clip() {
-                write!(out, ", clip {}", printable(clip))?;
+                write!(out, ", clip {}", shown(clip))?;
             }
             writeln!(out)?;
         }
@@ -144,17 +145,4 @@ fn sizes(vertices: usize, triangles: usize) -> [String; 2] {
         (triangles, "triangle", "triangles"),
     ]
     .map(counted)
-}
-
-/// A name without characters that would steer a terminal.
-pub(super) fn printable(name: &str) -> String {
-    name.chars()
-        .flat_map(|c| {
-            if c.is_control() {
-                c.escape_default().collect::<Vec<_>>()
-            } else {
-                vec![c]
-            }
-        })
-        .collect()
 }

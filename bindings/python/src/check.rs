@@ -1,7 +1,7 @@
 //! Files, frame by frame: what `pliant check --format json` says, as an iterator of frames. The loop is the program's.
 
 use crate::arrays;
-use crate::error::{Fact, Refused, after_checking, alone_with, named_tuple};
+use crate::error::{Fact, Refused, after_checking, alone_with, caught, named_tuple};
 use crate::options::with_threads;
 use crate::signals::interruptible;
 use numpy::IntoPyArray;
@@ -124,7 +124,8 @@ pub(crate) fn check(
         fps,
         ..OpenOptions::default()
     };
-    let running = py.detach(|| pliant_check::Check::open(&paths, &reading, &settings))?;
+    let running =
+        py.detach(|| caught(|| Ok(pliant_check::Check::open(&paths, &reading, &settings)?)))?;
     Ok(Check {
         bodies: facts(py, &running)?.unbind(),
         frame_count: running.frame_count(),

@@ -8,6 +8,7 @@ use pliant_io::Reason;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyTuple};
 use std::fmt::{Debug, Display};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
 /// A call that was refused, or an exception of Python's on its way through.
@@ -229,7 +230,20 @@ pub(crate) fn alone_with<S: Send, T: Send>(
     mutex: &Mutex<S>,
     work: impl FnOnce(&mut S) -> Result<T, Refused> + Send,
 ) -> Result<T, Refused> {
-    py.detach(|| work(&mut *alone(mutex)?))
+    py.detach(|| caught(|| work(&mut *alone(mutex)?)))
+}
+
+/// What some work ends in. A panic, which is a bug, is an error like others: what Python makes of panics by itself is no `Exception`,
+/// and ends programs that meant to go on.
+pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T, Refused>) -> Result<T, Refused> {
+    // What the work had in hand is behind a lock, which a panic leaves poisoned, or gone.
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| panic.downcast_ref().copied());
+        let text = text.unwrap_or("no reason was given");
+        let message = format!("a panic, which is a bug of pliant; please report it: {text}");
+        Err(Refused::new("Broken", message))
+    })
 }
 
 /// What `mutex` holds, for one call alone.

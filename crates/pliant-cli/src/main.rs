@@ -8,9 +8,11 @@ mod bench;
 mod check;
 mod completions;
 mod convert;
+mod edge;
 #[cfg(test)]
 mod examples;
 mod man;
+mod output;
 mod report;
 mod run;
 mod table;
@@ -74,14 +76,15 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return usage::said(&error),
     };
-    let outcome = match arguments.verb {
+    edge::be_silent();
+    let outcome = edge::caught(|| match arguments.verb {
         Verb::Run(arguments) => run::run(&arguments),
         Verb::Check(arguments) => check::check(&arguments),
         Verb::Convert(arguments) => convert::convert(&arguments),
         Verb::Bench(arguments) => bench::bench(&arguments),
         Verb::Completions(arguments) => completions::print(&arguments),
         Verb::Man(arguments) => man::write(&arguments),
-    };
+    });
     match outcome {
         Ok(Outcome::Clear) => ExitCode::SUCCESS,
         Ok(Outcome::Intersects) => ExitCode::from(1),

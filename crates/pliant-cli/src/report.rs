@@ -2,15 +2,14 @@
 //!
 //! Without them nothing here does anything: no pair is kept, no position is copied.
 
+use crate::output::{self, MARK, Overwrite};
 use crate::table::grouped;
-use anyhow::{Context, bail};
+use anyhow::bail;
 use clap::Args;
 use pliant::{Scalar, World};
-use pliant_io::{shown, shown_within};
+use pliant_io::shown_within;
 use pliant_report::picture::{self, Picture};
 use pliant_report::{BodyLabel, Chart, Motion, Play, Recorder, Report, Series};
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -26,6 +25,8 @@ pub(crate) struct PictureOptions {
     /// The frame, or the step, that --png draws; needed unless there is only one
     #[arg(long, value_name = "N", requires = "png", allow_negative_numbers = true, value_parser = frame::<u32>)]
     frame: Option<u32>,
+    #[command(flatten)]
+    pub(crate) over: Overwrite,
 }
 
 /// The number of a frame.
@@ -57,13 +58,11 @@ fn ends_in(name: &str, endings: &[&str]) -> Result<PathBuf, String> {
     ))
 }
 
-/// Sees to it that a page can be written, before anything is computed.
-pub(crate) fn prepare(path: &Path) -> anyhow::Result<()> {
-    Report::can_be_written(path).with_context(|| cannot_write(path))
-}
-
-pub(crate) fn cannot_write(path: &Path) -> String {
-    format!("cannot write {}", shown(path))
+/// Writes a page.
+pub(crate) fn write_page(path: &Path, report: &Report, over: Overwrite) -> anyhow::Result<()> {
+    output::write(path, MARK, over, |out| {
+        out.write_all(report.page().as_bytes())
+    })
 }
 
 /// Looks at each frame, if anybody wants to see it.
@@ -96,7 +95,7 @@ impl Watcher {
             _ => {}
         }
         for path in options.report.iter().chain(&options.png) {
-            prepare(path)?;
+            output::prepare(path, MARK, options.over)?;
         }
         Ok(Self {
             recorder: options.report.is_some().then(|| Recorder::new(labels())),
@@ -126,8 +125,7 @@ impl Watcher {
             .filter(|_| self.options.frame == Some(number))
         {
             let picture = Picture::of(world, pairs, picture::SIZE);
-            let write = || picture.write_png(BufWriter::new(File::create(path)?));
-            write().with_context(|| cannot_write(path))?;
+            output::write(path, MARK, self.options.over, |out| picture.write_png(out))?;
         }
         Ok(())
     }
@@ -150,7 +148,7 @@ impl Watcher {
         tell(&motion, &mut play);
         play.charts.push(pairs_chart(&motion, along));
         report.add(play, motion);
-        report.write(path).with_context(|| cannot_write(path))
+        write_page(path, &report, self.options.over)
     }
 }
 

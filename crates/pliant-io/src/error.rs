@@ -220,6 +220,11 @@ impl Error {
     pub fn reason(&self) -> &Reason {
         &self.reason
     }
+
+    /// The same, for whoever says in its own words where it is.
+    pub fn into_reason(self) -> Reason {
+        self.reason
+    }
 }
 
 impl std::error::Error for Error {}

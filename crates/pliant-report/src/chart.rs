@@ -1,5 +1,6 @@
 //! Lines over steps, as in figures 3 and 4 of the paper: shown by the page, and written as SVG for a paper.
 
+use crate::MARK;
 use crate::colours::of_line;
 use crate::page::escape;
 use serde::Serialize;
@@ -70,6 +71,7 @@ impl Chart {
         let axes = Axes::of(self);
         let mut svg = format!(
             r#"<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="black">
+<!-- {MARK} -->
 <title>{title}</title>
 <text x="{LEFT}" y="20" font-size="14">{title}</text>
 "#,

@@ -31,6 +31,9 @@
     reason = "samples, colours and steps of positions are not negative"
 )]
 
+/// What every file that the program writes bears near its beginning: those with it may be written over.
+pub const MARK: &str = "written by pliant";
+
 mod chart;
 mod colours;
 mod frames;

@@ -3,6 +3,7 @@
 //! Text from files and commands (names, paths) may be hostile. It goes into the page in two places only: escaped in the title,
 //! and as JSON in which `<` is written `\u003c`, so that no text can end the element it is in. The viewer shows text as text.
 
+use crate::MARK;
 use crate::chart::Chart;
 use crate::colours::{HIT, of_body, of_line};
 use crate::frames::Motion;
@@ -42,6 +43,7 @@ impl Report {
 <html lang="en">
 <head>
 <meta charset="utf-8">
+<meta name="generator" content="{MARK}">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">

@@ -2,9 +2,6 @@
 
 use crate::chart::Chart;
 use crate::frames::Motion;
-use std::fs::OpenOptions;
-use std::io;
-use std::path::Path;
 
 /// Everything on one page.
 #[derive(Clone, Debug, Default)]
@@ -52,28 +49,6 @@ impl Report {
         play.motion = Some(self.motions.len());
         self.motions.push(motion);
         self.plays.push(play);
-    }
-
-    /// Sees to it that a page can be written there, before hours are spent; leaves what is there as it is.
-    ///
-    /// # Errors
-    ///
-    /// Those of opening a file for writing.
-    pub fn can_be_written(path: &Path) -> io::Result<()> {
-        OpenOptions::new()
-            .append(true)
-            .create(true)
-            .open(path)
-            .map(|_| ())
-    }
-
-    /// Writes the page.
-    ///
-    /// # Errors
-    ///
-    /// Those of writing a file.
-    pub fn write(&self, path: &Path) -> io::Result<()> {
-        std::fs::write(path, self.page())
     }
 }
 

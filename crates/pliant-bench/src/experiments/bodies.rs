@@ -11,7 +11,7 @@ use pliant_scenes::Scene;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "bodies",
-    about: "brute force, sweep and prune, a tree of bodies; 10 to 10,000 bodies",
+    about: "brute force, sweep and prune, a tree; 10 to 10,000 bodies",
     plan,
     claims,
 };

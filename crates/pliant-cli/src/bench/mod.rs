@@ -3,8 +3,9 @@
 mod report;
 mod tables;
 
+use crate::output::{self, MARK, Overwrite};
 use crate::{Outcome, print_all, progress};
-use anyhow::{Context, bail};
+use anyhow::bail;
 use clap::Args;
 use indicatif::ProgressStyle;
 use pliant_bench::experiments::{EXPERIMENTS, Experiment, Form};
@@ -36,7 +37,12 @@ pub(crate) struct Arguments {
     /// Nothing on standard output, and no progress; for --json
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    over: Overwrite,
 }
+
+/// How every record begins.
+const RECORD: &str = r#"{"format":1,"machine":{"processor":"#;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -73,12 +79,13 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
             names.join(", ")
         );
     }
+    let over = arguments.over;
     if let Some(file) = &arguments.json {
         // Before hours are spent: can it be written?
-        std::fs::write(file, "").with_context(|| format!("cannot write {}", shown(file)))?;
+        output::prepare(file, RECORD, over)?;
     }
     if let Some(page) = &arguments.report {
-        crate::report::prepare(page)?;
+        output::prepare(page, MARK, over)?;
     }
     let form = if arguments.small {
         Form::Small
@@ -115,19 +122,18 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
         });
         bar.suspend(|| print(&tables::experiment(&done)))?;
         if let Some(folder) = &arguments.svg {
-            report::write_charts(folder, &done)?;
+            report::write_charts(folder, &done, over)?;
         }
         record.experiments.push(done);
         if let Some(file) = &arguments.json {
             // After each experiment: what was measured is not lost if a later one fails.
             let text = serde_json::to_string(&record)?;
-            std::fs::write(file, text + "\n")
-                .with_context(|| format!("cannot write {}", shown(file)))?;
+            output::write(file, RECORD, over, |out| writeln!(out, "{text}"))?;
         }
     }
     bar.finish_and_clear();
     if let Some(page) = &arguments.report {
-        report::write(page, &record, &chosen, form)?;
+        report::write(page, &record, &chosen, form, over)?;
     }
     Ok(Outcome::Clear)
 }

@@ -1,12 +1,14 @@
 //! A page about experiments, and their charts as SVG: figures 3 and 4 of the paper, with what is measured beside what moves.
 
-use crate::report::{asked, cannot_write, chart, counted, fact};
+use crate::output::{self, MARK, Overwrite};
+use crate::report::{asked, chart, counted, fact, write_page};
 use crate::table::grouped;
 use anyhow::Context;
 use pliant::{Selection, World};
 use pliant_bench::experiments::{Experiment, Form};
 use pliant_bench::motion::Motion;
 use pliant_bench::record::{Claim, ContestRecord, ExperimentRecord, MethodRecord, Record, Verdict};
+use pliant_io::shown;
 use pliant_report::{Chart, Play, Recorder, Report};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -38,6 +40,7 @@ pub(super) fn write(
     record: &Record,
     chosen: &[&Experiment],
     form: Form,
+    over: Overwrite,
 ) -> anyhow::Result<()> {
     let mut report = Report::new(&asked());
     let machine = &record.machine;
@@ -93,12 +96,17 @@ pub(super) fn write(
             report.plays.push(play);
         }
     }
-    report.write(path).with_context(|| cannot_write(path))
+    write_page(path, &report, over)
 }
 
 /// Writes every chart into a folder.
-pub(super) fn write_charts(folder: &Path, experiment: &ExperimentRecord) -> anyhow::Result<()> {
-    std::fs::create_dir_all(folder).with_context(|| cannot_write(folder))?;
+pub(super) fn write_charts(
+    folder: &Path,
+    experiment: &ExperimentRecord,
+    over: Overwrite,
+) -> anyhow::Result<()> {
+    let made = std::fs::create_dir_all(folder);
+    made.with_context(|| format!("cannot write {}", shown(folder)))?;
     for contest in &experiment.contests {
         for (what, chart) in charts(contest) {
             let name = file_name(&format!(
@@ -106,7 +114,9 @@ pub(super) fn write_charts(folder: &Path, experiment: &ExperimentRecord) -> anyh
                 experiment.experiment, contest.name
             ));
             let path = folder.join(name + ".svg");
-            std::fs::write(&path, chart.svg()).with_context(|| cannot_write(&path))?;
+            output::write(&path, MARK, over, |out| {
+                out.write_all(chart.svg().as_bytes())
+            })?;
         }
     }
     Ok(())

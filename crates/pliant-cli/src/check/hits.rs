@@ -6,18 +6,19 @@
 //! screen), and a `.pvd` beside them names them all. Arrays are base64: every bit of a coordinate, and half the size of text.
 //! The format: <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
-use anyhow::{Context, bail};
+use crate::output::{self, MARK, Overwrite};
+use anyhow::bail;
 use base64::prelude::{BASE64_STANDARD, Engine};
 use pliant_check::{Check, Found};
 use pliant_io::{Precision, shown};
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The files of one check.
 pub(super) struct Hits {
     path: PathBuf,
     kind: Kind,
+    over: Overwrite,
     /// Of each frame the number and the name of the file, where there are several.
     written: Vec<(usize, String)>,
 }
@@ -50,35 +51,59 @@ struct Mesh {
 }
 
 impl Hits {
-    pub(super) fn new(path: &Path) -> anyhow::Result<Self> {
+    /// Sees to it that files can be written for so many frames.
+    pub(super) fn new(path: &Path, frames: usize, over: Overwrite) -> anyhow::Result<Self> {
         let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
         let kind = match ending.to_str() {
             Some("vtp") => Kind::PolyData,
             Some("vtu") => Kind::UnstructuredGrid,
             _ => bail!("--hits {}: the name must end in .vtp or .vtu", shown(path)),
         };
-        Ok(Self {
+        let hits = Self {
             path: path.to_owned(),
             kind,
+            over,
             written: Vec::new(),
-        })
+        };
+        if frames > 1 {
+            output::prepare(&hits.collection(), MARK, over)?;
+        }
+        for frame in 0..frames {
+            output::prepare(&hits.of_frame(frame, frames), MARK, over)?;
+        }
+        Ok(hits)
+    }
+
+    /// The file of a frame of so many.
+    fn of_frame(&self, frame: usize, count: usize) -> PathBuf {
+        if count == 1 {
+            return self.path.clone();
+        }
+        let digits = (count - 1).to_string().len();
+        let [stem, ending] = [self.path.file_stem(), self.path.extension()]
+            .map(|part| part.unwrap_or_default().display());
+        let name = format!("{stem}_{frame:0digits$}.{ending}");
+        self.path.with_file_name(name)
+    }
+
+    /// The file that names all others.
+    fn collection(&self) -> PathBuf {
+        self.path.with_extension("pvd")
     }
 
     /// Writes the frame that was checked last.
     pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
         let count = check.frame_count();
-        let path = if count == 1 {
-            self.path.clone()
-        } else {
-            let digits = (count - 1).to_string().len();
-            let [stem, ending] = [self.path.file_stem(), self.path.extension()]
-                .map(|part| part.unwrap_or_default().display());
-            let name = format!("{stem}_{:0digits$}.{ending}", found.frame);
-            self.written.push((found.frame, name.clone()));
-            self.path.with_file_name(name)
-        };
+        let path = self.of_frame(found.frame, count);
+        if count > 1 {
+            let name = path.file_name().unwrap_or_default();
+            let name = name.to_string_lossy().into_owned();
+            self.written.push((found.frame, name));
+        }
         let mesh = Mesh::of(check, found);
-        write(&path, |out| mesh.write(out, check, self.kind, found.frame))
+        output::write(&path, MARK, self.over, |out| {
+            mesh.write(out, check, self.kind, found.frame)
+        })
     }
 
     /// Writes the collection, if there are several files.
@@ -86,7 +111,7 @@ impl Hits {
         if self.written.is_empty() {
             return Ok(());
         }
-        write(&self.path.with_extension("pvd"), |out| {
+        output::write(&self.collection(), MARK, self.over, |out| {
             begin(out, "Collection")?;
             for (frame, name) in &self.written {
                 let name = attribute(name);
@@ -199,6 +224,7 @@ fn begin(out: &mut dyn Write, kind: &str) -> io::Result<()> {
     writeln!(
         out,
         r#"<?xml version="1.0"?>
+<!-- {MARK} -->
 <VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64">
 <{kind}>"#
     )
@@ -229,16 +255,6 @@ fn array<const N: usize>(
         r#"<DataArray type="{kind}" Name="{name}"{components} format="binary">{}</DataArray>"#,
         BASE64_STANDARD.encode(bytes)
     )
-}
-
-/// A file whole, or an error that names it.
-fn write(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> anyhow::Result<()> {
-    let written = File::create(path).and_then(|file| {
-        let mut out = BufWriter::new(file);
-        write(&mut out)?;
-        out.flush()
-    });
-    written.with_context(|| format!("cannot write {}", shown(path)))
 }
 
 /// A name as the value of an attribute.

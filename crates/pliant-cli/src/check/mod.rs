@@ -126,7 +126,10 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
         let error = advise_names(arguments, error);
         output::annotate(arguments, error)
     })?;
-    let mut hits = arguments.hits.as_deref().map(Hits::new).transpose()?;
+    let over = arguments.pictures.over;
+    let hits = arguments.hits.as_deref();
+    let hits = hits.map(|path| Hits::new(path, check.frame_count(), over));
+    let mut hits = hits.transpose()?;
     let mut pictures = Pictures::new(arguments, &check)?;
     let mut output = Output::begin(arguments, &check)?;
     let checked = frames(

@@ -60,6 +60,7 @@ fn read(path: &Path) -> Vtk {
     let text =
         fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let body = text.strip_prefix("<?xml version=\"1.0\"?>\n").unwrap();
+    let body = body.strip_prefix("<!-- written by pliant -->\n").unwrap();
     let (mut vtk, mut open) = (Vtk::default(), Vec::new());
     for element in body.split('<').skip(1) {
         let (tag, content) = element.split_once('>').unwrap();

@@ -9,6 +9,7 @@ mod formats;
 mod hits;
 mod memory;
 mod names;
+mod outputs;
 mod people;
 mod real_meshes;
 mod repeatable;

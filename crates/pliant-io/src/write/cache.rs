@@ -3,13 +3,13 @@
 use std::io::Write;
 use std::path::Path;
 
-use super::{Shape, Staged, narrowed, widened};
+use super::{Shape, StagedFile, narrowed, widened};
 use crate::cache::PC2;
 use crate::error::{Error, Reason};
 use crate::positions::Positions;
 
 pub(super) struct Cache {
-    staged: Staged,
+    staged: StagedFile,
     big_endian: bool,
     /// Reused: a frame as it is in the file.
     bytes: Vec<u8>,
@@ -43,7 +43,7 @@ impl Cache {
             bytes.extend(frames.to_le_bytes());
         }
         let mut cache = Self {
-            staged: Staged::create(path)?,
+            staged: StagedFile::create(path)?,
             big_endian,
             bytes,
         };
@@ -73,7 +73,7 @@ impl Cache {
         Ok(rounded)
     }
 
-    pub(super) fn finish(self) -> Staged {
+    pub(super) fn finish(self) -> StagedFile {
         self.staged
     }
 }

@@ -17,7 +17,7 @@ use crate::arguments::mesh_and_positions;
 use crate::error::{Error, Reason};
 use crate::format::Format;
 use crate::positions::{Positions, Precision};
-use staged::Staged;
+pub use staged::StagedFile;
 
 /// What holds for all frames that are written.
 #[derive(Debug, Clone, PartialEq)]
@@ -98,7 +98,7 @@ enum To {
 struct Pair {
     format: Format,
     mesh: PathBuf,
-    staged: Option<Staged>,
+    staged: Option<StagedFile>,
     cache: cache::Cache,
 }
 
@@ -266,8 +266,8 @@ fn write_mesh(
     path: &Path,
     shape: &Shape,
     positions: Positions<'_>,
-) -> Result<Staged, Error> {
-    let mut staged = Staged::create(path)?;
+) -> Result<StagedFile, Error> {
+    let mut staged = StagedFile::create(path)?;
     let written = match format {
         Format::Ply => ply::write(&mut staged, shape, positions),
         Format::Stl => stl::write(&mut staged, shape, positions),

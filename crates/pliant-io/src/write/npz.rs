@@ -6,12 +6,12 @@ use std::path::Path;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use super::{Shape, Staged, widened};
+use super::{Shape, StagedFile, widened};
 use crate::error::{Error, Reason};
 use crate::positions::{Positions, Precision};
 
 pub(super) struct Npz {
-    archive: ZipWriter<Staged>,
+    archive: ZipWriter<StagedFile>,
     path: std::path::PathBuf,
     precision: Precision,
     /// Reused: a frame as it is in the file.
@@ -21,7 +21,7 @@ pub(super) struct Npz {
 impl Npz {
     pub(super) fn create(path: &Path, shape: &Shape) -> Result<Self, Error> {
         let mut npz = Self {
-            archive: ZipWriter::new(Staged::create(path)?),
+            archive: ZipWriter::new(StagedFile::create(path)?),
             path: path.to_owned(),
             precision: shape.precision,
             bytes: Vec::new(),
@@ -76,7 +76,7 @@ impl Npz {
         self.written(written)
     }
 
-    pub(super) fn finish(mut self, shape: &Shape) -> Result<Staged, Error> {
+    pub(super) fn finish(mut self, shape: &Shape) -> Result<StagedFile, Error> {
         let size = size_of_val(&shape.triangles[..]) as u64;
         self.begin(
             "faces",

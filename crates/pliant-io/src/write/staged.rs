@@ -10,7 +10,23 @@ use tempfile::NamedTempFile;
 
 use crate::error::{Error, Reason};
 
-pub(super) struct Staged {
+/// A new file, which has no name of its own until it is whole.
+///
+/// ```
+/// # use std::io::Write;
+/// # let folder = std::env::temp_dir().join(format!("pliant-io-staged-{}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// # let path = folder.join("notes.txt");
+/// let mut file = pliant_io::StagedFile::create(&path)?;
+/// file.write_all(b"all or nothing")?;
+/// assert!(!path.exists());
+/// file.commit(false)?;
+/// assert_eq!(std::fs::read(&path)?, b"all or nothing");
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct StagedFile {
     path: PathBuf,
     file: BufWriter<NamedTempFile>,
     /// Whether a coordinate in it was rounded.
@@ -39,8 +55,13 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-impl Staged {
-    pub(super) fn create(path: &Path) -> Result<Self, Error> {
+impl StagedFile {
+    /// A file beside its place. Dropped before it is [committed](Self::commit), it goes away.
+    ///
+    /// # Errors
+    ///
+    /// [`Reason::Write`] if no file can be made in that folder.
+    pub fn create(path: &Path) -> Result<Self, Error> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".pliant-");
         // As any other new file; those of this crate are otherwise for their owner alone.
@@ -58,12 +79,18 @@ impl Staged {
         })
     }
 
-    pub(super) fn path(&self) -> &Path {
+    /// The name that it will have.
+    pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Gives the file its name; returns whether a coordinate in it was rounded.
-    pub(super) fn commit(self, force: bool) -> Result<bool, Error> {
+    /// Gives the file its name, with `force` in place of a file that has it: a link is replaced, not what it leads to. Returns whether
+    /// a coordinate in it was rounded.
+    ///
+    /// # Errors
+    ///
+    /// [`Reason::Exists`] if there is such a file and no `force`; [`Reason::Write`] if what is left could not be written.
+    pub fn commit(self, force: bool) -> Result<bool, Error> {
         let Self {
             path,
             file,
@@ -88,7 +115,7 @@ impl Staged {
     }
 }
 
-impl Write for Staged {
+impl Write for StagedFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.file.write(bytes)
     }
@@ -98,7 +125,7 @@ impl Write for Staged {
     }
 }
 
-impl Seek for Staged {
+impl Seek for StagedFile {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         self.file.seek(to)
     }

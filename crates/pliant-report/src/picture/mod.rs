@@ -6,6 +6,7 @@
 
 mod raster;
 
+use crate::MARK;
 use crate::colours::{Colour, HIT, of_body};
 use pliant::{Scalar, World};
 use raster::Canvas;
@@ -77,6 +78,7 @@ impl Picture {
         let mut encoder = png::Encoder::new(to, width, height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
+        encoder.add_text_chunk("Software".to_owned(), MARK.to_owned())?;
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&self.pixels)?;
         writer.finish()?;

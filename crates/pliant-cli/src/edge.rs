@@ -1,0 +1,68 @@
+//! The edge of the program: a panic, which is a bug of ours or of a library's, ends as everything else that goes wrong does, in one line
+//! and exit code 2.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+
+/// Where the last panic was, which only the hook is told.
+static PLACE: Mutex<Option<String>> = Mutex::new(None);
+
+/// From now on a panic prints nothing by itself, on any thread.
+pub(crate) fn be_silent() {
+    std::panic::set_hook(Box::new(|panic| {
+        if let (Some(place), Ok(mut last)) = (panic.location(), PLACE.lock()) {
+            *last = Some(format!("{}:{}", place.file(), place.line()));
+        }
+    }));
+}
+
+/// What some work ends in; if that is a panic, an error that says so.
+pub(crate) fn caught<T>(work: impl FnOnce() -> anyhow::Result<T>) -> anyhow::Result<T> {
+    // Nothing that the work had in hand is used again: the program ends.
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
+        let place = PLACE.lock().ok().and_then(|mut last| last.take());
+        let place = place.map_or_else(String::new, |place| format!(" ({place})"));
+        let said = said(panic.as_ref()).lines().collect::<Vec<_>>().join(" ");
+        Err(anyhow::anyhow!(
+            "a bug of pliant, please report it with the files: {said}{place}"
+        ))
+    })
+}
+
+/// What a panic said.
+fn said(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref().copied())
+        .unwrap_or("no reason was given")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_becomes_one_line() {
+        let error = |work: fn() -> anyhow::Result<u32>| caught(work).unwrap_err().to_string();
+        let said = error(|| panic!("two\nlines of {}", "a library"));
+        assert!(said.contains("a bug of pliant"), "{said}");
+        assert!(said.contains("two lines of a library"), "{said}");
+        assert!(!said.contains('\n'), "{said}");
+        assert!(error(|| std::panic::panic_any(7)).contains("no reason"));
+        assert_eq!(caught(|| Ok(5)).unwrap(), 5);
+        assert_eq!(error(|| anyhow::bail!("refused")), "refused");
+    }
+
+    /// A panic on another thread arrives here, too, if that hands it on.
+    #[test]
+    fn threads_hand_their_panics_on() {
+        let said = caught(|| -> anyhow::Result<()> {
+            let thread = std::thread::spawn(|| panic!("far away"));
+            match thread.join() {
+                Ok(()) => Ok(()),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        });
+        assert!(said.unwrap_err().to_string().contains("far away"));
+    }
+}

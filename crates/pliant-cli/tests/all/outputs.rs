@@ -1,0 +1,182 @@
+//! Files that a command writes beside what it prints: nobody's work is lost by a name, and what is there is whole.
+
+use crate::common::{check, folder, pliant};
+use std::fs;
+use std::path::Path;
+
+const MESH: &str =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -1\nv 0.3 0.2 1\nv 0.2 0.3 1\nf 1 2 3\nf 4 5 6\n";
+
+/// Every way to write a file, as a command that ends in the name of one; and the names of what it writes beside.
+const WAYS: [(&[&str], &[&str]); 7] = [
+    (&["check", "a.obj", "--report", "out.html"], &["out.html"]),
+    (&["check", "a.obj", "--png", "out.png"], &["out.png"]),
+    (&["check", "a.obj", "--hits", "out.vtp"], &["out.vtp"]),
+    (
+        &["check", "a_*.obj", "--hits", "out.vtu"],
+        &["out_0.vtu", "out_1.vtu", "out.pvd"],
+    ),
+    (&["run", "--steps", "1", "--png", "out.png"], &["out.png"]),
+    (
+        &[
+            "bench", "cloth", "--small", "--rounds", "1", "--json", "out.json",
+        ],
+        &["out.json"],
+    ),
+    (
+        &[
+            "bench", "cloth", "--small", "--rounds", "1", "--report", "out.html",
+        ],
+        &["out.html"],
+    ),
+];
+
+fn meshes() -> tempfile::TempDir {
+    folder(&["a.obj", "a_0.obj", "a_1.obj"].map(|name| (name, MESH.to_owned())))
+}
+
+/// The names in a folder, but for the meshes.
+fn left(folder: &Path) -> Vec<String> {
+    let names = fs::read_dir(folder).unwrap();
+    let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<_> = names.filter(|name| !name.ends_with(".obj")).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn what_pliant_did_not_write_stays_unless_it_is_forced() {
+    for (command, names) in WAYS {
+        for name in names {
+            let folder = meshes();
+            let path = folder.path();
+            let mine = "notes of mine\n".repeat(1000);
+            fs::write(path.join(name), &mine).unwrap();
+            let said = pliant(path, command);
+            said.assert_refused(&["cannot write", name, "`--force`"]);
+            assert_eq!(fs::read_to_string(path.join(name)).unwrap(), mine);
+            assert_eq!(left(path), [*name], "nothing else is left of {command:?}");
+
+            let forced = pliant(path, &[command, &["--force"]].concat());
+            assert!(forced.code < 2, "{}", forced.err);
+            assert_ne!(fs::read(path.join(name)).unwrap(), mine.as_bytes());
+            // Its own it writes over without being asked twice.
+            let again = pliant(path, command);
+            assert!(again.code < 2, "{command:?}: {}", again.err);
+            let mut expected: Vec<_> = names.to_vec();
+            expected.sort_unstable();
+            assert_eq!(left(path), expected);
+        }
+    }
+}
+
+#[test]
+fn charts_are_not_written_over_what_is_there() {
+    let folder = meshes();
+    let path = folder.path();
+    let command = [
+        "bench", "cloth", "--small", "--rounds", "1", "--quiet", "--svg", "charts",
+    ];
+    assert_eq!(pliant(path, &command).code, 0);
+    assert_eq!(pliant(path, &command).code, 0);
+    let chart = fs::read_dir(path.join("charts")).unwrap().next().unwrap();
+    let chart = chart.unwrap().path();
+    fs::write(&chart, "mine").unwrap();
+    pliant(path, &command).assert_refused(&["cannot write", "`--force`"]);
+    assert_eq!(fs::read(&chart).unwrap(), b"mine");
+}
+
+/// A link is replaced, never what it leads to: the mesh that is checked, above all.
+#[cfg(unix)]
+#[test]
+fn links_are_replaced_and_never_followed() {
+    use std::os::unix::fs::symlink;
+    let links: [fn(&Path, &Path) -> std::io::Result<()>; 2] = [
+        |from, to| symlink(from, to),
+        |from, to| fs::hard_link(from, to),
+    ];
+    for (command, names) in WAYS {
+        let name = names[0];
+        for link in links {
+            let folder = meshes();
+            let path = folder.path();
+            link(&path.join("a.obj"), &path.join(name)).unwrap();
+            pliant(path, command).assert_refused(&["cannot write", name, "`--force`"]);
+            let forced = pliant(path, &[command, &["--force"]].concat());
+            assert!(forced.code < 2, "{}", forced.err);
+            assert_eq!(fs::read_to_string(path.join("a.obj")).unwrap(), MESH);
+            let now = path.join(name).symlink_metadata().unwrap();
+            assert!(now.is_file(), "{command:?}");
+            assert_ne!(fs::read(path.join(name)).unwrap(), MESH.as_bytes());
+        }
+        // A link to nowhere bears no mark.
+        let folder = meshes();
+        let path = folder.path();
+        symlink(path.join("nowhere"), path.join(name)).unwrap();
+        pliant(path, command).assert_refused(&["cannot write", "`--force`"]);
+        assert!(!path.join("nowhere").exists());
+    }
+}
+
+/// A pipe that nobody reads would be waited for; a folder is no file.
+#[cfg(unix)]
+#[test]
+fn pipes_devices_and_folders_are_refused_at_once() {
+    for (command, names) in WAYS {
+        let name = names[0];
+        let folder = meshes();
+        let path = folder.path().join(name);
+        let made = std::process::Command::new("mkfifo").arg(&path).status();
+        if !made.is_ok_and(|made| made.success()) {
+            eprintln!("skipped: no pipes can be made here");
+            return;
+        }
+        for force in [&[][..], &["--force"]] {
+            let said = pliant(folder.path(), &[command, force].concat());
+            said.assert_refused(&["cannot write", name, "a pipe or a device"]);
+        }
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+        for force in [&[][..], &["--force"]] {
+            let said = pliant(folder.path(), &[command, force].concat());
+            said.assert_refused(&["cannot write", name, "directory"]);
+        }
+        fs::remove_dir(&path).unwrap();
+    }
+    let folder = meshes();
+    if Path::new("/dev/full").exists() {
+        std::os::unix::fs::symlink("/dev/full", folder.path().join("full.html")).unwrap();
+        let said = check(folder.path(), &["a.obj", "--report", "full.html"]);
+        said.assert_refused(&["cannot write", "`--force`"]);
+    }
+}
+
+/// No more than so many bytes may be written to a file: as on a full disk, what was there stays, and nothing else is left.
+#[cfg(target_os = "linux")]
+#[test]
+fn on_a_full_disk_the_old_file_stays_whole() {
+    let folder = meshes();
+    let path = folder.path();
+    let command = ["check", "a.obj", "--report", "out.html"];
+    assert_eq!(pliant(path, &command).code, 1);
+    let whole = fs::read(path.join("out.html")).unwrap();
+    let script = format!(
+        "trap '' XFSZ; ulimit -f 8; exec '{}' {}",
+        env!("CARGO_BIN_EXE_pliant"),
+        command.join(" ")
+    );
+    let shell = std::process::Command::new("bash")
+        .args(["-c", &script])
+        .current_dir(path)
+        .output();
+    let Ok(said) = shell else {
+        eprintln!("skipped: no shell that limits the size of files");
+        return;
+    };
+    let complaint = String::from_utf8(said.stderr).unwrap();
+    assert_eq!(said.status.code(), Some(2), "{complaint}");
+    assert!(complaint.contains("cannot write out.html"), "{complaint}");
+    assert_eq!(complaint.lines().count(), 1, "{complaint}");
+    assert_eq!(fs::read(path.join("out.html")).unwrap(), whole);
+    assert_eq!(left(path), ["out.html"]);
+}

@@ -6,6 +6,8 @@
 //!
 //! Every count is held against the bytes that it needs before anything is read, and rows are handed out some thousand at a time.
 
+use std::collections::BTreeSet;
+
 use super::buffers::Buffers;
 use super::document::{Accessor, Document, Sparse};
 use crate::error::{Fault, Place, Reason};
@@ -38,6 +40,8 @@ pub(super) struct Wanted {
     normalised: bool,
     /// May be all zero with no data behind, but for sparse values.
     optional_data: bool,
+    /// The least that is held of a row, in bytes.
+    held: u64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,18 +70,24 @@ impl Wanted {
             components,
             normalised: false,
             optional_data: false,
+            // As numbers of 32 bits.
+            held: 4 * width as u64,
         }
     }
 
     pub(super) const POSITIONS: Self = Self::new("positions", "VEC3", 3, &[F32]);
     pub(super) const DELTAS: Self = Self {
         optional_data: true,
+        // What is zero is not.
+        held: 0,
         ..Self::new("positions of a morph target", "VEC3", 3, &[F32])
     };
     pub(super) const INDICES: Self = Self::new("indices", "SCALAR", 1, &[U8, U16, U32]);
     pub(super) const JOINTS: Self = Self::new("joints", "VEC4", 4, &[U8, U16]);
     pub(super) const WEIGHTS: Self = Self {
         normalised: true,
+        // They join their joints.
+        held: 0,
         ..Self::new("weights", "VEC4", 4, &[F32, U8, U16])
     };
     pub(super) const MATRICES: Self = Self::new("inverse bind matrices", "MAT4", 16, &[F32]);
@@ -150,6 +160,8 @@ struct Rows {
     normalised: bool,
     /// Whether the view may have gaps.
     gaps: bool,
+    /// The least that is held of a row, in bytes.
+    held: u64,
 }
 
 impl Reader {
@@ -203,6 +215,7 @@ impl Reader {
             count,
             normalised: wanted.normalised,
             gaps: true,
+            held: wanted.held,
         };
         let replaced = match &entry.sparse {
             Some(sparse) => {
@@ -247,6 +260,7 @@ impl Reader {
         let sparse_rows = Rows {
             count: sparse.count,
             gaps: false,
+            held: 0,
             ..rows
         };
         Ok([
@@ -256,6 +270,7 @@ impl Reader {
                 component,
                 width: 1,
                 normalised: false,
+                held: size_of::<(u64, [f64; 4])>() as u64,
                 ..sparse_rows
             },
             Rows {
@@ -347,6 +362,8 @@ impl Reader {
             ))
             .into());
         }
+        // Bytes that are there may be those of a hole, which takes no place on any disk, as large as it likes.
+        account.check(rows.count.saturating_mul(rows.held))?;
         let begin = view.byte_offset.saturating_add(rows.offset);
         let mut bytes = Vec::new();
         let mut done = 0;

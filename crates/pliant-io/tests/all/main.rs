@@ -11,6 +11,7 @@ mod npz;
 mod real_files;
 mod rewind;
 mod sequences;
+mod strange_archives;
 mod strange_gltf;
 mod welding;
 mod writing;

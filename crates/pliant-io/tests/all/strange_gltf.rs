@@ -5,8 +5,9 @@ use crate::common::{Folder, all_frames};
 use crate::gltf::triangle;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use pliant_io::OpenOptions;
+use pliant_io::{OpenOptions, Reason};
 use serde_json::{Value, json};
+use std::time::{Duration, Instant};
 
 /// What is done to the valid file.
 type Change = fn(&mut Value);
@@ -145,7 +146,7 @@ fn counts_offsets_and_strides_that_overflow() {
                 file["buffers"][0]["byteLength"] = json!(MOST);
                 file["accessors"][0]["count"] = json!(u64::from(u32::MAX));
             },
-            "are asked for, it has 128",
+            "at least 48.1 GiB of memory, 4 GiB are allowed",
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(0),
@@ -674,4 +675,77 @@ fn buffers_that_leave_the_folder_or_are_no_files() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What a count announces is held against the limit before it is read: a hole is a large buffer that takes no place on any disk.
+#[test]
+fn buffers_that_are_holes() {
+    let folder = Folder::new();
+    let length = 1_u64 << 37;
+    let hole = std::fs::File::create(folder.path().join("hole.bin")).unwrap();
+    if hole.set_len(length).is_err() {
+        eprintln!("skipped: no file with a hole can be made here");
+        return;
+    }
+    let large: [(&str, Change); 3] = [
+        ("positions", |file| {
+            file["accessors"][0]["count"] = json!(4_000_000_000_u64);
+        }),
+        ("triangles", |file| {
+            let indices = json!({"bufferView": 0, "componentType": 5125, "count": 3_000_000_000_u64, "type": "SCALAR"});
+            file["accessors"].as_array_mut().unwrap().push(indices);
+            file["meshes"][0]["primitives"][0]["indices"] = json!(5);
+        }),
+        ("keys", |file| {
+            file["accessors"][4]["count"] = json!(2_000_000_000);
+        }),
+    ];
+    for (what, change) in large {
+        let mut file = triangle();
+        let own = [file["bufferViews"][0].clone(), file["buffers"][0].clone()];
+        change(&mut file);
+        // The times of the keys are as they were.
+        file["accessors"][3]["bufferView"] = json!(1);
+        let [mut view, buffer] = own;
+        view["buffer"] = json!(1);
+        file["bufferViews"] = json!([{"buffer": 0, "byteLength": length}, view]);
+        file["buffers"] = json!([{"byteLength": length, "uri": "hole.bin"}, buffer]);
+        folder.write("large.gltf", file.to_string());
+        let begin = Instant::now();
+        let error = folder.open("large.gltf").unwrap_err();
+        assert!(
+            begin.elapsed() < Duration::from_secs(2),
+            "{what}: it was read"
+        );
+        let is_too_large =
+            matches!(error.reason(), Reason::TooLarge { needed, .. } if *needed > 8 << 30);
+        assert!(is_too_large, "{what}: {error}");
+    }
+}
+
+/// A hundred thousand morph targets that are the same zeros: they are read once.
+#[test]
+fn morph_targets_that_move_nothing_take_no_time() {
+    const VERTICES: usize = 60_000;
+    let mut file = triangle();
+    let rest = append(&mut file, "VEC3", VERTICES, &vec![1.0; 3 * VERTICES]);
+    let zeros = append(&mut file, "VEC3", VERTICES, &vec![0.0; 3 * VERTICES]);
+    file["nodes"] = json!([{"mesh": 0}]);
+    file["scenes"][0]["nodes"] = json!([0]);
+    file["skins"] = json!([]);
+    file["animations"] = json!([]);
+    let targets = vec![json!({"POSITION": zeros}); 100_000];
+    file["meshes"] =
+        json!([{"primitives": [{"attributes": {"POSITION": rest}, "targets": targets}]}]);
+    let folder = Folder::new();
+    folder.write("zeros.gltf", file.to_string());
+    let begin = Instant::now();
+    let frames = all_frames(&mut folder.open("zeros.gltf").unwrap()).unwrap();
+    assert_eq!(frames[0].len(), VERTICES);
+    // Each on its own would take a millisecond at least.
+    assert!(
+        begin.elapsed() < Duration::from_secs(20),
+        "{:?}",
+        begin.elapsed()
+    );
 }

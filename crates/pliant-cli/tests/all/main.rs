@@ -16,6 +16,7 @@ mod repeatable;
 mod report;
 mod run;
 mod strange_formats;
+mod strange_places;
 mod strangers;
 mod streams;
 mod who_meets;

@@ -106,3 +106,19 @@ fn read_body(mut body: Body, bits: &mut Vec<[u64; 3]>) -> Result<(), Error> {
     assert_eq!(read, frames.min(100));
     Ok(())
 }
+
+/// A GLB file of this JSON, and the bytes behind it.
+pub fn glb(json: &[u8], buffer: &[u8]) -> Vec<u8> {
+    let mut json = json.to_vec();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let length = |bytes: usize| (bytes as u32).to_le_bytes();
+    let all = 12 + 8 + json.len() + 8 + buffer.len();
+    let head = [
+        &b"glTF\x02\0\0\0"[..],
+        &length(all),
+        &length(json.len()),
+        b"JSON",
+    ]
+    .concat();
+    [&head, &json[..], &length(buffer.len()), b"BIN\0", buffer].concat()
+}

@@ -9,22 +9,7 @@ libfuzzer_sys::fuzz_target!(|input: &[u8]| match *input {
     [low, high, ref rest @ ..] => {
         let length = usize::from(u16::from_le_bytes([low, high])).min(rest.len());
         let (json, buffer) = rest.split_at(length);
-        pliant_fuzz::read_as("gltf", &glb(json, buffer));
+        pliant_fuzz::read_as("gltf", &pliant_fuzz::glb(json, buffer));
     }
     _ => {}
 });
-
-fn glb(json: &[u8], buffer: &[u8]) -> Vec<u8> {
-    let mut json = json.to_vec();
-    json.resize(json.len().next_multiple_of(4), b' ');
-    let length = |bytes: usize| (bytes as u32).to_le_bytes();
-    let all = 12 + 8 + json.len() + 8 + buffer.len();
-    let head = [
-        &b"glTF\x02\0\0\0"[..],
-        &length(all),
-        &length(json.len()),
-        b"JSON",
-    ]
-    .concat();
-    [&head, &json[..], &length(buffer.len()), b"BIN\0", buffer].concat()
-}

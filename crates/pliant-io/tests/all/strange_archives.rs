@@ -221,7 +221,7 @@ fn archives_that_lie() {
             "a name with a line break and more",
             STORED,
             |file, [vertices, _], _| {
-                file[vertices + 46..vertices + 49].copy_from_slice(b"\n\x1b\0")
+                file[vertices + 46..vertices + 49].copy_from_slice(b"\n\x1b\0");
             },
             "has no array `vertices`",
         ),

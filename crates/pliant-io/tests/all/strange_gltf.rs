@@ -343,6 +343,7 @@ fn bytes_may_be_of_more_than_one_accessor() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table")]
 fn numbers_that_are_not_finite() {
     assert_refused(&[
         // What is nothing times a number that is none is none: of x too, where only y is.

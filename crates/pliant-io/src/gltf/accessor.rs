@@ -6,8 +6,6 @@
 //!
 //! Every count is held against the bytes that it needs before anything is read, and rows are handed out some thousand at a time.
 
-use std::collections::BTreeSet;
-
 use super::buffers::Buffers;
 use super::document::{Accessor, Document, Sparse};
 use crate::error::{Fault, Place, Reason};

@@ -39,7 +39,7 @@ fn meshes() -> tempfile::TempDir {
 fn left(folder: &Path) -> Vec<String> {
     let names = fs::read_dir(folder).unwrap();
     let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let mut names: Vec<_> = names.filter(|name| !name.starts_with("a")).collect();
+    let mut names: Vec<_> = names.filter(|name| !name.starts_with('a')).collect();
     names.sort();
     names
 }

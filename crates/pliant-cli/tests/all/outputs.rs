@@ -1,6 +1,7 @@
 //! Files that a command writes beside what it prints: nobody's work is lost by a name, and what is there is whole.
 
 use crate::common::{check, folder, pliant};
+use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
@@ -151,7 +152,27 @@ fn pipes_devices_and_folders_are_refused_at_once() {
     }
 }
 
-/// No more than so many bytes may be written to a file: as on a full disk, what was there stays, and nothing else is left.
+/// What the program says where no more than 8 KB may be written to a file, as on a full disk; `None` without a shell that limits that.
+#[cfg(target_os = "linux")]
+fn on_a_full_disk(folder: &Path, command: &[&str]) -> Option<crate::common::Said> {
+    let script = format!(
+        "trap '' XFSZ; ulimit -f 8; exec '{}' {}",
+        env!("CARGO_BIN_EXE_pliant"),
+        command.join(" ")
+    );
+    let mut shell = std::process::Command::new("bash");
+    let Ok(said) = shell.args(["-c", &script]).current_dir(folder).output() else {
+        eprintln!("skipped: no shell that limits the size of files");
+        return None;
+    };
+    Some(crate::common::Said {
+        code: said.status.code().unwrap(),
+        out: String::from_utf8(said.stdout).unwrap(),
+        err: String::from_utf8(said.stderr).unwrap(),
+    })
+}
+
+/// What was there stays, and nothing else is left.
 #[cfg(target_os = "linux")]
 #[test]
 fn on_a_full_disk_the_old_file_stays_whole() {
@@ -160,23 +181,36 @@ fn on_a_full_disk_the_old_file_stays_whole() {
     let command = ["check", "a.obj", "--report", "out.html"];
     assert_eq!(pliant(path, &command).code, 1);
     let whole = fs::read(path.join("out.html")).unwrap();
-    let script = format!(
-        "trap '' XFSZ; ulimit -f 8; exec '{}' {}",
-        env!("CARGO_BIN_EXE_pliant"),
-        command.join(" ")
-    );
-    let shell = std::process::Command::new("bash")
-        .args(["-c", &script])
-        .current_dir(path)
-        .output();
-    let Ok(said) = shell else {
-        eprintln!("skipped: no shell that limits the size of files");
+    let Some(said) = on_a_full_disk(path, &command) else {
         return;
     };
-    let complaint = String::from_utf8(said.stderr).unwrap();
-    assert_eq!(said.status.code(), Some(2), "{complaint}");
-    assert!(complaint.contains("cannot write out.html"), "{complaint}");
-    assert_eq!(complaint.lines().count(), 1, "{complaint}");
+    said.assert_refused(&["cannot write out.html"]);
     assert_eq!(fs::read(path.join("out.html")).unwrap(), whole);
     assert_eq!(left(path), ["out.html"]);
+}
+
+/// In every format, archives among them, which write once more when they are dropped.
+#[cfg(target_os = "linux")]
+#[test]
+fn converting_onto_a_full_disk_is_one_line() {
+    let folder = meshes();
+    let path = folder.path();
+    let mut large = String::new();
+    for vertex in 0..5_000 {
+        writeln!(large, "v {vertex} {} 0.5", vertex % 7).unwrap();
+    }
+    large += &"f 1 2 3\n".repeat(5_000);
+    fs::write(path.join("a_large.obj"), large).unwrap();
+    for name in ["x.npz", "x.ply", "x.stl", "x.obj", "a.obj+x.pc2"] {
+        let Some(said) = on_a_full_disk(path, &["convert", "a_large.obj", name, "--force"]) else {
+            return;
+        };
+        said.assert_refused(&["cannot be written"]);
+        assert_eq!(
+            fs::read_to_string(path.join("a.obj")).unwrap(),
+            MESH,
+            "{name}"
+        );
+        assert!(left(path).is_empty(), "{name}: {:?}", left(path));
+    }
 }

@@ -31,6 +31,9 @@ pub struct StagedFile {
     file: BufWriter<NamedTempFile>,
     /// Whether a coordinate in it was rounded.
     pub(super) rounded: bool,
+    /// A write has failed, and its error was handed on: the file will never have a name. What is written after that is passed over,
+    /// so that whoever writes once more when it is dropped has nothing to complain of.
+    has_failed: bool,
 }
 
 /// Refuses a file that is there, without leave to write over it, and one whose folder is not there.
@@ -76,6 +79,7 @@ impl StagedFile {
             path: path.to_owned(),
             file: BufWriter::with_capacity(1 << 16, file),
             rounded: false,
+            has_failed: false,
         })
     }
 
@@ -95,7 +99,12 @@ impl StagedFile {
             path,
             file,
             rounded,
+            has_failed,
         } = self;
+        if has_failed {
+            let error = io::Error::other("an earlier part of it could not be written");
+            return Err(Error::new(path, Reason::Write(error)));
+        }
         let error = |error: io::Error| Error::new(&path, Reason::Write(error));
         let file = file
             .into_inner()
@@ -115,18 +124,35 @@ impl StagedFile {
     }
 }
 
+impl StagedFile {
+    /// Does something with the file, unless that failed before.
+    fn unless_failed<T>(
+        &mut self,
+        instead: T,
+        work: impl FnOnce(&mut BufWriter<NamedTempFile>) -> io::Result<T>,
+    ) -> io::Result<T> {
+        if self.has_failed {
+            return Ok(instead);
+        }
+        let done = work(&mut self.file);
+        let is_final = |error: &io::Error| error.kind() != io::ErrorKind::Interrupted;
+        self.has_failed = done.as_ref().is_err_and(is_final);
+        done
+    }
+}
+
 impl Write for StagedFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
+        self.unless_failed(bytes.len(), |file| file.write(bytes))
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
+        self.unless_failed((), Write::flush)
     }
 }
 
 impl Seek for StagedFile {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.file.seek(to)
+        self.unless_failed(0, |file| file.seek(to))
     }
 }

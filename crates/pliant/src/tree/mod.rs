@@ -46,8 +46,8 @@ pub(crate) struct Tree<const N: usize> {
     pub(crate) vertices: VertexSets,
     /// The triangles in every leaf.
     pub(crate) leaves: Leaves,
-    /// Which triangles share a vertex; made when the body first meets itself.
-    neighbours: Option<Neighbours>,
+    /// Which triangles share a vertex; made when the body first meets itself, which most bodies never do.
+    neighbours: Option<Box<Neighbours>>,
     /// The level of the deepest leaf, where the root's is 0: the n of the paper's n / 2.
     pub(crate) depth: u32,
 }
@@ -130,14 +130,15 @@ impl<const N: usize> Tree<N> {
     pub(crate) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
         if self.leaves.have_blocks() && self.neighbours.is_none() {
             let wide_nodes = &self.wide_nodes;
-            self.neighbours = Neighbours::new(wide_nodes, &self.leaves, order, executor);
+            let neighbours = Neighbours::new(wide_nodes, &self.leaves, order, executor);
+            self.neighbours = neighbours.map(Box::new);
         }
     }
 
     /// Which triangles share a vertex, if that was asked for before.
     #[inline]
     pub(crate) fn neighbours(&self) -> Option<&Neighbours> {
-        self.neighbours.as_ref()
+        self.neighbours.as_deref()
     }
 
     /// All wide nodes, level by level.

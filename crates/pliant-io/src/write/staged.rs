@@ -34,6 +34,8 @@ pub struct StagedFile {
     /// A write has failed, and its error was handed on: the file will never have a name. What is written after that is passed over,
     /// so that whoever writes once more when it is dropped has nothing to complain of.
     has_failed: bool,
+    /// Where the next byte goes, or would go.
+    position: u64,
 }
 
 /// Refuses a file that is there, without leave to write over it, and one whose folder is not there.
@@ -80,6 +82,7 @@ impl StagedFile {
             file: BufWriter::with_capacity(1 << 16, file),
             rounded: false,
             has_failed: false,
+            position: 0,
         })
     }
 
@@ -100,6 +103,7 @@ impl StagedFile {
             file,
             rounded,
             has_failed,
+            position: _,
         } = self;
         if has_failed {
             let error = io::Error::other("an earlier part of it could not be written");
@@ -143,7 +147,9 @@ impl StagedFile {
 
 impl Write for StagedFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.unless_failed(bytes.len(), |file| file.write(bytes))
+        let written = self.unless_failed(bytes.len(), |file| file.write(bytes))?;
+        self.position += written as u64;
+        Ok(written)
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -153,6 +159,12 @@ impl Write for StagedFile {
 
 impl Seek for StagedFile {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.unless_failed(0, |file| file.seek(to))
+        let would_be = match to {
+            SeekFrom::Start(position) => position,
+            SeekFrom::Current(by) => self.position.saturating_add_signed(by),
+            SeekFrom::End(_) => self.position,
+        };
+        self.position = self.unless_failed(would_be, |file| file.seek(to))?;
+        Ok(self.position)
     }
 }

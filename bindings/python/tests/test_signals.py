@@ -122,11 +122,11 @@ def test_check(tmp_path: Path) -> None:
     faces, positions = coplanar(9000)
     lines = [*("v {} {} {}".format(*vertex) for vertex in positions), *("f {} {} {}".format(*face) for face in faces + 1)]
     (tmp_path / "many.obj").write_text("\n".join(lines))
-    frames = pliant.check(tmp_path / "many.obj")
+    frames = pliant.check(tmp_path / "many.obj", weld=False)
     # The frame that was interrupted is the next one.
     is_stopped(lambda: next(frames))
     # And where a frame before it is looked for.
-    is_stopped(lambda: next(pliant.check(tmp_path / "many.obj", baseline=0)))
+    is_stopped(lambda: next(pliant.check(tmp_path / "many.obj", weld=False, baseline=0)))
 
 
 def test_visit() -> None:

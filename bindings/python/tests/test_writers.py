@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -22,6 +23,8 @@ FACES, FLAT = grid(120)
 SHAPE = fold(FLAT, 0.2)
 #: Without the copy one try in four kept a number that it had not checked.
 TRIES = 200
+#: A refusal takes microseconds, so that all tries may be over before a busy machine lets the other thread write once.
+PATIENCE_S = 60.0
 
 
 @contextmanager
@@ -49,9 +52,13 @@ def written_meanwhile(array: NDArray[Any], place: tuple[int, int], values: tuple
 
 
 def outcomes(call: Callable[[], object], kind: str) -> tuple[int, int]:
-    """How often the call took the array, and how often it refused it for what is wrong with it at times."""
+    """How often the call took the array, and how often it refused it for what is wrong with it at times.
+
+    At least `TRIES` times, and on until both were seen.
+    """
     taken = refused = 0
-    for _ in range(TRIES):
+    until = time.monotonic() + PATIENCE_S
+    while taken + refused < TRIES or (min(taken, refused) == 0 and time.monotonic() < until):
         try:
             call()
             taken += 1

@@ -13,8 +13,8 @@ thread_local! {
     static FOLDER: OnceCell<TempDir> = const { OnceCell::new() };
 }
 
-/// Where the file is written: in memory, where the system has such a folder.
-fn path(ending: &str) -> PathBuf {
+/// A folder of one's own: in memory, where the system has such a place.
+pub fn folder() -> PathBuf {
     FOLDER.with(|folder| {
         let memory = Path::new("/dev/shm");
         let folder = folder.get_or_init(|| {
@@ -25,8 +25,13 @@ fn path(ending: &str) -> PathBuf {
             }
             .expect("a folder can be made")
         });
-        folder.path().join("fuzzed").with_extension(ending)
+        folder.path().to_owned()
     })
+}
+
+/// Where the file is written.
+fn path(ending: &str) -> PathBuf {
+    folder().join("fuzzed").with_extension(ending)
 }
 
 /// The mesh beside positions.

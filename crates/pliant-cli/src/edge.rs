@@ -1,5 +1,5 @@
 //! The edge of the program: a panic, which is a bug of ours or of a library's, ends as everything else that goes wrong does, in one line
-//! and exit code 2.
+//! and exit code 2. A signal that ends it (Ctrl-C) leaves no half of a file behind.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -16,6 +16,27 @@ pub(crate) fn be_silent() {
         }
     }));
 }
+
+/// From now on Ctrl-C, and the signal that asks a program to end, take away what is not whole yet and then do what they always do:
+/// whoever started the program, a loop of a shell above all, learns that a signal ended it.
+#[cfg(unix)]
+pub(crate) fn clean_up_after_signals() {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    // Where that is refused, signals do what they always do, and nothing else.
+    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]) else {
+        return;
+    };
+    std::thread::spawn(move || {
+        for signal in &mut signals {
+            pliant_io::remove_staged_files();
+            let _ = signal_hook::low_level::emulate_default_handler(signal);
+        }
+    });
+}
+
+/// Elsewhere a file that is not whole stays behind.
+#[cfg(not(unix))]
+pub(crate) fn clean_up_after_signals() {}
 
 /// What some work ends in; if that is a panic, an error that says so.
 pub(crate) fn caught<T>(work: impl FnOnce() -> anyhow::Result<T>) -> anyhow::Result<T> {

@@ -77,6 +77,7 @@ fn main() -> ExitCode {
         Err(error) => return usage::said(&error),
     };
     edge::be_silent();
+    edge::clean_up_after_signals();
     let outcome = edge::caught(|| match arguments.verb {
         Verb::Run(arguments) => run::run(&arguments),
         Verb::Check(arguments) => check::check(&arguments),

@@ -114,4 +114,4 @@ pub use error::{Error, Place, Reason};
 pub use positions::{Positions, Precision};
 pub use series::looks_like_a_series;
 pub use shown::{shown, shown_within};
-pub use write::{Shape, StagedFile, WriteOptions, Writer};
+pub use write::{Shape, StagedFile, WriteOptions, Writer, remove_staged_files};

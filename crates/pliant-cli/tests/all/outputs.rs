@@ -214,3 +214,45 @@ fn converting_onto_a_full_disk_is_one_line() {
         assert!(left(path).is_empty(), "{name}: {:?}", left(path));
     }
 }
+
+/// Ctrl-C, or a program that asks it to end: what was there stays, no half of a file is left, and the caller learns of the signal.
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_nothing_behind() {
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let folder = meshes();
+    let path = folder.path();
+    // Ten million frames of six vertices in a file of holes: many seconds of writing.
+    let frames = 10_000_000_u32;
+    let mut header = b"POINTCACHE2\0".to_vec();
+    header.extend([1_u32, 6, 0x0, 0x3f80_0000, frames].map(u32::to_le_bytes).as_flattened());
+    fs::write(path.join("a.pc2"), &header).unwrap();
+    let file = fs::OpenOptions::new().write(true).open(path.join("a.pc2"));
+    let length = header.len() as u64 + u64::from(frames) * 6 * 12;
+    file.unwrap().set_len(length).unwrap();
+    fs::write(path.join("out.npz"), "mine").unwrap();
+
+    for (signal, number) in [("INT", 2), ("TERM", 15)] {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_pliant"))
+            .args(["convert", "a.obj+a.pc2", "out.npz", "--force"])
+            .current_dir(path)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let began = Instant::now();
+        while !left(path).iter().any(|name| name.starts_with(".pliant-")) {
+            assert!(began.elapsed() < Duration::from_secs(60), "it never began to write");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let id = program.id().to_string();
+        assert!(Command::new("kill").args(["-s", signal, &id]).status().unwrap().success());
+        let status = program.wait().unwrap();
+        assert_eq!(status.signal(), Some(number), "{status}");
+        assert_eq!(left(path), ["out.npz"]);
+        assert_eq!(fs::read(path.join("out.npz")).unwrap(), b"mine");
+    }
+}

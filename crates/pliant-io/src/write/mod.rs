@@ -17,7 +17,7 @@ use crate::arguments::mesh_and_positions;
 use crate::error::{Error, Reason};
 use crate::format::Format;
 use crate::positions::{Positions, Precision};
-pub use staged::StagedFile;
+pub use staged::{StagedFile, remove_staged_files};
 
 /// What holds for all frames that are written.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,14 @@
 //! A file beside its place, until it is whole.
 //!
 //! It has a name that nobody waits for, in the same folder, so that renaming it is one step of the file system. Without leave to
-//! write over a file, renaming fails if one has come into being meanwhile. What is not renamed goes away.
+//! write over a file, renaming fails if one has come into being meanwhile. What is not renamed goes away, also if a signal ends the
+//! program: all such files are on one list, which [`remove_staged_files`] goes through.
 
+use std::fs;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::mem;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
@@ -29,6 +33,8 @@ use crate::error::{Error, Reason};
 pub struct StagedFile {
     path: PathBuf,
     file: BufWriter<NamedTempFile>,
+    /// Dropped after the file.
+    listed: Listed,
     /// Whether a coordinate in it was rounded.
     pub(super) rounded: bool,
     /// A write has failed, and its error was handed on: the file will never have a name. What is written after that is passed over,
@@ -36,6 +42,36 @@ pub struct StagedFile {
     has_failed: bool,
     /// Where the next byte goes, or would go.
     position: u64,
+}
+
+/// Where the files are that are not whole yet.
+static STAGED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn staged() -> MutexGuard<'static, Vec<PathBuf>> {
+    STAGED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A file on that list, for as long as this lives.
+#[derive(Debug)]
+struct Listed(PathBuf);
+
+impl Drop for Listed {
+    fn drop(&mut self) {
+        staged().retain(|path| *path != self.0);
+    }
+}
+
+/// Removes every [`StagedFile`] of this process that has no name of its own yet, and lets no other come into being: who makes one
+/// or lets one go from now on waits for ever. For a program that is about to end without unwinding, as a signal ends it.
+///
+/// It waits for locks and so is for a thread that handles signals, not for a signal handler.
+pub fn remove_staged_files() {
+    let staged = staged();
+    for path in &*staged {
+        // One that is gone, or has its name by now, needs nothing; for any other there is nothing left to do.
+        let _ = fs::remove_file(path);
+    }
+    mem::forget(staged);
 }
 
 /// Refuses a file that is there, without leave to write over it, and one whose folder is not there.
@@ -75,10 +111,15 @@ impl StagedFile {
             use std::os::unix::fs::PermissionsExt;
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
+        // The list is held meanwhile, so that no file is ever there without being on it.
+        let mut staged = staged();
         let file = builder.tempfile_in(folder(path));
         let file = file.map_err(|error| Error::new(path, Reason::Write(error)))?;
+        staged.push(file.path().to_owned());
+        drop(staged);
         Ok(Self {
             path: path.to_owned(),
+            listed: Listed(file.path().to_owned()),
             file: BufWriter::with_capacity(1 << 16, file),
             rounded: false,
             has_failed: false,
@@ -101,6 +142,7 @@ impl StagedFile {
         let Self {
             path,
             file,
+            listed: _listed,
             rounded,
             has_failed,
             position: _,

@@ -68,7 +68,9 @@ const MINE: &[u8] = b"what nobody may lose";
 /// What is under a name, as it is compared.
 fn look(path: &Path) -> Option<(u64, Option<PathBuf>, Option<Vec<u8>>)> {
     let its = path.symlink_metadata().ok()?;
-    let content = its.is_file().then(|| fs::read(path).expect("it can be read"));
+    let content = its
+        .is_file()
+        .then(|| fs::read(path).expect("it can be read"));
     Some((its.ino(), fs::read_link(path).ok(), content))
 }
 
@@ -128,7 +130,11 @@ fn compare(argument: &str, shape: &Shape, frames: &[Vec<[f64; 3]>]) {
         let bits = |x: f64| if wide { x } else { f64::from(x as f32) }.to_bits();
         if is_soup {
             let corners = triangles.as_flattened().iter();
-            let expected = shape.triangles.as_flattened().iter().map(|&v| expected[v as usize]);
+            let expected = shape
+                .triangles
+                .as_flattened()
+                .iter()
+                .map(|&v| expected[v as usize]);
             assert!(expected.eq_by_bits(corners.map(|&v| read.get(v)), bits));
         } else {
             let read = (0..read.len() as u32).map(|vertex| read.get(vertex));
@@ -166,7 +172,11 @@ libfuzzer_sys::fuzz_target!(|input: Input| {
         faces: None,
         vertex_count,
         frame_count: usize::from(input.announced % 4),
-        precision: if input.wide { Precision::F64 } else { Precision::F32 },
+        precision: if input.wide {
+            Precision::F64
+        } else {
+            Precision::F32
+        },
     };
     let frames = input.frames.iter().take(4).map(|points| {
         let vertices = points.iter().take(6);
@@ -176,7 +186,18 @@ libfuzzer_sys::fuzz_target!(|input: Input| {
         [points, vec![[0.5, 1e-40, -0.0]; missing]].concat()
     });
     let frames: Vec<Vec<[f64; 3]>> = frames
-        .map(|frame| frame.into_iter().map(|p| if input.wide { p } else { p.map(|x| f64::from(x as f32)) }).collect())
+        .map(|frame| {
+            frame
+                .into_iter()
+                .map(|p| {
+                    if input.wide {
+                        p
+                    } else {
+                        p.map(|x| f64::from(x as f32))
+                    }
+                })
+                .collect()
+        })
         .collect();
 
     let (name, writes) = ARGUMENTS[usize::from(input.argument) % ARGUMENTS.len()];

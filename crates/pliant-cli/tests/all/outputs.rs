@@ -228,7 +228,11 @@ fn a_signal_leaves_nothing_behind() {
     // Ten million frames of six vertices in a file of holes: many seconds of writing.
     let frames = 10_000_000_u32;
     let mut header = b"POINTCACHE2\0".to_vec();
-    header.extend([1_u32, 6, 0x0, 0x3f80_0000, frames].map(u32::to_le_bytes).as_flattened());
+    header.extend(
+        [1_u32, 6, 0x0, 0x3f80_0000, frames]
+            .map(u32::to_le_bytes)
+            .as_flattened(),
+    );
     fs::write(path.join("a.pc2"), &header).unwrap();
     let file = fs::OpenOptions::new().write(true).open(path.join("a.pc2"));
     let length = header.len() as u64 + u64::from(frames) * 6 * 12;
@@ -245,11 +249,20 @@ fn a_signal_leaves_nothing_behind() {
             .unwrap();
         let began = Instant::now();
         while !left(path).iter().any(|name| name.starts_with(".pliant-")) {
-            assert!(began.elapsed() < Duration::from_secs(60), "it never began to write");
+            assert!(
+                began.elapsed() < Duration::from_secs(60),
+                "it never began to write"
+            );
             std::thread::sleep(Duration::from_millis(1));
         }
         let id = program.id().to_string();
-        assert!(Command::new("kill").args(["-s", signal, &id]).status().unwrap().success());
+        assert!(
+            Command::new("kill")
+                .args(["-s", signal, &id])
+                .status()
+                .unwrap()
+                .success()
+        );
         let status = program.wait().unwrap();
         assert_eq!(status.signal(), Some(number), "{status}");
         assert_eq!(left(path), ["out.npz"]);

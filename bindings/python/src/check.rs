@@ -115,8 +115,7 @@ pub(crate) fn check(
             paths.len(),
             shown(&pattern)
         );
-        let text = CString::new(text).unwrap_or_default();
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+        warn(py, &text)?;
     }
     let reading = OpenOptions {
         weld,
@@ -126,6 +125,11 @@ pub(crate) fn check(
     };
     let running =
         py.detach(|| caught(|| Ok(pliant_check::Check::open(&paths, &reading, &settings)?)))?;
+    for source in running.sources() {
+        for note in source.notes() {
+            warn(py, &format!("{}: {note}", shown(source.name())))?;
+        }
+    }
     Ok(Check {
         bodies: facts(py, &running)?.unbind(),
         frame_count: running.frame_count(),
@@ -170,6 +174,12 @@ impl Check {
         let frames = format!("{frames} {}", if frames == 1 { "frame" } else { "frames" });
         format!("<pliant.Check of {bodies}, {frames}>")
     }
+}
+
+/// Says something that is no error.
+fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
+    let text = CString::new(text).unwrap_or_default();
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
 }
 
 fn split_named(name: &str) -> Result<Split, Refused> {

@@ -126,6 +126,13 @@ fn complain(line: &str) {
     let _ = writeln!(io::stderr(), "pliant: {}", one_line(line));
 }
 
+/// What there is to say about a body, a line each on standard error.
+fn note(body: &pliant_io::Body, quiet: bool) {
+    for note in body.notes().iter().filter(|_| !quiet) {
+        complain(&format!("note: {}: {note}", pliant_io::shown(body.name())));
+    }
+}
+
 /// What is said in one line: of very many or very long names its beginning and its end.
 fn one_line(text: &str) -> String {
     pliant_io::shown_within(text, 4000)

@@ -10,6 +10,7 @@ use crate::error::{Error, Fault, Place, Reason};
 use crate::file::Found;
 use crate::format::{Format, FrameSource};
 use crate::frame::{Complete, Frame};
+use crate::note::Note;
 use crate::positions::{Positions, Precision};
 use crate::weld::Welding;
 use crate::{cache, gltf};
@@ -64,6 +65,7 @@ pub struct Body {
     file: usize,
     frame: Frame,
     welding: Option<Welding>,
+    notes: Vec<Note>,
     options: Arc<OpenOptions>,
     /// The number that follows the frame read last, and the frame handed out or skipped last.
     read: usize,
@@ -259,6 +261,7 @@ impl Body {
         let _complete = source.read(&mut frame).map_err(in_first)?;
         frame.becomes_first(path);
         let welding = frame.weld(|| source.alike());
+        let notes = source.notes();
         if files.last().is_some_and(|file| file.end == 1) {
             source = Box::new(AllRead {
                 clip: source.clip().cloned(),
@@ -272,6 +275,7 @@ impl Body {
             file: 0,
             frame,
             welding,
+            notes,
             options,
             read: 1,
             handed_out: 0,
@@ -313,6 +317,11 @@ impl Body {
         self.welding
             .as_ref()
             .map_or(0, |welding| welding.welded.len())
+    }
+
+    /// What its reader did, or left undone, that the owner of the file would want to know.
+    pub fn notes(&self) -> &[Note] {
+        &self.notes
     }
 
     /// The type of the coordinates of all frames.

@@ -13,6 +13,7 @@ use crate::body::OpenOptions;
 use crate::error::{Fault, Reason};
 use crate::file::{Found, Opened};
 use crate::frame::{Complete, Frame};
+use crate::note::Note;
 use crate::{cache, gltf, npz, obj, ply, stl};
 
 /// For messages.
@@ -56,6 +57,11 @@ pub(crate) trait FrameSource: Send {
     /// positions are enough.
     fn alike(&self) -> Option<Vec<u64>> {
         None
+    }
+
+    /// What is to be said about the body, once its first frame is read. Of a file of several bodies the first says what is about all.
+    fn notes(&self) -> Vec<Note> {
+        Vec::new()
     }
 
     /// The name of the animation that moves it.

@@ -84,7 +84,7 @@
 //! | `write/` | one format each, and files that appear when they are whole |
 //! | `weld.rs` | boundary edges that coincide |
 //! | `memory.rs`, `text.rs` | nothing is allocated on a claim, nor beyond the limit; lines and numbers of text formats |
-//! | `error.rs`, `shown.rs` | one type, one line; names as people are shown them |
+//! | `error.rs`, `note.rs`, `shown.rs` | one type, one line; what is no error and worth saying; names as people are shown them |
 
 mod arguments;
 mod body;
@@ -96,6 +96,7 @@ mod frame;
 mod gltf;
 mod memory;
 mod natural;
+mod note;
 mod npz;
 mod obj;
 mod pattern;
@@ -111,6 +112,7 @@ mod write;
 
 pub use body::{Body, OpenOptions, open, open_all};
 pub use error::{Error, Place, Reason};
+pub use note::Note;
 pub use positions::{Positions, Precision};
 pub use series::looks_like_a_series;
 pub use shown::{shown, shown_within};

@@ -126,6 +126,9 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
         let error = advise_names(arguments, error);
         output::annotate(arguments, error)
     })?;
+    for source in check.sources() {
+        crate::note(source, arguments.quiet);
+    }
     let over = arguments.pictures.over;
     let hits = arguments.hits.as_deref();
     let hits = hits.map(|path| Hits::new(path, check.frame_count(), over));

@@ -84,6 +84,7 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         let name = shown(body.name());
         bail!("{name}: has no animation; leave out `--clip`");
     }
+    crate::note(&body, arguments.quiet);
     let frames = arguments.frames.within(body.frame_count())?;
     let (vertices, triangles) = kept(&body);
     let shape = Shape {

@@ -1,0 +1,27 @@
+//! What a reader did, or left undone, that the owner of the file would want to know. No error: the body is read.
+
+use std::fmt;
+
+/// About a body, or about the file that it is of. Its message is one line and names no file.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Note {
+    /// Polygons are far from flat, so that the surface depends on how they are cut into triangles.
+    BentPolygons {
+        /// How many.
+        count: usize,
+        /// The first, counted from 0.
+        first: usize,
+    },
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::BentPolygons { count, first } => write!(
+                f,
+                "{count} polygons are far from flat (the first is face {first}); as which triangles they are meant, the file does not say"
+            ),
+        }
+    }
+}

@@ -50,6 +50,9 @@ fn reading(error: &pliant_io::Error) -> Option<&'static str> {
         Reason::TooLarge { .. } => "allow more with `--max-memory`, or split the mesh",
         Reason::SeamsTooLarge { .. } => "allow more with `--max-memory`, or use `--no-weld`",
         Reason::SeamOpened { .. } => "use `--no-weld`",
+        Reason::NearSeamOpened { .. } => "join less, or further apart, with another `--weld`",
+        Reason::SeamsTooDense => "use a smaller `--weld`",
+        Reason::BadTolerance { .. } => "choose another with `--weld`",
         Reason::ManyCorners { .. } => "triangulate the mesh first",
         Reason::OutOfMemory => "split the mesh, or free some memory",
         Reason::FacesDiffer { .. } | Reason::FaceCount { .. } | Reason::VertexCount { .. } => {

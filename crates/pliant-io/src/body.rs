@@ -10,6 +10,7 @@ use crate::error::{Error, Fault, Place, Reason};
 use crate::file::Found;
 use crate::format::{Format, FrameSource};
 use crate::frame::{Complete, Frame};
+use crate::near::{self, NearSeams};
 use crate::note::Note;
 use crate::positions::{Positions, Precision};
 use crate::weld::Welding;
@@ -26,6 +27,10 @@ pub struct OpenOptions {
     /// Weld vertices where boundary edges coincide bit for bit in the first frame. Default: true;
     /// without, every seam of a file that splits vertices is a hit.
     pub weld: bool,
+    /// Join boundary edges besides whose ends are no further apart in the first frame than this times the diagonal of the body's box
+    /// there, the nearest first; never single points, and never two corners of one triangle. Joined vertices have one position, that
+    /// of the smallest. 0, or from 1e-15 to 0.1. Default: 0; not used where [`weld`](Self::weld) is off.
+    pub weld_tolerance: f64,
     /// The most bytes that a frame may take. Default: 4 GiB.
     ///
     /// Counted is all that is held at once: 12 or 24 per vertex, 12 per triangle, 4 more where there
@@ -48,6 +53,7 @@ impl Default for OpenOptions {
     fn default() -> Self {
         Self {
             weld: true,
+            weld_tolerance: 0.0,
             max_memory: 4 << 30,
             clip: None,
             fps: 30.0,
@@ -148,6 +154,10 @@ pub fn open(argument: &str, options: &OpenOptions) -> Result<Body, Error> {
 ///
 /// As [`open`], but for several bodies.
 pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Error> {
+    let tolerance = options.weld_tolerance;
+    if tolerance != 0.0 && !near::TOLERANCES.contains(&tolerance) {
+        return Err(Error::new(argument, Reason::BadTolerance { tolerance }));
+    }
     let asked = Asked {
         argument: argument.into(),
         options: Arc::new(options.clone()),
@@ -259,9 +269,17 @@ impl Body {
         let filled = frame.fill_from(source.held());
         filled.map_err(|reason| in_first(reason.into()))?;
         let _complete = source.read(&mut frame).map_err(in_first)?;
-        frame.becomes_first(path);
-        let welding = frame.weld(|| source.alike());
-        let notes = source.notes();
+        frame.becomes_first(path.clone());
+        let tolerance = options.weld_tolerance;
+        let welding = frame.weld(tolerance, || source.alike());
+        let welding = welding.map_err(|reason| in_first(reason.into()))?;
+        let mut notes = source.notes();
+        if let Some(near) = welding.as_ref().and_then(|it| it.near.as_ref()) {
+            notes.push(Note::NearSeams {
+                count: near.count(),
+                farthest: near.farthest(),
+            });
+        }
         if files.last().is_some_and(|file| file.end == 1) {
             source = Box::new(AllRead {
                 clip: source.clip().cloned(),
@@ -314,9 +332,18 @@ impl Body {
 
     /// How many vertices were welded away: no triangle uses them any more.
     pub fn welded(&self) -> usize {
-        self.welding
-            .as_ref()
-            .map_or(0, |welding| welding.welded.len())
+        self.welding.as_ref().map_or(0, Welding::count)
+    }
+
+    /// Which vertices would be joined besides, in the frame that was read last, if boundary edges that are no further apart than
+    /// `tolerance` times the diagonal of the body's box were; None if there are none such.
+    ///
+    /// # Errors
+    ///
+    /// [`Reason::SeamsTooLarge`] or [`Reason::SeamsTooDense`]; the body is as before.
+    pub fn near_seams(&mut self, tolerance: f64) -> Result<Option<NearSeams>, Error> {
+        let found = self.frame.near_seams(self.welding.as_ref(), tolerance);
+        found.map_err(|reason| Error::new(self.files[self.file].path(), reason))
     }
 
     /// What its reader did, or left undone, that the owner of the file would want to know.

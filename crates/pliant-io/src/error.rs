@@ -165,6 +165,19 @@ pub enum Reason {
         "vertices {a} and {b} were welded, since edges of theirs coincide in the first frame, but are apart here"
     )]
     SeamOpened { a: u32, b: u32 },
+    #[error(
+        "vertices {a} and {b} were joined, being near each other in the first frame, but are {apart:e} apart here, more than {distance:e}"
+    )]
+    NearSeamOpened {
+        a: u32,
+        b: u32,
+        apart: f64,
+        distance: f64,
+    },
+    #[error("too many boundary edges are too close to each other to be joined at this tolerance")]
+    SeamsTooDense,
+    #[error("edges cannot be joined at a tolerance of {tolerance}; it is 0, or from 1e-15 to 0.1")]
+    BadTolerance { tolerance: f64 },
     #[error("changed while it was being read; wait until it is written, or copy it first")]
     Changed,
     #[error("an earlier frame could not be read, so the frames after it are not handed out")]

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use crate::error::{Fault, Place, Reason};
 use crate::memory::{Account, Excess};
+use crate::near::NearSeams;
 use crate::polygons::Polygons;
 use crate::positions::{Positions, Precision, Vertices};
 use crate::weld::{self, Welding};
@@ -215,21 +216,50 @@ impl Frame {
 
     /// Welds the first frame, if it is to be welded; None where there is nothing to weld. `alike`: see
     /// [`FrameSource::alike`](crate::format::FrameSource::alike).
-    pub(crate) fn weld(&mut self, alike: impl FnOnce() -> Option<Vec<u64>>) -> Option<Welding> {
+    pub(crate) fn weld(
+        &mut self,
+        tolerance: f64,
+        alike: impl FnOnce() -> Option<Vec<u64>>,
+    ) -> Result<Option<Welding>, Reason> {
         if !self.weld {
-            return None;
+            return Ok(None);
         }
         let positions = self.vertices.positions();
         let triangles = self.polygons.triangles();
-        let welding = match alike() {
+        let mut welding = match alike() {
             Some(alike) => weld::weld(triangles, positions.len(), |vertex| alike[vertex as usize]),
             None => weld::weld(triangles, positions.len(), |vertex| {
                 weld::position_bits(positions, vertex)
             }),
-        }?;
+        };
+        if tolerance > 0.0 {
+            let so_far = welding.as_ref().map_or(triangles, |it| &it.triangles);
+            let near = NearSeams::find(so_far, positions, tolerance, &mut self.account)?;
+            if let Some(near) = near {
+                let welding = welding.get_or_insert_with(|| Welding {
+                    triangles: triangles.to_vec(),
+                    welded: Vec::new(),
+                    near: None,
+                });
+                near.rewrite(&mut welding.triangles);
+                welding.near = Some(near);
+            }
+        }
         // Less than finding took, which was allowed.
-        self.account.enter_allowed(welding.bytes());
-        Some(welding)
+        let held = welding.as_ref().map_or(0, Welding::bytes);
+        self.account.enter_allowed(held);
+        Ok(welding)
+    }
+
+    /// The near seams of the frame read last; of the triangles of `welding`, where there is one.
+    pub(crate) fn near_seams(
+        &mut self,
+        welding: Option<&Welding>,
+        tolerance: f64,
+    ) -> Result<Option<NearSeams>, Reason> {
+        let triangles = welding.map_or(self.polygons.triangles(), |it| &it.triangles);
+        let positions = self.vertices.positions();
+        NearSeams::find(triangles, positions, tolerance, &mut self.account)
     }
 
     /// The number of the next vertex: how many there are so far.

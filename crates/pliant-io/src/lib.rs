@@ -82,7 +82,7 @@
 //! | `frame.rs`, `positions.rs`, `polygons.rs` | what readers fill, checked: recorded once, then compared |
 //! | `obj.rs`, `ply/`, `stl.rs`, `npz/`, `cache.rs`, `gltf/` | one format each |
 //! | `write/` | one format each, and files that appear when they are whole |
-//! | `weld.rs` | boundary edges that coincide |
+//! | `weld.rs`, `near.rs` | boundary edges that coincide, or nearly |
 //! | `memory.rs`, `text.rs` | nothing is allocated on a claim, nor beyond the limit; lines and numbers of text formats |
 //! | `error.rs`, `note.rs`, `shown.rs` | one type, one line; what is no error and worth saying; names as people are shown them |
 
@@ -96,6 +96,7 @@ mod frame;
 mod gltf;
 mod memory;
 mod natural;
+mod near;
 mod note;
 mod npz;
 mod obj;
@@ -112,6 +113,7 @@ mod write;
 
 pub use body::{Body, OpenOptions, open, open_all};
 pub use error::{Error, Place, Reason};
+pub use near::NearSeams;
 pub use note::Note;
 pub use positions::{Positions, Precision};
 pub use series::looks_like_a_series;

@@ -6,6 +6,13 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
+    /// Vertices were joined to others near them, as [`weld_tolerance`](crate::OpenOptions::weld_tolerance) asked for.
+    NearSeams {
+        /// How many.
+        count: usize,
+        /// The largest distance of a vertex from the one it was joined to, in diagonals of the body's box.
+        farthest: f64,
+    },
     /// Polygons are far from flat, so that the surface depends on how they are cut into triangles.
     BentPolygons {
         /// How many.
@@ -18,6 +25,10 @@ pub enum Note {
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::NearSeams { count, farthest } => write!(
+                f,
+                "{count} vertices were joined to others near them, at most {farthest:.1e} of the body's size away"
+            ),
             Self::BentPolygons { count, first } => write!(
                 f,
                 "{count} polygons are far from flat (the first is face {first}); as which triangles they are meant, the file does not say"

@@ -17,6 +17,7 @@
 
 use crate::error::Reason;
 use crate::memory::bytes_of;
+use crate::near::NearSeams;
 use crate::positions::Positions;
 
 /// The triangles after welding, and what was welded.
@@ -25,6 +26,8 @@ pub(crate) struct Welding {
     pub(crate) triangles: Vec<[u32; 3]>,
     /// Each vertex welded away, with the smaller vertex that takes its place; ascending.
     pub(crate) welded: Vec<(u32, u32)>,
+    /// What was joined besides, where that was asked for.
+    pub(crate) near: Option<NearSeams>,
 }
 
 /// An edge: its end points, the smaller first.
@@ -92,12 +95,16 @@ pub(crate) fn weld<K: Ord>(
         .iter()
         .map(|corners| corners.map(|corner| classes.leader(corner)))
         .collect();
-    Some(Welding { triangles, welded })
+    Some(Welding {
+        triangles,
+        welded,
+        near: None,
+    })
 }
 
 /// The edges used by exactly one triangle. A degenerate triangle uses an edge once, however often
 /// it runs along it.
-fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
+pub(crate) fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
     let mut edges: Vec<Edge> = Vec::with_capacity(3 * triangles.len());
     for &[a, b, c] in triangles {
         let mut three = [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]);
@@ -152,14 +159,14 @@ fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> V
 }
 
 /// Union-find; the smallest vertex of a class leads it.
-struct Classes(Vec<u32>);
+pub(crate) struct Classes(Vec<u32>);
 
 impl Classes {
-    fn new(vertices: usize) -> Self {
+    pub(crate) fn new(vertices: usize) -> Self {
         Self((0..vertices as u32).collect())
     }
 
-    fn leader(&mut self, mut vertex: u32) -> u32 {
+    pub(crate) fn leader(&mut self, mut vertex: u32) -> u32 {
         let Self(parent) = self;
         while parent[vertex as usize] != vertex {
             let above = parent[parent[vertex as usize] as usize];
@@ -169,7 +176,7 @@ impl Classes {
         vertex
     }
 
-    fn join(&mut self, a: u32, b: u32) {
+    pub(crate) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.leader(a), self.leader(b));
         self.0[a.max(b) as usize] = a.min(b);
     }
@@ -183,7 +190,8 @@ pub(crate) fn position_bits(positions: Positions<'_>, vertex: u32) -> [u64; 3] {
 impl Welding {
     /// What it takes.
     pub(crate) fn bytes(&self) -> u64 {
-        bytes_of(&self.triangles) + bytes_of(&self.welded)
+        let near = self.near.as_ref().map_or(0, NearSeams::bytes);
+        bytes_of(&self.triangles) + bytes_of(&self.welded) + near
     }
 
     /// Refuses a later frame in which vertices that were welded are apart.
@@ -196,7 +204,14 @@ impl Welding {
                 });
             }
         }
-        Ok(())
+        self.near
+            .as_ref()
+            .map_or(Ok(()), |near| near.check(positions))
+    }
+
+    /// How many vertices were welded away.
+    pub(crate) fn count(&self) -> usize {
+        self.welded.len() + self.near.as_ref().map_or(0, NearSeams::count)
     }
 }
 

@@ -54,6 +54,9 @@ pub(crate) struct Arguments {
     /// Keep vertices apart where boundary edges coincide; seams are then intersections
     #[arg(long)]
     no_weld: bool,
+    /// Join boundary edges besides that are no further apart than TOL times the diagonal of their body, in the first frame read: 1e-6
+    #[arg(long, value_name = "TOL", default_value = "0", allow_negative_numbers = true, conflicts_with = "no_weld")]
+    weld: f64,
     /// The most memory that a frame may take, seam finding included, and again that a list of pairs may (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     max_memory: u64,
@@ -152,6 +155,7 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
 fn open(arguments: &Arguments) -> Result<Check, Error> {
     let reading = OpenOptions {
         weld: !arguments.no_weld,
+        weld_tolerance: arguments.weld,
         max_memory: arguments.max_memory,
         clip: arguments.clip.clone(),
         fps: arguments.fps,

@@ -5,7 +5,7 @@ use crate::error::{Fact, Refused, after_checking, alone_with, caught, named_tupl
 use crate::options::with_threads;
 use crate::signals::interruptible;
 use numpy::IntoPyArray;
-use pliant_check::{Error, Found, Frames, Group, Settings, Split};
+use pliant_check::{Baseline, Error, Found, Frames, Group, Settings, Split};
 use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A check of files that is under way: an iterator of its frames, each read and checked when it is asked for. What a signal handler
 /// raises while pairs are looked for, KeyboardInterrupt after Ctrl-C, ends that early; the same frame is then the next one.
@@ -26,6 +27,7 @@ pub(crate) struct Check {
     /// How many frames there are in the files.
     #[pyo3(get)]
     frame_count: usize,
+    is_warned: AtomicBool,
 }
 
 /// A body or a group, as it is named: by its name, or a body by its number.
@@ -33,6 +35,22 @@ pub(crate) struct Check {
 pub(crate) enum Name {
     Number(usize),
     Path(PathBuf),
+}
+
+/// Pairs that are left out: those of a frame, or of a file.
+#[derive(FromPyObject)]
+pub(crate) enum Known {
+    Frame(i64),
+    File(PathBuf),
+}
+
+impl Known {
+    fn understood(self) -> Result<Baseline, Refused> {
+        match self {
+            Self::Frame(frame) => from_zero(frame).map(Baseline::Frame),
+            Self::File(file) => Ok(Baseline::File(file)),
+        }
+    }
 }
 
 impl Name {
@@ -63,15 +81,18 @@ impl Name {
 ///             ("scene.glb#arm"; "scene.glb" stands for all bodies of it), or its number
 ///   ignore    pairs of bodies or groups that do not meet, [("soft", "hair.ply")]; twice the same: none of these bodies meets
 ///             another of them, or itself
-///   baseline  a frame: the pairs that intersect in it are left out in all
+///   weld_tolerance  join boundary edges besides that are no further apart than this times the diagonal of their body, in frame 0
+///   baseline  a frame, or a file that `pliant check --format json` wrote: the pairs that intersect in it are left out in all
+///   skip_degenerate  leave out pairs with a triangle that has no area
 ///   frames    a range: only these frames; others are passed over, and not read where the format allows it
 ///   clip      the animation of glTF files, by name; the first if none is named
 ///   fps       frames a second at which animations of glTF files are evaluated
 ///   threads   how many share the work of a frame; no number changes an answer
 #[pyfunction]
-#[pyo3(signature = (*paths, itself=false, first=false, weld=true, split=None, groups=None, ignore=None, baseline=None, frames=None, clip=None, fps=30.0, threads=1))]
+#[pyo3(signature = (*paths, itself=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, frames=None, clip=None, fps=30.0, threads=1))]
 #[expect(
     clippy::too_many_arguments,
+    clippy::fn_params_excessive_bools,
     reason = "each is a keyword with a default"
 )]
 pub(crate) fn check(
@@ -80,10 +101,12 @@ pub(crate) fn check(
     itself: bool,
     first: bool,
     weld: bool,
+    weld_tolerance: f64,
     split: Option<&str>,
     groups: Option<BTreeMap<String, Vec<Name>>>,
     ignore: Option<Vec<(Name, Name)>>,
-    baseline: Option<i64>,
+    baseline: Option<Known>,
+    skip_degenerate: bool,
     frames: Option<&Bound<'_, PyRange>>,
     clip: Option<String>,
     fps: f64,
@@ -102,7 +125,8 @@ pub(crate) fn check(
         split: split.map(split_named).transpose()?,
         groups: (groups.into_iter().flatten().map(group)).collect::<Result<_, _>>()?,
         ignore: (ignore.into_iter().flatten().map(two)).collect::<Result<_, _>>()?,
-        baseline: baseline.map(from_zero).transpose()?,
+        baseline: baseline.map(Known::understood).transpose()?,
+        skip_degenerate,
         frames: frames.map(range_of_frames).transpose()?,
         options: with_threads(threads)?,
         ..Settings::default()
@@ -117,8 +141,14 @@ pub(crate) fn check(
         );
         warn(py, &text)?;
     }
+    if weld_tolerance != 0.0 && !weld {
+        let message =
+            "weld_tolerance joins more than weld does, and weld is False; give one of them";
+        return Err(Refused::new("BadOption", message.to_owned()));
+    }
     let reading = OpenOptions {
         weld,
+        weld_tolerance,
         clip,
         fps,
         ..OpenOptions::default()
@@ -133,6 +163,7 @@ pub(crate) fn check(
     Ok(Check {
         bodies: facts(py, &running)?.unbind(),
         frame_count: running.frame_count(),
+        is_warned: AtomicBool::new(false),
         running: Mutex::new(running),
     })
 }
@@ -148,6 +179,7 @@ impl Check {
             interruptible(|question| running.next_frame_unless(Some(question)))
         };
         let Some(found) = alone_with(py, &self.running, next)? else {
+            self.warn_of_seams(py)?;
             return Ok(None);
         };
         let Found {
@@ -155,6 +187,7 @@ impl Check {
             count,
             pairs,
             left_out,
+            degenerate,
             complete,
             ..
         } = found;
@@ -163,6 +196,7 @@ impl Check {
         fields.set_item("count", count)?;
         fields.set_item("complete", complete)?;
         fields.set_item("left_out", left_out)?;
+        fields.set_item("degenerate", degenerate)?;
         fields.set_item("pairs", arrays::rows_of(py, pairs)?)?;
         Ok(Some(named_tuple(py, "Frame", &fields)?))
     }
@@ -180,6 +214,35 @@ impl Check {
 fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
     let text = CString::new(text).unwrap_or_default();
     PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
+}
+
+impl Check {
+    /// After the last frame says, once, where pairs lie at seams that are not quite closed.
+    fn warn_of_seams(&self, py: Python<'_>) -> Result<(), Refused> {
+        if self.is_warned.swap(true, Ordering::Relaxed) {
+            return Ok(());
+        }
+        let said = alone_with(py, &self.running, |running| {
+            let sources = running.sources().iter().enumerate();
+            let said = sources.filter_map(|(number, source)| {
+                let at_seams = running.at_seams(number)?;
+                Some(format!(
+                    "{}: {} of its {} pairs with itself in frame {} lie where boundary edges nearly coincide, up to {:.1e} of its size apart; if those are seams, weld_tolerance={:e} joins them",
+                    shown(source.name()),
+                    at_seams.pairs,
+                    at_seams.of,
+                    at_seams.frame,
+                    at_seams.farthest,
+                    at_seams.tolerance()
+                ))
+            });
+            Ok(said.collect::<Vec<_>>())
+        })?;
+        for text in said {
+            warn(py, &text)?;
+        }
+        Ok(())
+    }
 }
 
 fn split_named(name: &str) -> Result<Split, Refused> {

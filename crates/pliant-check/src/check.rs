@@ -1,13 +1,15 @@
 //! The loop: frames of several sources, one after another, and the pairs of each.
 
 use crate::any_world::AnyWorld;
+use crate::baseline;
 use crate::bodies::{Bodies, BodyFacts};
 use crate::error::Error;
 use crate::filter::Filter;
 use crate::found::{Found, MOST_COUNTED, Row, Stop, Taker};
 use crate::one_point;
+use crate::remarks::{AtSeams, Remarks, has_degenerate};
 use crate::sequence::Sequence;
-use crate::settings::{Frames, Settings};
+use crate::settings::{self, Frames, Settings};
 use crate::with_world;
 use pliant::{ErrorKind, Pair, Query, Selection};
 use pliant_io::{Body as Source, OpenOptions};
@@ -27,6 +29,7 @@ pub struct Check {
     /// Those that are left.
     frames: Frames,
     baseline: Option<Baseline>,
+    remarks: Remarks,
     failed: bool,
 }
 
@@ -87,9 +90,25 @@ impl Check {
             let no_such = Error::NoSuchFrame { what, frame, last };
             (frame <= last).then_some(()).ok_or(no_such)
         };
-        if let Some(frame) = settings.baseline {
-            there("the baseline", frame)?;
-        }
+        let baseline = match &settings.baseline {
+            None => None,
+            Some(settings::Baseline::Frame(frame)) => {
+                there("the baseline", *frame)?;
+                Some(Baseline {
+                    frame: *frame,
+                    pairs: None,
+                })
+            }
+            Some(settings::Baseline::File(file)) => Some(Baseline {
+                frame: 0,
+                pairs: Some(baseline::read(
+                    file,
+                    &sequence.sources,
+                    &bodies,
+                    settings.max_list,
+                )?),
+            }),
+        };
         let all = Frames {
             start: 0,
             step: 1,
@@ -108,9 +127,8 @@ impl Check {
         Ok(Self {
             asked,
             frames,
-            baseline: settings
-                .baseline
-                .map(|frame| Baseline { frame, pairs: None }),
+            baseline,
+            remarks: Remarks::of(sequence.sources.len()),
             failed: false,
             of: Selection::World,
             sequence,
@@ -161,6 +179,11 @@ impl Check {
         } else {
             0..0
         }
+    }
+
+    /// What the frames so far say of a source whose seams are not quite closed: its pairs with itself there; `None` where they are.
+    pub fn at_seams(&self, source: usize) -> Option<AtSeams> {
+        self.remarks.at_seams(source)
     }
 
     /// Whether bodies are checked against themselves.
@@ -283,8 +306,10 @@ impl Check {
         let known = baseline.as_ref().and_then(|it| it.pairs.as_deref());
         let most = self.asked.max_list / size_of::<Row>() as u64;
         let most = usize::try_from(most).unwrap_or(usize::MAX);
-        let mut taker = Taker::new(frame, first, listed, most, known);
-        let visited = if first && known.is_none() && !self.bodies.are_pieces() {
+        let skip = self.asked.skip_degenerate;
+        let mut taker = Taker::new(frame, first, listed, most, known).skip_degenerate(skip);
+        self.remarks.begin(frame);
+        let visited = if first && known.is_none() && !skip && !self.bodies.are_pieces() {
             self.take_first(&mut taker, stop)
         } else {
             self.take_all(&mut taker, stop)
@@ -312,7 +337,12 @@ impl Check {
         let first = with_world!(world, world => {
             unless(stop, world.intersections(of)).first()
         })?;
-        Ok(first.map_or(ControlFlow::Continue(()), |pair| taker.take(pair.into())))
+        let sources = &mut self.sequence.sources;
+        Ok(first.map_or(ControlFlow::Continue(()), |pair| {
+            let row = pair.into();
+            self.remarks.take(taker.frame(), sources, row);
+            taker.take(row, has_degenerate(sources, row))
+        }))
     }
 
     /// Shows `taker` all pairs of bodies that meet, until it has enough.
@@ -326,17 +356,21 @@ impl Check {
             sequence,
             bodies,
             filter,
+            remarks,
             asked: Settings { itself, .. },
             ..
         } = self;
         let mut stop = ControlFlow::Continue(());
+        let Sequence { world, sources, .. } = sequence;
         let take = |pair: Pair| {
-            let row = bodies.row(pair.into());
+            let of_sources = pair.into();
+            let row = bodies.row(of_sources);
             let [body_a, _, body_b, _] = row;
             // The world knows sources only.
             let is_asked = (body_a != body_b || *itself) && filter.meet(body_a, body_b);
             if is_asked {
-                stop = taker.take(row);
+                remarks.take(taker.frame(), sources, of_sources);
+                stop = taker.take(row, has_degenerate(sources, of_sources));
             }
             if stop.is_break() {
                 ControlFlow::Break(())
@@ -344,7 +378,6 @@ impl Check {
                 ControlFlow::Continue(())
             }
         };
-        let world = &mut sequence.world;
         let _ = with_world!(world, world => {
             unless(question, world.intersections(*of)).visit(take)
         })?;

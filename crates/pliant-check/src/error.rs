@@ -2,6 +2,7 @@
 //! it: whoever shows the message adds what to do.
 
 use pliant_io::{shown, shown_within};
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// A name in quotes.
@@ -130,6 +131,14 @@ pub enum Error {
     EmptyGroup {
         /// The name.
         name: String,
+    },
+    /// The pairs of an earlier check cannot be left out.
+    #[error("the baseline {}: {}", shown(file), shown_within(why, 1000))]
+    BadBaseline {
+        /// Where they were to be read from.
+        file: PathBuf,
+        /// Why not.
+        why: String,
     },
     /// An earlier frame could not be checked.
     #[error("an earlier frame could not be checked, so the frames after it are not")]

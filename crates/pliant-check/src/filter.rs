@@ -98,15 +98,27 @@ impl Filter {
     }
 }
 
+/// What is behind the folder in a name; none where there is no folder.
+fn without_folder(name: &str) -> Option<&str> {
+    // The name of a body behind the # may have a slash.
+    let file = name.split('#').next().unwrap_or(name);
+    let end_of_folder = file.rfind(std::path::is_separator)?;
+    Some(&name[end_of_folder + 1..])
+}
+
 /// What names stand for.
-struct Names<'a> {
+pub(crate) struct Names<'a> {
     sources: &'a [Source],
     bodies: &'a Bodies,
     groups: BTreeMap<&'a str, Vec<u32>>,
 }
 
 impl<'a> Names<'a> {
-    fn new(sources: &'a [Source], bodies: &'a Bodies, groups: &'a [Group]) -> Result<Self, Error> {
+    pub(crate) fn new(
+        sources: &'a [Source],
+        bodies: &'a Bodies,
+        groups: &'a [Group],
+    ) -> Result<Self, Error> {
         let mut names = Self {
             sources,
             bodies,
@@ -154,14 +166,29 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The bodies of the sources or the file of this name, the piece of this name, or the body of this number.
-    fn of_bodies(&self, name: &str) -> Option<Vec<u32>> {
+    /// The bodies of the sources or the file of this name, the piece of this name, or the body of this number. A name without its
+    /// folder does, where no other file is called so.
+    pub(crate) fn of_bodies(&self, name: &str) -> Option<Vec<u32>> {
         let with = |is: &dyn Fn(&Source) -> bool| -> Vec<usize> {
             let places = 0..self.sources.len();
             places.filter(|&place| is(&self.sources[place])).collect()
         };
-        let called = |name: &str| with(&|source| source.name() == name);
-        for sources in [called(name), with(&|source| source.argument() == name)] {
+        let files_called = |name: &str, whole: fn(&Source) -> &str| {
+            let sources = with(&|source| without_folder(whole(source)) == Some(name));
+            let mut arguments = sources.iter().map(|&at| self.sources[at].argument());
+            let first = arguments.next();
+            let is_one = arguments.all(|argument| Some(argument) == first);
+            if is_one { sources } else { Vec::new() }
+        };
+        let called = |name: &str| match with(&|source| source.name() == name) {
+            none if none.is_empty() => files_called(name, Source::name),
+            sources => sources,
+        };
+        let of_argument = |name: &str| match with(&|source| source.argument() == name) {
+            none if none.is_empty() => files_called(name, Source::argument),
+            sources => sources,
+        };
+        for sources in [called(name), of_argument(name)] {
             let whole = sources
                 .into_iter()
                 .flat_map(|source| self.bodies.of_source(source));
@@ -182,7 +209,7 @@ impl<'a> Names<'a> {
         (number < self.bodies.count()).then(|| vec![number])
     }
 
-    fn unknown(&self, wanted: &'static str, name: &str) -> Error {
+    pub(crate) fn unknown(&self, wanted: &'static str, name: &str) -> Error {
         /// So many names fit a line that is read.
         const MOST: u32 = 20;
         let count = self.bodies.count();

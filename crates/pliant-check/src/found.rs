@@ -22,6 +22,8 @@ pub struct Found {
     /// How many were left out because they intersect in the baseline frame. `None` where there is no such frame, and where the
     /// search stopped at the first new pair.
     pub left_out: Option<usize>,
+    /// How many pairs have a triangle without area: of these, or, where such are left out, how many were for that.
+    pub degenerate: usize,
     /// Whether these are all; not if only the first was asked for.
     pub complete: bool,
 }
@@ -49,6 +51,8 @@ pub(crate) struct Taker<'a> {
     most: usize,
     /// Sorted; pairs that are left out.
     baseline: Option<&'a [Row]>,
+    /// Whether pairs with a triangle without area are left out.
+    skip_degenerate: bool,
 }
 
 impl<'a> Taker<'a> {
@@ -65,6 +69,7 @@ impl<'a> Taker<'a> {
             smallest: None,
             pairs: Vec::new(),
             left_out: baseline.map(|_| 0),
+            degenerate: 0,
             complete: !first,
         };
         Self {
@@ -72,12 +77,23 @@ impl<'a> Taker<'a> {
             listed,
             most,
             baseline,
+            skip_degenerate: false,
         }
     }
 
-    /// Takes a pair, or leaves it out.
-    pub(crate) fn take(&mut self, row: Row) -> ControlFlow<Stop> {
+    /// From now on leaves out pairs with a triangle without area, if `skip`.
+    pub(crate) fn skip_degenerate(mut self, skip: bool) -> Self {
+        self.skip_degenerate = skip;
+        self
+    }
+
+    /// Takes a pair, or leaves it out. `degenerate`: whether a triangle of it has no area.
+    pub(crate) fn take(&mut self, row: Row, degenerate: bool) -> ControlFlow<Stop> {
         let found = &mut self.found;
+        if degenerate && self.skip_degenerate {
+            found.degenerate += 1;
+            return ControlFlow::Continue(());
+        }
         if let (Some(baseline), Some(left_out)) = (self.baseline, &mut found.left_out)
             && baseline.binary_search(&row).is_ok()
         {
@@ -88,6 +104,7 @@ impl<'a> Taker<'a> {
             return ControlFlow::Break(Stop::Endless);
         }
         found.count += 1;
+        found.degenerate += usize::from(degenerate);
         found.smallest = Some(found.smallest.map_or(row, |smallest| smallest.min(row)));
         if self.listed {
             if found.pairs.len() >= self.most || found.pairs.try_reserve(1).is_err() {
@@ -101,6 +118,11 @@ impl<'a> Taker<'a> {
         // What else is left out is not known.
         found.left_out = None;
         ControlFlow::Break(Stop::First)
+    }
+
+    /// The frame whose pairs it takes.
+    pub(crate) fn frame(&self) -> usize {
+        self.found.frame
     }
 
     pub(crate) fn end(self) -> Found {
@@ -118,8 +140,8 @@ mod tests {
     fn no_more_pairs_are_counted_than_anybody_waits_for() {
         let mut taker = Taker::new(0, false, false, usize::MAX, None);
         taker.found.count = MOST_COUNTED - 1;
-        assert_eq!(taker.take([0, 1, 0, 2]), ControlFlow::Continue(()));
-        let stopped = taker.take([0, 1, 0, 3]);
+        assert_eq!(taker.take([0, 1, 0, 2], false), ControlFlow::Continue(()));
+        let stopped = taker.take([0, 1, 0, 3], false);
         assert_eq!(stopped, ControlFlow::Break(Stop::Endless));
         assert_eq!(taker.end().count, MOST_COUNTED);
     }

@@ -40,10 +40,13 @@
 //! | `sequence.rs`, `any_world.rs` | sources side by side; the world, of either precision, in a frame of theirs |
 //! | `bodies.rs`, `pieces.rs` | what an answer calls a body; connected pieces of a mesh |
 //! | `filter.rs` | names and groups; who may meet whom |
-//! | `found.rs`, `one_point.rs` | the pairs of one frame; what cannot be checked for their number |
+//! | `found.rs`, `remarks.rs` | the pairs of one frame; what is to be said of them |
+//! | `baseline.rs` | the pairs of an earlier check, which are left out |
+//! | `one_point.rs` | what cannot be checked for the number of pairs |
 //! | `error.rs` | one type, one line |
 
 mod any_world;
+mod baseline;
 mod bodies;
 mod check;
 mod error;
@@ -51,6 +54,7 @@ mod filter;
 mod found;
 mod one_point;
 mod pieces;
+mod remarks;
 mod sequence;
 mod settings;
 
@@ -59,4 +63,5 @@ pub use bodies::BodyFacts;
 pub use check::Check;
 pub use error::Error;
 pub use found::{Found, Row};
-pub use settings::{Frames, Group, Settings, Split};
+pub use remarks::AtSeams;
+pub use settings::{Baseline, Frames, Group, Settings, Split};

@@ -1,9 +1,11 @@
 //! What is asked.
 
 use pliant::Options;
+use std::path::PathBuf;
 
 /// What a check is asked; the default asks for all pairs of different bodies in all frames.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 pub struct Settings {
     /// Each body against itself too. One body alone always is.
     pub itself: bool,
@@ -24,8 +26,10 @@ pub struct Settings {
     /// A name is that of a group, of a glTF file of several sources (all bodies of it), of a source (all bodies that it is split
     /// into), of a body, or a body's number.
     pub ignore: Vec<[String; 2]>,
-    /// Pairs that intersect in this frame are left out in all.
-    pub baseline: Option<usize>,
+    /// Pairs that are left out in all frames.
+    pub baseline: Option<Baseline>,
+    /// Pairs with a triangle that has no area are left out.
+    pub skip_degenerate: bool,
     /// Which frames are checked; all if `None`. Others are passed over, and not read where the format allows it.
     pub frames: Option<Frames>,
     /// How the world works. No choice changes an answer.
@@ -38,6 +42,16 @@ pub enum Split {
     /// Connected pieces: triangles that share a vertex, after welding, are of one piece. Those of `shirt.ply` are
     /// `shirt.ply#1`, `shirt.ply#2`, … in the order of their lowest triangle.
     Components,
+}
+
+/// Pairs that are known, and left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Baseline {
+    /// Those that intersect in this frame.
+    Frame(usize),
+    /// Those of any frame of an earlier check, as `pliant check --format json` wrote it. Its bodies are those of the same names, and
+    /// have as many triangles.
+    File(PathBuf),
 }
 
 /// A name for several bodies.
@@ -71,6 +85,7 @@ impl Default for Settings {
             groups: Vec::new(),
             ignore: Vec::new(),
             baseline: None,
+            skip_degenerate: false,
             frames: None,
             options: Options::default(),
         }

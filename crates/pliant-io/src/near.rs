@@ -40,8 +40,8 @@ pub(crate) const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-15..=0.1;
 const CELL: f64 = 8.0;
 
 /// An edge may be compared with so many others, on average and beyond a number that is nothing.
-const MOST_COMPARED: u64 = 1 << 10;
-const ALWAYS_COMPARED: u64 = 1 << 24;
+const MOST_COMPARED: u64 = 1 << 9;
+const ALWAYS_COMPARED: u64 = 1 << 22;
 
 /// Two edges that are near: the larger distance of their ends, their numbers, and whether the one runs against the other.
 type Near = (f64, u32, u32, bool);
@@ -527,7 +527,7 @@ mod tests {
     #[test]
     fn a_crowd_of_edges_is_refused() {
         let one = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let (triangles, positions) = soup(&vec![one; 20_000], 3e-4, 1);
+        let (triangles, positions) = soup(&vec![one; 6_000], 3e-4, 1);
         let mut account = Account::new(1 << 30);
         let found = NearSeams::find(&triangles, Positions::F64(&positions), 1e-4, &mut account);
         assert!(matches!(found, Err(Reason::SeamsTooDense)));

@@ -115,6 +115,7 @@ pub use ids::BodyId;
 #[doc(hidden)]
 pub use kernels::Instructions;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
+pub use predicates::is_degenerate;
 pub use statistics::Statistics;
 pub use world::{NodeBox, Query, Scalar, Selection, TreeShape, World};
 

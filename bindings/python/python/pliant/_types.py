@@ -143,8 +143,10 @@ class Frame:
     complete: bool
     """Whether these are all pairs; not if only the first was asked for."""
     left_out: int | None
-    """How many pairs were left out because the baseline frame has them; None where there is no baseline, and where the search
-    stopped at the first new pair."""
+    """How many pairs were left out because the baseline has them; None where there is no baseline, and where the search stopped at
+    the first new pair."""
+    degenerate: int
+    """How many pairs have a triangle without area: of these, or with skip_degenerate of those that were left out for it."""
 
 
 class Mesh(Protocol):

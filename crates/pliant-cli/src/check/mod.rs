@@ -7,7 +7,7 @@ mod pictures;
 pub(crate) mod size;
 
 use crate::Outcome;
-use crate::report::{PictureOptions, frame};
+use crate::report::PictureOptions;
 use crate::tree_options::at_least_one;
 use anyhow::anyhow;
 use clap::{Args, ValueEnum, ValueHint};
@@ -15,7 +15,7 @@ use hits::Hits;
 use output::Output;
 use pictures::Pictures;
 use pliant::Options;
-use pliant_check::{Check, Error, Group, Settings};
+use pliant_check::{Baseline, Check, Error, Group, Settings};
 use pliant_io::{OpenOptions, shown};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -48,14 +48,23 @@ pub(crate) struct Arguments {
     /// Bodies, or groups, that do not meet; A,A means that those of A do not meet each other, nor themselves
     #[arg(long, value_name = "A,B", value_parser = names::two)]
     ignore: Vec<Names>,
-    /// Only what is new: leave out the pairs that intersect in this frame, from 0
-    #[arg(long, value_name = "FRAME", allow_negative_numbers = true, value_parser = frame::<usize>)]
-    baseline: Option<usize>,
+    /// Only what is new: leave out the pairs that intersect in this frame, from 0, or in any frame of an earlier check, whose --format json was written to a file
+    #[arg(long, value_name = "FRAME|FILE", allow_negative_numbers = true, value_parser = names::baseline, value_hint = ValueHint::FilePath)]
+    baseline: Option<Baseline>,
+    /// Leave out pairs with a triangle that has no area
+    #[arg(long)]
+    skip_degenerate: bool,
     /// Keep vertices apart where boundary edges coincide; seams are then intersections
     #[arg(long)]
     no_weld: bool,
     /// Join boundary edges besides that are no further apart than TOL times the diagonal of their body, in the first frame read: 1e-6
-    #[arg(long, value_name = "TOL", default_value = "0", allow_negative_numbers = true, conflicts_with = "no_weld")]
+    #[arg(
+        long,
+        value_name = "TOL",
+        default_value = "0",
+        allow_negative_numbers = true,
+        conflicts_with = "no_weld"
+    )]
     weld: f64,
     /// The most memory that a frame may take, seam finding included, and again that a list of pairs may (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
@@ -91,6 +100,8 @@ Examples:
   pliant check teeth.ply --split components --ignore 'teeth.ply#1,teeth.ply#2'
   pliant check scene.glb --ignore 'scene.glb#arm,scene.glb#sleeve'
   pliant check fox.glb --clip Run --baseline 0       what frame 0 does not have
+  pliant check new.ply --baseline old.json           what an earlier check did not
+  pliant check part.stl --weld 1e-6                  corners differ in last digits
   pliant check walk.npz --report walk.html           a page: in motion, hits red
   pliant check walk.npz --png worst.png --frame 50   one frame as an image
   pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
@@ -149,6 +160,9 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let drawn = pictures.end(arguments, &check, &checked);
     let outcome = output.end(checked)?;
     drawn?;
+    if !arguments.quiet {
+        at_seams(&check);
+    }
     Ok(outcome)
 }
 
@@ -170,7 +184,8 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         }),
         groups: arguments.groups.clone(),
         ignore: arguments.ignore.clone(),
-        baseline: arguments.baseline,
+        baseline: arguments.baseline.clone(),
+        skip_degenerate: arguments.skip_degenerate,
         options,
         ..Settings::default()
     };
@@ -206,6 +221,23 @@ fn frames(
         pictures.frame(check, &found)?;
     }
     Ok(())
+}
+
+/// Says where pairs lie at seams that are not quite closed.
+fn at_seams(check: &Check) {
+    for (number, source) in check.sources().iter().enumerate() {
+        if let Some(at_seams) = check.at_seams(number) {
+            crate::complain(&format!(
+                "note: {}: {} of its {} pairs with itself in frame {} lie where boundary edges nearly coincide, up to {:.1e} of its size apart; if those are seams, `--weld {:e}` joins them",
+                shown(source.name()),
+                at_seams.pairs,
+                at_seams.of,
+                at_seams.frame,
+                at_seams.farthest,
+                at_seams.tolerance()
+            ));
+        }
+    }
 }
 
 /// With what to do about the name of a piece, `FILE#1`, where no file is split; the error itself where it is none.

@@ -1,6 +1,6 @@
 //! Names of bodies and groups, as people write them: `NAME=BODY,BODY` and `A,B`.
 
-use pliant_check::Group;
+use pliant_check::{Baseline, Group};
 
 /// A comma or an equals sign inside a name would end it.
 const OTHERWISE: &str = "a body whose name has a comma or an equals sign is named by its number";
@@ -26,6 +26,14 @@ pub(super) fn two(text: &str) -> Result<super::Names, String> {
     }
 }
 
+/// A number is that of a frame, anything else a file.
+pub(super) fn baseline(text: &str) -> Result<Baseline, String> {
+    if text.parse::<f64>().is_ok() {
+        return crate::report::frame(text).map(Baseline::Frame);
+    }
+    Ok(Baseline::File(text.into()))
+}
+
 /// Whether a name is as those of pieces are: `FILE#1`, from 1.
 pub(super) fn is_of_a_piece(name: &str) -> bool {
     let number = name
@@ -36,7 +44,8 @@ pub(super) fn is_of_a_piece(name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{group, is_of_a_piece, two};
+    use super::{baseline, group, is_of_a_piece, two};
+    use pliant_check::Baseline;
 
     #[test]
     fn pieces_have_numbers_from_one() {
@@ -53,6 +62,17 @@ mod tests {
             "a#1,",
         ] {
             assert!(!is_of_a_piece(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn baselines_are_frames_or_files() {
+        assert_eq!(baseline("12"), Ok(Baseline::Frame(12)));
+        for file in ["old.json", "./12", "12.json", "a 1"] {
+            assert_eq!(baseline(file), Ok(Baseline::File(file.into())));
+        }
+        for bad in ["-1", "1.5"] {
+            assert!(baseline(bad).is_err(), "{bad}");
         }
     }
 

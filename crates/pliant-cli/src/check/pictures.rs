@@ -5,7 +5,7 @@
 use super::Arguments;
 use crate::advice;
 use crate::report::{Watcher, fact};
-use pliant_check::{AnyWorld, Check, Found, Row, with_world};
+use pliant_check::{AnyWorld, Baseline, Check, Found, Row, with_world};
 use pliant_io::shown;
 use pliant_report::BodyLabel;
 
@@ -57,10 +57,19 @@ impl Pictures {
                 play.facts
                     .push(fact("pieces", check.body_count().to_string()));
             }
-            if let Some(frame) = arguments.baseline {
-                play.notes.push(format!(
+            match &arguments.baseline {
+                None => {}
+                Some(Baseline::Frame(frame)) => play.notes.push(format!(
                     "Pairs that intersect in frame {frame} are left out."
-                ));
+                )),
+                Some(Baseline::File(file)) => play.notes.push(format!(
+                    "Pairs that intersect in {} are left out.",
+                    shown(file)
+                )),
+            }
+            if arguments.skip_degenerate {
+                play.notes
+                    .push("Pairs with a triangle without area are left out.".to_owned());
             }
             for [a, b] in &arguments.ignore {
                 play.notes.push(format!(

@@ -45,6 +45,15 @@ pub(crate) struct Arguments {
     /// Keep the corners of an STL file apart
     #[arg(long)]
     no_weld: bool,
+    /// Join boundary edges that are no further apart than TOL times the diagonal of the body, in the first frame, and write each place once
+    #[arg(
+        long,
+        value_name = "TOL",
+        default_value = "0",
+        allow_negative_numbers = true,
+        conflicts_with = "no_weld"
+    )]
+    weld: f64,
     /// The most memory that a frame may take (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     max_memory: u64,
@@ -74,7 +83,8 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let mut body = pliant_io::open(
         &arguments.from,
         &OpenOptions {
-            weld: is_stl && !arguments.no_weld,
+            weld: (is_stl || arguments.weld != 0.0) && !arguments.no_weld,
+            weld_tolerance: arguments.weld,
             max_memory: arguments.max_memory,
             clip: arguments.clip.clone(),
             fps: arguments.fps,

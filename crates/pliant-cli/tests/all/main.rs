@@ -19,4 +19,5 @@ mod strange_formats;
 mod strange_places;
 mod strangers;
 mod streams;
+mod surfaces;
 mod who_meets;

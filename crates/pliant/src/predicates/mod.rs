@@ -18,8 +18,31 @@ use crate::geometry::Real;
 use lattice::{Lattice, on_lattice};
 pub(crate) use orientation::Exact;
 use orientation::Filtered;
+use point::Point;
 pub(crate) use point::Triangle;
 pub(crate) use triangles::triangles_intersect;
+
+/// Whether a triangle has no area: its corners lie on a line, or in a point. Exact, for coordinates that a body may have: finite and at
+/// most `f32::MAX` in magnitude; with others the answer is false. Single precision, widened, is as good.
+///
+/// ```
+/// assert!(pliant::is_degenerate([[0.0; 3], [1.0; 3], [3.0; 3]]));
+/// assert!(!pliant::is_degenerate([[0.0; 3], [1.0; 3], [3.0, 3.0, 3.0 + 1e-15]]));
+/// ```
+pub fn is_degenerate([a, b, c]: [[f64; 3]; 3]) -> bool {
+    let is_in_range = |x: &f64| x.abs() <= f64::from(f32::MAX);
+    if ![a, b, c].as_flattened().iter().all(is_in_range) {
+        return false;
+    }
+    // Two corners in one place need no arithmetic, and are most of what there is.
+    a == b
+        || b == c
+        || c == a
+        || (0..3).all(|axis| {
+            let flat = |point: Point| [point[(axis + 1) % 3], point[(axis + 2) % 3]];
+            orientation::orientation_2d(flat(a), flat(b), flat(c)) == 0
+        })
+}
 
 /// Whether two closed triangles have a point in common; a degenerate triangle is the segment or point that it is. `S` is the type
 /// that their coordinates came in. What single precision is not certain of comes here: mostly exact contact, which integers

@@ -16,21 +16,28 @@
 //! piece.
 //!
 //! `groups` (numbers of bodies by name) and `ignore` repeat what was asked. With `--baseline`, which is repeated too, a frame has
-//! `left_out`: how many pairs were, because they intersect in that frame; not where `--first` stopped at a new pair.
+//! `left_out`: how many pairs were, because they intersect in that frame, or in the file; not where `--first` stopped at a new pair.
+//! `degenerate` says how many pairs have a triangle without area, where there are any: of those counted, or with
+//! `"skip_degenerate": true` of those that were left out for it.
 
 use super::{Form, Tally};
 use crate::check::{Arguments, Names};
-use pliant_check::{Check, Found, Group};
+use pliant_check::{Baseline, Check, Found, Group};
 use serde::Serialize;
 use serde_json::json;
 use std::io::{self, Write};
 
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what was asked for, flag by flag"
+)]
 pub(super) struct Json {
     count_only: bool,
     split: bool,
     groups: Vec<Group>,
     ignore: Vec<Names>,
-    baseline: Option<usize>,
+    baseline: Option<Baseline>,
+    skip_degenerate: bool,
     has_frames: bool,
 }
 
@@ -62,6 +69,8 @@ struct FrameEntry<'a> {
     complete: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     left_out: Option<usize>,
+    #[serde(skip_serializing_if = "is_zero")]
+    degenerate: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     pairs: Option<&'a [[u32; 4]]>,
 }
@@ -81,7 +90,8 @@ impl Json {
             split: arguments.split.is_some(),
             groups: arguments.groups.clone(),
             ignore: arguments.ignore.clone(),
-            baseline: arguments.baseline,
+            baseline: arguments.baseline.clone(),
+            skip_degenerate: arguments.skip_degenerate,
             has_frames: false,
         }
     }
@@ -128,8 +138,15 @@ impl Form for Json {
         if !self.ignore.is_empty() {
             write!(out, r#","ignore":{}"#, json!(self.ignore))?;
         }
-        if let Some(frame) = self.baseline {
-            write!(out, r#","baseline":{frame}"#)?;
+        match &self.baseline {
+            None => {}
+            Some(Baseline::Frame(frame)) => write!(out, r#","baseline":{frame}"#)?,
+            Some(Baseline::File(file)) => {
+                write!(out, r#","baseline":{}"#, json!(file.to_string_lossy()))?;
+            }
+        }
+        if self.skip_degenerate {
+            write!(out, r#","skip_degenerate":true"#)?;
         }
         write!(out, r#","frames":["#)
     }
@@ -140,6 +157,7 @@ impl Form for Json {
             count: found.count,
             complete: (!found.complete).then_some(false),
             left_out: found.left_out,
+            degenerate: found.degenerate,
             pairs: (!self.count_only).then_some(&found.pairs),
         };
         let separator = if self.has_frames { "," } else { "" };

@@ -46,12 +46,15 @@ struct Tally {
     intersecting: usize,
     /// The frame with the most pairs, and their number; none where not all pairs are known.
     worst: Option<(usize, usize)>,
+    /// Pairs with a triangle that has no area, counted or left out.
+    degenerate: usize,
 }
 
 impl Tally {
     fn count(&mut self, found: &Found) {
         self.frames += 1;
         self.intersecting += usize::from(found.count > 0);
+        self.degenerate += found.degenerate;
         if found.complete && found.count > self.worst.map_or(0, |(_, most)| most) {
             self.worst = Some((found.frame, found.count));
         }

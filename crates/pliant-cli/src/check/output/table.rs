@@ -4,19 +4,24 @@ use super::files::Files;
 use super::{Form, Tally, counted};
 use crate::check::{Arguments, Names};
 use crate::table::grouped;
-use pliant_check::{BodyFacts, Check, Found};
+use pliant_check::{Baseline, BodyFacts, Check, Found};
 use pliant_io::shown;
 use std::io::{self, Write};
 
 /// A file in more pieces than this is one line of the head.
 const MOST_PIECES: usize = 20;
 
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what was asked for, flag by flag"
+)]
 pub(super) struct Table {
     count_only: bool,
     split: bool,
     itself: bool,
     ignore: Vec<Names>,
-    baseline: Option<usize>,
+    baseline: Option<Baseline>,
+    skip_degenerate: bool,
     /// Known from the head on.
     files: Option<Files>,
 }
@@ -28,7 +33,8 @@ impl Table {
             split: arguments.split.is_some(),
             itself: arguments.itself,
             ignore: arguments.ignore.clone(),
-            baseline: arguments.baseline,
+            baseline: arguments.baseline.clone(),
+            skip_degenerate: arguments.skip_degenerate,
             files: None,
         }
     }
@@ -46,9 +52,19 @@ impl Table {
             none if none.is_empty() => none,
             some => format!("; ignored: {some}"),
         };
-        let left_out = self.baseline.map_or_else(String::new, |frame| {
-            format!("; left out: pairs that frame {frame} has")
-        });
+        let known = match &self.baseline {
+            None => None,
+            Some(Baseline::Frame(frame)) => Some(format!("pairs that frame {frame} has")),
+            Some(Baseline::File(file)) => Some(format!("pairs that {} has", shown(file))),
+        };
+        let degenerate = self
+            .skip_degenerate
+            .then(|| "pairs with a triangle without area".to_owned());
+        let left_out: Vec<_> = known.into_iter().chain(degenerate).collect();
+        let left_out = match left_out.join(", and ") {
+            none if none.is_empty() => none,
+            some => format!("; left out: {some}"),
+        };
         format!("{bodies}{ignored}{left_out}")
     }
 }
@@ -95,7 +111,7 @@ impl Form for Table {
         }
         self.files = Files::of(check);
         let file = self.files.as_ref().map_or_else(String::new, Files::header);
-        let left_out = self.baseline.map_or("", |_| "  left out");
+        let left_out = self.baseline.as_ref().map_or("", |_| "  left out");
         let first_pair = if self.count_only { "" } else { "  first pair" };
         writeln!(
             out,
@@ -133,7 +149,22 @@ impl Form for Table {
         error: Option<&anyhow::Error>,
     ) -> io::Result<()> {
         match error {
-            None => writeln!(out, "\n{}", tally.summary()),
+            None => {
+                writeln!(out, "\n{}", tally.summary())?;
+                if tally.degenerate == 0 {
+                    return Ok(());
+                }
+                let pairs = counted((
+                    tally.degenerate,
+                    "pair has a triangle without area",
+                    "pairs have a triangle without area",
+                ));
+                if self.skip_degenerate {
+                    writeln!(out, "left out: {pairs}")
+                } else {
+                    writeln!(out, "{pairs}; `--skip-degenerate` leaves such pairs out")
+                }
+            }
             Some(_) => Ok(()),
         }
     }

@@ -1,0 +1,306 @@
+//! Files as people have them: which surface a file is taken to be, and what is said where another one may be meant.
+
+use crate::common::{check, folder, pliant};
+use std::fmt::Write;
+use std::fs;
+
+type Point = [f64; 3];
+
+/// The triangles of a tetrahedron of sides of about one, each side cut into sixteen.
+fn tetrahedron() -> Vec<[Point; 3]> {
+    let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut triangles: Vec<[Point; 3]> = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+        .map(|side: [usize; 3]| side.map(|corner| corners[corner]))
+        .into();
+    for _ in 0..2 {
+        let middle = |a: Point, b: Point| -> Point { std::array::from_fn(|i| (a[i] + b[i]) / 2.0) };
+        let cut = |[a, b, c]: [Point; 3]| {
+            let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+        };
+        triangles = triangles.into_iter().flat_map(cut).collect();
+    }
+    triangles
+}
+
+/// An OBJ file in which every triangle has corners of its own, moved by up to so much, another way in each.
+fn soup(triangles: &[[Point; 3]], by: f64) -> String {
+    let mut state = 7_u64;
+    let mut noise = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        ((state >> 33) as f64 / f64::from(1_u32 << 30) - 1.0) * by
+    };
+    let mut text = String::new();
+    for triangle in triangles {
+        for [x, y, z] in triangle {
+            writeln!(text, "v {} {} {}", x + noise(), y + noise(), z + noise()).unwrap();
+        }
+        text += "f -3 -2 -1\n";
+    }
+    text
+}
+
+#[test]
+fn seams_that_nearly_coincide_are_joined_if_asked_for_and_named_otherwise() {
+    let folder = folder(&[("part.obj", soup(&tetrahedron(), 1e-8))]);
+    let path = folder.path();
+    let plain = check(path, &["part.obj"]);
+    assert_eq!(plain.code, 1);
+    let note = plain.err.trim_end();
+    assert_eq!(note.lines().count(), 1, "{note}");
+    assert!(note.starts_with("pliant: note: part.obj: "), "{note}");
+    assert!(note.contains("with itself in frame 0 lie where boundary edges nearly coincide"));
+    // What the line says is enough.
+    let tolerance = note.split_once("`--weld ").unwrap().1;
+    let tolerance = tolerance.split_once('`').unwrap().0;
+    let joined = check(path, &["part.obj", "--weld", tolerance, "--format", "json"]);
+    assert_eq!(joined.code, 0, "{}", joined.out);
+    // 34 places of 192 corners.
+    assert_eq!(joined.json()["bodies"][0]["welded"], 192 - 34);
+    let note = joined.err.trim_end();
+    assert!(
+        note.contains("158 vertices were joined to others near them"),
+        "{note}"
+    );
+    assert_eq!(check(path, &["part.obj", "--quiet"]).err, "");
+
+    // Written once, a file is closed for good.
+    let said = pliant(
+        path,
+        &["convert", "part.obj", "closed.obj", "--weld", "1e-6"],
+    );
+    assert_eq!(said.out, "closed.obj: 1 frame, 34 vertices, 64 triangles\n");
+    let closed = check(path, &["closed.obj"]);
+    assert_eq!((closed.code, &closed.err[..]), (0, ""));
+
+    for (value, word) in [
+        ("0.5", "from 1e-15 to 0.1"),
+        ("-1", "0.1"),
+        ("nan", "0.1"),
+        ("1e-16", "1e-15"),
+    ] {
+        check(path, &["part.obj", "--weld", value]).assert_refused(&[word, "`--weld`"]);
+    }
+    check(path, &["part.obj", "--weld", "1e-6", "--no-weld"]).assert_refused(&["--no-weld"]);
+}
+
+#[test]
+fn joined_sides_that_part_in_a_later_frame_are_refused() {
+    let triangles = tetrahedron();
+    let parted: Vec<_> = triangles
+        .iter()
+        .enumerate()
+        .map(|(number, triangle)| {
+            let by = if number < 16 { 1e-3 } else { 0.0 };
+            triangle.map(|[x, y, z]| [x, y, z - by])
+        })
+        .collect();
+    let folder = folder(&[
+        ("p_0.obj", soup(&triangles, 1e-8)),
+        ("p_1.obj", soup(&triangles, 1e-7)),
+        ("p_2.obj", soup(&parted, 1e-8)),
+    ]);
+    let path = folder.path();
+    let near = check(path, &["p_[01].obj", "--weld", "1e-6"]);
+    assert_eq!(near.code, 0, "{}", near.err);
+    let said = check(path, &["p_*.obj", "--weld", "1e-6", "--quiet"]);
+    said.assert_refused(&["p_2.obj", "were joined, being near each other", "`--weld`"]);
+}
+
+#[test]
+fn triangles_without_area_are_counted_named_and_left_out() {
+    // A pole of a hundred needles, and a triangle that it passes through; two proper triangles that cross.
+    let mut text = "v 0 0 -1\nv 0 0 1\n".to_owned();
+    for number in 1..=100 {
+        writeln!(
+            text,
+            "v 0 0 {}\nf 1 2 {}",
+            f64::from(number) / 128.0,
+            number + 2
+        )
+        .unwrap();
+    }
+    text += "v -1 -1 0.3\nv 2 -1 0.3\nv -1 2 0.3\nf -3 -2 -1\n";
+    text += "v 0.1 -0.5 -1\nv 0.1 -0.5 1\nv 0.2 -0.6 1\nf -3 -2 -1\n";
+    let folder = folder(&[("pole.obj", text)]);
+    let path = folder.path();
+    let table = check(path, &["pole.obj"]);
+    assert!(table.out.contains("     101"), "{}", table.out);
+    assert!(table.out.ends_with(
+        "100 pairs have a triangle without area; `--skip-degenerate` leaves such pairs out\n"
+    ));
+    let json = check(path, &["pole.obj", "--format", "json"]).json();
+    assert_eq!(json["frames"][0]["degenerate"], 100);
+
+    let table = check(path, &["pole.obj", "--skip-degenerate"]);
+    assert!(
+        table
+            .out
+            .contains("left out: pairs with a triangle without area"),
+        "{}",
+        table.out
+    );
+    assert!(
+        table
+            .out
+            .ends_with("left out: 100 pairs have a triangle without area\n"),
+        "{}",
+        table.out
+    );
+    let json = check(path, &["pole.obj", "--skip-degenerate", "--format", "json"]).json();
+    let frame = &json["frames"][0];
+    assert_eq!(json["skip_degenerate"], true);
+    assert_eq!([&frame["count"], &frame["degenerate"]], [1, 100]);
+    assert_eq!(frame["pairs"], serde_json::json!([[0, 100, 0, 101]]));
+    // With the first pair too, and where nothing else is left.
+    let said = check(
+        path,
+        &[
+            "pole.obj",
+            "--skip-degenerate",
+            "--first",
+            "--format",
+            "json",
+        ],
+    );
+    assert_eq!(said.counts(), [1]);
+}
+
+const WALL: &str = "v 0 0 0\nv 0 4 0\nv 0 0 4\nf 1 2 3\n";
+
+/// A triangle through the wall, at this height.
+fn needle(at: f64) -> String {
+    format!("v -1 1 {at}\nv 1 1 {at}\nv 1 1.2 {at}\n")
+}
+
+#[test]
+fn files_may_be_named_without_their_folders() {
+    let path = tempfile::tempdir().unwrap();
+    let path = path.path();
+    for name in ["a", "b"] {
+        fs::create_dir(path.join(name)).unwrap();
+        fs::write(path.join(name).join("same.obj"), WALL).unwrap();
+        fs::write(
+            path.join(name).join(format!("{name}.obj")),
+            needle(0.5) + "f 1 2 3\n",
+        )
+        .unwrap();
+    }
+    let bodies = ["a/a.obj", "b/b.obj", "a/same.obj"];
+    let with = |more: &[&str]| {
+        check(
+            path,
+            &[&bodies[..], more, &["--count", "--format", "lines"]].concat(),
+        )
+    };
+    assert_eq!(with(&[]).out, "0 3\n");
+    assert_eq!(with(&["--ignore", "a.obj,b.obj"]).out, "0 2\n");
+    assert_eq!(
+        with(&["--ignore", "a.obj,same.obj", "--group", "x=b.obj"]).out,
+        "0 2\n"
+    );
+    assert_eq!(
+        with(&["--split", "components", "--ignore", "a.obj#1,b.obj#1"]).out,
+        "0 2\n"
+    );
+    // Two are called so.
+    check(
+        path,
+        &[
+            "a/same.obj",
+            "b/same.obj",
+            "a/a.obj",
+            "--ignore",
+            "same.obj,a.obj",
+        ],
+    )
+    .assert_refused(&["no body or group is called \"same.obj\""]);
+}
+
+#[test]
+fn an_earlier_check_is_a_baseline() {
+    let two = format!("{}{}f 1 2 3\nf 4 5 6\n", needle(0.5), needle(1.0));
+    let three = format!("{}{}f 1 2 3\nf 4 5 6\n", needle(0.5), needle(5.0));
+    let folder = folder(&[
+        ("wall.obj", WALL.to_owned()),
+        ("n_0.obj", two),
+        ("n_1.obj", three.clone()),
+        ("n.obj", three.replace("0.5", "0.25")),
+    ]);
+    let path = folder.path();
+    let save = |name: &str, arguments: &[&str]| {
+        let said = check(path, &[arguments, &["--format", "json"]].concat());
+        fs::write(path.join(name), &said.out).unwrap();
+    };
+    save("old.json", &["n.obj", "wall.obj"]);
+    let again = check(
+        path,
+        &[
+            "n.obj",
+            "wall.obj",
+            "--baseline",
+            "old.json",
+            "--format",
+            "json",
+        ],
+    );
+    assert_eq!(again.code, 0);
+    assert_eq!(again.json()["frames"][0]["left_out"], 1);
+    assert_eq!(again.json()["baseline"], "old.json");
+    // The other way round, and by other paths: bodies are known by their names.
+    let there = path.join("n.obj");
+    let there = there.to_str().unwrap();
+    let turned = check(
+        path,
+        &["wall.obj", there, "--baseline", "old.json", "--count"],
+    );
+    assert_eq!(turned.code, 0, "{}{}", turned.out, turned.err);
+    assert!(
+        turned.out.contains("left out: pairs that old.json has"),
+        "{}",
+        turned.out
+    );
+    // A pair of any frame is left out of all; pieces have numbers of their own.
+    save(
+        "all.json",
+        &["n_?.obj", "wall.obj", "--split", "components"],
+    );
+    let all = [
+        "n_?.obj",
+        "wall.obj",
+        "--split",
+        "components",
+        "--baseline",
+        "all.json",
+    ];
+    assert_eq!(check(path, &all).code, 0);
+
+    let baseline = |name: &str| check(path, &["n.obj", "wall.obj", "--baseline", name]);
+    save("count.json", &["n.obj", "wall.obj", "--count"]);
+    baseline("count.json").assert_refused(&["count.json", "`--count` or `--first`"]);
+    baseline("nowhere.json").assert_refused(&["nowhere.json"]);
+    baseline("wall.obj").assert_refused(&["wall.obj", "JSON"]);
+    save("other.json", &["n_0.obj", "wall.obj"]);
+    baseline("other.json").assert_refused(&["no body is called \"n_0.obj\""]);
+    let fewer = fs::read_to_string(path.join("old.json")).unwrap();
+    fs::write(
+        path.join("fewer.json"),
+        fewer.replace("\"triangles\":2", "\"triangles\":3"),
+    )
+    .unwrap();
+    baseline("fewer.json").assert_refused(&["\"n.obj\" has 3 triangles there, and 2 here"]);
+    fs::write(
+        path.join("lies.json"),
+        fewer.replace("[0,0,1,0]", "[0,7,1,0]"),
+    )
+    .unwrap();
+    baseline("lies.json").assert_refused(&["triangle that is not there"]);
+    fs::write(
+        path.join("lies.json"),
+        fewer.replace("[0,0,1,0]", "[4,0,1,0]"),
+    )
+    .unwrap();
+    baseline("lies.json").assert_refused(&["triangle that is not there"]);
+}

@@ -176,6 +176,7 @@ libfuzzer_sys::fuzz_target!(|input: Input| {
             .map(|corners| corners.map(|corner| u32::from(corner % 6)))
             .collect(),
         faces: None,
+        outlines: std::collections::BTreeMap::new(),
         vertex_count,
         frame_count: usize::from(input.announced % 4),
         precision: if input.wide {

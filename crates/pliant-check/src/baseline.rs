@@ -120,7 +120,7 @@ fn parse(path: &Path, most: u64) -> Result<Written, String> {
     }
     if !written.frames.iter().all(has_all) {
         return Err(
-            "it does not list all pairs: it was written with `--count` or `--first`".into(),
+            "it does not list all pairs that it counted; write it again with all of them".into(),
         );
     }
     Ok(written)

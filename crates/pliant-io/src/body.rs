@@ -1,6 +1,7 @@
 //! Files in a row are one body: the first frame fixes what holds for all, the others follow one by
 //! one.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -269,11 +270,13 @@ impl Body {
         let filled = frame.fill_from(source.held());
         filled.map_err(|reason| in_first(reason.into()))?;
         let _complete = source.read(&mut frame).map_err(in_first)?;
+        let shaped = frame.shape_polygons();
+        let mut notes = shaped.map_err(|reason| in_first(reason.into()))?;
         frame.becomes_first(path.clone());
         let tolerance = options.weld_tolerance;
         let welding = frame.weld(tolerance, || source.alike());
         let welding = welding.map_err(|reason| in_first(reason.into()))?;
-        let mut notes = source.notes();
+        notes.extend(source.notes());
         if let Some(near) = welding.as_ref().and_then(|it| it.near.as_ref()) {
             notes.push(Note::NearSeams {
                 count: near.count(),
@@ -323,6 +326,18 @@ impl Body {
     /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
     pub fn faces(&self) -> Option<&[u32]> {
         self.frame.polygons().faces()
+    }
+
+    /// Of polygons that did not become fans, by their number in [`faces`](Self::faces), the corners in their order; of welded vertices
+    /// the smallest stands for all.
+    pub fn outlines(&self) -> BTreeMap<u32, Vec<u32>> {
+        let mut outlines = self.frame.polygons().outlines().clone();
+        if let Some(welding) = &self.welding {
+            for corner in outlines.values_mut().flatten() {
+                *corner = welding.leader(*corner);
+            }
+        }
+        outlines
     }
 
     /// How many vertices each frame has: those of the file, welded or not.

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use crate::error::{Fault, Place, Reason};
 use crate::memory::{Account, Excess};
 use crate::near::NearSeams;
+use crate::note::Note;
 use crate::polygons::Polygons;
 use crate::positions::{Positions, Precision, Vertices};
 use crate::weld::{self, Welding};
@@ -205,6 +206,12 @@ impl Frame {
             self.check_seams(self.polygons.triangles().len() as u64, vertices as u64, 0)?;
         }
         Ok(Complete(()))
+    }
+
+    /// Gives the polygons of the first frame, which is complete, their triangles; returns what is to be said of them.
+    pub(crate) fn shape_polygons(&mut self) -> Result<Vec<Note>, Reason> {
+        self.polygons
+            .shape(self.vertices.positions(), &mut self.account)
     }
 
     /// Holds all later frames to this one, which came from `file`.

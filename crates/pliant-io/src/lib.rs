@@ -51,7 +51,9 @@
 //! | `.glb`, `.gltf` | bodies, and animations of which [`OpenOptions::clip`] is evaluated at [`OpenOptions::fps`] | f32 |
 //!
 //! - **Polygons become fans** around their first corner, triangles numbered in file order;
-//!   [`Body::faces`] then says which polygon each triangle is of.
+//!   [`Body::faces`] then says which polygon each triangle is of. Where a fan would be wrong in the first frame, as of polygons
+//!   that bend inward, they become as many other triangles between the same corners ([`Body::outlines`]). Polygons that cross
+//!   themselves stay fans, and [`Body::notes`] says so, as of those that are far from flat.
 //! - **Seams are welded**: files split a vertex where texture coordinates or normals differ, STL
 //!   splits all. Vertices at the two ends of boundary edges that coincide bit for bit in the first
 //!   frame become one; [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off. In
@@ -83,6 +85,7 @@
 //! | `obj.rs`, `ply/`, `stl.rs`, `npz/`, `cache.rs`, `gltf/` | one format each |
 //! | `write/` | one format each, and files that appear when they are whole |
 //! | `weld.rs`, `near.rs` | boundary edges that coincide, or nearly |
+//! | `triangulate.rs` | which triangles a polygon is |
 //! | `memory.rs`, `text.rs` | nothing is allocated on a claim, nor beyond the limit; lines and numbers of text formats |
 //! | `error.rs`, `note.rs`, `shown.rs` | one type, one line; what is no error and worth saying; names as people are shown them |
 
@@ -108,6 +111,7 @@ mod series;
 mod shown;
 mod stl;
 mod text;
+mod triangulate;
 mod weld;
 mod write;
 

@@ -20,6 +20,13 @@ pub enum Note {
         /// The first, counted from 0.
         first: usize,
     },
+    /// Polygons cross themselves, or have two corners in one place: as triangles they are fans, which meet what the polygon does not.
+    CrossedPolygons {
+        /// How many.
+        count: usize,
+        /// The first, counted from 0.
+        first: usize,
+    },
 }
 
 impl fmt::Display for Note {
@@ -31,7 +38,11 @@ impl fmt::Display for Note {
             ),
             Self::BentPolygons { count, first } => write!(
                 f,
-                "{count} polygons are far from flat (the first is face {first}); as which triangles they are meant, the file does not say"
+                "{count} polygons are far from flat (the first is face {first}); as which triangles these are meant, the file does not say"
+            ),
+            Self::CrossedPolygons { count, first } => write!(
+                f,
+                "{count} polygons cross themselves (the first is face {first}) and are made into fans; mend them or triangulate the mesh"
             ),
         }
     }

@@ -1,11 +1,17 @@
-//! Polygons become fans of triangles: recorded in the first frame, compared in every later one.
+//! Polygons become triangles: recorded as fans in the first frame, compared in every later one.
 //!
 //! A fan goes round the polygon's first corner: a b c d e gives (a b c) (a c d) (a d e). The
 //! triangles of a polygon lie side by side and tell it completely, so comparing later frames needs
-//! no other copy of the connectivity.
+//! no other copy of the connectivity. Once all positions of the first frame are there, polygons of
+//! which a fan would be wrong get other triangles; their corners are kept.
+
+use std::collections::BTreeMap;
 
 use crate::error::{Fault, Place, Reason};
 use crate::memory::Account;
+use crate::note::Note;
+use crate::positions::Positions;
+use crate::triangulate::{self, Cut};
 
 /// The connectivity of a body as its files have it, before welding.
 #[derive(Debug)]
@@ -13,6 +19,8 @@ pub(crate) struct Polygons {
     triangles: Vec<[u32; 3]>,
     /// Triangle to polygon; filled from the first polygon on that has more than three corners.
     faces: Option<Vec<u32>>,
+    /// The corners of polygons that are no fans.
+    outlines: BTreeMap<u32, Vec<u32>>,
     count: u64,
     comparing: bool,
     /// Polygons and triangles met in this frame.
@@ -44,6 +52,7 @@ impl Polygons {
         Self {
             triangles: Vec::new(),
             faces: None,
+            outlines: BTreeMap::new(),
             count: 0,
             comparing: false,
             met: 0,
@@ -103,7 +112,7 @@ impl Polygons {
         }
         let fan = rim.windows(2).map(|edge| [apex, edge[0], edge[1]]);
         let equal = if self.comparing {
-            self.compare(fan)
+            self.compare(corners, fan)
         } else {
             self.record(fan, account).map(|()| true)?
         };
@@ -167,7 +176,7 @@ impl Polygons {
         Ok(())
     }
 
-    fn compare(&mut self, fan: impl ExactSizeIterator<Item = [u32; 3]>) -> bool {
+    fn compare(&mut self, corners: &[u32], fan: impl ExactSizeIterator<Item = [u32; 3]>) -> bool {
         if self.met >= self.count {
             return true; // one too many: counted, and reported with both counts at the end
         }
@@ -180,10 +189,69 @@ impl Polygons {
                 .count(),
         };
         self.met_triangles += size;
+        if let Some(outline) = self.outlines.get(&(self.met as u32)) {
+            return outline == corners;
+        }
         self.triangles[begin..self.met_triangles]
             .iter()
             .copied()
             .eq(fan)
+    }
+
+    /// Gives polygons the triangles that they are in the positions of the first frame, and notes what is doubtful.
+    pub(crate) fn shape(
+        &mut self,
+        positions: Positions<'_>,
+        account: &mut Account,
+    ) -> Result<Vec<Note>, Reason> {
+        let Some(faces) = &self.faces else {
+            return Ok(Vec::new());
+        };
+        let (mut bent, mut crossed) = (Vec::new(), Vec::new());
+        let (mut corners, mut points) = (Vec::new(), Vec::new());
+        let mut begin = 0;
+        for same in faces.chunk_by(|a, b| a == b) {
+            let triangles = &mut self.triangles[begin..begin + same.len()];
+            begin += same.len();
+            if let [_] = triangles {
+                continue;
+            }
+            corners.clear();
+            corners.extend(triangles[0]);
+            corners.extend(triangles[1..].iter().map(|triangle| triangle[2]));
+            points.clear();
+            points.extend(corners.iter().map(|&corner| positions.get(corner)));
+            if triangulate::is_bent(&points) {
+                bent.push(same[0]);
+            }
+            match triangulate::cut(&points, |i, j| corners[i] == corners[j]) {
+                Cut::Fan => {}
+                Cut::Crossed => crossed.push(same[0]),
+                Cut::Other(others) => {
+                    for (triangle, other) in triangles.iter_mut().zip(others) {
+                        *triangle = other.map(|corner| corners[corner]);
+                    }
+                    // As a map holds it, roughly.
+                    account.enter((64 + size_of_val(&corners[..])) as u64)?;
+                    self.outlines.insert(same[0], corners.clone());
+                }
+            }
+        }
+        let first = |polygons: &[u32]| polygons.first().map(|&first| first as usize);
+        let bent = first(&bent).map(|first| Note::BentPolygons {
+            count: bent.len(),
+            first,
+        });
+        let crossed = first(&crossed).map(|first| Note::CrossedPolygons {
+            count: crossed.len(),
+            first,
+        });
+        Ok(bent.into_iter().chain(crossed).collect())
+    }
+
+    /// The corners of polygons that are no fans.
+    pub(crate) fn outlines(&self) -> &BTreeMap<u32, Vec<u32>> {
+        &self.outlines
     }
 
     /// Ends a frame of `vertices` vertices: every index must be below. Messages count vertices from

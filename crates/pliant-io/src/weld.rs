@@ -209,6 +209,15 @@ impl Welding {
             .map_or(Ok(()), |near| near.check(positions))
     }
 
+    /// The vertex that stands for this one.
+    pub(crate) fn leader(&self, vertex: u32) -> u32 {
+        let at = self.welded.binary_search_by_key(&vertex, |&(its, _)| its);
+        let vertex = at.map_or(vertex, |at| self.welded[at].1);
+        self.near
+            .as_ref()
+            .map_or(vertex, |near| near.leader(vertex))
+    }
+
     /// How many vertices were welded away.
     pub(crate) fn count(&self) -> usize {
         self.welded.len() + self.near.as_ref().map_or(0, NearSeams::count)

@@ -2,7 +2,7 @@
 //! every pair.
 
 use pliant::{Selection, World};
-use pliant_check::{Check, Found, Group, Row, Settings, Split};
+use pliant_check::{Baseline, Check, Found, Group, Row, Settings, Split};
 use pliant_io::OpenOptions;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -169,7 +169,7 @@ proptest! {
             split: split.then_some(Split::Components),
             groups: vec![Group { name: "group".to_owned(), bodies: members.iter().map(u32::to_string).collect() }],
             ignore: rules.iter().map(|(_, _, names)| names.clone()).collect(),
-            baseline,
+            baseline: baseline.map(Baseline::Frame),
             ..Settings::default()
         };
         // Every piece has vertices of its own, and coinciding edges are to stay two.

@@ -1,6 +1,6 @@
 //! Whatever the file, the same meshes have the same answers: bodies of glTF files against the same bodies as sequences.
 
-use pliant_check::{Check, Error, Found, Frames, Group, Settings, Split};
+use pliant_check::{Baseline, Check, Error, Found, Frames, Group, Settings, Split};
 use pliant_io::{Body, OpenOptions, Shape, WriteOptions, Writer};
 use std::path::Path;
 use tempfile::TempDir;
@@ -35,6 +35,7 @@ fn write(folder: &Path, number: usize, mut body: Body) -> String {
     let shape = Shape {
         triangles: body.triangles().to_vec(),
         faces: None,
+        outlines: std::collections::BTreeMap::new(),
         vertex_count: body.vertex_count(),
         frame_count: body.frame_count(),
         precision: body.precision(),
@@ -74,16 +75,16 @@ fn bodies_of_a_scene_are_checked_like_sequences() {
     let mut asked = vec![
         every.clone(),
         Settings {
-            baseline: Some(frame_count / 2),
+            baseline: Some(Baseline::Frame(frame_count / 2)),
             ..every.clone()
         },
         Settings {
-            baseline: Some(frame_count - 1),
+            baseline: Some(Baseline::Frame(frame_count - 1)),
             frames: Some(frames),
             ..every.clone()
         },
         Settings {
-            baseline: Some(1),
+            baseline: Some(Baseline::Frame(1)),
             frames: Some(frames),
             split: Some(Split::Components),
             ..every.clone()

@@ -1,6 +1,6 @@
 //! Ranges of frames, names, and what is refused.
 
-use pliant_check::{Check, Error, Frames, Group, Settings, Split};
+use pliant_check::{Baseline, Check, Error, Frames, Group, Settings, Split};
 use pliant_io::OpenOptions;
 use std::fs;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -39,13 +39,13 @@ fn frames_are_those_of_the_range_whatever_the_baseline() {
     for start in 0..6 {
         for step in 1..4 {
             let frames: Vec<_> = (start..6).step_by(step).collect();
-            let settings = |baseline| Settings {
+            let settings = |baseline: Option<usize>| Settings {
                 frames: Some(Frames {
                     start,
                     step,
                     count: frames.len(),
                 }),
-                baseline,
+                baseline: baseline.map(Baseline::Frame),
                 ..Settings::default()
             };
             let some: Vec<_> = frames.iter().map(|&frame| all[frame]).collect();
@@ -85,7 +85,7 @@ fn an_interrupted_frame_can_be_asked_for_again() {
         (Some(5), true),
     ] {
         let settings = Settings {
-            baseline,
+            baseline: baseline.map(Baseline::Frame),
             first,
             ..Settings::default()
         };
@@ -119,7 +119,7 @@ fn an_interrupted_frame_can_be_asked_for_again() {
 fn positions_are_those_of_the_frame_checked_last() {
     let (_folder, arguments) = folder();
     let settings = Settings {
-        baseline: Some(4),
+        baseline: Some(Baseline::Frame(4)),
         ..Settings::default()
     };
     let mut check = Check::open(&arguments, &OpenOptions::default(), &settings).unwrap();
@@ -181,7 +181,7 @@ fn frames_that_there_are_not_are_refused() {
     let (_folder, arguments) = folder();
     let refused = |settings: &Settings| counts(&arguments, settings).unwrap_err().to_string();
     let baseline = Settings {
-        baseline: Some(6),
+        baseline: Some(Baseline::Frame(6)),
         ..Settings::default()
     };
     assert_eq!(
@@ -301,7 +301,7 @@ fn after_an_error_nothing_follows() {
     // On the way to a baseline behind it the damaged frame is passed over.
     for (baseline, counts) in [(None, &[3, 2][..]), (Some(3), &[2, 1]), (Some(2), &[])] {
         let settings = Settings {
-            baseline,
+            baseline: baseline.map(Baseline::Frame),
             ..Settings::default()
         };
         let mut check = Check::open(&arguments, &OpenOptions::default(), &settings).unwrap();
@@ -323,7 +323,7 @@ fn lists_have_a_limit_that_of_the_baseline_too() {
         let settings = |max_list| Settings {
             max_list,
             listed,
-            baseline,
+            baseline: baseline.map(Baseline::Frame),
             ..Settings::default()
         };
         assert!(counts(&arguments, &settings(48)).is_ok());

@@ -100,7 +100,7 @@ Examples:
   pliant check teeth.ply --split components --ignore 'teeth.ply#1,teeth.ply#2'
   pliant check scene.glb --ignore 'scene.glb#arm,scene.glb#sleeve'
   pliant check fox.glb --clip Run --baseline 0       what frame 0 does not have
-  pliant check new.ply --baseline old.json           what an earlier check did not
+  pliant check new.ply --baseline old.json           what an older check had not
   pliant check part.stl --weld 1e-6                  corners differ in last digits
   pliant check walk.npz --report walk.html           a page: in motion, hits red
   pliant check walk.npz --png worst.png --frame 50   one frame as an image

@@ -12,6 +12,7 @@ use anyhow::{Context, bail};
 use clap::Args;
 use frames::Frames;
 use pliant_io::{Body, OpenOptions, Positions, Shape, WriteOptions, Writer, shown};
+use std::collections::BTreeMap;
 
 #[derive(Args, Debug)]
 #[command(after_help = FORMATS)]
@@ -96,8 +97,9 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     crate::note(&body, arguments.quiet);
     let frames = arguments.frames.within(body.frame_count())?;
-    let (vertices, triangles) = kept(&body);
+    let (vertices, triangles, outlines) = kept(&body);
     let shape = Shape {
+        outlines,
         faces: body.faces().map(<[u32]>::to_vec),
         vertex_count: vertices.as_ref().map_or(body.vertex_count(), Vec::len),
         frame_count: frames.len(),
@@ -141,10 +143,10 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
 }
 
 /// The vertices to write, None for all, and the triangles between them: without those that were welded away.
-fn kept(body: &Body) -> (Option<Vec<u32>>, Vec<[u32; 3]>) {
-    let mut triangles = body.triangles().to_vec();
+fn kept(body: &Body) -> (Option<Vec<u32>>, Vec<[u32; 3]>, Outlines) {
+    let (mut triangles, mut outlines) = (body.triangles().to_vec(), body.outlines());
     if body.welded() == 0 {
-        return (None, triangles);
+        return (None, triangles, outlines);
     }
     let mut number = vec![None; body.vertex_count()];
     let mut vertices = Vec::new();
@@ -154,8 +156,15 @@ fn kept(body: &Body) -> (Option<Vec<u32>>, Vec<[u32; 3]>) {
             vertices.len() as u32 - 1
         });
     }
-    (Some(vertices), triangles)
+    // Every corner of a polygon is one of its triangles.
+    for corner in outlines.values_mut().flatten() {
+        *corner = number[*corner as usize].unwrap_or_default();
+    }
+    (Some(vertices), triangles, outlines)
 }
+
+/// The corners of polygons that are no fans.
+type Outlines = BTreeMap<u32, Vec<u32>>;
 
 /// Some of the positions of a frame.
 #[derive(Default)]

@@ -13,7 +13,8 @@ fn tetrahedron() -> Vec<[Point; 3]> {
         .map(|side: [usize; 3]| side.map(|corner| corners[corner]))
         .into();
     for _ in 0..2 {
-        let middle = |a: Point, b: Point| -> Point { std::array::from_fn(|i| (a[i] + b[i]) / 2.0) };
+        let middle =
+            |a: Point, b: Point| -> Point { std::array::from_fn(|i| f64::midpoint(a[i], b[i])) };
         let cut = |[a, b, c]: [Point; 3]| {
             let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
             [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
@@ -279,7 +280,7 @@ fn an_earlier_check_is_a_baseline() {
 
     let baseline = |name: &str| check(path, &["n.obj", "wall.obj", "--baseline", name]);
     save("count.json", &["n.obj", "wall.obj", "--count"]);
-    baseline("count.json").assert_refused(&["count.json", "`--count` or `--first`"]);
+    baseline("count.json").assert_refused(&["count.json", "does not list all pairs"]);
     baseline("nowhere.json").assert_refused(&["nowhere.json"]);
     baseline("wall.obj").assert_refused(&["wall.obj", "JSON"]);
     save("other.json", &["n_0.obj", "wall.obj"]);
@@ -303,4 +304,55 @@ fn an_earlier_check_is_a_baseline() {
     )
     .unwrap();
     baseline("lies.json").assert_refused(&["triangle that is not there"]);
+}
+
+#[test]
+fn polygons_that_bend_inward_are_cut_inside() {
+    // An L, from each of its corners, and a spike through its notch, which a fan would meet; another goes through the L.
+    let corners = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
+    let mut text = String::new();
+    for [x, y] in corners {
+        writeln!(text, "v {x} {y} 0").unwrap();
+    }
+    text += "v 1.4 1.4 -1\nv 1.4 1.4 1\nv 1.5 1.5 1\nf 7 8 9\n";
+    let through = text.clone() + "v 0.2 0.2 -1\nv 0.2 0.2 1\nv 0.3 0.3 1\nf 10 11 12\n";
+    for first in 0..6 {
+        let l = (0..6).fold(String::new(), |l, i| format!("{l} {}", (first + i) % 6 + 1));
+        let folder = folder(&[
+            ("past.obj", format!("{text}f{l}\n")),
+            ("through.obj", format!("{through}f{l}\n")),
+            ("two_0.obj", format!("{text}f{l}\n")),
+            ("two_1.obj", format!("{text}f{l}\n")),
+        ]);
+        let path = folder.path();
+        let past = check(path, &["past.obj"]);
+        assert_eq!((past.code, &past.err[..]), (0, ""), "{first}: {}", past.out);
+        let counts = check(path, &["through.obj", "--format", "json"]).counts();
+        assert!([1, 2].contains(&counts[0]), "{first}: {counts:?}");
+        // The same polygons in a later frame are the same, and no others are.
+        assert_eq!(check(path, &["two_*.obj"]).code, 0);
+        let turned = format!("{text}f 1 2 3 4 6 5\n");
+        fs::write(path.join("two_1.obj"), turned).unwrap();
+        assert_eq!(check(path, &["two_*.obj"]).code, 2);
+    }
+}
+
+#[test]
+fn polygons_that_are_doubtful_are_noted() {
+    let bent = "v 0 0 0\nv 1 0 1\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n";
+    let crossed = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 3 0\nf 1 2 3\nf 1 2 3 4\nf 4 3 2 1\n";
+    let folder = folder(&[("bent.obj", bent.into()), ("crossed.obj", crossed.into())]);
+    let path = folder.path();
+    let said = check(path, &["bent.obj"]).err;
+    assert!(
+        said.starts_with("pliant: note: bent.obj: 1 polygon"),
+        "{said}"
+    );
+    let said = check(path, &["crossed.obj"]).err;
+    assert!(
+        said.contains("2 polygons cross themselves (the first is face 1)"),
+        "{said}"
+    );
+    let said = pliant(path, &["convert", "crossed.obj", "c.ply"]).err;
+    assert_eq!(said.lines().count(), 1, "{said}");
 }

@@ -11,6 +11,7 @@ mod ply;
 mod staged;
 mod stl;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::arguments::mesh_and_positions;
@@ -26,6 +27,8 @@ pub struct Shape {
     pub triangles: Vec<[u32; 3]>,
     /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
     pub faces: Option<Vec<u32>>,
+    /// Of polygons whose triangles are no fan round their first corner, by their number in [`faces`](Self::faces), the corners.
+    pub outlines: BTreeMap<u32, Vec<u32>>,
     /// Vertices of a frame.
     pub vertex_count: usize,
     /// How many frames will be written.
@@ -63,6 +66,7 @@ impl Default for WriteOptions {
 /// let shape = Shape {
 ///     triangles: vec![[0, 1, 2]],
 ///     faces: None,
+///     outlines: Default::default(),
 ///     vertex_count: 3,
 ///     frame_count: 2,
 ///     precision: Precision::F32,
@@ -319,6 +323,10 @@ impl Shape {
                 what: "vertices or triangles",
             });
         }
+        let mut corners = self.outlines.values().flatten();
+        if corners.any(|&corner| corner as usize >= self.vertex_count) {
+            return malformed("a polygon to be written has a vertex that does not exist");
+        }
         let faces = self.faces.as_ref();
         if faces.is_some_and(|faces| faces.len() != self.triangles.len()) {
             return malformed("to be written are not as many faces as triangles");
@@ -326,7 +334,7 @@ impl Shape {
         Ok(())
     }
 
-    /// Calls `each` with the corners of every polygon: those of its fan.
+    /// Calls `each` with the corners of every polygon: those of its fan, or as they are given.
     fn each_polygon<E>(&self, mut each: impl FnMut(&[u32]) -> Result<(), E>) -> Result<(), E> {
         let Some(faces) = &self.faces else {
             return self.triangles.iter().try_for_each(|corners| each(corners));
@@ -336,6 +344,10 @@ impl Shape {
         for same in faces.chunk_by(|a, b| a == b) {
             let fan = &self.triangles[begin..begin + same.len()];
             begin += same.len();
+            if let Some(outline) = self.outlines.get(&same[0]) {
+                each(outline)?;
+                continue;
+            }
             polygon.clear();
             polygon.extend(fan[0]);
             polygon.extend(fan[1..].iter().map(|corners| corners[2]));

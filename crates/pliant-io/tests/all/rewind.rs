@@ -48,6 +48,7 @@ fn convert(folder: &Folder, from: &str, to: &str) {
     let shape = Shape {
         triangles: body.triangles().to_vec(),
         faces: None,
+        outlines: std::collections::BTreeMap::new(),
         vertex_count: body.vertex_count(),
         frame_count: body.frame_count(),
         precision: body.precision(),

@@ -2,6 +2,7 @@
 
 use crate::common::{Folder, all_frames, tetrahedron};
 use pliant_io::{Error, OpenOptions, Positions, Precision, Reason, Shape, WriteOptions, Writer};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -13,6 +14,7 @@ struct Told {
     frames: Vec<Vec<[[u64; 3]; 3]>>,
     triangles: Vec<[u32; 3]>,
     faces: Option<Vec<u32>>,
+    outlines: BTreeMap<u32, Vec<u32>>,
     vertices: usize,
 }
 
@@ -32,6 +34,7 @@ fn tell(argument: &str) -> Result<(Told, Vec<Vec<[f64; 3]>>, Precision), Error> 
         frames: frames.iter().map(corners).collect(),
         triangles: body.triangles().to_vec(),
         faces: body.faces().map(<[u32]>::to_vec),
+        outlines: body.outlines(),
         vertices: body.vertex_count(),
     };
     Ok((told, frames, body.precision()))
@@ -43,6 +46,7 @@ fn convert(from: &str, to: &str, options: &WriteOptions) -> Result<bool, Error> 
     let shape = Shape {
         triangles: told.triangles,
         faces: told.faces,
+        outlines: told.outlines,
         vertex_count: told.vertices,
         frame_count: frames.len(),
         precision,
@@ -202,6 +206,7 @@ fn what_is_there_is_kept_and_what_fails_leaves_nothing() {
         let shape = Shape {
             triangles: told.triangles,
             faces: None,
+            outlines: BTreeMap::new(),
             vertex_count: told.vertices,
             frame_count: 3,
             precision: Precision::F64,
@@ -273,6 +278,7 @@ fn what_cannot_be_written_says_what_can() {
     let good = Shape {
         triangles: vec![[0, 1, 2]],
         faces: Some(vec![0]),
+        outlines: BTreeMap::new(),
         vertex_count: 3,
         frame_count: 1,
         precision: Precision::F32,
@@ -343,4 +349,37 @@ fn caches_are_byte_for_byte_what_the_formats_say() {
             .flat_map(|x| x.to_be_bytes()),
     );
     assert_eq!(fs::read(folder.path().join("s.mdd")).unwrap(), mdd);
+}
+
+/// Polygons that bend inward stay polygons, and are cut in the same way again.
+#[test]
+fn polygons_that_are_no_fans_stay_polygons() {
+    let folder = Folder::new();
+    // An L from a corner whose fan leaves it, a quad, an arrow, and a triangle.
+    let text = "v 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 0\nv 0 0 1\nv 2 0 1\n\
+        f 1 2 3 4 5 6\nf 6 1 8 7\nf 1 2 3\nf 4 2 6 3\n";
+    folder.write("l.obj", text);
+    let argument = |name: &str| folder.path().join(name).display().to_string();
+    let from = argument("l.obj");
+    let (told, ..) = tell(&from).unwrap();
+    assert_eq!(
+        told.faces.as_deref(),
+        Some(&[0, 0, 0, 0, 1, 1, 2, 3, 3][..])
+    );
+    let kept: Vec<u32> = told.outlines.keys().copied().collect();
+    assert_eq!(kept, [0, 3]);
+    for name in ["copy.obj", "copy.ply"] {
+        let to = argument(name);
+        convert(&from, &to, &WriteOptions::default()).unwrap();
+        assert_eq!(tell(&to).unwrap().0, told, "{name}");
+    }
+    let bad = Shape {
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        faces: Some(vec![0, 0]),
+        outlines: BTreeMap::from([(0, vec![0, 1, 2, 9])]),
+        vertex_count: 4,
+        frame_count: 1,
+        precision: Precision::F32,
+    };
+    assert!(Writer::create(&argument("bad.obj"), bad, WriteOptions::default()).is_err());
 }

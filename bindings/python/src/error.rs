@@ -153,6 +153,9 @@ fn after_reading(reason: &Reason) -> Option<&'static str> {
 pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str> {
     use pliant_check::Error;
     match error {
+        Error::BadBaseline { .. } => {
+            Some("name a file that `pliant check --format json` wrote of these bodies")
+        }
         Error::NoClip => Some("leave out clip="),
         Error::EmptyGroup { .. } => Some("give each group a list of its bodies"),
         Error::TooManyPairs { .. } | Error::Endless { .. } => {

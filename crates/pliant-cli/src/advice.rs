@@ -82,6 +82,9 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::NoSuchFrame { .. } | CheckError::NoSuchName { .. } => {
             Some("choose one of these")
         }
+        CheckError::BadBaseline { .. } => {
+            Some("name a file that `pliant check --format json` wrote of these bodies")
+        }
         CheckError::NoClip => Some("leave out `--clip`"),
         CheckError::EmptyGroup { .. } => Some("write NAME=BODY,BODY"),
         CheckError::Endless { .. } => Some("ask for less with `--first`, or mend the mesh"),

@@ -351,7 +351,8 @@ impl Body {
     }
 
     /// Which vertices would be joined besides, in the frame that was read last, if boundary edges that are no further apart than
-    /// `tolerance` times the diagonal of the body's box were; None if there are none such.
+    /// `tolerance` times the diagonal of the body's box were. None if there are none such, and it is not looked for where vertices
+    /// are not welded or more than 65,536 boundary edges are left.
     ///
     /// # Errors
     ///

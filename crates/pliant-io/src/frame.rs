@@ -25,6 +25,8 @@ pub(crate) struct Frame {
     /// Whether seams will be looked for in the first frame.
     weld: bool,
     first: Option<First>,
+    /// The boundary edges that welding left, if there are not very many and it was asked for.
+    open_edges: Option<Vec<[u32; 2]>>,
 }
 
 /// How much a file says that it holds; 0 where it does not say.
@@ -57,6 +59,7 @@ impl Frame {
             source: 0,
             weld,
             first: None,
+            open_edges: None,
         }
     }
 
@@ -233,7 +236,7 @@ impl Frame {
         }
         let positions = self.vertices.positions();
         let triangles = self.polygons.triangles();
-        let mut welding = match alike() {
+        let (mut welding, mut open) = match alike() {
             Some(alike) => weld::weld(triangles, positions.len(), |vertex| alike[vertex as usize]),
             None => weld::weld(triangles, positions.len(), |vertex| {
                 weld::position_bits(positions, vertex)
@@ -249,9 +252,11 @@ impl Frame {
                     near: None,
                 });
                 near.rewrite(&mut welding.triangles);
+                open = open.map(|open| near.still_open(open));
                 welding.near = Some(near);
             }
         }
+        self.open_edges = open;
         // Less than finding took, which was allowed.
         let held = welding.as_ref().map_or(0, Welding::bytes);
         self.account.enter_allowed(held);
@@ -264,9 +269,12 @@ impl Frame {
         welding: Option<&Welding>,
         tolerance: f64,
     ) -> Result<Option<NearSeams>, Reason> {
+        let Some(open) = self.open_edges.clone().filter(|open| !open.is_empty()) else {
+            return Ok(None);
+        };
         let triangles = welding.map_or(self.polygons.triangles(), |it| &it.triangles);
         let positions = self.vertices.positions();
-        NearSeams::find(triangles, positions, tolerance, &mut self.account)
+        NearSeams::among(open, triangles, positions, tolerance, &mut self.account)
     }
 
     /// The number of the next vertex: how many there are so far.

@@ -56,6 +56,28 @@ impl NearSeams {
         tolerance: f64,
         account: &mut Account,
     ) -> Result<Option<Self>, Reason> {
+        // While they are found, every triangle has three.
+        let edges = 24 * triangles.len() as u64;
+        account.enter(edges).map_err(too_large)?;
+        let found = Self::among(
+            boundary_edges(triangles),
+            triangles,
+            positions,
+            tolerance,
+            account,
+        );
+        account.take_off(edges);
+        found
+    }
+
+    /// The same, where the boundary edges of the triangles are known.
+    pub(crate) fn among(
+        mut edges: Vec<[u32; 2]>,
+        triangles: &[[u32; 3]],
+        positions: Positions<'_>,
+        tolerance: f64,
+        account: &mut Account,
+    ) -> Result<Option<Self>, Reason> {
         let Some((lowest, diagonal)) = extent(triangles, positions) else {
             return Ok(None);
         };
@@ -64,25 +86,20 @@ impl NearSeams {
             return Ok(None);
         }
         let before = account.held();
-        let vertices = positions.len() as u64;
-        // The edges, the triangles at their ends, and three numbers a vertex.
-        let needed = 48 * triangles.len() as u64 + 12 * vertices;
-        let found = account.enter(needed).map_err(Reason::from).and_then(|()| {
-            let search = Search {
-                triangles,
-                positions,
-                lowest,
-                distance,
-            };
-            let edges = search.edges();
-            let near = search.near(&edges, account)?;
+        let search = Search {
+            triangles,
+            positions,
+            lowest,
+            distance,
+        };
+        search.keep_long(&mut edges);
+        let found = search.near(&edges, account).and_then(|near| {
+            // Of each of the two ends: its number, the ring, the size of a class, and some triangles.
+            account.enter(2 * 100 * near.len() as u64)?;
             Ok(search.join(&edges, &near, diagonal))
         });
         account.take_off(account.held() - before);
-        found.map_err(|reason| match reason {
-            Reason::TooLarge { needed, limit } => Reason::SeamsTooLarge { needed, limit },
-            reason => reason,
-        })
+        found.map_err(too_large)
     }
 
     /// The vertex that stands for this one.
@@ -108,6 +125,17 @@ impl NearSeams {
         }
     }
 
+    /// Those of the boundary edges that were joined to no other, by leaders, ascending.
+    pub(crate) fn still_open(&self, mut edges: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
+        for edge in &mut edges {
+            *edge = edge.map(|vertex| self.leader(vertex));
+            edge.sort_unstable();
+        }
+        edges.sort_unstable();
+        let alone = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
+        alone.map(|same| same[0]).collect()
+    }
+
     pub(crate) fn bytes(&self) -> u64 {
         size_of_val(&self.joined[..]) as u64
     }
@@ -126,6 +154,14 @@ impl NearSeams {
             }
         }
         Ok(())
+    }
+}
+
+/// Memory that is not allowed, as what finds seams says it.
+fn too_large(reason: impl Into<Reason>) -> Reason {
+    match reason.into() {
+        Reason::TooLarge { needed, limit } => Reason::SeamsTooLarge { needed, limit },
+        reason => reason,
     }
 }
 
@@ -162,12 +198,10 @@ impl Search<'_> {
         length(self.positions.get(a), self.positions.get(b))
     }
 
-    /// The boundary edges that are long enough, ascending.
-    fn edges(&self) -> Vec<[u32; 2]> {
-        let mut edges = boundary_edges(self.triangles);
+    /// Keeps the edges that are long enough.
+    fn keep_long(&self, edges: &mut Vec<[u32; 2]>) {
         // So no two of them are near both ways round, for then one were no longer than twice the distance.
         edges.retain(|&[a, b]| self.apart(a, b) > 2.0 * self.distance);
-        edges
     }
 
     /// The cell of a place, moved by so many distances along every axis. Rounding never changes the order of cells along an axis.
@@ -228,8 +262,8 @@ impl Search<'_> {
     fn join(&self, edges: &[[u32; 2]], near: &[Near], diagonal: f64) -> Option<NearSeams> {
         let mut joining = Joining::new(self, edges, near);
         for &(_, one, other, against) in near {
-            let [a, b] = edges[one as usize];
-            let [mut c, mut d] = edges[other as usize];
+            let [a, b] = edges[one as usize].map(|vertex| joining.number(vertex));
+            let [mut c, mut d] = edges[other as usize].map(|vertex| joining.number(vertex));
             if against {
                 (c, d) = (d, c);
             }
@@ -241,8 +275,8 @@ impl Search<'_> {
         }
         let mut farthest = 0.0_f64;
         let mut joined = Vec::new();
-        for vertex in 0..self.positions.len() as u32 {
-            let leader = joining.classes.leader(vertex);
+        for (number, &vertex) in (0_u32..).zip(&joining.vertices) {
+            let leader = joining.vertices[joining.classes.leader(number) as usize];
             if leader != vertex {
                 farthest = farthest.max(self.apart(vertex, leader));
                 joined.push((vertex, leader));
@@ -264,49 +298,64 @@ fn key(first: [i64; 3], second: [i64; 3]) -> u64 {
     })
 }
 
-/// Classes of joined vertices, and what must be known to join them.
+/// Classes of joined vertices, and what must be known to join them. Vertices that may be joined have numbers of their own, in their
+/// order.
 struct Joining<'a> {
     search: &'a Search<'a>,
+    /// Ascending.
+    vertices: Vec<u32>,
     classes: Classes,
     /// The next vertex of the same class, in a ring.
     next: Vec<u32>,
     /// Of a leader, how many its class has.
     size: Vec<u32>,
-    /// Vertices that may be joined, each with a triangle that it is a corner of; sorted.
-    corners: Vec<(u32, u32)>,
+    /// For each triangle at a vertex the number of that, and of its other corners; sorted.
+    corners: Vec<(u32, [u32; 2])>,
 }
+
+/// The number of a vertex that is not joined.
+const NOT_JOINED: u32 = u32::MAX;
 
 impl<'a> Joining<'a> {
     fn new(search: &'a Search<'a>, edges: &[[u32; 2]], near: &[Near]) -> Self {
-        let vertices = search.positions.len();
-        let mut may_be_joined = vec![false; vertices];
-        for &(_, one, other, _) in near {
-            for vertex in [one, other].iter().flat_map(|&edge| edges[edge as usize]) {
-                may_be_joined[vertex as usize] = true;
+        let ends = near.iter().flat_map(|&(_, one, other, _)| [one, other]);
+        let mut vertices: Vec<u32> = ends.flat_map(|edge| edges[edge as usize]).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let count = vertices.len();
+        let mut joining = Self {
+            search,
+            vertices,
+            classes: Classes::new(count),
+            next: (0..count as u32).collect(),
+            size: vec![1; count],
+            corners: Vec::new(),
+        };
+        if count > 0 {
+            for three in search.triangles {
+                let [a, b, c] = three.map(|vertex| joining.number(vertex));
+                let at_each = [(a, [b, c]), (b, [c, a]), (c, [a, b])];
+                let joined = at_each.into_iter().filter(|&(its, _)| its != NOT_JOINED);
+                joining.corners.extend(joined);
             }
         }
-        let mut corners = Vec::new();
-        for (triangle, three) in (0..).zip(search.triangles) {
-            let kept = three.iter().filter(|&&v| may_be_joined[v as usize]);
-            corners.extend(kept.map(|&vertex| (vertex, triangle)));
-        }
-        corners.sort_unstable();
-        Self {
-            search,
-            classes: Classes::new(vertices),
-            next: (0..vertices as u32).collect(),
-            size: vec![1; vertices],
-            corners,
-        }
+        joining.corners.sort_unstable();
+        joining
     }
 
-    /// The vertices of a class.
+    fn number(&self, vertex: u32) -> u32 {
+        let number = self.vertices.binary_search(&vertex);
+        number.map_or(NOT_JOINED, |number| number as u32)
+    }
+
+    /// The members of a class.
     fn members(&self, leader: u32) -> impl Iterator<Item = u32> + use<'_> {
-        let mut last = false;
-        std::iter::successors(Some(leader), move |&vertex| {
-            let next = self.next[vertex as usize];
-            last |= next == leader;
-            (!last).then_some(next)
+        let mut vertex = Some(leader);
+        std::iter::from_fn(move || {
+            let this = vertex?;
+            let next = self.next[this as usize];
+            vertex = (next != leader).then_some(next);
+            Some(this)
         })
     }
 
@@ -317,8 +366,11 @@ impl<'a> Joining<'a> {
             return true;
         }
         let (leader, led) = (a.min(b), a.max(b));
-        let distance = self.search.distance;
-        let is_near = |vertex| self.search.apart(vertex, leader) <= distance;
+        let apart = |number: u32| {
+            let [a, b] = [number, leader].map(|number| self.vertices[number as usize]);
+            self.search.apart(a, b)
+        };
+        let is_near = |number| apart(number) <= self.search.distance;
         if !self.members(led).all(is_near) {
             return false;
         }
@@ -327,21 +379,22 @@ impl<'a> Joining<'a> {
         } else {
             (b, a)
         };
-        let mut vertex = small;
+        let mut member = small;
         loop {
-            let begin = self.corners.partition_point(|&(its, _)| its < vertex);
+            let begin = self.corners.partition_point(|&(its, _)| its < member);
             for at in begin..self.corners.len() {
-                let (its, triangle) = self.corners[at];
-                if its != vertex {
+                let (its, others) = self.corners[at];
+                if its != member {
                     break;
                 }
-                let three = self.search.triangles[triangle as usize];
-                if three.iter().any(|&v| self.classes.leader(v) == large) {
+                let is_of_large =
+                    |&other: &u32| other != NOT_JOINED && self.classes.leader(other) == large;
+                if others.iter().any(is_of_large) {
                     return false;
                 }
             }
-            vertex = self.next[vertex as usize];
-            if vertex == small {
+            member = self.next[member as usize];
+            if member == small {
                 return true;
             }
         }
@@ -476,7 +529,8 @@ mod tests {
                 lowest,
                 distance: 0.01 * diagonal,
             };
-            let edges = search.edges();
+            let mut edges = boundary_edges(&triangles);
+            search.keep_long(&mut edges);
             let found = search.near(&edges, &mut Account::new(1 << 30)).unwrap();
             let mut expected = Vec::new();
             for (i, &[a, b]) in edges.iter().enumerate() {
@@ -532,7 +586,7 @@ mod tests {
         let found = NearSeams::find(&triangles, Positions::F64(&positions), 1e-4, &mut account);
         assert!(matches!(found, Err(Reason::SeamsTooDense)));
         // Nor is more held than may be.
-        let mut account = Account::new(1 << 20);
+        let mut account = Account::new(1 << 18);
         let found = NearSeams::find(&triangles, Positions::F64(&positions), 1e-4, &mut account);
         assert!(matches!(found, Err(Reason::SeamsTooLarge { .. })));
     }

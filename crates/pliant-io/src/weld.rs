@@ -40,7 +40,11 @@ pub(crate) fn memory(triangles: u64, vertices: u64) -> u64 {
     edges.saturating_add(vertices.saturating_mul(2 * size_of::<u32>() as u64))
 }
 
-/// Welds `triangles`; None where nothing is to be welded. `same(v)` is what must be equal for `v`
+/// Boundary edges that coincide with no other are kept to be looked at later, but no more than so many: 512 KB of them.
+const MOST_OPEN: usize = 1 << 16;
+
+/// Welds `triangles`; None where nothing is to be welded. And the boundary edges that are left, by the vertices that stand for their
+/// ends, ascending; None where there are very many. `same(v)` is what must be equal for `v`
 /// to be welded to another vertex: its position, and whatever else moves it in a format that moves
 /// vertices by rule. Every index must be below `vertices`.
 ///
@@ -49,7 +53,7 @@ pub(crate) fn weld<K: Ord>(
     triangles: &[[u32; 3]],
     vertices: usize,
     same: impl Fn(u32) -> K,
-) -> Option<Welding> {
+) -> (Option<Welding>, Option<Vec<Edge>>) {
     let mut edges = boundary_edges(triangles);
     let place = places(&edges, vertices, same);
     // The places of the two ends, the smaller first, and the ends in that order.
@@ -68,8 +72,12 @@ pub(crate) fn weld<K: Ord>(
     edges.sort_unstable_by_key(placed);
 
     let mut classes = Classes::new(vertices);
+    let mut open = Vec::new();
     for coinciding in edges.chunk_by(|one, other| placed(one).0 == placed(other).0) {
         let (_, first) = placed(&coinciding[0]);
+        if let ([one], ..=MOST_OPEN) = (coinciding, open.len()) {
+            open.push(*one);
+        }
         for other in &coinciding[1..] {
             let (_, other) = placed(other);
             classes.join(first[0], other[0]);
@@ -77,12 +85,18 @@ pub(crate) fn weld<K: Ord>(
         }
     }
     drop((edges, place));
+    for edge in &mut open {
+        *edge = edge.map(|vertex| classes.leader(vertex));
+        edge.sort_unstable();
+    }
+    open.sort_unstable();
+    let open = (open.len() <= MOST_OPEN).then_some(open);
     let numbers = || 0..vertices as u32;
     let count = numbers()
         .filter(|&vertex| classes.leader(vertex) != vertex)
         .count();
     if count == 0 {
-        return None;
+        return (None, open);
     }
     let mut welded = Vec::with_capacity(count);
     for vertex in numbers() {
@@ -95,11 +109,12 @@ pub(crate) fn weld<K: Ord>(
         .iter()
         .map(|corners| corners.map(|corner| classes.leader(corner)))
         .collect();
-    Some(Welding {
+    let welding = Welding {
         triangles,
         welded,
         near: None,
-    })
+    };
+    (Some(welding), open)
 }
 
 /// The edges used by exactly one triangle. A degenerate triangle uses an edge once, however often
@@ -229,9 +244,14 @@ mod tests {
     use super::*;
 
     fn welded(triangles: &[[u32; 3]], positions: &[[f64; 3]]) -> Option<Welding> {
-        weld(triangles, positions.len(), |vertex| {
+        let (welding, open) = weld(triangles, positions.len(), |vertex| {
             position_bits(Positions::F64(positions), vertex)
-        })
+        });
+        // What is left open is boundary of what was welded; edges of triangles that became needles are, too, but coincided.
+        let triangles = welding.as_ref().map_or(triangles, |it| &it.triangles);
+        let boundary = boundary_edges(triangles);
+        assert!(open.unwrap().iter().all(|edge| boundary.contains(edge)));
+        welding
     }
 
     /// The six sides of a cube, each with four vertices of its own.

@@ -101,7 +101,7 @@ Examples:
   pliant check scene.glb --ignore 'scene.glb#arm,scene.glb#sleeve'
   pliant check fox.glb --clip Run --baseline 0       what frame 0 does not have
   pliant check new.ply --baseline old.json           what an older check had not
-  pliant check part.stl --weld 1e-6                  corners differ in last digits
+  pliant check part.stl --weld 1e-6                  corners nearly coincide
   pliant check walk.npz --report walk.html           a page: in motion, hits red
   pliant check walk.npz --png worst.png --frame 50   one frame as an image
   pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)

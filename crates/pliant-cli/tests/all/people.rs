@@ -177,7 +177,10 @@ fn every_error_says_what_to_do_next() {
             "check seam_*.obj",
             "edges of theirs coincide in the first frame, but are apart here; use `--no-weld`\n",
         ),
-        ("check a.obj --baseline x", "write the number of a frame"),
+        (
+            "check a.obj --baseline x",
+            "name a file that `pliant check --format json` wrote",
+        ),
         ("check a.obj --baseline -1", "write the number of a frame"),
         (
             "check a.obj --png a.png --frame -1",

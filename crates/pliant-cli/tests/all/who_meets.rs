@@ -245,12 +245,13 @@ fn names_of_nobody_are_refused() {
         &["\"h\"", "groups: \"g\""],
     );
     refused(&["--baseline", "1"], &["baseline", "frame 1", "0 to 0"]);
+    refused(&["--baseline", "last"], &["the baseline last"]);
     // Words that no list can be made of are explained by what reads them.
     for more in [
         ["--ignore", "a.obj"],
         ["--ignore", "a,b,c"],
         ["--group", "g"],
-        ["--baseline", "last"],
+        ["--baseline", "1.5"],
     ] {
         let said = check(folder.path(), &[&["a.obj"], &more[..]].concat());
         assert!(said.code == 2 && said.err.contains(more[0]), "{}", said.err);

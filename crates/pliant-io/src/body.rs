@@ -275,7 +275,13 @@ impl Body {
         frame.becomes_first(path.clone());
         let tolerance = options.weld_tolerance;
         let welding = frame.weld(tolerance, || source.alike());
-        let welding = welding.map_err(|reason| in_first(reason.into()))?;
+        let mut welding = welding.map_err(|reason| in_first(reason.into()))?;
+        let loose = welding
+            .as_mut()
+            .map_or(0, |welding| welding.loosen(|a, b| source.moves_alike(a, b)));
+        if loose > 0 {
+            notes.push(Note::SeamsByWeights { count: loose });
+        }
         notes.extend(source.notes());
         if let Some(near) = welding.as_ref().and_then(|it| it.near.as_ref()) {
             notes.push(Note::NearSeams {

@@ -59,6 +59,12 @@ pub(crate) trait FrameSource: Send {
         None
     }
 
+    /// Whether two vertices that are [`alike`](Self::alike) are at one place in every frame, to the bit. If not, they are one vertex all
+    /// the same, and how far rounding parts them is no reason to refuse a frame.
+    fn moves_alike(&self, _: u32, _: u32) -> bool {
+        true
+    }
+
     /// What is to be said about the body, once its first frame is read. Of a file of several bodies the first says what is about all.
     fn notes(&self) -> Vec<Note> {
         Vec::new()

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::error::{Fault, Place, Reason};
-use crate::memory::{Account, Excess};
+use crate::memory::{Account, Excess, bytes_of};
 use crate::near::NearSeams;
 use crate::note::Note;
 use crate::polygons::Polygons;
@@ -249,6 +249,7 @@ impl Frame {
                 let welding = welding.get_or_insert_with(|| Welding {
                     triangles: triangles.to_vec(),
                     welded: Vec::new(),
+                    loose: Vec::new(),
                     near: None,
                 });
                 near.rewrite(&mut welding.triangles);
@@ -256,10 +257,11 @@ impl Frame {
                 welding.near = Some(near);
             }
         }
-        self.open_edges = open;
         // Less than finding took, which was allowed.
         let held = welding.as_ref().map_or(0, Welding::bytes);
-        self.account.enter_allowed(held);
+        let open_too = open.as_deref().map_or(0, bytes_of);
+        self.account.enter_allowed(held + open_too);
+        self.open_edges = open;
         Ok(welding)
     }
 

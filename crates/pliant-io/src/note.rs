@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::shown::shown_within;
+
 /// About a body, or about the file that it is of. Its message is one line and names no file.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -12,6 +14,18 @@ pub enum Note {
         count: usize,
         /// The largest distance of a vertex from the one it was joined to, in diagonals of the body's box.
         farthest: f64,
+    },
+    /// Vertices were welded whose joints hold them nearly alike, not to the bit.
+    SeamsByWeights {
+        /// How many.
+        count: usize,
+    },
+    /// An animation moves what is not evaluated, in a glTF file by `KHR_animation_pointer`.
+    StillTargets {
+        /// How many channels do.
+        count: usize,
+        /// What the first of them moves: a place in the file.
+        first: String,
     },
     /// Polygons are far from flat, so that the surface depends on how they are cut into triangles.
     BentPolygons {
@@ -35,6 +49,15 @@ impl fmt::Display for Note {
             Self::NearSeams { count, farthest } => write!(
                 f,
                 "{count} vertices were joined to others near them, at most {farthest:.1e} of the body's size away"
+            ),
+            Self::SeamsByWeights { count } => write!(
+                f,
+                "{count} vertices were welded to others at their place, though weights of their joints differ by up to 1e-5"
+            ),
+            Self::StillTargets { count, first } => write!(
+                f,
+                "{count} channels of its animation move what stands still here (the first: {})",
+                shown_within(first, 100)
             ),
             Self::BentPolygons { count, first } => write!(
                 f,

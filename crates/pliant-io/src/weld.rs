@@ -26,6 +26,8 @@ pub(crate) struct Welding {
     pub(crate) triangles: Vec<[u32; 3]>,
     /// Each vertex welded away, with the smaller vertex that takes its place; ascending.
     pub(crate) welded: Vec<(u32, u32)>,
+    /// Those of the vertices welded away that need not stay where their leaders are, ascending.
+    pub(crate) loose: Vec<u32>,
     /// What was joined besides, where that was asked for.
     pub(crate) near: Option<NearSeams>,
 }
@@ -112,6 +114,7 @@ pub(crate) fn weld<K: Ord>(
     let welding = Welding {
         triangles,
         welded,
+        loose: Vec::new(),
         near: None,
     };
     (Some(welding), open)
@@ -206,12 +209,15 @@ impl Welding {
     /// What it takes.
     pub(crate) fn bytes(&self) -> u64 {
         let near = self.near.as_ref().map_or(0, NearSeams::bytes);
-        bytes_of(&self.triangles) + bytes_of(&self.welded) + near
+        bytes_of(&self.triangles) + bytes_of(&self.welded) + bytes_of(&self.loose) + near
     }
 
     /// Refuses a later frame in which vertices that were welded are apart.
     pub(crate) fn check(&self, positions: Positions<'_>) -> Result<(), Reason> {
         for &(vertex, leader) in &self.welded {
+            if self.loose.binary_search(&vertex).is_ok() {
+                continue;
+            }
             if position_bits(positions, vertex) != position_bits(positions, leader) {
                 return Err(Reason::SeamOpened {
                     a: leader,
@@ -222,6 +228,14 @@ impl Welding {
         self.near
             .as_ref()
             .map_or(Ok(()), |near| near.check(positions))
+    }
+
+    /// Lets go of vertices that do not move with their leaders to the bit; returns how many those are.
+    pub(crate) fn loosen(&mut self, moves_alike: impl Fn(u32, u32) -> bool) -> usize {
+        let parted = self.welded.iter();
+        let parted = parted.filter(|&&(vertex, leader)| !moves_alike(vertex, leader));
+        self.loose = parted.map(|&(vertex, _)| vertex).collect();
+        self.loose.len()
     }
 
     /// The vertex that stands for this one.

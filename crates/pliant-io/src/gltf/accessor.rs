@@ -36,6 +36,8 @@ pub(super) struct Wanted {
     components: &'static [Component],
     /// Whole numbers are fractions of their largest.
     normalised: bool,
+    /// Whole numbers are such fractions if the accessor says so, and else themselves.
+    quantised: bool,
     /// May be all zero with no data behind, but for sparse values.
     optional_data: bool,
     /// The least that is held of a row, in bytes.
@@ -67,18 +69,29 @@ impl Wanted {
             width,
             components,
             normalised: false,
+            quantised: false,
             optional_data: false,
             // As numbers of 32 bits.
             held: 4 * width as u64,
         }
     }
 
-    pub(super) const POSITIONS: Self = Self::new("positions", "VEC3", 3, &[F32]);
+    /// `KHR_mesh_quantization` allows whole numbers; the place of the node, or of the joints, makes up for it.
+    pub(super) const POSITIONS: Self = Self {
+        quantised: true,
+        ..Self::new("positions", "VEC3", 3, &[F32, I8, U8, I16, U16])
+    };
     pub(super) const DELTAS: Self = Self {
+        quantised: true,
         optional_data: true,
         // What is zero is not.
         held: 0,
-        ..Self::new("positions of a morph target", "VEC3", 3, &[F32])
+        ..Self::new(
+            "positions of a morph target",
+            "VEC3",
+            3,
+            &[F32, I8, U8, I16, U16],
+        )
     };
     pub(super) const INDICES: Self = Self::new("indices", "SCALAR", 1, &[U8, U16, U32]);
     pub(super) const JOINTS: Self = Self::new("joints", "VEC4", 4, &[U8, U16]);
@@ -185,13 +198,6 @@ impl Reader {
         let component = Component::of(entry.component_type)
             .filter(|component| wanted.components.contains(component));
         let (Some(component), true) = (component, entry.shape == wanted.shape) else {
-            if [Wanted::POSITIONS.what, Wanted::DELTAS.what].contains(&wanted.what)
-                && entry.shape == wanted.shape
-            {
-                return Err(at(
-                    Reason::Unsupported(super::document::QUANTISED.into()).into()
-                ));
-            }
             return Err(wrong(
                 accessor,
                 format!("its type is not one that {} can have", wanted.what),
@@ -205,16 +211,18 @@ impl Reader {
         }
         let count = entry.count;
         let (view, offset) = (entry.buffer_view, entry.byte_offset);
+        let normalised = wanted.normalised || (wanted.quantised && entry.normalized);
         let rows = |view| Rows {
             view,
             offset,
             component,
             width: wanted.width,
             count,
-            normalised: wanted.normalised,
+            normalised,
             gaps: true,
             held: wanted.held,
         };
+        let is_sparse = entry.sparse.is_some();
         let replaced = match &entry.sparse {
             Some(sparse) => {
                 let places = Self::places(accessor, sparse, rows(0)).map_err(at)?;
@@ -239,6 +247,22 @@ impl Reader {
                 let mut rows = replaced.iter();
                 rows.try_for_each(|(number, values)| {
                     each(&mut self.account, *number, &values[..wanted.width]).map_err(at)
+                })
+            }
+            // The rows that are not replaced are zero.
+            None if is_sparse => {
+                let announced = self.account.check(count.saturating_mul(wanted.held));
+                announced.map_err(|excess| at(Reason::from(excess).into()))?;
+                (0..count).try_for_each(|number| {
+                    let zero = [0.0; 4];
+                    let values = match replaced {
+                        [(first, values), rest @ ..] if *first == number => {
+                            replaced = rest;
+                            values
+                        }
+                        _ => &zero,
+                    };
+                    each(&mut self.account, number, &values[..wanted.width]).map_err(at)
                 })
             }
             None => Err(wrong(

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use super::accessor::{Reader, Wanted};
 use super::affine::{Trs, slerp};
 use crate::error::{Fault, Place, Reason};
+use crate::note::Note;
 use crate::text::quoted;
 
 /// The animation that moves the nodes.
@@ -18,6 +19,9 @@ pub(super) struct Clip {
     pub(super) end: f64,
     pub(super) channels: Vec<Channel>,
     samplers: Vec<Sampler>,
+    /// How many channels are of what is not evaluated, and the first of them.
+    still_count: usize,
+    still: Option<String>,
 }
 
 pub(super) struct Channel {
@@ -61,6 +65,13 @@ impl Path {
     }
 }
 
+/// The node and the path in a pointer such as `/nodes/3/rotation`.
+fn node_in(pointer: &str) -> Option<(usize, &str)> {
+    let (node, path) = pointer.strip_prefix("/nodes/")?.split_once('/')?;
+    let is_moved = ["translation", "rotation", "scale", "weights"].contains(&path);
+    is_moved.then_some((node.parse().ok()?, path))
+}
+
 impl Clip {
     /// Reads an animation. `targets` says how many morph targets a node has.
     pub(super) fn read(
@@ -74,20 +85,31 @@ impl Clip {
             end: 0.0,
             channels: Vec::new(),
             samplers: Vec::new(),
+            still_count: 0,
+            still: None,
         };
         // Ours of each of the file.
         let mut known = BTreeMap::new();
         let channels = std::mem::take(&mut reader.document.animations[animation].channels);
         for channel in &channels {
-            // Of a node that an extension names, which would be required.
-            let Some(node) = channel.target.node else {
-                continue;
+            let (node, path) = match (channel.target.node, channel.target.pointer()) {
+                (Some(node), None) => (node, &channel.target.path[..]),
+                (_, Some(pointer)) => {
+                    let Some(target) = node_in(pointer) else {
+                        clip.still_count += 1;
+                        clip.still.get_or_insert_with(|| pointer.to_owned());
+                        continue;
+                    };
+                    target
+                }
+                // Of a node that another extension names.
+                (None, None) => continue,
             };
             if node >= reader.document.nodes.len() {
                 let reason = format!("moves node {node}, which does not exist");
                 return Err(at(Reason::Malformed(reason).into()));
             }
-            let path = match &channel.target.path[..] {
+            let path = match path {
                 "translation" => Path::Translation,
                 "rotation" => Path::Rotation,
                 "scale" => Path::Scale,
@@ -126,6 +148,14 @@ impl Clip {
             )?;
         }
         Ok(clip)
+    }
+
+    /// What of it moves nothing here.
+    pub(super) fn note(&self) -> Option<Note> {
+        self.still.as_ref().map(|first| Note::StillTargets {
+            count: self.still_count,
+            first: first.clone(),
+        })
     }
 
     /// Brings what a channel moves, one of the three parts of a node's place, to a time.

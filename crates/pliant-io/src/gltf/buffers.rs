@@ -92,18 +92,24 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
             return Ok(None);
         }
         let (size, found) = (number("a chunk", at)?, number("a chunk", at + 4)?);
+        if found != u64::from(u32::from_le_bytes(*kind)) {
+            return Ok(None);
+        }
         if at + CHUNK + size > announced {
             let reason = format!("a chunk of {size} bytes goes beyond the {announced} announced");
             return Err(Reason::Truncated(reason).at(Place::Byte(at)));
         }
-        let is_kind = found == u64::from(u32::from_le_bytes(*kind));
-        Ok(is_kind.then_some((at + CHUNK, size)))
+        Ok(Some((at + CHUNK, size)))
     };
     let json = chunk(HEAD, b"JSON")?.ok_or_else(|| {
         Reason::Malformed("the first chunk is not JSON".into()).at(Place::Byte(HEAD))
     })?;
-    // Chunks begin at multiples of four.
-    let behind = chunk((json.0 + json.1).next_multiple_of(4), b"BIN\0")?;
+    // Chunks begin at multiples of four; those of some writers right behind each other.
+    let end = json.0 + json.1;
+    let behind = match chunk(end, b"BIN\0")? {
+        None if !end.is_multiple_of(4) => chunk(end.next_multiple_of(4), b"BIN\0")?,
+        behind => behind,
+    };
     Ok((json, behind))
 }
 

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 
 use crate::error::Reason;
 use crate::shown::shown_within;
@@ -30,6 +31,25 @@ pub(super) struct Document {
 #[serde(default)]
 struct Asset {
     version: String,
+}
+
+impl Asset {
+    fn check_version(&self) -> Result<(), Reason> {
+        let Self { version } = self;
+        if version.is_empty() || version.starts_with("2.") {
+            return Ok(());
+        }
+        Err(Reason::Unsupported(format!(
+            "is glTF {}; only version 2 can be read, so convert it",
+            quoted(version)
+        )))
+    }
+}
+
+/// All that documents of different versions have in common.
+#[derive(Deserialize)]
+struct OfAnyVersion {
+    asset: Asset,
 }
 
 #[derive(Deserialize, Debug, Default)]
@@ -69,6 +89,15 @@ pub(super) struct Primitive {
     pub(super) mode: u32,
     #[serde(default)]
     pub(super) targets: Vec<BTreeMap<String, usize>>,
+    #[serde(default)]
+    extensions: PrimitiveExtensions,
+}
+
+#[derive(Deserialize, Debug, Default)]
+#[serde(default)]
+struct PrimitiveExtensions {
+    #[serde(rename = "KHR_draco_mesh_compression")]
+    draco: Option<IgnoredAny>,
 }
 
 fn triangles() -> u32 {
@@ -100,6 +129,28 @@ pub(super) struct Channel {
 pub(super) struct Target {
     pub(super) node: Option<usize>,
     pub(super) path: String,
+    #[serde(default)]
+    extensions: TargetExtensions,
+}
+
+#[derive(Deserialize, Debug, Default)]
+#[serde(default)]
+struct TargetExtensions {
+    #[serde(rename = "KHR_animation_pointer")]
+    pointer: Option<Pointer>,
+}
+
+#[derive(Deserialize, Debug)]
+struct Pointer {
+    pointer: String,
+}
+
+impl Target {
+    /// What `KHR_animation_pointer` names: a place in the JSON.
+    pub(super) fn pointer(&self) -> Option<&str> {
+        let pointer = self.extensions.pointer.as_ref()?;
+        (self.path == "pointer").then_some(&pointer.pointer)
+    }
 }
 
 #[derive(Deserialize, Debug)]
@@ -168,6 +219,16 @@ pub(super) struct View {
 pub(super) struct Buffer {
     pub(super) uri: Option<String>,
     pub(super) byte_length: u64,
+    #[serde(default)]
+    extensions: BTreeMap<String, BufferExtension>,
+}
+
+/// What an extension says of a buffer.
+#[derive(Deserialize, Debug, Default)]
+#[serde(default)]
+struct BufferExtension {
+    /// Its bytes need not be there.
+    fallback: bool,
 }
 
 /// The most bytes that a value of a document takes for each of the marks that stand before values.
@@ -184,6 +245,12 @@ impl Document {
     pub(super) fn parse(text: &[u8]) -> Result<Self, Reason> {
         let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
         let document: Self = serde_json::from_slice(text).map_err(|error| {
+            // Version 1 has objects where there are arrays now.
+            if let Ok(OfAnyVersion { asset }) = serde_json::from_slice(text)
+                && let Err(reason) = asset.check_version()
+            {
+                return reason;
+            }
             // The message may quote a string of the file, however long.
             let mut message = shown_within(error.to_string(), 200);
             if error.is_eof() {
@@ -196,13 +263,7 @@ impl Document {
             }
             Reason::Malformed(format!("the JSON is not that of a glTF file: {message}"))
         })?;
-        let version = &document.asset.version;
-        if !version.is_empty() && !version.starts_with("2.") {
-            return Err(Reason::Unsupported(format!(
-                "is glTF {}; only version 2 can be read, so convert it",
-                quoted(version)
-            )));
-        }
+        document.asset.check_version()?;
         document.refuse_extensions()?;
         Ok(document)
     }
@@ -212,17 +273,9 @@ impl Document {
         let unsupported = |why: String| Err(Reason::Unsupported(why));
         for name in &self.extensions_required {
             match &name[..] {
-                "KHR_mesh_quantization" => return unsupported(QUANTISED.to_owned()),
-                "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
-                    return unsupported(
-                        "is compressed by meshopt, which is not evaluated; export it without compression".to_owned(),
-                    );
-                }
-                "KHR_draco_mesh_compression" => {
-                    return unsupported(
-                        "is compressed by Draco, which is not evaluated; export it without compression".to_owned(),
-                    );
-                }
+                "KHR_mesh_quantization" | "KHR_animation_pointer" => {}
+                name if MESHOPT.contains(&name) => return unsupported(compressed("meshopt")),
+                DRACO => return unsupported(compressed("Draco")),
                 name if is_of_looks(name) => {}
                 name => {
                     return unsupported(format!(
@@ -231,6 +284,24 @@ impl Document {
                     ));
                 }
             }
+        }
+        // Named, but not required: what stands in for the data, or nothing.
+        let is_fallback = |buffer: &Buffer| {
+            let meshopt = MESHOPT.iter().find_map(|name| buffer.extensions.get(*name));
+            meshopt.is_some_and(|meshopt| meshopt.fallback)
+        };
+        if self.buffers.iter().any(is_fallback) {
+            return unsupported(compressed("meshopt"));
+        }
+        let has_no_data = |primitive: &Primitive| {
+            let positions = primitive.attributes.get("POSITION");
+            let positions = positions.and_then(|&positions| self.accessors.get(positions));
+            primitive.extensions.draco.is_some()
+                && positions.is_some_and(|it| it.buffer_view.is_none() && it.sparse.is_none())
+        };
+        let mut primitives = self.meshes.iter().flat_map(|mesh| &mesh.primitives);
+        if primitives.any(has_no_data) {
+            return unsupported(compressed("Draco"));
         }
         if self
             .extensions_used
@@ -254,7 +325,12 @@ impl Document {
     }
 }
 
-pub(super) const QUANTISED: &str = "has quantised positions (KHR_mesh_quantization), which are not evaluated; export it with 32-bit positions";
+const DRACO: &str = "KHR_draco_mesh_compression";
+const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+fn compressed(by: &str) -> String {
+    format!("is compressed by {by}, which is not evaluated; export it without compression")
+}
 
 /// Whether an extension is about how surfaces look, not where they are.
 fn is_of_looks(name: &str) -> bool {

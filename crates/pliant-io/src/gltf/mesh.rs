@@ -40,6 +40,13 @@ pub(super) struct Influence {
     pub(super) weight: f32,
 }
 
+/// Parts of a whole that differ by no more are taken for the same: some roundings of 32 bits, or of the four digits behind the point
+/// that some programs show.
+const NEARLY: f64 = 1e-5;
+
+/// At one place there are a few vertices; where there are very many, a vertex is compared with so many.
+const MOST_COMPARED: usize = 64;
+
 /// Primitive modes.
 const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
@@ -292,38 +299,74 @@ impl Mesh {
         Ok(())
     }
 
+    /// Whether joints, which are the same, hold two vertices alike but for [`NEARLY`].
+    fn weigh_nearly_alike(&self, a: u32, b: u32, skinned: bool) -> bool {
+        if !skinned {
+            return true;
+        }
+        let [a, b] = [a, b].map(|vertex| self.influences(vertex as usize));
+        let sum = |all: &[Influence]| all.iter().map(|it| f64::from(it.weight)).sum::<f64>();
+        let (of_a, of_b) = (sum(a), sum(b));
+        let part = |it: &Influence, sum: f64| f64::from(it.weight) / sum;
+        a.iter()
+            .zip(b)
+            .all(|(a, b)| a == b || (part(a, of_a) - part(b, of_b)).abs() <= NEARLY)
+    }
+
+    /// Whether joints hold two vertices alike to the bit.
+    pub(super) fn weigh_alike(&self, a: u32, b: u32) -> bool {
+        let [a, b] = [a, b].map(|vertex| self.influences(vertex as usize));
+        a == b
+    }
+
     /// The most bytes that [`alike`](Self::alike) takes.
     pub(super) fn memory_of_alike(&self) -> u64 {
         let moved = self.targets.iter().map(Vec::len).max().unwrap_or(0) as u64;
         12 * self.rest.len() as u64 + 32 * moved
     }
 
-    /// A number for each vertex, the same where they are at one place at rest and everything moves them alike.
+    /// A number for each vertex, the same where they are at one place at rest and everything moves them alike: morph targets to the
+    /// bit, joints if they are the same and weigh the same but for [`NEARLY`], as exporters that divide weights by their sum leave
+    /// them on two sides of a seam.
     pub(super) fn alike(&self, skinned: bool) -> Vec<u64> {
         let bits = |place: [f32; 3]| place.map(|x| (x + 0.0).to_bits());
-        let held = |vertex: usize| {
+        let held = |vertex: u32| {
             let influences = if skinned {
-                self.influences(vertex)
+                self.influences(vertex as usize)
             } else {
                 &[]
             };
-            influences.iter().map(|it| (it.joint, it.weight.to_bits()))
+            influences.iter()
         };
-        let order = |&a: &u32, &b: &u32| {
-            let (a, b) = (a as usize, b as usize);
-            bits(self.rest[a])
-                .cmp(&bits(self.rest[b]))
-                .then_with(|| held(a).cmp(held(b)))
+        let place = |&vertex: &u32| bits(self.rest[vertex as usize]);
+        let joints = |a: u32| held(a).map(|it| it.joint);
+        let weights = |a: u32| held(a).map(|it| it.weight.to_bits());
+        let order = |a: &u32, b: &u32| {
+            (place(a).cmp(&place(b)))
+                .then_with(|| joints(*a).cmp(joints(*b)))
+                .then_with(|| weights(*a).cmp(weights(*b)))
+                .then(a.cmp(b))
         };
         let mut vertices: Vec<u32> = (0..self.rest.len() as u32).collect();
         vertices.sort_unstable_by(order);
         let mut class = vec![0_u64; vertices.len()];
         let mut next = 0;
-        for together in vertices.chunk_by(|a, b| order(a, b).is_eq()) {
+        let mut leaders: Vec<u32> = Vec::new();
+        for together in vertices.chunk_by(|a, b| place(a) == place(b) && joints(*a).eq(joints(*b)))
+        {
+            leaders.clear();
             for &vertex in together {
-                class[vertex as usize] = next;
+                // Those that are near come soon after each other: the first weights are in order.
+                let mut last = leaders.iter().rev().take(MOST_COMPARED);
+                let leader = last.find(|&&leader| self.weigh_nearly_alike(leader, vertex, skinned));
+                if let Some(&leader) = leader {
+                    class[vertex as usize] = class[leader as usize];
+                } else {
+                    leaders.push(vertex);
+                    class[vertex as usize] = next;
+                    next += 1;
+                }
             }
-            next += 1;
         }
         drop(vertices);
         // Those of a class that a target moves alike leave it together.

@@ -34,6 +34,7 @@ use crate::file::Found;
 use crate::format::FrameSource;
 use crate::frame::{Announced, Complete, Frame};
 use crate::memory::{Account, bytes_of};
+use crate::note::Note;
 use crate::positions::Precision;
 use accessor::Reader;
 use animation::Clip;
@@ -62,6 +63,7 @@ pub(crate) struct GltfBody {
     weights: Arc<[f64]>,
     moves: bool,
     next: usize,
+    notes: Vec<Note>,
     /// What [`Bodies::held`] says of a body that is alone.
     held: u64,
 }
@@ -167,10 +169,14 @@ fn read(
             skin,
             weights,
             next: 0,
+            notes: Vec::new(),
         };
         let name = std::mem::take(&mut names[at]);
         let account = &mut reader.account;
         account.push(&mut bodies, (name, body), nodes.len())?;
+    }
+    if let Some((_, first)) = bodies.first_mut() {
+        first.notes.extend(scene.clip.as_ref().and_then(Clip::note));
     }
     if bodies.is_empty() {
         return Err(match name {
@@ -423,6 +429,14 @@ impl FrameSource for GltfBody {
 
     fn alike(&self) -> Option<Vec<u64>> {
         Some(self.mesh.alike(self.skin.is_some()))
+    }
+
+    fn moves_alike(&self, a: u32, b: u32) -> bool {
+        self.skin.is_none() || self.mesh.weigh_alike(a, b)
+    }
+
+    fn notes(&self) -> Vec<Note> {
+        self.notes.clone()
     }
 
     fn clip(&self) -> Option<&Arc<str>> {

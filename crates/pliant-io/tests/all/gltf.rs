@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::common::{Folder, all_frames};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use pliant_io::{Body, OpenOptions, Positions, Precision, Reason, open, open_all};
+use pliant_io::{Body, Note, OpenOptions, Positions, Precision, Reason, open, open_all};
 use serde_json::{Value, json};
 
 fn fixture(name: &str) -> PathBuf {
@@ -365,8 +365,8 @@ fn what_is_wrong_is_said_in_a_line() {
     for (pointer, value, words) in [
         (
             "/extensionsRequired",
-            json!(["KHR_materials_unlit", "KHR_mesh_quantization"]),
-            "quantised positions",
+            json!(["KHR_materials_unlit", "KHR_texture_flight", "EXT_strange"]),
+            "needs the extension \"EXT_strange\"",
         ),
         (
             "/extensionsRequired",
@@ -497,8 +497,8 @@ fn what_is_wrong_is_said_in_a_line() {
         ),
         (
             "/accessors/0/componentType",
-            json!(5122),
-            "quantised positions",
+            json!(5125),
+            "its type is not one that positions can have",
         ),
         (
             "/accessors/0/bufferView",
@@ -716,6 +716,16 @@ fn seams_are_welded_where_everything_moves_alike() {
         )
     };
     assert_eq!(welded(file(weights, deltas)), (2, true, true));
+    // Weights that differ by a rounding or two are the same, and it is said; what a file multiplies by is no difference.
+    let mut nearly = weights;
+    nearly[4] = [0.750_006, 0.249_994, 0.0, 0.0];
+    assert_eq!(welded(file(nearly, deltas)).0, 2);
+    let notes = folder.open("seam.gltf").unwrap().notes().to_vec();
+    assert_eq!(notes, [Note::SeamsByWeights { count: 1 }]);
+    nearly[4] = [1.5, 0.5, 0.0, 0.0];
+    assert_eq!(welded(file(nearly, deltas)).0, 2);
+    nearly[4] = [0.750_02, 0.249_98, 0.0, 0.0];
+    assert_eq!(welded(file(nearly, deltas)).0, 0);
     // Held by other joints, or moved otherwise by a morph target, at one end: the edge is not the same one.
     let mut other = weights;
     other[4] = [0.5, 0.5, 0.0, 0.0];
@@ -749,8 +759,7 @@ fn small_files_of_large_bodies_are_refused() {
     assert_eq!(limited(&text, 128).unwrap().len(), 1000);
     let refused = |text: &str, megabytes: u64| {
         let error = limited(text, megabytes).unwrap_err();
-        let is_too_large =
-            matches!(error.reason(), Reason::TooLarge { limit, .. } if *limit == megabytes << 20);
+        let is_too_large = matches!(error.reason(), Reason::TooLarge { limit, .. } | Reason::SeamsTooLarge { limit, .. } if *limit == megabytes << 20);
         let said = format!(", {megabytes} MiB are allowed");
         assert!(
             is_too_large && error.to_string().ends_with(&said),
@@ -854,4 +863,160 @@ fn morph_targets_move_vertices_of_large_meshes_too() {
         [vertex as f64, 2.0 * (lift + push), 4.0 * push]
     });
     assert_eq!(frames, [expected.collect::<Vec<_>>()]);
+}
+
+/// The corners of the only frame, or of the first, of the only body.
+fn corners(folder: &Folder, text: String) -> Vec<[f32; 3]> {
+    folder.write("t.gltf", text);
+    let mut body = folder.open("t.gltf").unwrap();
+    let Some(Positions::F32(positions)) = body.next_frame().unwrap() else {
+        panic!()
+    };
+    positions.to_vec()
+}
+
+/// A triangle of these bytes as positions, and nothing else.
+fn quantised(component: u32, normalized: bool, stride: usize, bytes: &[u8]) -> String {
+    json!({
+        "asset": {"version": "2.0"}, "extensionsRequired": ["KHR_mesh_quantization"],
+        "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [2, 2, 2], "translation": [1, 0, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": component, "normalized": normalized, "count": 3, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": bytes.len(), "byteStride": stride}],
+        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(bytes))}]
+    })
+    .to_string()
+}
+
+#[test]
+fn quantised_positions_are_fractions_or_whole_numbers() {
+    let folder = Folder::new();
+    let bytes = [0, 0, 0, 9, 127, 0, 0, 9, 0, 129, 128, 9];
+    let expected = [[1.0, 0.0, 0.0], [3.0, 0.0, 0.0], [1.0, -2.0, -2.0]];
+    assert_eq!(corners(&folder, quantised(5120, true, 4, &bytes)), expected);
+    let expected = [[1.0, 0.0, 0.0], [255.0, 0.0, 0.0], [1.0, -254.0, -256.0]];
+    assert_eq!(
+        corners(&folder, quantised(5120, false, 4, &bytes)),
+        expected
+    );
+    let shorts = [0, 0, 0, 0, 65535, 0, 0, 0, 0, 13107, 0, 0_u16].map(u16::to_le_bytes);
+    let expected = [[1.0, 0.0, 0.0], [3.0, 0.0, 0.0], [1.0, 2.0 * 0.2, 0.0]];
+    let said = corners(&folder, quantised(5123, true, 8, shorts.as_flattened()));
+    assert_eq!(said, expected);
+}
+
+#[test]
+fn a_sparse_accessor_needs_no_other_data() {
+    let folder = Folder::new();
+    let mut file = triangle();
+    let values = [1.0, 0.0, 0.0, 0.0, 2.0, 0.0_f32].map(f32::to_le_bytes);
+    let bytes = [&[1_u8, 2, 0, 0][..], values.as_flattened()].concat();
+    file["buffers"] = json!([file["buffers"][0], {"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]);
+    file["bufferViews"] = json!([file["bufferViews"][0], {"buffer": 1, "byteLength": bytes.len()}]);
+    file["accessors"][0] = json!({"componentType": 5126, "count": 3, "type": "VEC3", "sparse": {
+        "count": 2, "indices": {"bufferView": 1, "componentType": 5121}, "values": {"bufferView": 1, "byteOffset": 4}}});
+    file["animations"] = json!([]);
+    file["skins"] = json!([]);
+    file["nodes"][0] = json!({"mesh": 0});
+    let expected = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+    assert_eq!(corners(&folder, file.to_string()), expected);
+    // As many rows as nobody may hold are refused before they are made.
+    file["accessors"][0]["count"] = json!(1_u64 << 30);
+    file["accessors"][1]["count"] = json!(1_u64 << 30);
+    folder.write("t.gltf", file.to_string());
+    assert!(
+        folder.error("t.gltf").contains("of memory"),
+        "{}",
+        folder.error("t.gltf")
+    );
+}
+
+#[test]
+fn animations_may_name_what_they_move_by_a_pointer() {
+    let folder = Folder::new();
+    let plain = triangle();
+    let frames = |file: &Value| {
+        folder.write("t.gltf", file.to_string());
+        let mut body = folder.open("t.gltf").unwrap();
+        let notes = body.notes().to_vec();
+        (all_frames(&mut body).unwrap(), notes)
+    };
+    let (expected, notes) = frames(&plain);
+    assert!(notes.is_empty() && expected.len() > 1);
+    let pointer = |pointer: &str| json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}});
+    let mut file = plain.clone();
+    file["extensionsRequired"] = json!(["KHR_animation_pointer"]);
+    file["animations"][0]["channels"][0]["target"] = pointer("/nodes/1/translation");
+    assert_eq!(frames(&file), (expected.clone(), vec![]));
+    // What is not evaluated is noted, once.
+    for other in ["/materials/0/emissiveFactor", "/nodes/2/weights/0"] {
+        let target = json!({"sampler": 0, "target": pointer(other)});
+        file["animations"][0]["channels"]
+            .as_array_mut()
+            .unwrap()
+            .push(target);
+    }
+    let first = "/materials/0/emissiveFactor".to_owned();
+    let notes = vec![Note::StillTargets { count: 2, first }];
+    assert_eq!(frames(&file), (expected, notes));
+}
+
+#[test]
+fn what_is_compressed_or_older_is_refused_for_what_it_is() {
+    let folder = Folder::new();
+    let refused = |file: &Value, word: &str| {
+        folder.write("t.gltf", file.to_string());
+        let said = folder.error("t.gltf");
+        assert!(said.contains(word), "{word}: {said}");
+    };
+    refused(
+        &json!({"asset": {"version": "1.0"}, "meshes": {"a": {}}, "nodes": {}}),
+        "is glTF \"1.0\"",
+    );
+    // Named, and not required: with data it is read, without it is not.
+    let mut file = triangle();
+    file["extensionsUsed"] = json!(["KHR_draco_mesh_compression", "EXT_meshopt_compression"]);
+    let primitive = &mut file["meshes"][0]["primitives"][0];
+    primitive["extensions"] =
+        json!({"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}});
+    folder.write("t.gltf", file.to_string());
+    folder.open("t.gltf").unwrap();
+    let mut without = file.clone();
+    without["accessors"][0]
+        .as_object_mut()
+        .unwrap()
+        .remove("bufferView");
+    refused(&without, "compressed by Draco");
+    file["buffers"].as_array_mut().unwrap().push(
+        json!({"byteLength": 100, "extensions": {"EXT_meshopt_compression": {"fallback": true}}}),
+    );
+    refused(&file, "compressed by meshopt");
+}
+
+/// Chunks of GLB files begin at multiples of four; those of some programs do not.
+#[test]
+fn chunks_of_glb_may_follow_each_other_at_once() {
+    let folder = Folder::new();
+    let mut file = triangle();
+    let uri = file["buffers"][0]["uri"].as_str().unwrap().to_owned();
+    let bytes = STANDARD.decode(uri.split_once(',').unwrap().1).unwrap();
+    file["buffers"][0].as_object_mut().unwrap().remove("uri");
+    for padding in 0..4 {
+        let json = file.to_string() + &" ".repeat(padding);
+        let length = |length: usize| (length as u32).to_le_bytes();
+        let all = 12 + 8 + json.len() + 8 + bytes.len();
+        let glb = [
+            &b"glTF\x02\0\0\0"[..],
+            &length(all),
+            &length(json.len()),
+            b"JSON",
+            json.as_bytes(),
+            &length(bytes.len()),
+            b"BIN\0",
+            &bytes,
+        ];
+        folder.write("t.glb", glb.concat());
+        let mut body = folder.open("t.glb").unwrap();
+        assert!(body.next_frame().unwrap().is_some(), "{padding}");
+    }
 }

@@ -106,6 +106,10 @@ impl<R: BufRead> Statements<R> {
         if place == Place::Line(1) {
             // The mark that some editors put before UTF-8.
             line = line.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(line);
+            if line.starts_with(b"\xFF\xFE") || line.starts_with(b"\xFE\xFF") {
+                let reason = "is text in UTF-16; save it as UTF-8";
+                return Err(Reason::Unsupported(reason.into()).at(place));
+            }
         }
         self.text.extend_from_slice(line);
         let comment = words(line).next().is_some_and(|word| word[0] == b'#');
@@ -142,6 +146,23 @@ mod tests {
     }
 
     const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+
+    #[test]
+    fn text_in_utf_16_is_refused_for_what_it_is() {
+        for (mark, order) in [
+            ([0xFF, 0xFE], u16::to_le_bytes as fn(u16) -> [u8; 2]),
+            ([0xFE, 0xFF], u16::to_be_bytes),
+        ] {
+            let text = CORNERS.encode_utf16().map(order);
+            let bytes = [&mark[..], text.collect::<Vec<_>>().as_flattened()].concat();
+            let fault = read_text(bytes).unwrap_err();
+            assert!(
+                fault.reason.to_string().contains("UTF-16"),
+                "{}",
+                fault.reason
+            );
+        }
+    }
 
     #[test]
     fn everything_but_vertices_and_faces_is_passed_over() {

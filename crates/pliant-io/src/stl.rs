@@ -2,7 +2,8 @@
 //!
 //! Own reader: stl_io looks at the first word to tell text from bytes, and many programs begin binary files with "solid". Here
 //! the length decides: a binary file has exactly 84 bytes and 50 a triangle, and text of that length whose bytes 80 to 83 say
-//! so does not happen.
+//! so does not happen. What follows the triangles of a binary file is passed over, as colours of some programs, unless it has the
+//! length of triangles: then their number is wrong.
 //!
 //! Every corner is a vertex of its own, numbered in file order; seams are welded as everywhere, and here every edge is one.
 //! Normals are passed over: the corners say them. f32 in both: as declared in bytes, the nearest to what is written in text.
@@ -48,6 +49,12 @@ pub(crate) fn read(
         let word = words(&head).next().unwrap_or_default();
         return Err(expected("\"solid\"", Some(word)).at(Place::Line(1)));
     }
+    if let Some(count @ 1..) = count
+        && length > needed(count)
+        && !(length - needed(count)).is_multiple_of(TRIANGLE as u64)
+    {
+        return read_binary(input, count, frame);
+    }
     Err(match count {
         None => Reason::Truncated(format!(
             "a binary STL file has {HEAD} bytes before its triangles, this one has {length}"
@@ -57,8 +64,9 @@ pub(crate) fn read(
             needed(count)
         )),
         Some(count) => Reason::Malformed(format!(
-            "{count} triangles need {} bytes, the file has {length}; nothing may follow them",
-            needed(count)
+            "{count} triangles need {} bytes, the file has {length}, as {} have",
+            needed(count),
+            (length - HEAD as u64) / TRIANGLE as u64
         )),
     }
     .at(Place::Byte(80)))
@@ -314,11 +322,19 @@ mod tests {
                 )
             );
         }
-        assert!(
-            read_bytes(&[&whole[..], b"x"].concat())
-                .unwrap_err()
-                .contains("nothing may follow")
-        );
+        // What follows is passed over, whatever the file begins with; not what may be triangles that were not counted.
+        for start in ["solid", "COLOR="] {
+            for more in [1, 49, 51, 1000 - 1] {
+                let longer = [binary(start, &TWO), vec![7; more]].concat();
+                let longer = read_bytes(&longer).unwrap();
+                assert_eq!(longer.positions(), read_bytes(&whole).unwrap().positions());
+            }
+        }
+        for more in [1, 3] {
+            let longer = [&whole[..], &vec![0; 50 * more]].concat();
+            let said = read_bytes(&longer).unwrap_err();
+            assert!(said.ends_with(&format!("as {} have", 2 + more)), "{said}");
+        }
         assert!(
             read_bytes(&[0; 30])
                 .unwrap_err()

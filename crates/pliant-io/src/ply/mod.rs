@@ -8,6 +8,8 @@
 //!
 //! Positions are `x`, `y`, `z` of `vertex`, f32 where all three are exact in f32 (`float` and small
 //! integers), otherwise f64. Polygons are the list `vertex_indices`, or `vertex_index`, of `face`.
+//! Where there are no such, `tristrips` are: lists of vertices of which each, but for two at the beginning and two behind each -1, makes a
+//! triangle with the two before it, every other one turned round. A triangle with twice the same corner is only the way to the next.
 //! All other elements and properties are passed over; what follows the later of the two is not
 //! read.
 
@@ -45,12 +47,17 @@ fn read_elements(
     frame: &mut Frame,
 ) -> Result<Complete, Fault> {
     let vertex = header.element("vertex").ok_or(Reason::NoVertices)?;
-    let face = header.element("face").ok_or(Reason::NoFaces)?;
+    let polygons = header.element("face").filter(|face| face.count > 0);
+    let strips = header.element("tristrips");
+    let is_strips = polygons.is_none() && strips.is_some();
+    let face = polygons.or(strips).or_else(|| header.element("face"));
+    let face = face.ok_or(Reason::NoFaces)?;
     let axes = axes(vertex)?;
     let corners = corners_of(face)?;
     let announced = Announced {
         vertices: vertex.count,
-        faces: face.count,
+        // A strip says how long it is where it is.
+        faces: if is_strips { 0 } else { face.count },
     };
     frame.begin(precision(vertex, axes), announced)?;
 
@@ -70,6 +77,8 @@ fn read_elements(
                 frame
                     .vertex(position)
                     .map_err(|reason| reason.at(values.place()))?;
+            } else if std::ptr::eq(element, face) && is_strips {
+                read_strips(element, corners, &mut values, frame)?;
             } else if std::ptr::eq(element, face) {
                 polygon.clear();
                 read_face(element, corners, row, &mut polygon, &mut values)?;
@@ -184,6 +193,55 @@ fn read_face(
                 }
             }
             kind => skip(kind, values)?,
+        }
+    }
+    Ok(())
+}
+
+fn read_strips(
+    strips: &Element,
+    corners: usize,
+    values: &mut impl Values,
+    frame: &mut Frame,
+) -> Result<(), Fault> {
+    for (at, property) in strips.properties.iter().enumerate() {
+        let Kind::List { count, item } = property.kind else {
+            skip(property.kind, values)?;
+            continue;
+        };
+        if at != corners {
+            skip(property.kind, values)?;
+            continue;
+        }
+        let (mut before, mut met) = ([0; 2], 0_u64);
+        for _ in 0..list_length(count, values)? {
+            let index = values.integer(item)?;
+            if index == -1 {
+                met = 0;
+                continue;
+            }
+            let (first, last) = (0, i64::from(u32::MAX) - 1);
+            let face = frame.next_face();
+            let corner = u32::try_from(index).ok().filter(|&it| it < u32::MAX);
+            let corner = corner.ok_or(Reason::VertexIndex {
+                face,
+                index,
+                first,
+                last,
+            });
+            let corner = corner.map_err(|reason| reason.at(values.place()))?;
+            let [a, b] = before;
+            if met >= 2 && a != b && b != corner && corner != a {
+                let turned = if met % 2 == 0 {
+                    [a, b, corner]
+                } else {
+                    [b, a, corner]
+                };
+                let taken = frame.face(&turned, || values.place());
+                taken.map_err(|reason| reason.at(values.place()))?;
+            }
+            before = [b, corner];
+            met += 1;
         }
     }
     Ok(())

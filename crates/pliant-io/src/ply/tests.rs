@@ -288,3 +288,32 @@ fn headers_are_held_to_the_format() {
     let endless = format!("ply\n{}", "comment\n".repeat(20_000));
     assert!(message(endless).contains("more than 10000 lines"));
 }
+
+#[test]
+fn strips_are_triangles() {
+    let header = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
+        element tristrips 2\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n";
+    let frame = read_bytes(format!("{header}10 0 1 2 3 4 -1 4 3 2 0\n5 0 1 1 2 3\n")).unwrap();
+    assert_eq!(
+        frame.polygons().triangles(),
+        [
+            [0, 1, 2],
+            [2, 1, 3],
+            [2, 3, 4],
+            [4, 3, 2],
+            [2, 3, 0],
+            [1, 2, 3]
+        ]
+    );
+    for bad in ["3 0 1 5\n1 0\n", "3 0 1 -2\n1 0\n"] {
+        let fault = read_bytes(format!("{header}{bad}")).unwrap_err();
+        assert!(matches!(fault.reason, Reason::VertexIndex { .. }));
+    }
+    // Polygons come first, where there are any.
+    let both = header.replace(
+        "element tristrips",
+        "element face 1\nproperty list uchar int vertex_indices\nelement tristrips",
+    );
+    let frame = read_bytes(format!("{both}3 0 1 2\n3 0 1 3\n3 0 1 4\n")).unwrap();
+    assert_eq!(frame.polygons().triangles(), [[0, 1, 2]]);
+}

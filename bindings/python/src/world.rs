@@ -150,7 +150,7 @@ impl World {
     ///
     /// Builds its tree on these positions, which need not be special; a rest pose is best. Corners may repeat: a degenerate
     /// triangle is the segment or point that it is. Nothing is welded.
-    #[pyo3(signature = (faces, positions=None, /))]
+    #[pyo3(signature = (faces, positions=None))]
     fn add(
         &self,
         py: Python<'_>,

@@ -331,3 +331,54 @@ def test_the_program_says_the_same_of_pieces(pieces: Path) -> None:
     assert said["frames"] == [
         {"frame": frame.frame, "count": frame.count, "left_out": frame.left_out, "pairs": frame.pairs.tolist()} for frame in checked
     ]
+
+
+def soup(triangles: Any, by: float) -> tuple[Any, Any]:
+    """Every triangle with corners of its own, moved a little."""
+    positions = np.asarray(triangles, dtype=float).reshape(-1, 3)
+    positions = positions + np.random.default_rng(1).uniform(-by, by, positions.shape)
+    return positions, np.arange(len(positions)).reshape(-1, 3)
+
+
+def test_near_seams_are_joined_if_asked_for_and_named_otherwise(tmp_path: Path) -> None:
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    obj(tmp_path / "part.obj", *soup(corners[[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]], 1e-9))
+    checked = pliant.check(tmp_path / "part.obj")
+    with pytest.warns(UserWarning, match=r"nearly coincide.*weld_tolerance=\S+ joins them"):
+        (frame,) = checked
+    assert frame.count > 0
+    with pytest.warns(UserWarning, match="8 vertices were joined"):
+        checked = pliant.check(tmp_path / "part.obj", weld_tolerance=1e-6)
+    assert [frame.count for frame in checked] == [0] and checked.bodies[0].welded == 8
+    with pytest.raises(pliant.Error, match="weld_tolerance="):
+        pliant.check(tmp_path / "part.obj", weld_tolerance=2.0)
+    with pytest.raises(pliant.Error, match="weld is False"):
+        pliant.check(tmp_path / "part.obj", weld=False, weld_tolerance=1e-6)
+
+
+def test_degenerate_triangles_may_be_left_out(tmp_path: Path) -> None:
+    positions = np.array([[0, 0, -1], [0, 0, 1], [0, 0, 0.5], [-1, -1, 0.3], [2, -1, 0.3], [-1, 2, 0.3]], dtype=float)
+    obj(tmp_path / "pole.obj", positions, np.array([[0, 1, 2], [3, 4, 5]]))
+    (frame,) = pliant.check(tmp_path / "pole.obj")
+    assert (frame.count, frame.degenerate) == (1, 1)
+    (frame,) = pliant.check(tmp_path / "pole.obj", skip_degenerate=True)
+    assert (frame.count, frame.degenerate) == (0, 1)
+
+
+def test_an_earlier_check_is_a_baseline(folder: Path) -> None:
+    last = list(pliant.check(folder / "cloth.npz"))[5]
+    body = {"name": str(folder / "cloth.npz"), "triangles": len(FACES)}
+    written = {"format": 1, "bodies": [body], "frames": [{"count": last.count, "pairs": last.pairs.tolist()}]}
+    (folder / "old.json").write_text(json.dumps(written))
+    by_file = list(pliant.check(folder / "cloth.npz", baseline=folder / "old.json"))
+    by_frame = list(pliant.check(folder / "cloth.npz", baseline=5))
+    assert [frame.pairs.tolist() for frame in by_file] == [frame.pairs.tolist() for frame in by_frame]
+    assert by_file[5].left_out == last.count
+    with pytest.raises(pliant.Error, match="name a file that"):
+        pliant.check(folder / "cloth.npz", baseline=folder / "still.obj")
+
+
+def test_arrays_have_names() -> None:
+    world = pliant.World()
+    assert world.add(faces=FACES, positions=FLAT) == 0
+    world.set_positions(body=0, positions=FLAT)

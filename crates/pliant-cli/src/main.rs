@@ -11,6 +11,7 @@ mod convert;
 mod edge;
 #[cfg(test)]
 mod examples;
+mod formats;
 mod man;
 mod output;
 mod report;
@@ -43,6 +44,8 @@ enum Verb {
     Convert(convert::Arguments),
     /// Compare methods side by side: the paper's experiments and ours
     Bench(bench::Arguments),
+    /// Say what is read of each kind of file, and as which surface
+    Formats(formats::Arguments),
     /// Print completions for a shell
     Completions(completions::Arguments),
     /// Write manual pages
@@ -83,6 +86,7 @@ fn main() -> ExitCode {
         Verb::Check(arguments) => check::check(&arguments),
         Verb::Convert(arguments) => convert::convert(&arguments),
         Verb::Bench(arguments) => bench::bench(&arguments),
+        Verb::Formats(arguments) => formats::print(&arguments),
         Verb::Completions(arguments) => completions::print(&arguments),
         Verb::Man(arguments) => man::write(&arguments),
     });

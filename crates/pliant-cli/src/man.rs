@@ -65,7 +65,15 @@ mod tests {
         let pages = pages().unwrap();
         // A page for each verb, and none for the help that clap adds to them.
         let files: Vec<&str> = pages.iter().map(|(file, _)| file.as_str()).collect();
-        let verbs = ["run", "check", "convert", "bench", "completions", "man"];
+        let verbs = [
+            "run",
+            "check",
+            "convert",
+            "bench",
+            "formats",
+            "completions",
+            "man",
+        ];
         assert_eq!(files[0], "pliant.1");
         assert_eq!(files[1..], verbs.map(|verb| format!("pliant-{verb}.1")));
         for_each_option(|verb, option| {

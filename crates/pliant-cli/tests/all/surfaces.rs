@@ -338,6 +338,18 @@ fn polygons_that_bend_inward_are_cut_inside() {
 }
 
 #[test]
+fn the_program_says_what_it_reads() {
+    let folder = folder(&[]);
+    let said = pliant(folder.path(), &["formats"]);
+    assert_eq!((said.code, &said.err[..]), (0, ""));
+    for ending in [
+        "obj", "ply", "stl", "npz", "glb", "gltf", "pc2", "mdd", "fbx",
+    ] {
+        assert!(said.out.contains(&format!(".{ending}")), "{ending}");
+    }
+}
+
+#[test]
 fn polygons_that_are_doubtful_are_noted() {
     let bent = "v 0 0 0\nv 1 0 1\nv 1 1 0\nv 0 1 1\nf 1 2 3 4\n";
     let crossed = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 3 0\nf 1 2 3\nf 1 2 3 4\nf 4 3 2 1\n";

@@ -1,0 +1,44 @@
+//! `pliant formats`: what is read of each kind of file, as which surface, and what to export instead of what is not read.
+
+use crate::{Outcome, print_all};
+use clap::Args;
+
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Arguments {}
+
+const EXAMPLES: &str = "\
+Examples:
+  pliant formats
+  pliant formats | less";
+
+const TEXT: &str = "\
+A surface is its triangles, where the positions of a frame put them. Inside and outside, normals, materials and colours play no part.
+
+Read
+  .obj            a frame. v, and the v indices of f. 64 bits. o, g, usemtl: one body all the same
+  .ply            a frame. Text or binary; vertex x y z, face vertex_indices, else tristrips. As many bits as declared
+  .stl            a frame. Text or binary. Corners that are equal to the bit along edges are one vertex
+  .npz            all frames. vertices (T, n, 3) or (n, 3), faces (m, 3)
+  .glb, .gltf     the default scene, each node with a mesh a body: nodes, skins, morph targets, sparse and quantised accessors, one
+                  animation (--clip, --fps; KHR_animation_pointer too). Not meshopt, Draco, instancing: export without
+  mesh+.pc2, .mdd the mesh of one file (its first frame), moved by a cache of positions: 'shirt.obj+walk.pc2'
+  'name_*.obj'    files in natural order are frames of one body. They have the same faces
+
+As which surface
+  polygons        a fan of triangles round the first corner where that is right, as of every convex polygon; otherwise cut inside, at
+                  its own corners. A polygon that crosses itself stays a fan, and a note says so
+  seams           files split vertices where texture coordinates or normals differ. Boundary edges that coincide to the bit in the
+                  first frame are one (--no-weld keeps them apart); with --weld TOL those that nearly do
+  degenerate      a triangle without area is the segment or point that it is (--skip-degenerate leaves such pairs out)
+  not applied     subdivision, modifiers, displacement: export what they make
+
+Not read
+  .fbx, .abc, .usd, .blend, .ma, .dae, .3ds, .step
+                  export glTF (.glb) with its animation; or a mesh and its point cache (.obj and .pc2 or .mdd); or a file a frame";
+
+/// Prints it.
+pub(crate) fn print(_: &Arguments) -> anyhow::Result<Outcome> {
+    print_all(&format!("{TEXT}\n"))?;
+    Ok(Outcome::Clear)
+}

@@ -32,6 +32,15 @@ impl State {
         }
     }
 
+    /// The same world once more.
+    pub(crate) fn another(&self) -> Self {
+        Self {
+            world: self.world.clone(),
+            precision_is_fixed: self.precision_is_fixed,
+            ..Self::new(self.options)
+        }
+    }
+
     /// The precision, once it is fixed.
     pub(crate) fn precision(&self) -> Option<Precision> {
         self.precision_is_fixed.then(|| self.world.precision())

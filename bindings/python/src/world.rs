@@ -7,7 +7,7 @@ use crate::query::{Query, Selection};
 use crate::state::State;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pliant::{BodyId, ErrorKind};
-use pliant_check::with_world;
+use pliant_check::{AnyWorld, with_world};
 use pliant_io::Precision;
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
@@ -125,6 +125,21 @@ impl World {
             state: Mutex::new(state),
             keywords,
         })
+    }
+
+    /// The same bodies under the same numbers, in their shapes of now, with filters, ignored pairs, loose boxes and options. Boxes are
+    /// made anew; what is done to the one world is nothing to the other.
+    fn __copy__(&self, py: Python<'_>) -> Result<Self, Refused> {
+        let state = self.with(py, |state| Ok(state.another()))?;
+        Ok(Self {
+            state: Mutex::new(state),
+            keywords: self.keywords.clone(),
+        })
+    }
+
+    /// As copy: a world holds nothing that it could share.
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyAny>) -> Result<Self, Refused> {
+        self.__copy__(py)
     }
 
     /// The options of this world, as the keyword arguments that make another like it.
@@ -250,6 +265,14 @@ impl World {
         })
     }
 
+    /// The membership and the mask of a body.
+    fn filter(&self, py: Python<'_>, body: Body) -> Result<(u32, u32), Refused> {
+        self.with(
+            py,
+            |state| with_world!(&state.world, world => Ok(world.filter(body.0)?)),
+        )
+    }
+
     /// From now on two bodies do not meet in queries of the whole world, or a body with itself if it is named twice. A query that
     /// names its bodies does not look at this.
     fn ignore(&self, py: Python<'_>, a: Body, b: Body) -> Result<(), Refused> {
@@ -267,6 +290,14 @@ impl World {
         )
     }
 
+    /// The pairs of bodies that ignore keeps apart, each once, the lower number first; sorted.
+    fn ignored(&self, py: Python<'_>) -> Result<Vec<(u32, u32)>, Refused> {
+        self.with(py, |state| {
+            let ignored = with_world!(&state.world, world => world.ignored());
+            Ok(ignored.into_iter().map(|[a, b]| (a.0, b.0)).collect())
+        })
+    }
+
     /// Gives a body a box, its lower and upper corner, that holds it in every pose to come; None takes it away. Corners are
     /// rounded to the world's type. Until the box is taken away, a position outside it is refused.
     fn set_loose_box(
@@ -280,6 +311,25 @@ impl World {
             None => None,
         };
         self.with(py, |state| Ok(state.set_loose_box(body.0, corners)?))
+    }
+
+    /// The lower and the upper corner of the box that set_loose_box gave to a body; None if it has none.
+    fn loose_box(
+        &self,
+        py: Python<'_>,
+        body: Body,
+    ) -> Result<Option<([f64; 3], [f64; 3])>, Refused> {
+        self.with(py, |state| {
+            Ok(match &state.world {
+                AnyWorld::F32(world) => {
+                    let wide = |corner: [f32; 3]| corner.map(f64::from);
+                    world
+                        .loose_box(body.0)?
+                        .map(|(lo, hi)| (wide(lo), wide(hi)))
+                }
+                AnyWorld::F64(world) => world.loose_box(body.0)?,
+            })
+        })
     }
 
     /// How many triangles a body has.

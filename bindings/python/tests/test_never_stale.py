@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from itertools import combinations
 from typing import Any
 
@@ -109,6 +110,15 @@ class World(RuleBasedStateMachine):
             self.world.ignore(a, b)
             self.ignored.add((min(a, b), max(a, b)))
 
+    @rule(deep=st.booleans())
+    def copy(self, deep: bool) -> None:
+        """The world goes on as its copy; what becomes of the one is nothing to the other."""
+        before = self.world
+        self.world = copy.deepcopy(before) if deep else copy.copy(before)
+        assert self.world.options() == before.options()
+        for body in before.bodies():
+            before.remove(body)
+
     @rule(of=st.sampled_from([pliant.Selection.WORLD, pliant.Selection.EVERYTHING]))
     def prepare(self, of: pliant.Selection) -> None:
         self.world.intersections(of).prepare()
@@ -126,6 +136,10 @@ class World(RuleBasedStateMachine):
     def answers_are_those_of_this_moment(self) -> None:
         if not hasattr(self, "world"):
             return
+        assert self.world.ignored() == sorted(self.ignored)
+        everybody = 2**32 - 1
+        for body, (membership, mask) in self.filters.items():
+            assert self.world.filter(body) == (membership & everybody, mask & everybody)
         assert self.world.bodies() == sorted(self.shapes)
         of_world, of_itself = [], []
         for a, b in combinations(sorted(self.shapes), 2):

@@ -240,3 +240,13 @@ def test_a_query_may_be_asked_again_and_answers_for_the_shapes_of_then() -> None
     world.remove(body)
     with pytest.raises(pliant.Error, match="body 0: not in this world"):
         itself.all()
+
+
+def test_loose_boxes_can_be_read() -> None:
+    world = pliant.World()
+    body = world.add([[0, 1, 2]], np.eye(3, dtype=np.float32))
+    assert world.loose_box(body) is None
+    world.set_loose_box(body, ((-1, 0, 0), (2, 2, 2.5)))
+    assert world.loose_box(body) == ([-1, 0, 0], [2, 2, 2.5])
+    world.set_loose_box(body, None)
+    assert world.loose_box(body) is None

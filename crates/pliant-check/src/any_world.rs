@@ -8,7 +8,7 @@ use pliant::{BodyId, Error, Options, World};
 use pliant_io::{Positions, Precision};
 
 /// A world of one precision or the other.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub enum AnyWorld {
     /// Of single precision.
     F32(World<f32>),

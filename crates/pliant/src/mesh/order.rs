@@ -9,7 +9,7 @@ use super::Topology;
 use crate::ids::{CallerTriangle, CallerVertex, TreeTriangle, TreeVertex};
 
 /// A mesh in tree order.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Order {
     corners: Vec<[TreeVertex; 3]>,
     /// The caller's number of every triangle.

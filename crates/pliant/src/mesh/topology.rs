@@ -9,7 +9,7 @@ const MAX_TRIANGLES: usize = 1 << 28;
 const MAX_VERTICES: usize = u32::MAX as usize;
 
 /// Validated triangles.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Topology {
     triangles: Vec<[u32; 3]>,
     vertices: usize,

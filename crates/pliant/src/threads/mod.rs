@@ -94,6 +94,15 @@ impl Threads {
         }
     }
 
+    /// Threads for another world: of the same pool, if that was lent, or else private ones of its own.
+    pub(crate) fn another(&self, count: NonZeroUsize) -> Self {
+        let lent = self.helpers.as_ref().filter(|it| it.awake.is_none());
+        match lent {
+            Some(helpers) => Self::lent(count, Arc::clone(&helpers.pool)),
+            None => Self::private(count),
+        }
+    }
+
     /// The threads that this process has. In the child of a fork, private ones are made anew; of a pool that was lent, nobody can say
     /// what became of it, so the calling thread does all work.
     pub(crate) fn here(&mut self) -> &Self {

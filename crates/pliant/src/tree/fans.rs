@@ -15,7 +15,7 @@ const NONE: u32 = u32::MAX;
 type Common = [u32; 3];
 
 /// Of every wide node what its triangles have in common; empty if nobody is to ask.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Fans(Vec<Common>);
 
 impl Fans {

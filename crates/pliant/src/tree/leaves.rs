@@ -16,7 +16,7 @@ struct Leaf {
     first_block: u32,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Leaves {
     runs: Vec<Leaf>,
     /// Whether there are blocks: not where every leaf is one triangle.

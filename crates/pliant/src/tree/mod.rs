@@ -37,7 +37,7 @@ pub(crate) use vertex_sets::VertexSets;
 pub(crate) use wide_node::{Child, WideNode};
 
 /// The tree of one body, of degree `N`.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Tree<const N: usize> {
     pub(crate) wide_nodes: Vec<WideNode<N>>,
     /// The first wide node of every level.

@@ -38,7 +38,7 @@ pub(crate) const STRICT_UPPER: u64 = {
 
 /// For numbered things of up to eight lanes each, pairs of lanes of one with itself and with some later ones: for each thing a list,
 /// which begins with itself.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct LaneLists {
     /// Where the list of each thing begins; and where the last ends.
     starts: Vec<u32>,
@@ -99,7 +99,7 @@ impl LaneLists {
 }
 
 /// The neighbours of all blocks of a tree.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Neighbours {
     /// Of blocks that are not crowded: the pairs of triangles that are to be compared, because they share no vertex; within a block, each
     /// pair once.

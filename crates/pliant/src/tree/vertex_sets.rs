@@ -19,7 +19,7 @@ use crate::mesh::Order;
 const FEW: usize = 24;
 
 /// Indexed by node, counted level by level.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct VertexSets {
     sets: Vec<Set>,
     border: Vec<TreeVertex>,

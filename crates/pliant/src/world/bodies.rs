@@ -36,6 +36,17 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
         self.next_id.map(BodyId).ok_or(ErrorKind::TooManyBodies)
     }
 
+    /// The same bodies once more.
+    pub(super) fn copy(&self) -> Self {
+        Self {
+            list: self.list.iter().map(Body::copy).collect(),
+            ids: self.ids.clone(),
+            places: self.places.clone(),
+            next_id: self.next_id,
+            ignored: self.ignored.clone(),
+        }
+    }
+
     /// Adds a body that has the next id.
     pub(super) fn push(&mut self, body: Body<N, S>) {
         self.next_id = body.id.0.checked_add(1);
@@ -106,6 +117,12 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
     pub(super) fn meet_again(&mut self, a: BodyId, b: BodyId) {
         self.ignored.remove(&(a, b));
         self.ignored.remove(&(b, a));
+    }
+
+    /// The pairs of bodies that do not meet, each once, the lower first; sorted.
+    pub(super) fn ignored(&self) -> Vec<[BodyId; 2]> {
+        let once = self.ignored.iter().filter(|(a, b)| a <= b);
+        once.map(|&(a, b)| [a, b]).collect()
     }
 
     /// Whether two bodies, or one and itself, meet in queries of the whole world.

@@ -98,6 +98,24 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         }
     }
 
+    /// A body like this one, whose boxes are made anew.
+    pub(super) fn copy(&self) -> Self {
+        let tree = self.tree.clone();
+        Self {
+            id: self.id,
+            topology: self.topology.clone(),
+            order: self.order.clone(),
+            boxes: first_boxes(&tree, self.triangle_count()),
+            tree,
+            positions: Positions::new(&self.positions()),
+            bounds: self.bounds,
+            epoch: self.epoch,
+            membership: self.membership,
+            mask: self.mask,
+            loose: self.loose,
+        }
+    }
+
     /// Builds the tree anew, on the shape of now.
     pub(super) fn rebuild(&mut self, options: &Options) {
         let positions = self.positions();
@@ -261,6 +279,16 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     pub(super) fn set_filter(&mut self, membership: u32, mask: u32) {
         (self.membership, self.mask) = (membership, mask);
+    }
+
+    /// Membership and mask.
+    pub(super) fn filter(&self) -> (u32, u32) {
+        (self.membership, self.mask)
+    }
+
+    /// The box that holds it in every pose, if it has one.
+    pub(super) fn loose(&self) -> Option<Bounds<S>> {
+        self.loose
     }
 
     /// Whether the masks of two bodies, or of one and itself, let them meet.

@@ -24,6 +24,7 @@ use std::ops::ControlFlow;
 
 /// An engine of any degree. What its methods do is said where [`World`](super::World) has them.
 pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
+    fn copy(&self) -> Box<dyn AnyEngine<S>>;
     fn options(&self) -> &Options;
     fn use_instructions(&mut self, instructions: Instructions);
     fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error>;
@@ -41,6 +42,9 @@ pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
     fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error>;
     fn set_loose_box(&mut self, id: BodyId, corners: Option<([S; 3], [S; 3])>)
     -> Result<(), Error>;
+    fn filter(&self, id: BodyId) -> Result<(u32, u32), Error>;
+    fn ignored(&self) -> Vec<[BodyId; 2]>;
+    fn loose_box(&self, id: BodyId) -> Result<Option<([S; 3], [S; 3])>, Error>;
     fn triangles(&self, id: BodyId) -> Result<&[[u32; 3]], Error>;
     fn vertex_count(&self, id: BodyId) -> Result<usize, Error>;
     fn positions(&self, id: BodyId) -> Result<Vec<[S; 3]>, Error>;
@@ -127,6 +131,24 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
 }
 
 impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
+    fn copy(&self) -> Box<dyn AnyEngine<S>> {
+        let Common {
+            options,
+            instructions,
+            threads,
+            bodies,
+            ..
+        } = &self.common;
+        let mut copy = Self::new(*options, threads.another(options.threads));
+        copy.common.instructions = *instructions;
+        copy.common.bodies = bodies.copy();
+        // As if all of them had been added just now.
+        for _ in bodies.in_order() {
+            copy.common.note_movement();
+        }
+        Box::new(copy)
+    }
+
     fn options(&self) -> &Options {
         &self.common.options
     }
@@ -224,6 +246,19 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         body.set_loose_box(loose).map_err(about(id))?;
         self.common.note_movement();
         Ok(())
+    }
+
+    fn filter(&self, id: BodyId) -> Result<(u32, u32), Error> {
+        Ok(self.body(id)?.filter())
+    }
+
+    fn ignored(&self) -> Vec<[BodyId; 2]> {
+        self.common.bodies.ignored()
+    }
+
+    fn loose_box(&self, id: BodyId) -> Result<Option<([S; 3], [S; 3])>, Error> {
+        let loose = self.body(id)?.loose();
+        Ok(loose.map(|Bounds { lo, hi }| (lo, hi)))
     }
 
     fn triangles(&self, id: BodyId) -> Result<&[[u32; 3]], Error> {

@@ -50,6 +50,27 @@ pub struct World<S: Scalar> {
     engine: Box<dyn AnyEngine<S>>,
 }
 
+/// Bodies, shapes, trees, filters, ignored pairs, loose boxes and options; ids stay, and those of removed bodies are not used again.
+/// Boxes are made anew, and counters begin at zero. A pool that was lent is shared, other threads are made anew.
+///
+/// Cost: O(n), no tree is built.
+///
+/// ```
+/// let mut world = pliant::World::<f32>::new();
+/// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+/// let before = world.clone();
+/// world.set_positions(body, &[[5.0; 3], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0]])?;
+/// assert_eq!(before.positions(body)?[0], [0.0; 3]);
+/// # Ok::<(), pliant::Error>(())
+/// ```
+impl<S: Scalar> Clone for World<S> {
+    fn clone(&self) -> Self {
+        Self {
+            engine: self.engine.copy(),
+        }
+    }
+}
+
 impl<S: Scalar> World<S> {
     /// An empty world with the options that measured best.
     pub fn new() -> Self {
@@ -192,6 +213,15 @@ impl<S: Scalar> World<S> {
         self.engine.set_filter(body, membership, mask)
     }
 
+    /// The membership and the mask of a body, as [`set_filter`](Self::set_filter) says them.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn filter(&self, body: BodyId) -> Result<(u32, u32), Error> {
+        self.engine.filter(body)
+    }
+
     /// From now on two bodies do not meet in queries of the whole world, or a body with itself if it is named twice. A query that
     /// names its bodies does not look at this.
     ///
@@ -211,6 +241,11 @@ impl<S: Scalar> World<S> {
         self.engine.unignore(a, b)
     }
 
+    /// The pairs of bodies that [`ignore`](Self::ignore) keeps apart, each once, the lower id first; sorted.
+    pub fn ignored(&self) -> Vec<[BodyId; 2]> {
+        self.engine.ignored()
+    }
+
     /// Gives a body a box, lower and upper corner, that holds it in every pose to come; `None` takes it away.
     ///
     /// The broad phase then works with this box, which stands still, and looks at the exact box only where loose boxes
@@ -227,6 +262,15 @@ impl<S: Scalar> World<S> {
         corners: Option<([S; 3], [S; 3])>,
     ) -> Result<(), Error> {
         self.engine.set_loose_box(body, corners)
+    }
+
+    /// The lower and the upper corner of the box that [`set_loose_box`](Self::set_loose_box) gave to a body; `None` if it has none.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn loose_box(&self, body: BodyId) -> Result<Option<([S; 3], [S; 3])>, Error> {
+        self.engine.loose_box(body)
     }
 
     /// Asks which triangles intersect, of different bodies or of one: pairs of them, as closed sets. Touching counts. The

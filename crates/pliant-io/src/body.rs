@@ -276,9 +276,8 @@ impl Body {
         let tolerance = options.weld_tolerance;
         let welding = frame.weld(tolerance, || source.alike());
         let mut welding = welding.map_err(|reason| in_first(reason.into()))?;
-        let loose = welding
-            .as_mut()
-            .map_or(0, |welding| welding.loosen(|a, b| source.moves_alike(a, b)));
+        let loosened = frame.loosen(welding.as_mut(), |a, b| source.moves_alike(a, b));
+        let loose = loosened.map_err(|reason| in_first(reason.into()))?;
         if loose > 0 {
             notes.push(Note::SeamsByWeights { count: loose });
         }

@@ -265,6 +265,15 @@ impl Frame {
         Ok(welding)
     }
 
+    /// Lets go of vertices welded that do not move alike to the bit, as `moves_alike` says; returns how many.
+    pub(crate) fn loosen(
+        &mut self,
+        welding: Option<&mut Welding>,
+        moves_alike: impl Fn(u32, u32) -> bool,
+    ) -> Result<usize, Reason> {
+        welding.map_or(Ok(0), |it| it.loosen(moves_alike, &mut self.account))
+    }
+
     /// The near seams of the frame read last; of the triangles of `welding`, where there is one.
     pub(crate) fn near_seams(
         &mut self,

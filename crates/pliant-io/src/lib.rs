@@ -57,7 +57,8 @@
 //! - **Seams are welded**: files split a vertex where texture coordinates or normals differ, STL
 //!   splits all. Vertices at the two ends of boundary edges that coincide bit for bit in the first
 //!   frame become one; [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off. In
-//!   glTF they must coincide at rest, and joints, weights and morph targets move them alike.
+//!   glTF they must coincide at rest, morph targets move them alike to the bit, and each joint hold them alike but for 1e-5 of
+//!   the whole; the smallest vertex then stands for all, and [`Body::notes`] says how many were not alike to the bit.
 //! - **glTF**: the default scene; a body for each node whose mesh has triangles, strips or fans
 //!   (points and lines have no surface); nodes in nodes, skins, morph targets, sparse accessors;
 //!   steps, lines and cubic splines. Computed in double precision, rounded to f32. Frames at 0,

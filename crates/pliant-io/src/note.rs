@@ -52,7 +52,7 @@ impl fmt::Display for Note {
             ),
             Self::SeamsByWeights { count } => write!(
                 f,
-                "{count} vertices were welded to others at their place, though weights of their joints differ by up to 1e-5"
+                "{count} vertices were welded to others at their place, though the weights of their joints differ in the fifth place or behind it"
             ),
             Self::StillTargets { count, first } => write!(
                 f,

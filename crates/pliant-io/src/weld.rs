@@ -13,10 +13,12 @@
 //!
 //! Coincidence of single points never welds: two bodies that touch in a point are two bodies. An
 //! edge whose two ends are at one place is a point in this sense. In later frames the two sides
-//! must stay together, or the mesh welded is not the mesh that moves: [`Welding::check`].
+//! must stay together, or the mesh welded is not the mesh that moves: [`Welding::check`]. Vertices that a format moves by a rule
+//! which is not the same to the bit on both sides are exempt ([`Welding::loose`]): that they are one was decided by the rule, not by
+//! a frame. All triangles use the one that leads them, so how far rounding parts the others is nowhere seen.
 
 use crate::error::Reason;
-use crate::memory::bytes_of;
+use crate::memory::{Account, bytes_of};
 use crate::near::NearSeams;
 use crate::positions::Positions;
 
@@ -231,11 +233,17 @@ impl Welding {
     }
 
     /// Lets go of vertices that do not move with their leaders to the bit; returns how many those are.
-    pub(crate) fn loosen(&mut self, moves_alike: impl Fn(u32, u32) -> bool) -> usize {
-        let parted = self.welded.iter();
-        let parted = parted.filter(|&&(vertex, leader)| !moves_alike(vertex, leader));
-        self.loose = parted.map(|&(vertex, _)| vertex).collect();
-        self.loose.len()
+    pub(crate) fn loosen(
+        &mut self,
+        moves_alike: impl Fn(u32, u32) -> bool,
+        account: &mut Account,
+    ) -> Result<usize, Reason> {
+        for &(vertex, leader) in &self.welded {
+            if !moves_alike(vertex, leader) {
+                account.push(&mut self.loose, vertex, 0)?;
+            }
+        }
+        Ok(self.loose.len())
     }
 
     /// The vertex that stands for this one.

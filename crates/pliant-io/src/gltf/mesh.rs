@@ -44,7 +44,7 @@ pub(super) struct Influence {
 /// that some programs show.
 const NEARLY: f64 = 1e-5;
 
-/// At one place there are a few vertices; where there are very many, a vertex is compared with so many.
+/// At one place there are a few vertices. Where there are very many, they are compared with so many of them, the smallest.
 const MOST_COMPARED: usize = 64;
 
 /// Primitive modes.
@@ -299,18 +299,22 @@ impl Mesh {
         Ok(())
     }
 
-    /// Whether joints, which are the same, hold two vertices alike but for [`NEARLY`].
-    fn weigh_nearly_alike(&self, a: u32, b: u32, skinned: bool) -> bool {
-        if !skinned {
-            return true;
-        }
+    /// Whether joints hold two vertices alike but for [`NEARLY`]: the part that each joint has of the whole, none where it is not named.
+    fn weigh_nearly_alike(&self, a: u32, b: u32) -> bool {
         let [a, b] = [a, b].map(|vertex| self.influences(vertex as usize));
-        let sum = |all: &[Influence]| all.iter().map(|it| f64::from(it.weight)).sum::<f64>();
-        let (of_a, of_b) = (sum(a), sum(b));
-        let part = |it: &Influence, sum: f64| f64::from(it.weight) / sum;
-        a.iter()
-            .zip(b)
-            .all(|(a, b)| a == b || (part(a, of_a) - part(b, of_b)).abs() <= NEARLY)
+        let whole = |all: &[Influence]| all.iter().map(|it| f64::from(it.weight)).sum::<f64>();
+        let (whole_a, whole_b) = (whole(a), whole(b));
+        let (mut a, mut b) = (a, b);
+        // Both are in the order of joints.
+        let next = |all: &[Influence]| all.first().map(|it| it.joint);
+        while let Some(joint) = next(a).into_iter().chain(next(b)).min() {
+            let part = taken(&mut a, joint) / whole_a - taken(&mut b, joint) / whole_b;
+            // Not a number where the weights cancel each other.
+            if part.is_nan() || part.abs() > NEARLY {
+                return false;
+            }
+        }
+        true
     }
 
     /// Whether joints hold two vertices alike to the bit.
@@ -320,53 +324,40 @@ impl Mesh {
     }
 
     /// The most bytes that [`alike`](Self::alike) takes.
-    pub(super) fn memory_of_alike(&self) -> u64 {
+    pub(super) fn memory_of_alike(&self, skinned: bool) -> u64 {
+        let vertices = self.rest.len() as u64;
         let moved = self.targets.iter().map(Vec::len).max().unwrap_or(0) as u64;
-        12 * self.rest.len() as u64 + 32 * moved
+        let runs = if skinned {
+            vertices * size_of::<Run>() as u64
+        } else {
+            0
+        };
+        12 * vertices + runs.max(32 * moved)
     }
 
     /// A number for each vertex, the same where they are at one place at rest and everything moves them alike: morph targets to the
-    /// bit, joints if they are the same and weigh the same but for [`NEARLY`], as exporters that divide weights by their sum leave
-    /// them on two sides of a seam.
+    /// bit; joints but for [`NEARLY`], as exporters that divide weights by their sum leave them on two sides of a seam.
     pub(super) fn alike(&self, skinned: bool) -> Vec<u64> {
+        let mut class = self.moved_alike();
+        if skinned && !self.starts.is_empty() {
+            self.part_by_weights(&mut class);
+        }
+        class
+    }
+
+    /// The same as [`alike`](Self::alike), whatever joints do.
+    fn moved_alike(&self) -> Vec<u64> {
         let bits = |place: [f32; 3]| place.map(|x| (x + 0.0).to_bits());
-        let held = |vertex: u32| {
-            let influences = if skinned {
-                self.influences(vertex as usize)
-            } else {
-                &[]
-            };
-            influences.iter()
-        };
-        let place = |&vertex: &u32| bits(self.rest[vertex as usize]);
-        let joints = |a: u32| held(a).map(|it| it.joint);
-        let weights = |a: u32| held(a).map(|it| it.weight.to_bits());
-        let order = |a: &u32, b: &u32| {
-            (place(a).cmp(&place(b)))
-                .then_with(|| joints(*a).cmp(joints(*b)))
-                .then_with(|| weights(*a).cmp(weights(*b)))
-                .then(a.cmp(b))
-        };
+        let place = |vertex: u32| bits(self.rest[vertex as usize]);
         let mut vertices: Vec<u32> = (0..self.rest.len() as u32).collect();
-        vertices.sort_unstable_by(order);
+        vertices.sort_unstable_by_key(|&vertex| place(vertex));
         let mut class = vec![0_u64; vertices.len()];
         let mut next = 0;
-        let mut leaders: Vec<u32> = Vec::new();
-        for together in vertices.chunk_by(|a, b| place(a) == place(b) && joints(*a).eq(joints(*b)))
-        {
-            leaders.clear();
+        for together in vertices.chunk_by(|&a, &b| place(a) == place(b)) {
             for &vertex in together {
-                // Those that are near come soon after each other: the first weights are in order.
-                let mut last = leaders.iter().rev().take(MOST_COMPARED);
-                let leader = last.find(|&&leader| self.weigh_nearly_alike(leader, vertex, skinned));
-                if let Some(&leader) = leader {
-                    class[vertex as usize] = class[leader as usize];
-                } else {
-                    leaders.push(vertex);
-                    class[vertex as usize] = next;
-                    next += 1;
-                }
+                class[vertex as usize] = next;
             }
+            next += 1;
         }
         drop(vertices);
         // Those of a class that a target moves alike leave it together.
@@ -385,6 +376,73 @@ impl Mesh {
         }
         class
     }
+
+    /// Parts the vertices of each class that joints do not hold nearly alike.
+    ///
+    /// To be near is not transitive, so it is a rule: vertices that joints hold alike to the bit stay together, as their smallest.
+    /// In the order of numbers each of these joins the first leader that it is near to, or leads itself. So all of a class are within
+    /// [`NEARLY`] of its leader, and within twice that of each other.
+    fn part_by_weights(&self, class: &mut [u64]) {
+        let bits = |vertex: u32| {
+            let held = self.influences(vertex as usize).iter();
+            held.map(|it| (it.joint, it.weight.to_bits()))
+        };
+        let mut vertices: Vec<u32> = (0..class.len() as u32).collect();
+        vertices.sort_unstable_by(|&a, &b| {
+            (class[a as usize].cmp(&class[b as usize]))
+                .then_with(|| bits(a).cmp(bits(b)))
+                .then(a.cmp(&b))
+        });
+        let mut next = class.iter().max().map_or(0, |last| last + 1);
+        let mut runs: Vec<Run> = Vec::with_capacity(vertices.len());
+        let mut leaders: Vec<(u32, u64)> = Vec::with_capacity(MOST_COMPARED);
+        let mut rest = &vertices[..];
+        while let Some(&first) = rest.first() {
+            let own = class[first as usize];
+            let is_own = |vertex: &&u32| class[**vertex as usize] == own;
+            let (together, others) = rest.split_at(rest.iter().take_while(is_own).count());
+            rest = others;
+            runs.clear();
+            let mut begin = 0;
+            for run in together.chunk_by(|&a, &b| bits(a).eq(bits(b))) {
+                let end = begin + run.len() as u32;
+                runs.push((run[0], begin, end));
+                begin = end;
+            }
+            runs.sort_unstable();
+            leaders.clear();
+            for &(vertex, begin, end) in &runs {
+                let near = |&&(leader, _): &&(u32, u64)| self.weigh_nearly_alike(leader, vertex);
+                let number = if let Some(&(_, number)) = leaders.iter().find(near) {
+                    number
+                } else {
+                    if leaders.len() < MOST_COMPARED {
+                        leaders.push((vertex, next));
+                    }
+                    next += 1;
+                    next - 1
+                };
+                for &vertex in &together[begin as usize..end as usize] {
+                    class[vertex as usize] = number;
+                }
+            }
+        }
+    }
+}
+
+/// Vertices that joints hold alike to the bit: the smallest, and from where to where they are.
+type Run = (u32, u32, u32);
+
+/// Takes a joint from the front of a list that is in the order of joints; returns how much it weighs.
+fn taken(all: &mut &[Influence], joint: u16) -> f64 {
+    let mut weight = 0.0;
+    while let [first, rest @ ..] = all
+        && first.joint == joint
+    {
+        weight += f64::from(first.weight);
+        *all = rest;
+    }
+    weight
 }
 
 impl Reader {

@@ -163,7 +163,7 @@ fn read(
             moves: moves.body(node, skin),
             scene: scene.clone(),
             triangles: Some(triangles),
-            held: mesh.memory_of_alike(),
+            held: mesh.memory_of_alike(skin.is_some()),
             mesh,
             node,
             skin,

@@ -726,6 +726,20 @@ fn seams_are_welded_where_everything_moves_alike() {
     assert_eq!(welded(file(nearly, deltas)).0, 2);
     nearly[4] = [0.750_02, 0.249_98, 0.0, 0.0];
     assert_eq!(welded(file(nearly, deltas)).0, 0);
+    // What is not named weighs nothing, on whichever side: of vertex 3, and of vertex 1.
+    for (few, much) in [(3, 0.000_006), (1, 0.000_006)] {
+        let mut named = weights;
+        named[few] = if few == 3 {
+            [much, 1.0, 0.0, 0.0]
+        } else {
+            [1.0, much, 0.0, 0.0]
+        };
+        assert_eq!(welded(file(named, deltas)).0, 2);
+        let notes = folder.open("seam.gltf").unwrap().notes().to_vec();
+        assert_eq!(notes, [Note::SeamsByWeights { count: 1 }]);
+        named[few] = named[few].map(|weight| if weight < 0.5 { 4.0 * weight } else { weight });
+        assert_eq!(welded(file(named, deltas)).0, 0);
+    }
     // Held by other joints, or moved otherwise by a morph target, at one end: the edge is not the same one.
     let mut other = weights;
     other[4] = [0.5, 0.5, 0.0, 0.0];
@@ -1019,4 +1033,74 @@ fn chunks_of_glb_may_follow_each_other_at_once() {
         let mut body = folder.open("t.glb").unwrap();
         assert!(body.next_frame().unwrap().is_some(), "{padding}");
     }
+}
+
+/// A fan of triangles of their own around one place, each of which begins where the one before ends. The second of two joints moves,
+/// and holds the vertices of triangle i by `weights[i]`.
+fn fan(weights: &[f32]) -> String {
+    let place = |at: usize| {
+        let angle = at as f32 / weights.len() as f32 * 6.0;
+        [angle.cos(), angle.sin(), 0.0]
+    };
+    let mut bytes = Vec::new();
+    for at in 0..weights.len() {
+        let corners = [[0.0_f32; 3], place(at), place(at + 1)];
+        bytes.extend(corners.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+    }
+    let count = 3 * weights.len();
+    let joints = bytes.len();
+    bytes.extend([0, 1, 0, 0].repeat(count));
+    let held = bytes.len();
+    for &weight in weights {
+        let four = [1.0 - weight, weight, 0.0, 0.0].repeat(3);
+        bytes.extend(four.iter().flat_map(|x| x.to_le_bytes()));
+    }
+    let times = bytes.len();
+    let moved = [0.0, 1.0, 0.0, 0.0, 0.0, 100.0, 200.0, 300.0_f32];
+    bytes.extend(moved.iter().flat_map(|x| x.to_le_bytes()));
+    let accessor = |offset: usize, kind: u32, count: usize, shape: &str| json!({"bufferView": 0, "byteOffset": offset, "componentType": kind, "count": count, "type": shape});
+    json!({
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"mesh": 0, "skin": 0}, {}, {}],
+        "skins": [{"joints": [1, 2]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}}]}],
+        "animations": [{"channels": [{"sampler": 0, "target": {"node": 2, "path": "translation"}}], "samplers": [{"input": 3, "output": 4}]}],
+        "accessors": [accessor(0, 5126, count, "VEC3"), accessor(joints, 5121, count, "VEC4"), accessor(held, 5126, count, "VEC4"),
+            accessor(times, 5126, 2, "SCALAR"), accessor(times + 8, 5126, 2, "VEC3")],
+        "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
+        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+    })
+    .to_string()
+}
+
+#[test]
+fn vertices_joined_by_nearly_equal_weights_are_one_in_every_frame() {
+    let folder = Folder::new();
+    let read = |weights: &[f32]| {
+        folder.write("fan.gltf", fan(weights));
+        let mut body = folder.open("fan.gltf").unwrap();
+        let (welded, notes) = (body.welded(), body.notes().to_vec());
+        let triangles = body.triangles().to_vec();
+        (welded, notes, triangles, all_frames(&mut body).unwrap())
+    };
+    // The centre and the edge between: moved by 374 they part, and no frame is refused.
+    let (welded, notes, triangles, frames) = read(&[0.5, 0.500_006]);
+    assert_eq!((welded, &triangles[..]), (2, &[[0, 1, 2], [0, 2, 5]][..]));
+    assert_eq!(notes, [Note::SeamsByWeights { count: 2 }]);
+    assert_eq!(frames.len(), 31);
+    // Each is held to the smallest of its class, not to the next: 0.5 takes what is within 1e-5 of it, and the others are apart.
+    let chain = [0.5, 0.500_008, 0.500_016, 0.500_024];
+    let (welded, notes, triangles, _) = read(&chain);
+    assert_eq!(welded, 4);
+    assert_eq!(notes, [Note::SeamsByWeights { count: 4 }]);
+    assert_eq!(
+        triangles,
+        [[0, 1, 2], [0, 2, 5], [6, 7, 8], [6, 8, 11]],
+        "two and two"
+    );
+    // What is equal to the bit is welded however much else is at that place.
+    let mut many: Vec<f32> = (0..200).map(|at| 0.1 + at as f32 * 1e-3).collect();
+    many.extend([0.9, 0.9]);
+    let (welded, notes, ..) = read(&many);
+    assert_eq!((welded, &notes[..]), (2, &[][..]));
 }

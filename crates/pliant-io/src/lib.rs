@@ -63,8 +63,9 @@
 //!   (points and lines have no surface); nodes in nodes, skins, morph targets, sparse accessors;
 //!   steps, lines and cubic splines. Computed in double precision, rounded to f32. Frames at 0,
 //!   1/fps, 2/fps, ... and the clip's end; without animations one, of the file as it rests. Bytes
-//!   are read from the file, from files beside it and from data URIs. `KHR_mesh_quantization` and
-//!   `KHR_animation_pointer` are evaluated. Meshopt and Draco
+//!   are read from the file, from files beside it and from data URIs. `KHR_mesh_quantization` is evaluated, and
+//!   `KHR_animation_pointer` where it moves nodes or morph targets; what an animation moves that is no part of a body, as
+//!   materials or other scenes, is noted. Meshopt and Draco
 //!   files, and what else a file requires and would change shapes, are refused.
 //! - **The frames of a body agree**: same faces, same number of vertices, no later frame of a
 //!   higher precision than the first.

@@ -20,11 +20,11 @@ pub enum Note {
         /// How many.
         count: usize,
     },
-    /// An animation moves what is not evaluated, in a glTF file by `KHR_animation_pointer`.
+    /// The animation of a glTF file moves what is not evaluated, or what is no part of any body.
     StillTargets {
         /// How many channels do.
         count: usize,
-        /// What the first of them moves: a place in the file.
+        /// What the first of them moves: a place in the JSON, as `KHR_animation_pointer` writes it.
         first: String,
     },
     /// Polygons are far from flat, so that the surface depends on how they are cut into triangles.

@@ -2,13 +2,18 @@
 //!
 //! Before the first key a channel has the value of the first, behind the last that of the last. Between two keys: the earlier one
 //! (STEP), the straight line or for rotations the arc (LINEAR), or Hermite's cubic through both with their tangents (CUBICSPLINE).
+//!
+//! A channel names a node, or by `KHR_animation_pointer` a place in the JSON: of a node, or the weights of a mesh, which are those of
+//! all its nodes that have none of their own. What is not evaluated, and what moves no body, is noted and no error.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::accessor::{Reader, Wanted};
 use super::affine::{Trs, slerp};
+use super::document::Target;
 use crate::error::{Fault, Place, Reason};
+use crate::memory::bytes_of;
 use crate::note::Note;
 use crate::text::quoted;
 
@@ -19,15 +24,34 @@ pub(super) struct Clip {
     pub(super) end: f64,
     pub(super) channels: Vec<Channel>,
     samplers: Vec<Sampler>,
-    /// How many channels are of what is not evaluated, and the first of them.
-    still_count: usize,
-    still: Option<String>,
+    still: Still,
+}
+
+/// The channels that move nothing here.
+#[derive(Default)]
+struct Still {
+    count: usize,
+    /// The number of the first among the channels of the file, and what it would move.
+    first: Option<(usize, String)>,
+}
+
+impl Still {
+    fn add(&mut self, number: usize, target: impl FnOnce() -> String) {
+        self.count += 1;
+        if self.first.as_ref().is_none_or(|first| number < first.0) {
+            self.first = Some((number, target()));
+        }
+    }
 }
 
 pub(super) struct Channel {
     pub(super) node: usize,
     pub(super) path: Path,
     sampler: usize,
+    /// Among the channels of the file.
+    number: u32,
+    /// Where it names the mesh of the node; one that names the node goes before.
+    mesh: Option<u32>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -63,13 +87,67 @@ impl Path {
             Self::Weights(targets) => targets,
         }
     }
+
+    /// None of what is not evaluated.
+    fn named(path: &str, targets: impl FnOnce() -> usize) -> Option<Self> {
+        Some(match path {
+            "translation" => Self::Translation,
+            "rotation" => Self::Rotation,
+            "scale" => Self::Scale,
+            "weights" => Self::Weights(targets()),
+            _ => return None,
+        })
+    }
+
+    /// As targets and pointers name it.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Translation => "translation",
+            Self::Rotation => "rotation",
+            Self::Scale => "scale",
+            Self::Weights(_) => "weights",
+        }
+    }
 }
 
-/// The node and the path in a pointer such as `/nodes/3/rotation`.
-fn node_in(pointer: &str) -> Option<(usize, &str)> {
-    let (node, path) = pointer.strip_prefix("/nodes/")?.split_once('/')?;
-    let is_moved = ["translation", "rotation", "scale", "weights"].contains(&path);
-    is_moved.then_some((node.parse().ok()?, path))
+/// What a channel names.
+enum Moved<'a> {
+    Node(usize, &'a str),
+    /// The weights of one.
+    Mesh(usize),
+    Nothing,
+}
+
+impl<'a> Moved<'a> {
+    fn by(target: &'a Target) -> Self {
+        match (target.pointer(), target.node) {
+            (Some(pointer), _) => Self::at(pointer).unwrap_or(Self::Nothing),
+            (None, Some(node)) => Self::Node(node, &target.path),
+            // Another extension names it.
+            (None, None) => Self::Nothing,
+        }
+    }
+
+    /// What a pointer such as `/nodes/3/rotation` names.
+    fn at(pointer: &'a str) -> Option<Self> {
+        let (kind, rest) = pointer.strip_prefix('/')?.split_once('/')?;
+        let (number, path) = rest.split_once('/')?;
+        let number = number.parse().ok()?;
+        match (kind, path) {
+            ("nodes", _) => Some(Self::Node(number, path)),
+            ("meshes", "weights") => Some(Self::Mesh(number)),
+            _ => None,
+        }
+    }
+}
+
+/// What a channel would move, as a pointer names it.
+fn said(target: &Target) -> String {
+    match (target.pointer(), target.node) {
+        (Some(pointer), _) => pointer.to_owned(),
+        (None, Some(node)) => format!("/nodes/{node}/{}", target.path),
+        (None, None) => target.path.clone(),
+    }
 }
 
 impl Clip {
@@ -80,80 +158,114 @@ impl Clip {
         targets: impl Fn(&Reader, usize) -> usize,
     ) -> Result<Self, Fault> {
         let at = |fault: Fault| fault.or_at(Place::Part("animation", animation));
+        let malformed = |why: String| at(Reason::Malformed(why).into());
         let mut clip = Self {
             name: reader.document.clip_name(animation).into(),
             end: 0.0,
             channels: Vec::new(),
             samplers: Vec::new(),
-            still_count: 0,
-            still: None,
+            still: Still::default(),
         };
-        // Ours of each of the file.
-        let mut known = BTreeMap::new();
+        // Ours of each of the file, and the meshes whose weights were met.
+        let (mut known, mut meshes) = (BTreeMap::new(), BTreeSet::new());
+        let mut of_meshes = None;
         let channels = std::mem::take(&mut reader.document.animations[animation].channels);
-        for channel in &channels {
-            let (node, path) = match (channel.target.node, channel.target.pointer()) {
-                (Some(node), None) => (node, &channel.target.path[..]),
-                (_, Some(pointer)) => {
-                    let Some(target) = node_in(pointer) else {
-                        clip.still_count += 1;
-                        clip.still.get_or_insert_with(|| pointer.to_owned());
-                        continue;
+        for (number, channel) in channels.iter().enumerate() {
+            let one;
+            let (nodes, path, mesh): (&[u32], _, _) = match Moved::by(&channel.target) {
+                Moved::Node(node, path) => {
+                    if node >= reader.document.nodes.len() {
+                        let reason = format!("moves node {node}, which does not exist");
+                        return Err(malformed(reason));
+                    }
+                    one = [node as u32];
+                    (&one, path, None)
+                }
+                Moved::Mesh(mesh) => {
+                    if !meshes.insert(mesh) {
+                        let reason = format!("moves the weights of mesh {mesh} more than once");
+                        return Err(malformed(reason));
+                    }
+                    let of_meshes = match &mut of_meshes {
+                        Some(found) => found,
+                        none => none.insert(nodes_of_meshes(reader)?),
                     };
-                    target
+                    let nodes = of_meshes.get(&mesh);
+                    let nodes = nodes.map_or(&[][..], |nodes| &nodes[..]);
+                    (nodes, "weights", Some(mesh as u32))
                 }
-                // Of a node that another extension names.
-                (None, None) => continue,
+                Moved::Nothing => (&[], "", None),
             };
-            if node >= reader.document.nodes.len() {
-                let reason = format!("moves node {node}, which does not exist");
-                return Err(at(Reason::Malformed(reason).into()));
+            let before = clip.channels.len();
+            for &node in nodes {
+                let node = node as usize;
+                let path = Path::named(path, || targets(reader, node));
+                // Not evaluated, or weights of nothing.
+                let Some(path) = path.filter(|path| path.width() > 0) else {
+                    continue;
+                };
+                let key = (channel.sampler, path);
+                let sampler = if let Some(&sampler) = known.get(&key) {
+                    sampler
+                } else {
+                    let sampler =
+                        Sampler::read(reader, animation, channel.sampler, path).map_err(at)?;
+                    let last = sampler.times.last().copied().unwrap_or(0.0);
+                    clip.end = clip.end.max(last.into());
+                    clip.samplers.push(sampler);
+                    known.insert(key, clip.samplers.len() - 1);
+                    clip.samplers.len() - 1
+                };
+                reader.account.push(
+                    &mut clip.channels,
+                    Channel {
+                        node,
+                        path,
+                        sampler,
+                        number: number as u32,
+                        mesh,
+                    },
+                    channels.len(),
+                )?;
             }
-            let path = match path {
-                "translation" => Path::Translation,
-                "rotation" => Path::Rotation,
-                "scale" => Path::Scale,
-                "weights" => Path::Weights(targets(reader, node)),
-                other => {
-                    return Err(at(Reason::Unsupported(format!(
-                        "moves {}, which is not evaluated; export it without",
-                        quoted(other)
-                    ))
-                    .into()));
-                }
-            };
-            if path.width() == 0 {
-                continue; // weights of nothing
+            if clip.channels.len() == before {
+                clip.still.add(number, || said(&channel.target));
             }
-            let key = (channel.sampler, path);
-            let sampler = if let Some(&sampler) = known.get(&key) {
-                sampler
-            } else {
-                let sampler =
-                    Sampler::read(reader, animation, channel.sampler, path).map_err(at)?;
-                let last = sampler.times.last().copied().unwrap_or(0.0);
-                clip.end = clip.end.max(last.into());
-                clip.samplers.push(sampler);
-                known.insert(key, clip.samplers.len() - 1);
-                clip.samplers.len() - 1
-            };
-            reader.account.push(
-                &mut clip.channels,
-                Channel {
-                    node,
-                    path,
-                    sampler,
-                },
-                channels.len(),
-            )?;
         }
+        if !meshes.is_empty() {
+            // Of two that move the same, the later counts.
+            let channels = &mut clip.channels;
+            channels.sort_unstable_by_key(|it| (it.mesh.is_none(), it.number, it.node));
+        }
+        let of_meshes = of_meshes.iter().flat_map(BTreeMap::values);
+        reader
+            .account
+            .take_off(of_meshes.map(|nodes| bytes_of(nodes)).sum());
         Ok(clip)
+    }
+
+    /// Notes the channels that move nothing, as `moves` says of each part of one.
+    pub(super) fn note_still(&mut self, moves: impl Fn(&Channel) -> bool) {
+        let Self {
+            channels, still, ..
+        } = self;
+        for parts in channels.chunk_by(|a, b| a.number == b.number) {
+            if let [first, ..] = parts
+                && !parts.iter().any(&moves)
+            {
+                still.add(first.number as usize, || match first.mesh {
+                    Some(mesh) => format!("/meshes/{mesh}/weights"),
+                    None => format!("/nodes/{}/{}", first.node, first.path.name()),
+                });
+            }
+        }
     }
 
     /// What of it moves nothing here.
     pub(super) fn note(&self) -> Option<Note> {
-        self.still.as_ref().map(|first| Note::StillTargets {
-            count: self.still_count,
+        let Still { count, first } = &self.still;
+        first.as_ref().map(|(_, first)| Note::StillTargets {
+            count: *count,
             first: first.clone(),
         })
     }
@@ -174,6 +286,20 @@ impl Clip {
         weights.resize(channel.path.width(), 0.0);
         self.samplers[channel.sampler].sample(time, weights);
     }
+}
+
+/// The nodes of each mesh that have no weights of their own. They stay entered.
+fn nodes_of_meshes(reader: &mut Reader) -> Result<BTreeMap<usize, Vec<u32>>, Reason> {
+    let Reader {
+        document, account, ..
+    } = reader;
+    let mut of_meshes: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    for (number, node) in (0..).zip(&document.nodes) {
+        if let (Some(mesh), None) = (node.mesh, &node.weights) {
+            account.push(of_meshes.entry(mesh).or_default(), number, 0)?;
+        }
+    }
+    Ok(of_meshes)
 }
 
 impl Sampler {

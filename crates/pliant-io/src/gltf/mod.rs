@@ -123,8 +123,11 @@ fn read(
     options: &OpenOptions,
 ) -> Result<Vec<(String, GltfBody)>, Fault> {
     let clip = read_clip(reader, options.clip.as_deref())?;
-    let scene = Arc::new(Scene::read(reader, clip, options.fps)?);
-    let nodes = nodes_with_meshes(reader)?;
+    let mut scene = Scene::read(reader, clip, options.fps)?;
+    let shown = shown(reader)?;
+    scene.note_still(&shown);
+    let scene = Arc::new(scene);
+    let nodes = nodes_with_meshes(reader, &shown);
     let mut names = names(reader, &nodes)?;
     let wanted = |at: &usize| name.is_none_or(|name| name == names[*at]);
     let wanted: Vec<usize> = (0..nodes.len()).filter(wanted).collect();
@@ -223,8 +226,8 @@ fn read_clip(reader: &mut Reader, name: Option<&str>) -> Result<Option<Clip>, Fa
     .map(Some)
 }
 
-/// The nodes of the default scene that have meshes, in the order of nodes, with their meshes.
-fn nodes_with_meshes(reader: &Reader) -> Result<Vec<(usize, usize)>, Fault> {
+/// Of each node whether it is in the default scene.
+fn shown(reader: &Reader) -> Result<Vec<bool>, Fault> {
     let document = &reader.document;
     let number = document.scene.unwrap_or(0);
     let Some(scene) = document.scenes.get(number) else {
@@ -247,14 +250,16 @@ fn nodes_with_meshes(reader: &Reader) -> Result<Vec<(usize, usize)>, Fault> {
             open.extend(&entry.children);
         }
     }
-    let shown = document
-        .nodes
-        .iter()
-        .enumerate()
-        .filter(|&(node, _)| shown[node]);
-    Ok(shown
-        .filter_map(|(node, entry)| Some((node, entry.mesh?)))
-        .collect())
+    Ok(shown)
+}
+
+/// The nodes shown that have meshes, in the order of nodes, with their meshes.
+fn nodes_with_meshes(reader: &Reader, shown: &[bool]) -> Vec<(usize, usize)> {
+    let nodes = reader.document.nodes.iter().enumerate().zip(shown);
+    let with_meshes = nodes.filter(|&(_, shown)| *shown);
+    with_meshes
+        .filter_map(|((node, entry), _)| Some((node, entry.mesh?)))
+        .collect()
 }
 
 /// A name for each body, all different: of its node, or else of its mesh; behind it the number of the node, where several would have

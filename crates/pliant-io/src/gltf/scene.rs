@@ -192,6 +192,34 @@ impl Scene {
         }
     }
 
+    /// Notes what of the clip moves no body: neither a node that is `shown`, nor a joint, nor what one of them is in.
+    pub(super) fn note_still(&mut self, shown: &[bool]) {
+        let Self {
+            parents,
+            order,
+            skins,
+            clip,
+            ..
+        } = self;
+        let Some(clip) = clip else { return };
+        let mut reaches = shown.to_vec();
+        for &joint in skins.iter().flat_map(|skin| &skin.joints) {
+            reaches[joint as usize] = true;
+        }
+        for &node in order.iter().rev() {
+            if let (true, Some(parent)) = (reaches[node as usize], parents[node as usize]) {
+                reaches[parent as usize] = true;
+            }
+        }
+        clip.note_still(|channel| {
+            if channel.path.places() {
+                reaches[channel.node]
+            } else {
+                shown[channel.node]
+            }
+        });
+    }
+
     /// When a frame is.
     fn time(&self, frame: usize) -> f64 {
         match &self.clip {

@@ -526,11 +526,6 @@ fn what_is_wrong_is_said_in_a_line() {
             "interpolation \"ROUND\" is none",
         ),
         (
-            "/animations/0/channels/0/target/path",
-            json!("pointer"),
-            "animation 0: moves \"pointer\"",
-        ),
-        (
             "/animations/0/channels/0/target/node",
             json!(5),
             "moves node 5, which does not exist",
@@ -973,6 +968,99 @@ fn animations_may_name_what_they_move_by_a_pointer() {
     let first = "/materials/0/emissiveFactor".to_owned();
     let notes = vec![Note::StillTargets { count: 2, first }];
     assert_eq!(frames(&file), (expected, notes));
+    // A pointer to a node that does not exist is as wrong as a number that does.
+    file["animations"][0]["channels"][0]["target"] = pointer("/nodes/9/translation");
+    folder.write("t.gltf", file.to_string());
+    assert!(folder.error("t.gltf").contains("moves node 9, which"));
+}
+
+#[test]
+fn what_an_animation_moves_that_is_no_body_is_noted() {
+    let folder = Folder::new();
+    let frames = |file: &Value| {
+        folder.write("t.gltf", file.to_string());
+        let mut body = folder.open("t.gltf").unwrap();
+        let notes = body.notes().to_vec();
+        (all_frames(&mut body).unwrap(), notes)
+    };
+    let plain = triangle();
+    let (expected, _) = frames(&plain);
+    // 3 and 4 are in no scene; 4 is in 3. The joint 2 is in 1 and moves nothing but the body.
+    let mut file = plain.clone();
+    let nodes = file["nodes"].as_array_mut().unwrap();
+    nodes.extend([json!({"children": [4]}), json!({})]);
+    let target = |target: Value| json!({"sampler": 0, "target": target});
+    let channels = file["animations"][0]["channels"].as_array_mut().unwrap();
+    channels.insert(0, target(json!({"node": 4, "path": "translation"})));
+    channels.insert(0, target(json!({"node": 3, "path": "translation"})));
+    channels.push(target(json!({"node": 0, "path": "weights"})));
+    channels.push(target(json!({"node": 0, "path": "visibility"})));
+    channels.push(target(json!({"path": "translation"})));
+    let first = "/nodes/3/translation".to_owned();
+    let note = |count, first: &str| {
+        let first = first.to_owned();
+        vec![Note::StillTargets { count, first }]
+    };
+    assert_eq!(frames(&file), (expected.clone(), note(5, &first)));
+    // What a joint is in moves the body, in whatever scene it is.
+    file["skins"][0]["joints"] = json!([1, 4]);
+    let (moved, notes) = frames(&file);
+    assert_ne!(moved, expected);
+    assert_eq!(notes, note(3, "/nodes/0/weights"));
+}
+
+#[test]
+fn the_weights_of_a_mesh_are_those_of_its_nodes_without_their_own() {
+    let folder = Folder::new();
+    // Three nodes of one mesh, which a target moves up: the second has its own weights, an animation gives the third its own.
+    let mut bytes: Vec<u8> = Vec::new();
+    for number in [
+        0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, // positions
+        0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, // deltas
+        0.0, 1.0, // times
+        2.0, 4.0, // weights of the mesh
+        8.0, 16.0_f32, // those of the third node
+    ] {
+        bytes.extend(number.to_le_bytes());
+    }
+    let accessor = |offset: u32, count: u32, shape: &str| json!({"bufferView": 0, "byteOffset": offset, "componentType": 5126, "count": count, "type": shape});
+    let pointer = |sampler: u32, pointer: &str| json!({"sampler": sampler, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}}});
+    let mut file = json!({
+        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"mesh": 0}, {"mesh": 0, "weights": [0.5]}, {"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]}]}],
+        // The third node goes before its mesh, wherever it stands.
+        "animations": [{
+            "channels": [{"sampler": 1, "target": {"node": 2, "path": "weights"}}, pointer(0, "/meshes/0/weights")],
+            "samplers": [{"input": 2, "output": 3}, {"input": 2, "output": 4}]
+        }],
+        "accessors": [accessor(0, 3, "VEC3"), accessor(36, 3, "VEC3"), accessor(72, 2, "SCALAR"), accessor(80, 2, "SCALAR"), accessor(88, 2, "SCALAR")],
+        "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
+        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+    });
+    let heights = |file: &Value| {
+        folder.write("m.gltf", file.to_string());
+        let bodies = open_all(&folder.argument("m.gltf"), &OpenOptions::default()).unwrap();
+        let ends = |mut body: Body| {
+            let notes = body.notes().len();
+            let frames = all_frames(&mut body).unwrap();
+            let height = |frame: &Vec<[f64; 3]>| frame[0][2];
+            (height(&frames[0]), height(&frames[frames.len() - 1]), notes)
+        };
+        bodies.into_iter().map(ends).collect::<Vec<_>>()
+    };
+    let expected = [(2.0, 4.0, 0), (0.5, 0.5, 0), (8.0, 16.0, 0)];
+    assert_eq!(heights(&file), expected);
+    // Twice the same is wrong; where every node has its own, or there is no such mesh, nothing moves.
+    let channels = &mut file["animations"][0]["channels"];
+    channels[0] = pointer(0, "/meshes/7/weights");
+    let expected = [(2.0, 4.0, 1), (0.5, 0.5, 0), (2.0, 4.0, 0)];
+    assert_eq!(heights(&file), expected);
+    file["animations"][0]["channels"][0] = pointer(0, "/meshes/0/weights");
+    folder.write("m.gltf", file.to_string());
+    let error = open_all(&folder.argument("m.gltf"), &OpenOptions::default()).unwrap_err();
+    let error = error.to_string();
+    assert!(error.contains("the weights of mesh 0 more than"), "{error}");
 }
 
 #[test]

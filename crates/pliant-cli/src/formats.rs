@@ -20,8 +20,8 @@ Read
   .ply            a frame. Text or binary; vertex x y z, face vertex_indices, else tristrips. As many bits as declared
   .stl            a frame. Text or binary. Corners that are equal to the bit along edges are one vertex
   .npz            all frames. vertices (T, n, 3) or (n, 3), faces (m, 3)
-  .glb, .gltf     the default scene, each node with a mesh a body: nodes, skins, morph targets, sparse and quantised accessors, one
-                  animation (--clip, --fps; KHR_animation_pointer too). Not meshopt, Draco, instancing: export without
+  .glb, .gltf     the default scene, each node with a mesh a body: nodes, skins, morph targets, sparse and quantised accessors,
+                  meshopt, one animation (--clip, --fps; KHR_animation_pointer too). Not Draco, instancing: export without
   mesh+.pc2, .mdd the mesh of one file (its first frame), moved by a cache of positions: 'shirt.obj+walk.pc2'
   'name_*.obj'    files in natural order are frames of one body. They have the same faces
 

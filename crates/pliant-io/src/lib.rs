@@ -44,8 +44,8 @@
 //! | ending | one file is | precision |
 //! |---|---|---|
 //! | `.obj` | one frame: `v`, and the `v` indices of `f` | f64, the nearest to what is written |
-//! | `.ply` | one frame: ASCII, binary of either byte order | as declared: `float` f32, `double` f64 |
-//! | `.stl` | one frame: text or binary, told apart by the length | f32 |
+//! | `.ply` | one frame: ASCII, binary of either byte order; polygons, or else `tristrips` | as declared: `float` f32, `double` f64 |
+//! | `.stl` | one frame: text or binary, told apart by the length; what follows the triangles is passed over | f32 |
 //! | `.npz` | all frames: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3) | as the array: float32, float64 |
 //! | `.pc2`, `.mdd` | positions of all frames, for a mesh of one frame in any other format | f32 |
 //! | `.glb`, `.gltf` | bodies, and animations of which [`OpenOptions::clip`] is evaluated at [`OpenOptions::fps`] | f32 |
@@ -65,8 +65,9 @@
 //!   1/fps, 2/fps, ... and the clip's end; without animations one, of the file as it rests. Bytes
 //!   are read from the file, from files beside it and from data URIs. `KHR_mesh_quantization` is evaluated, and
 //!   `KHR_animation_pointer` where it moves nodes or morph targets; what an animation moves that is no part of a body, as
-//!   materials or other scenes, is noted. Meshopt and Draco
-//!   files, and what else a file requires and would change shapes, are refused.
+//!   materials or other scenes, is noted. Views that meshoptimizer compressed are decoded, by
+//!   either of its extensions, where nothing stands in for them. Draco files, and what else a file requires and would
+//!   change shapes, are refused.
 //! - **The frames of a body agree**: same faces, same number of vertices, no later frame of a
 //!   higher precision than the first.
 //! - **Files are not trusted.** Every coordinate is finite and at most `f32::MAX` in magnitude,

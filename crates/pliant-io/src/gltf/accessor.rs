@@ -386,15 +386,14 @@ impl Reader {
         }
         // Bytes that are there may be those of a hole, which takes no place on any disk, as large as it likes.
         account.check(rows.count.saturating_mul(rows.held))?;
-        let begin = view.byte_offset.saturating_add(rows.offset);
         let mut bytes = Vec::new();
         let mut done = 0;
         let mut values = [0.0; 16];
         while done < rows.count {
             let now = ROWS.min(rows.count - done);
             bytes.resize(((now - 1) * stride + row) as usize, 0);
-            let from = begin.saturating_add(done * stride);
-            buffers.read(document, view.buffer, from, &mut bytes, account)?;
+            let from = rows.offset.saturating_add(done * stride);
+            buffers.read_view(document, rows.view, from, &mut bytes, account)?;
             for bytes in bytes.chunks(stride as usize) {
                 let numbers = bytes.chunks_exact(size);
                 for (value, bytes) in values.iter_mut().zip(numbers.take(rows.width)) {

@@ -1,18 +1,22 @@
-//! Where the bytes of a glTF file are: behind its JSON (GLB), in files beside it, or in the JSON itself.
+//! Where the bytes of a glTF file are: behind its JSON (GLB), in files beside it, or in the JSON itself; and those of views, which may
+//! be compressed.
 //!
 //! Bytes in files stay there and are read where an accessor asks; those in the JSON are decoded once. No other place is ever
-//! looked at: no network, no folder above, and none where a link leads.
+//! looked at: no network, no folder above, and none where a link leads. A view that is compressed is decoded once, and only where its
+//! buffer has no bytes: those are the same ones.
 
+use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::document::{Document, memory};
+use super::document::{Compressed, Document, memory};
+use super::meshopt;
 use crate::error::{Fault, Place, Reason};
 use crate::file::{Found, Opened};
-use crate::memory::Account;
+use crate::memory::{Account, bytes_of};
 use crate::text::quoted;
 
 /// An open file and what buffers it has.
@@ -22,6 +26,8 @@ pub(super) struct Buffers {
     /// Behind the JSON: where it begins, and its length.
     behind: Option<(u64, u64)>,
     opened: Vec<Option<Bytes>>,
+    /// Of each view that was compressed, what it is; entered.
+    decoded: BTreeMap<usize, Vec<u8>>,
 }
 
 /// The bytes of a buffer.
@@ -35,6 +41,9 @@ const GLB: &[u8; 4] = b"glTF";
 /// The mark, version and length of a GLB file; the length and kind of a chunk.
 const HEAD: u64 = 12;
 const CHUNK: u64 = 8;
+
+/// Compressed bytes that are read at a time.
+const AT_A_TIME: u64 = 1 << 16;
 
 /// Opens a file and reads its JSON, if it and what is in it may be held.
 pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Buffers), Fault> {
@@ -63,6 +72,7 @@ pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Bu
         folder,
         behind,
         opened,
+        decoded: BTreeMap::new(),
     };
     Ok((document, buffers))
 }
@@ -114,6 +124,90 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
 }
 
 impl Buffers {
+    /// Fills `bytes` with those of a view from `offset` on.
+    pub(super) fn read_view(
+        &mut self,
+        document: &Document,
+        number: usize,
+        offset: u64,
+        bytes: &mut [u8],
+        account: &mut Account,
+    ) -> Result<(), Fault> {
+        let Some(view) = document.buffer_views.get(number) else {
+            return Err(Reason::Malformed(format!("there is no buffer view {number}")).into());
+        };
+        let has_bytes = |buffer: usize| {
+            let has_uri = document
+                .buffers
+                .get(buffer)
+                .is_some_and(|it| it.uri.is_some());
+            has_uri || (buffer == 0 && self.behind.is_some())
+        };
+        let Some(compressed) = view.compressed().filter(|_| !has_bytes(view.buffer)) else {
+            let offset = view.byte_offset.saturating_add(offset);
+            return self.read(document, view.buffer, offset, bytes, account);
+        };
+        if !self.decoded.contains_key(&number) {
+            let at = |fault: Fault| fault.or_at(Place::Part("buffer view", number));
+            let decoded = self.decode(document, view.byte_length, compressed, account);
+            self.decoded.insert(number, decoded.map_err(at)?);
+        }
+        let decoded = self.decoded.get(&number).map_or(&[][..], |all| all);
+        let there = decoded
+            .get(offset as usize..)
+            .and_then(|rest| rest.get(..bytes.len()));
+        let there = there.ok_or_else(|| {
+            let has = decoded.len();
+            Reason::Truncated(format!(
+                "byte {offset} and more are asked for, it has {has}"
+            ))
+        })?;
+        bytes.copy_from_slice(there);
+        Ok(())
+    }
+
+    /// The bytes of a view of so many that is compressed.
+    fn decode(
+        &mut self,
+        document: &Document,
+        length: u64,
+        compressed: &Compressed,
+        account: &mut Account,
+    ) -> Result<Vec<u8>, Fault> {
+        let (count, width) = (compressed.count, compressed.byte_stride);
+        if count.checked_mul(width) != Some(length) {
+            let reason =
+                format!("its compression has {count} rows of {width} bytes, it has {length} bytes");
+            return Err(Reason::Malformed(reason).into());
+        }
+        // What is announced may not be there.
+        let mut stream = Vec::new();
+        while (stream.len() as u64) < compressed.byte_length {
+            let done = stream.len();
+            let now = (compressed.byte_length - done as u64).min(AT_A_TIME);
+            account.enter(now)?;
+            stream.resize(done + now as usize, 0);
+            let from = compressed.byte_offset.saturating_add(done as u64);
+            self.read(
+                document,
+                compressed.buffer,
+                from,
+                &mut stream[done..],
+                account,
+            )?;
+        }
+        let decoded = meshopt::decode(&stream, compressed, account)?;
+        account.take_off(bytes_of(&stream));
+        Ok(decoded)
+    }
+
+    /// Takes what was decoded off the account of who is done with reading.
+    pub(super) fn forget_decoded(&mut self, account: &mut Account) {
+        for (_, decoded) in std::mem::take(&mut self.decoded) {
+            account.take_off(bytes_of(&decoded));
+        }
+    }
+
     /// Fills `bytes` with those of a buffer from `offset` on.
     pub(super) fn read(
         &mut self,
@@ -241,7 +335,7 @@ impl Buffers {
         ))
     }
 
-    /// All bytes that there are, of the files opened so far.
+    /// All bytes that there are, of the files opened and the views decoded so far.
     pub(super) fn bytes(&self) -> u64 {
         let of_buffer = |bytes: &Bytes| match bytes {
             Bytes::Behind => 0, // in the file itself
@@ -249,7 +343,9 @@ impl Buffers {
             Bytes::Within(bytes) => bytes.len() as u64,
         };
         let of_buffers = self.opened.iter().flatten().map(of_buffer);
-        of_buffers.fold(self.main.length(), u64::saturating_add)
+        let of_views = self.decoded.values().map(|decoded| bytes_of(decoded));
+        let all = of_buffers.chain(of_views);
+        all.fold(self.main.length(), u64::saturating_add)
     }
 
     /// Refuses files that are not as they were found.

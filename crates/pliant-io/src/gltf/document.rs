@@ -212,6 +212,42 @@ pub(super) struct View {
     pub(super) byte_offset: u64,
     pub(super) byte_length: u64,
     pub(super) byte_stride: Option<u64>,
+    #[serde(default)]
+    extensions: ViewExtensions,
+}
+
+#[derive(Deserialize, Debug, Default)]
+#[serde(default)]
+struct ViewExtensions {
+    #[serde(rename = "EXT_meshopt_compression")]
+    meshopt: Option<Box<Compressed>>,
+    #[serde(rename = "KHR_meshopt_compression")]
+    khr_meshopt: Option<Box<Compressed>>,
+}
+
+/// Where the compressed bytes of a view are, and what they are.
+#[derive(Deserialize, Debug)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Compressed {
+    pub(super) buffer: usize,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
+    pub(super) byte_length: u64,
+    pub(super) byte_stride: u64,
+    pub(super) count: u64,
+    pub(super) mode: String,
+    pub(super) filter: Option<String>,
+}
+
+impl View {
+    /// What else its bytes can be made of, or must where its buffer has none.
+    pub(super) fn compressed(&self) -> Option<&Compressed> {
+        let ViewExtensions {
+            meshopt,
+            khr_meshopt,
+        } = &self.extensions;
+        meshopt.as_deref().or(khr_meshopt.as_deref())
+    }
 }
 
 #[derive(Deserialize, Debug)]
@@ -219,16 +255,6 @@ pub(super) struct View {
 pub(super) struct Buffer {
     pub(super) uri: Option<String>,
     pub(super) byte_length: u64,
-    #[serde(default)]
-    extensions: BTreeMap<String, BufferExtension>,
-}
-
-/// What an extension says of a buffer.
-#[derive(Deserialize, Debug, Default)]
-#[serde(default)]
-struct BufferExtension {
-    /// Its bytes need not be there.
-    fallback: bool,
 }
 
 /// The most bytes that a value of a document takes for each of the marks that stand before values.
@@ -273,9 +299,11 @@ impl Document {
         let unsupported = |why: String| Err(Reason::Unsupported(why));
         for name in &self.extensions_required {
             match &name[..] {
-                "KHR_mesh_quantization" | "KHR_animation_pointer" => {}
-                name if MESHOPT.contains(&name) => return unsupported(compressed("meshopt")),
-                DRACO => return unsupported(compressed("Draco")),
+                "KHR_mesh_quantization"
+                | "KHR_animation_pointer"
+                | "EXT_meshopt_compression"
+                | "KHR_meshopt_compression" => {}
+                DRACO => return unsupported(DRACO_REFUSED.into()),
                 name if is_of_looks(name) => {}
                 name => {
                     return unsupported(format!(
@@ -286,22 +314,22 @@ impl Document {
             }
         }
         // Named, but not required: what stands in for the data, or nothing.
-        let is_fallback = |buffer: &Buffer| {
-            let meshopt = MESHOPT.iter().find_map(|name| buffer.extensions.get(*name));
-            meshopt.is_some_and(|meshopt| meshopt.fallback)
-        };
-        if self.buffers.iter().any(is_fallback) {
-            return unsupported(compressed("meshopt"));
-        }
         let has_no_data = |primitive: &Primitive| {
-            let positions = primitive.attributes.get("POSITION");
-            let positions = positions.and_then(|&positions| self.accessors.get(positions));
-            primitive.extensions.draco.is_some()
-                && positions.is_some_and(|it| it.buffer_view.is_none() && it.sparse.is_none())
+            let attributes = primitive.attributes.iter();
+            let shapes = attributes.filter(|(name, _)| {
+                name.starts_with("POSITION")
+                    || name.starts_with("JOINTS_")
+                    || name.starts_with("WEIGHTS_")
+            });
+            let used = shapes.map(|(_, accessor)| accessor);
+            let used = used.chain(&primitive.indices);
+            // Sparse values replace some of the compressed ones, not of zeros.
+            let mut accessors = used.filter_map(|&accessor| self.accessors.get(accessor));
+            primitive.extensions.draco.is_some() && accessors.any(|it| it.buffer_view.is_none())
         };
         let mut primitives = self.meshes.iter().flat_map(|mesh| &mesh.primitives);
         if primitives.any(has_no_data) {
-            return unsupported(compressed("Draco"));
+            return unsupported(DRACO_REFUSED.into());
         }
         if self
             .extensions_used
@@ -326,11 +354,8 @@ impl Document {
 }
 
 const DRACO: &str = "KHR_draco_mesh_compression";
-const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
-
-fn compressed(by: &str) -> String {
-    format!("is compressed by {by}, which is not evaluated; export it without compression")
-}
+const DRACO_REFUSED: &str =
+    "is compressed by Draco, which is not evaluated; export it without compression";
 
 /// Whether an extension is about how surfaces look, not where they are.
 fn is_of_looks(name: &str) -> bool {

@@ -20,6 +20,7 @@ mod animation;
 mod buffers;
 mod document;
 mod mesh;
+mod meshopt;
 mod scene;
 
 use std::borrow::Cow;
@@ -111,6 +112,7 @@ pub(crate) fn open(
     reader.buffers.unchanged()?;
     let bodies = bodies?;
     reader.account.take_off(parsed);
+    reader.buffers.forget_decoded(&mut reader.account);
     Ok(Bodies {
         bodies,
         held: reader.account.held(),

@@ -370,11 +370,6 @@ fn what_is_wrong_is_said_in_a_line() {
         ),
         (
             "/extensionsRequired",
-            json!(["EXT_meshopt_compression"]),
-            "compressed by meshopt, which is not evaluated; export it without",
-        ),
-        (
-            "/extensionsRequired",
             json!(["KHR_draco_mesh_compression"]),
             "compressed by Draco",
         ),
@@ -884,6 +879,13 @@ fn corners(folder: &Folder, text: String) -> Vec<[f32; 3]> {
     positions.to_vec()
 }
 
+/// How many were welded, and the corners.
+fn corners_of(folder: &Folder, text: String) -> (usize, Vec<[f32; 3]>) {
+    folder.write("t.gltf", &text);
+    let welded = folder.open("t.gltf").unwrap().welded();
+    (welded, corners(folder, text))
+}
+
 /// A triangle of these bytes as positions, and nothing else.
 fn quantised(component: u32, normalized: bool, stride: usize, bytes: &[u8]) -> String {
     json!({
@@ -912,6 +914,56 @@ fn quantised_positions_are_fractions_or_whole_numbers() {
     let expected = [[1.0, 0.0, 0.0], [3.0, 0.0, 0.0], [1.0, 2.0 * 0.2, 0.0]];
     let said = corners(&folder, quantised(5123, true, 8, shorts.as_flattened()));
     assert_eq!(said, expected);
+}
+
+/// Two triangles along an edge, in bytes, with a morph target in shorts: seams are those of the numbers that bytes stand for.
+#[test]
+fn quantised_seams_and_morph_targets() {
+    let folder = Folder::new();
+    let corners: [[i8; 4]; 6] = [
+        [0, 0, 0, 9],
+        [127, 0, 0, 9],
+        [0, 127, 0, 9],
+        [127, 0, 0, 1],
+        [0, 0, 0, 1],
+        [0, -127, 0, 1],
+    ];
+    let file = |delta: i16| {
+        let mut bytes: Vec<u8> = corners
+            .as_flattened()
+            .iter()
+            .map(|x| x.cast_unsigned())
+            .collect();
+        let up = [32767_i16, delta, 0, delta, 32767, -16384];
+        bytes.extend(
+            up.iter()
+                .flat_map(|&z| [0, 0, z, 0])
+                .flat_map(i16::to_le_bytes),
+        );
+        json!({
+            "asset": {"version": "2.0"}, "extensionsRequired": ["KHR_mesh_quantization"],
+            "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [0.5, 0.5, 0.5], "weights": [4]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5120, "normalized": true, "count": 6, "type": "VEC3"},
+                {"bufferView": 1, "componentType": 5122, "normalized": true, "count": 6, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 24, "byteStride": 4}, {"buffer": 0, "byteOffset": 24, "byteLength": 48, "byteStride": 8}],
+            "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+        })
+        .to_string()
+    };
+    let expected = [
+        [0.0, 0.0, 2.0],
+        [0.5, 0.0, 0.0],
+        [0.0, 0.5, 0.0],
+        [0.5, 0.0, 0.0],
+        [0.0, 0.0, 2.0],
+    ];
+    assert_eq!(corners_of(&folder, file(0)).1[..5], expected);
+    assert_eq!(corners_of(&folder, file(0)).0, 2);
+    // Both ends of the edge still go together.
+    assert_eq!(corners_of(&folder, file(1000)).0, 2);
+    let half = corners_of(&folder, file(0)).1[5];
+    assert!((half[2] + 1.0).abs() < 1e-4, "{half:?}");
 }
 
 #[test]
@@ -1089,10 +1141,152 @@ fn what_is_compressed_or_older_is_refused_for_what_it_is() {
         .unwrap()
         .remove("bufferView");
     refused(&without, "compressed by Draco");
-    file["buffers"].as_array_mut().unwrap().push(
-        json!({"byteLength": 100, "extensions": {"EXT_meshopt_compression": {"fallback": true}}}),
+    // Sparse values replace what is compressed, not zeros; indices are compressed too, and what holds vertices.
+    without["accessors"][0]["sparse"] = json!({"count": 1, "indices": {"bufferView": 0, "byteOffset": 36, "componentType": 5121},
+        "values": {"bufferView": 0, "byteOffset": 12}});
+    refused(&without, "compressed by Draco");
+    let mut without = file.clone();
+    without["meshes"][0]["primitives"][0]["indices"] = json!(5);
+    let accessors = without["accessors"].as_array_mut().unwrap();
+    accessors.push(json!({"componentType": 5123, "count": 3, "type": "SCALAR"}));
+    refused(&without, "compressed by Draco");
+    for held in [1, 2] {
+        let mut without = file.clone();
+        let accessor = without["accessors"][held].as_object_mut().unwrap();
+        accessor.remove("bufferView");
+        refused(&without, "compressed by Draco");
+    }
+}
+
+/// Every clip of a file, frame by frame.
+fn clips(path: &str, names: &[&str]) -> Vec<Vec<Vec<Frame>>> {
+    let clip = |name: &&str| {
+        let bodies = open_all(path, &options(Some(name), 8.0)).unwrap();
+        let frames = |mut body: Body| all_frames(&mut body).unwrap();
+        bodies.into_iter().map(frames).collect()
+    };
+    names.iter().map(clip).collect()
+}
+
+#[test]
+fn what_meshopt_compressed_is_what_it_was() {
+    let text = |name: &str| -> Value {
+        serde_json::from_str(&std::fs::read_to_string(fixture(name)).unwrap()).unwrap()
+    };
+    let (plain, compressed) = (text("skin.gltf"), text("skin-meshopt.gltf"));
+    let animations = plain["animations"].as_array().unwrap().iter();
+    let names: Vec<&str> = animations.map(|it| it["name"].as_str().unwrap()).collect();
+    let expected = clips(fixture("skin.gltf").to_str().unwrap(), &names);
+    let ours = clips(fixture("skin-meshopt.gltf").to_str().unwrap(), &names);
+    assert_eq!(ours, expected);
+    assert!(names.len() > 1 && compare(&fixture("skin-meshopt.gltf"), &fixture("skin.json")) > 100);
+
+    // What stands in for the compressed bytes is read where it is there, and they are not.
+    let folder = Folder::new();
+    let mut other = compressed.clone();
+    let first = other["buffers"][0]["byteLength"].as_u64().unwrap();
+    let plain_view = &compressed["bufferViews"].as_array().unwrap()[4];
+    assert_eq!(
+        plain_view["buffer"], 0,
+        "the only one that is not compressed"
     );
-    refused(&file, "compressed by meshopt");
+    other["buffers"][1]["uri"] = plain["buffers"][0]["uri"].clone();
+    for (view, was) in other["bufferViews"]
+        .as_array_mut()
+        .unwrap()
+        .iter_mut()
+        .zip(plain["bufferViews"].as_array().unwrap())
+    {
+        if view["buffer"] == 1 {
+            view["byteOffset"] = was["byteOffset"].clone();
+        } else {
+            *view = json!({"buffer": 1, "byteOffset": was["byteOffset"], "byteLength": was["byteLength"]});
+        }
+    }
+    other["buffers"][0]["uri"] = json!(format!(
+        "data:;base64,{}",
+        STANDARD.encode(vec![7; first as usize])
+    ));
+    other["extensionsRequired"] = json!([]);
+    folder.write("other.gltf", other.to_string());
+    assert_eq!(clips(&folder.argument("other.gltf"), &names), expected);
+}
+
+#[test]
+fn what_is_wrong_with_compressed_views_is_said() {
+    let folder = Folder::new();
+    let whole: Value =
+        serde_json::from_str(&std::fs::read_to_string(fixture("skin-meshopt.gltf")).unwrap())
+            .unwrap();
+    let said = |file: &Value| {
+        folder.write("t.gltf", file.to_string());
+        let error = open_all(&folder.argument("t.gltf"), &OpenOptions::default()).unwrap_err();
+        error.to_string()
+    };
+    // The second view, of positions: 14 rows of 12 bytes.
+    let view = "/bufferViews/1/extensions/KHR_meshopt_compression";
+    for (at, value, words) in [
+        (
+            "/count",
+            json!(13),
+            "buffer view 1: its compression has 13 rows of 12 bytes, it has 168 bytes",
+        ),
+        (
+            "/count",
+            json!(u64::MAX),
+            "buffer view 1: its compression has",
+        ),
+        ("/byteStride", json!(0), "rows of 0 bytes, it has 168 bytes"),
+        (
+            "/byteLength",
+            json!(106),
+            "buffer view 1: its compressed bytes are",
+        ),
+        ("/byteLength", json!(1_u64 << 40), "buffer 0"),
+        ("/byteOffset", json!(u64::MAX), "buffer 0"),
+        (
+            "/byteOffset",
+            json!(3),
+            "buffer view 1: its compressed bytes do not begin as the mode says",
+        ),
+        (
+            "/buffer",
+            json!(1),
+            "has neither a URI nor bytes behind the JSON",
+        ),
+        ("/buffer", json!(9), "there is no such buffer"),
+        (
+            "/mode",
+            json!("POINTS"),
+            "a mode that the format does not have",
+        ),
+        (
+            "/filter",
+            json!("QUATERNION"),
+            "a width that its filter cannot have",
+        ),
+        (
+            "/filter",
+            json!("COLOR"),
+            "with a filter that is not evaluated; export it without compression",
+        ),
+    ] {
+        let mut file = whole.clone();
+        file.pointer_mut(view).unwrap()[&at[1..]] = value;
+        let said = said(&file);
+        assert!(
+            said.contains(words) && said.lines().count() == 1,
+            "{words}: {said}"
+        );
+    }
+    // Rows as many as nobody may hold are refused before any is made.
+    let mut file = whole.clone();
+    let rows = 1_u64 << 40;
+    file["bufferViews"][1]["byteLength"] = json!(rows * 12);
+    file["buffers"][1]["byteLength"] = json!(rows * 12);
+    file.pointer_mut(view).unwrap()["count"] = json!(rows);
+    let refused = said(&file);
+    assert!(refused.contains("of memory"), "{refused}");
 }
 
 /// Chunks of GLB files begin at multiples of four; those of some programs do not.

@@ -13,8 +13,8 @@
 //! stream is refused, or gives numbers that are looked at as those of any view. What is decoded is entered before it is made, and grows
 //! with the stream.
 //!
-//! Source: the specifications of both extensions, appendices A and B. There are crates; those that were looked at have no second way of
-//! attributes and are not kept, or are young and have unsafe code.
+//! Source: the specifications of both extensions, appendices A and B. Which way differing bits are rotated is as meshoptimizer's own
+//! decoders have it. Two crates were looked at, meshopt-rs 0.1 and meshoptimizer-rs 0.2: both have unsafe code.
 
 use super::document::Compressed;
 use crate::error::Reason;

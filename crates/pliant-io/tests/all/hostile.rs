@@ -226,9 +226,10 @@ fn valid_cache(pc2: bool) -> Vec<u8> {
 }
 
 /// Files of this crate's tests: of every kind of clip and mesh, as text and as GLB.
-const GLTF: [&[u8]; 5] = [
+const GLTF: [&[u8]; 6] = [
     include_bytes!("../fixtures/hierarchy.gltf"),
     include_bytes!("../fixtures/skin.gltf"),
+    include_bytes!("../fixtures/skin-meshopt.gltf"),
     include_bytes!("../fixtures/skin-and-morph.gltf"),
     include_bytes!("../fixtures/kinds.glb"),
     include_bytes!("../fixtures/morph.gltf"),

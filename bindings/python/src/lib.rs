@@ -6,6 +6,7 @@
 //! | `copies.rs` | copies of them, to which nobody else can write: what is checked is what is kept |
 //! | `state.rs` | a world whose precision the first body fixes |
 //! | `world.rs`, `query.rs` | `World`, `Selection` and `Query`, as Python sees them |
+//! | `pickled.rs` | a world as pickle writes it down |
 //! | `signals.rs` | Ctrl-C while a query computes |
 //! | `options.rs` | its keyword arguments |
 //! | `one_liners.rs` | questions that need no world to be made, and `pliant.reference` |
@@ -24,6 +25,7 @@ mod copies;
 mod error;
 mod one_liners;
 mod options;
+mod pickled;
 mod query;
 mod signals;
 mod state;

@@ -3,15 +3,16 @@
 use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedFaces};
 use crate::error::{Refused, alone, alone_with, named_tuple};
 use crate::options::Keywords;
+use crate::pickled::{self, Written};
 use crate::query::{Query, Selection};
 use crate::state::State;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pliant::{BodyId, ErrorKind};
-use pliant_check::{AnyWorld, with_world};
+use pliant_check::with_world;
 use pliant_io::Precision;
 use pyo3::exceptions::PyOverflowError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 use std::sync::Mutex;
 
 /// Bodies that change their shape, and the questions which of their triangles intersect.
@@ -61,7 +62,7 @@ impl<'py> FromPyObject<'_, 'py> for Body {
 }
 
 /// Positions on their way to numpy.
-enum Owned {
+pub(crate) enum Owned {
     F32(Vec<[f32; 3]>),
     F64(Vec<[f64; 3]>),
 }
@@ -79,7 +80,7 @@ impl From<Vec<[f64; 3]>> for Owned {
 }
 
 impl Owned {
-    fn into_array(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+    pub(crate) fn into_array(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         Ok(match self {
             Self::F32(rows) => arrays::rows_of(py, rows)?.into_any(),
             Self::F64(rows) => arrays::rows_of(py, rows)?.into_any(),
@@ -140,6 +141,39 @@ impl World {
     /// As copy: a world holds nothing that it could share.
     fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyAny>) -> Result<Self, Refused> {
         self.__copy__(py)
+    }
+
+    /// For pickle, which then needs nothing of copyreg: what makes a world with these options, and what it is to become.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
+        let py = slf.py();
+        let this = slf.get();
+        let options = this.keywords.to_dict(py)?;
+        let partial = py.import("functools")?.getattr("partial")?;
+        let make = partial.call((slf.get_type(),), Some(&options))?;
+        let state = this.with(py, |state| pickled::Copied::of(state))?;
+        PyTuple::new(
+            py,
+            [
+                make,
+                PyTuple::empty(py).into_any(),
+                state.into_dict(py)?.into_any(),
+            ],
+        )
+    }
+
+    /// What pickle wrote down becomes of a world that never had a body. Bodies keep their numbers, and those that were used are not
+    /// used again. Trees are built on the shapes of then.
+    fn __setstate__(&self, py: Python<'_>, written: Written<'_>) -> Result<(), Refused> {
+        let mut restored = State::new(self.keywords.to_options()?);
+        written.restore(py, &mut restored)?;
+        self.with(py, |state| {
+            if state.precision().is_some() {
+                let message = "this world has had bodies; what pickle wrote down becomes a new one";
+                return Err(Refused::new("BadOption", message));
+            }
+            *state = restored;
+            Ok(())
+        })
     }
 
     /// The options of this world, as the keyword arguments that make another like it.
@@ -319,17 +353,7 @@ impl World {
         py: Python<'_>,
         body: Body,
     ) -> Result<Option<([f64; 3], [f64; 3])>, Refused> {
-        self.with(py, |state| {
-            Ok(match &state.world {
-                AnyWorld::F32(world) => {
-                    let wide = |corner: [f32; 3]| corner.map(f64::from);
-                    world
-                        .loose_box(body.0)?
-                        .map(|(lo, hi)| (wide(lo), wide(hi)))
-                }
-                AnyWorld::F64(world) => world.loose_box(body.0)?,
-            })
-        })
+        self.with(py, |state| Ok(pickled::loose_box(&state.world, body.0)?))
     }
 
     /// How many triangles a body has.

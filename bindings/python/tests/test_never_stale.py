@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import pickle
 from itertools import combinations
 from typing import Any
 
@@ -110,11 +111,15 @@ class World(RuleBasedStateMachine):
             self.world.ignore(a, b)
             self.ignored.add((min(a, b), max(a, b)))
 
-    @rule(deep=st.booleans())
-    def copy(self, deep: bool) -> None:
+    @rule(how=st.sampled_from(["copy", "deepcopy", *range(pickle.HIGHEST_PROTOCOL + 1)]))
+    def copy(self, how: str | int) -> None:
         """The world goes on as its copy; what becomes of the one is nothing to the other."""
         before = self.world
-        self.world = copy.deepcopy(before) if deep else copy.copy(before)
+        if isinstance(how, int):
+            self.world = pickle.loads(pickle.dumps(before, how))
+        else:
+            self.world = copy.deepcopy(before) if how == "deepcopy" else copy.copy(before)
+        assert self.world.dtype == before.dtype
         assert self.world.options() == before.options()
         for body in before.bodies():
             before.remove(body)

@@ -250,3 +250,59 @@ def test_loose_boxes_can_be_read() -> None:
     assert world.loose_box(body) == ([-1, 0, 0], [2, 2, 2.5])
     world.set_loose_box(body, None)
     assert world.loose_box(body) is None
+
+
+def test_a_world_can_be_pickled() -> None:
+    world = pliant.World(degree=4, level=2, threads=2)
+    for step in range(4):
+        world.add([[0, 1, 2]], (np.eye(3) + 0.1 * step).astype(np.float32))
+    world.add([[0, 1, 2]], np.eye(3, dtype=np.float32))
+    world.set_loose_box(1, ((-1, 0, 0), (2, 2, 0.1 + 1)))
+    world.set_filter(2, 1, 6)
+    world.ignore(1, 1)
+    world.ignore(3, 1)
+    world.remove(0)
+    world.remove(4)
+    for protocol in range(pickle.HIGHEST_PROTOCOL + 1):
+        again = pickle.loads(pickle.dumps(world, protocol))
+        assert again.options() == world.options() and again.dtype == world.dtype
+        assert again.bodies() == world.bodies() == [1, 2, 3]
+        for body in world.bodies():
+            np.testing.assert_array_equal(again.positions(body), world.positions(body))
+            np.testing.assert_array_equal(again.triangles(body), world.triangles(body))
+            assert again.filter(body) == world.filter(body)
+            assert again.loose_box(body) == world.loose_box(body)
+        assert again.ignored() == world.ignored() == [(1, 1), (1, 3)]
+        assert again.add([[0, 1, 2]], np.eye(3, dtype=np.float32)) == 5
+    # One whose type is fixed though its bodies are gone, and one that never had any.
+    for body in world.bodies():
+        world.remove(body)
+    again = pickle.loads(pickle.dumps(world))
+    assert again.dtype == np.float32 and again.add([[0, 1, 2]], np.eye(3, dtype=np.float32)) == 5
+    never = pickle.loads(pickle.dumps(pliant.World(broad="tree")))
+    assert never.dtype is None and never.options()["broad"] == "tree" and never.add([[0, 1, 2]], np.eye(3)) == 0
+
+
+def test_what_pickle_did_not_write_is_refused() -> None:
+    world = pliant.World()
+    world.add([[0, 1, 2]], np.eye(3))
+    world.add([[0, 1, 2]], np.eye(3))
+    written: dict[str, Any] = world.__reduce__()[2]
+    with pytest.raises(pliant.Error, match="this world has had bodies"):
+        world.__setstate__(written)
+    mistakes: list[dict[str, Any]] = [
+        {"dtype": "int8"},
+        {"dtype": "float32"},
+        {"bodies": written["bodies"][::-1]},
+        {"bodies": [written["bodies"][0] | {"faces": [[0, 1, 3]]}]},
+        {"bodies": [written["bodies"][0] | {"loose_box": ((0, 0, 0), (0, 0, 0))}]},
+        {"ignored": [(0, 2)]},
+    ]
+    for mistake in mistakes:
+        fresh = pliant.World()
+        with pytest.raises(pliant.Error):
+            fresh.__setstate__(written | mistake)
+        assert fresh.bodies() == [] and fresh.dtype is None
+    for missing in written:
+        with pytest.raises((KeyError, TypeError)):
+            pliant.World().__setstate__({name: fact for name, fact in written.items() if name != missing})

@@ -36,6 +36,14 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
         self.next_id.map(BodyId).ok_or(ErrorKind::TooManyBodies)
     }
 
+    /// No body added from now on has an id below this one; with none, no other can be added. Ids never go back.
+    pub(super) fn skip_ids(&mut self, next: Option<u32>) {
+        self.next_id = match (self.next_id, next) {
+            (Some(now), Some(next)) => Some(now.max(next)),
+            _ => None,
+        };
+    }
+
     /// The same bodies once more.
     pub(super) fn copy(&self) -> Self {
         Self {
@@ -166,5 +174,17 @@ mod tests {
         bodies.push(Body::new(last, &[[0, 1, 2]], &corners, &Options::default()));
         assert_eq!(bodies.next_id(), Err(ErrorKind::TooManyBodies));
         assert_eq!(bodies.get(last).unwrap().triangle_count(), 1);
+    }
+
+    #[test]
+    fn numbers_of_bodies_can_be_skipped_and_never_go_back() {
+        let mut bodies = Bodies::<8, f32>::default();
+        for (next, expected) in [(7, 7), (3, 7), (8, 8)] {
+            bodies.skip_ids(Some(next));
+            assert_eq!(bodies.next_id(), Ok(BodyId(expected)));
+        }
+        bodies.skip_ids(None);
+        bodies.skip_ids(Some(9));
+        assert_eq!(bodies.next_id(), Err(ErrorKind::TooManyBodies));
     }
 }

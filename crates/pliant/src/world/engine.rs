@@ -30,6 +30,8 @@ pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
     fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error>;
     fn remove(&mut self, id: BodyId) -> Result<(), Error>;
     fn ids(&self) -> &[BodyId];
+    fn next_id(&self) -> Option<u32>;
+    fn skip_ids(&mut self, next: Option<u32>);
     fn set_positions(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error>;
     fn write_positions(
         &mut self,
@@ -178,6 +180,14 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
 
     fn ids(&self) -> &[BodyId] {
         &self.common.bodies.ids
+    }
+
+    fn next_id(&self) -> Option<u32> {
+        self.common.bodies.next_id().ok().map(|id| id.0)
+    }
+
+    fn skip_ids(&mut self, next: Option<u32>) {
+        self.common.bodies.skip_ids(next);
     }
 
     fn set_positions(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {

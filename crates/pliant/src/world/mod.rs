@@ -116,6 +116,18 @@ impl<S: Scalar> World<S> {
         self.engine.use_instructions(instructions);
     }
 
+    /// The id of the next body, for whoever writes a world down; none if there are no more.
+    #[doc(hidden)]
+    pub fn next_id(&self) -> Option<u32> {
+        self.engine.next_id()
+    }
+
+    /// Uses no id below this one any more, or none at all, for whoever reads a world that was written down. Ids never go back.
+    #[doc(hidden)]
+    pub fn skip_ids(&mut self, next: Option<u32>) {
+        self.engine.skip_ids(next);
+    }
+
     /// The options of this world.
     pub fn options(&self) -> &Options {
         self.engine.options()

@@ -1,0 +1,158 @@
+//! A world as Python's pickle writes it down, and what is read back: bodies with their numbers, in their shapes of now, filters, ignored
+//! pairs and loose boxes. Options are arguments of what makes the new world.
+//!
+//! Trees are not written: they are built anew, on the shapes of now, which changes no answer. What is read is checked as if it was
+//! given to a world by calls, which it is.
+
+use crate::arrays::{CopiedCoordinates, CopiedFaces, rows_of};
+use crate::error::{Refused, caught};
+use crate::state::State;
+use crate::world::Owned;
+use pliant::{BodyId, Error};
+use pliant_check::{AnyWorld, with_world};
+use pliant_io::Precision;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+type Corners = ([f64; 3], [f64; 3]);
+
+/// A body, copied from a world without the interpreter lock.
+struct Body {
+    id: u32,
+    triangles: Vec<[u32; 3]>,
+    positions: Owned,
+    filter: (u32, u32),
+    loose: Option<Corners>,
+}
+
+/// All of a world but its options.
+pub(crate) struct Copied {
+    precision: Option<Precision>,
+    next: Option<u32>,
+    bodies: Vec<Body>,
+    ignored: Vec<[BodyId; 2]>,
+}
+
+/// A world that was written down.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Written<'py> {
+    dtype: Option<String>,
+    next: Option<u32>,
+    bodies: Vec<WrittenBody<'py>>,
+    ignored: Vec<(u32, u32)>,
+}
+
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+struct WrittenBody<'py> {
+    body: u32,
+    faces: Bound<'py, PyAny>,
+    positions: Bound<'py, PyAny>,
+    filter: (u32, u32),
+    loose_box: Option<Corners>,
+}
+
+impl Copied {
+    pub(crate) fn of(state: &State) -> Result<Self, Refused> {
+        let bodies = with_world!(&state.world, world => {
+            let bodies = world.bodies().map(|id| {
+                Ok(Body {
+                    id: id.0,
+                    triangles: world.triangles(id)?.to_vec(),
+                    positions: Owned::from(world.positions(id)?),
+                    filter: world.filter(id)?,
+                    loose: loose_box(&state.world, id)?,
+                })
+            });
+            bodies.collect::<Result<_, Error>>()?
+        });
+        Ok(Self {
+            precision: state.precision(),
+            next: with_world!(&state.world, world => world.next_id()),
+            bodies,
+            ignored: with_world!(&state.world, world => world.ignored()),
+        })
+    }
+
+    /// As pickle takes it.
+    pub(crate) fn into_dict(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        let bodies = PyList::empty(py);
+        for body in self.bodies {
+            let dict = PyDict::new(py);
+            dict.set_item("body", body.id)?;
+            dict.set_item("faces", rows_of(py, body.triangles)?)?;
+            dict.set_item("positions", body.positions.into_array(py)?)?;
+            dict.set_item("filter", body.filter)?;
+            dict.set_item("loose_box", body.loose)?;
+            bodies.append(dict)?;
+        }
+        let dtype = self.precision.map(|precision| match precision {
+            Precision::F32 => "float32",
+            Precision::F64 => "float64",
+        });
+        let ignored: Vec<_> = self.ignored.iter().map(|[a, b]| (a.0, b.0)).collect();
+        let dict = PyDict::new(py);
+        dict.set_item("dtype", dtype)?;
+        dict.set_item("next", self.next)?;
+        dict.set_item("bodies", bodies)?;
+        dict.set_item("ignored", ignored)?;
+        Ok(dict)
+    }
+}
+
+impl Written<'_> {
+    /// Makes this of a world that has had no body. If anything is refused, what it is then is of no use.
+    pub(crate) fn restore(&self, py: Python<'_>, state: &mut State) -> Result<(), Refused> {
+        match self.dtype.as_deref() {
+            None => {}
+            Some("float32") => state.fix_precision(Precision::F32),
+            Some("float64") => state.fix_precision(Precision::F64),
+            Some(other) => return Err(bad(format!("{other:?} is no type of a world's"))),
+        }
+        for written in &self.bodies {
+            let positions = CopiedCoordinates::of(&written.positions)?;
+            let positions = positions.get()?;
+            let faces = CopiedFaces::of(&written.faces, positions.len())?;
+            let faces = faces.get()?;
+            let (state, number) = (&mut *state, written.body);
+            let body = py.detach(|| {
+                with_world!(&mut state.world, world => world.skip_ids(Some(number)));
+                caught(|| state.add(faces, positions))
+            })?;
+            if body.0 != number {
+                let what = format!("body {number} does not come after those before it");
+                return Err(bad(what));
+            }
+            let (membership, mask) = written.filter;
+            with_world!(&mut state.world, world => world.set_filter(body, membership, mask)?);
+            state.set_loose_box(body, written.loose_box)?;
+        }
+        with_world!(&mut state.world, world => {
+            for &(a, b) in &self.ignored {
+                world.ignore(BodyId(a), BodyId(b))?;
+            }
+            world.skip_ids(self.next);
+        });
+        Ok(())
+    }
+}
+
+/// The box that holds a body in every pose, widened.
+pub(crate) fn loose_box(world: &AnyWorld, body: BodyId) -> Result<Option<Corners>, Error> {
+    Ok(match world {
+        AnyWorld::F32(world) => {
+            let wide = |corner: [f32; 3]| corner.map(f64::from);
+            let corners = world.loose_box(body)?;
+            corners.map(|(lo, hi)| (wide(lo), wide(hi)))
+        }
+        AnyWorld::F64(world) => world.loose_box(body)?,
+    })
+}
+
+fn bad(what: impl std::fmt::Display) -> Refused {
+    Refused::new(
+        "BadOption",
+        format!("not a world that pickle wrote down: {what}"),
+    )
+}

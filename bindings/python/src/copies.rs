@@ -32,6 +32,12 @@ impl<T> Default for Room<T> {
 }
 
 impl<T: Element> Room<T> {
+    /// How many bytes it is.
+    pub(crate) fn held(&self, py: Python<'_>) -> usize {
+        let room = self.0.as_ref();
+        room.map_or(0, |room| room.bind(py).len() * size_of::<T>())
+    }
+
     /// Copies an (n, 3) array here, over the copy before. What is of another type is converted: the caller knows that this
     /// changes no number.
     pub(crate) fn copy<'py, U: Element>(

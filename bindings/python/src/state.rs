@@ -6,6 +6,7 @@ use crate::error::Refused;
 use pliant::{BodyId, Error, ErrorKind, Options};
 use pliant_check::{AnyWorld, NotTaken, double, single, with_world};
 use pliant_io::{Positions, Precision};
+use pyo3::Python;
 
 /// A world, and whether its precision is fixed.
 pub(crate) struct State {
@@ -39,6 +40,11 @@ impl State {
             precision_is_fixed: self.precision_is_fixed,
             ..Self::new(self.options)
         }
+    }
+
+    /// Bytes of scratch beside the world. Takes the interpreter lock, which the caller has.
+    pub(crate) fn room(&self, py: Python<'_>) -> usize {
+        self.widened.capacity() * size_of::<[f64; 3]>() + self.narrow.held(py) + self.wide.held(py)
     }
 
     /// The precision, once it is fixed.

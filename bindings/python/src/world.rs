@@ -483,6 +483,15 @@ impl World {
         Ok(named_tuple(py, "Statistics", fields)?)
     }
 
+    /// How many bytes of memory this world holds: bodies, trees, boxes, and the lists that queries keep for the next ones, with all
+    /// that they have room for; and the room into which set_positions copies. Arrays that were handed out are not counted.
+    fn memory_usage(&self, py: Python<'_>) -> Result<usize, Refused> {
+        let room = alone(&self.state)?.room(py);
+        self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.memory_usage()) + room)
+        })
+    }
+
     /// Checks every invariant of every tree, and raises pliant.Error if one does not hold. For tests and bug reports; no
     /// sequence of calls should ever make it fail.
     fn validate(&self, py: Python<'_>) -> Result<(), Refused> {

@@ -306,3 +306,16 @@ def test_what_pickle_did_not_write_is_refused() -> None:
     for missing in written:
         with pytest.raises((KeyError, TypeError)):
             pliant.World().__setstate__({name: fact for name, fact in written.items() if name != missing})
+
+
+def test_a_world_says_how_much_it_holds() -> None:
+    faces, positions = grid(60)
+    world = pliant.World()
+    empty = world.memory_usage()
+    body = world.add(faces, positions)
+    added = world.memory_usage()
+    assert 60 * len(faces) < added - empty < 200 * len(faces)
+    world.set_positions(body, positions)
+    assert world.memory_usage() - added >= 2 * positions.nbytes  # the copy of Python's, and that of the world
+    world.remove(body)
+    assert world.memory_usage() < empty + 2 * positions.nbytes

@@ -93,6 +93,7 @@
 mod broad_phase;
 mod error;
 mod geometry;
+mod held;
 mod hits;
 mod ids;
 mod kernels;

@@ -9,6 +9,7 @@
 //! for each thread to merge (Shi and Schaeffer 1992, parallel sorting by regular sampling). Items of equal keys are equal: the result
 //! does not depend on the number of threads.
 
+use crate::held::{self, Held};
 use crate::hits::Hit;
 use crate::threads::Executor;
 
@@ -234,6 +235,12 @@ fn distribute(from: &[u64], to: &mut [u64], low: u32, width: u32) {
         let place = &mut places[digit(key)];
         to[*place as usize] = key;
         *place += 1;
+    }
+}
+
+impl Held for Keys {
+    fn held(&self) -> usize {
+        held::list(&self.keys) + held::list(&self.spare)
     }
 }
 

@@ -8,33 +8,45 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folder, or file of the crate's root, and what it may use.
-const LAYERS: [(&str, &[&str]); 19] = [
+const LAYERS: [(&str, &[&str]); 20] = [
+    ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
     ("statistics", &[]),
     ("threads", &[]),
     ("error", &["ids"]),
     ("hits", &["ids"]),
-    ("geometry", &["ids"]),
-    ("kernels", &["ids", "geometry"]),
-    ("mesh", &["ids", "error", "threads"]),
+    ("geometry", &["held", "ids"]),
+    ("kernels", &["held", "ids", "geometry"]),
+    ("mesh", &["held", "ids", "error", "threads"]),
     ("predicates", &["geometry"]),
-    ("sort", &["hits", "threads"]),
+    ("sort", &["held", "hits", "threads"]),
     (
         "broad_phase",
-        &["ids", "options", "geometry", "kernels", "threads"],
+        &["held", "ids", "options", "geometry", "kernels", "threads"],
     ),
     (
         "tree",
-        &["ids", "options", "geometry", "kernels", "mesh", "threads"],
+        &[
+            "held", "ids", "options", "geometry", "kernels", "mesh", "threads",
+        ],
     ),
     (
         "update",
-        &["ids", "options", "statistics", "kernels", "threads", "tree"],
+        &[
+            "held",
+            "ids",
+            "options",
+            "statistics",
+            "kernels",
+            "threads",
+            "tree",
+        ],
     ),
     (
         "queries",
         &[
+            "held",
             "ids",
             "hits",
             "statistics",
@@ -49,6 +61,7 @@ const LAYERS: [(&str, &[&str]); 19] = [
     (
         "traversal",
         &[
+            "held",
             "ids",
             "statistics",
             "kernels",
@@ -62,6 +75,7 @@ const LAYERS: [(&str, &[&str]); 19] = [
     (
         "world",
         &[
+            "held",
             "ids",
             "options",
             "statistics",

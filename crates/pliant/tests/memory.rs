@@ -9,10 +9,21 @@ mod common;
 use common::TrianglesOf;
 use pliant::{BroadPhase, Options, Scalar, Selection, World};
 use pliant_scenes::{Asks, Scene};
+use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
 /// Bytes a triangle that the default options may take, at f32.
 const MOST: f64 = 200.0;
+
+/// What a world says that it holds is what an allocator gave out for it: within a hundredth, and a little that does not grow.
+fn is_said_rightly<S: Scalar>(world: &World<S>, given_out: i64) {
+    let (said, given_out) = (world.memory_usage() as f64, given_out as f64);
+    println!("says {said} bytes, {given_out} were given out");
+    assert!(
+        (said - given_out).abs() < 0.01 * given_out + 10_000.0,
+        "it says {said} bytes; {given_out} were given out"
+    );
+}
 
 /// Bytes a triangle that are live after several steps with every call and every query there is.
 fn bytes_a_triangle<S: Scalar>(scene: &Scene, convert: fn(f32) -> S) -> f64 {
@@ -76,6 +87,7 @@ fn bytes_a_triangle<S: Scalar>(scene: &Scene, convert: fn(f32) -> S) -> f64 {
         .map(|body| scene.triangles(body).len())
         .sum();
     let floor = std::mem::size_of::<S>() * 3 / 2 + 12;
+    is_said_rightly(&world, used.bytes_current);
     let bytes = used.bytes_current as f64 / triangles as f64;
     assert!(
         bytes > floor as f64,
@@ -162,6 +174,54 @@ fn the_first_pair_of_many_bodies_in_one_place_comes_at_once() {
 /// Bytes that a body of one triangle may take: met by nobody, and after all bodies met themselves.
 const MOST_OF_A_SMALL_BODY: [i64; 2] = [1_400, 3_100];
 
+/// With every way to look for bodies that may meet, and with threads: what they keep is counted too.
+#[test]
+fn a_world_says_how_much_it_holds() {
+    for (broad_phase, threads) in [
+        (BroadPhase::BruteForce, 1),
+        (BroadPhase::SweepAndPrune, 2),
+        (BroadPhase::Tree, 3),
+    ] {
+        let mut options = Options::default();
+        options.broad_phase = broad_phase;
+        options.threads = NonZeroUsize::new(threads).unwrap();
+        // Threads are not counted.
+        let mut world = World::<f64>::with_options(options);
+        let corners = |body: u32| {
+            [
+                [0.0; 3],
+                [1.0, 1.0, 0.25],
+                [1.0 + f64::from(body), 0.0, 1.0],
+            ]
+        };
+        let used = allocation_counter::measure(|| {
+            for body in 0..500 {
+                world.add(&[[0, 1, 2]], &corners(body)).unwrap();
+            }
+            world.intersections(Selection::World).all().unwrap();
+            for body in 0..200 {
+                let ids: Vec<_> = world.bodies().collect();
+                world.ignore(ids[body], ids[2 * body]).unwrap();
+                let pair = Selection::Between(ids[body], ids[body + 1]);
+                world.intersections(pair).first().unwrap();
+            }
+        });
+        if threads == 1 {
+            is_said_rightly(&world, used.bytes_current);
+        }
+        let (before, copy) = (world.memory_usage(), world.clone());
+        assert!(
+            copy.memory_usage() < before,
+            "nothing was asked of the copy yet"
+        );
+        let ids: Vec<_> = world.bodies().collect();
+        for &id in &ids[10..] {
+            world.remove(id).unwrap();
+        }
+        assert!(world.memory_usage() < before);
+    }
+}
+
 #[test]
 fn a_body_that_meets_nobody_takes_little() {
     const COUNT: u32 = 10_000;
@@ -186,6 +246,7 @@ fn a_body_that_meets_nobody_takes_little() {
         steps(&mut world, Selection::World);
     });
     let met = allocation_counter::measure(|| steps(&mut world, Selection::Everything));
+    is_said_rightly(&world, apart.bytes_current + met.bytes_current);
     let taken = [apart.bytes_current, apart.bytes_current + met.bytes_current];
     let of_one = taken.map(|bytes| bytes / i64::from(COUNT));
     println!(

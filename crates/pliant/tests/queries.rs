@@ -305,6 +305,11 @@ fn a_pool_that_is_lent_gives_the_same_answers_from_inside_and_outside() {
             world.add(alone.triangles(body).unwrap(), &first).unwrap();
         }
         assert!(answers(&mut world, &bodies) == expected, "{threads}");
+        // A copy shares the pool too.
+        let lent = Arc::strong_count(&pool);
+        let mut copy = world.clone();
+        assert_eq!(Arc::strong_count(&pool) > lent, threads > 1, "{threads}");
+        assert!(answers(&mut copy, &bodies) == expected, "{threads}, copied");
         for &body in &bodies {
             let positions = alone.positions(body).unwrap();
             world.set_positions(body, &positions).unwrap();

@@ -11,6 +11,7 @@
 
 use super::Overlap;
 use crate::geometry::{Aabb, Bounds};
+use crate::held::{self, Held};
 use crate::ids::Rank;
 use crate::kernels::{BoxLanes, Instructions, dispatch};
 
@@ -173,4 +174,14 @@ fn cut_in_halves(bodies: &mut [Rank], child: usize, centres: &[[f32; 3]]) {
     let (low, high) = bodies.split_at_mut(half);
     cut_in_halves(low, child, centres);
     cut_in_halves(high, child, centres);
+}
+
+impl Held for BodyTree {
+    fn held(&self) -> usize {
+        held::list(&self.order)
+            + held::list(&self.levels)
+            + self.levels.iter().map(held::list).sum::<usize>()
+            + held::list(&self.open)
+            + held::list(&self.centres)
+    }
 }

@@ -9,6 +9,7 @@ mod brute_force;
 mod sweep_and_prune;
 
 use crate::geometry::Aabb;
+use crate::held::Held;
 use crate::ids::Rank;
 use crate::kernels::Instructions;
 use crate::threads::Interrupt;
@@ -110,6 +111,12 @@ impl BroadPhase {
     /// The body of a rank goes, and those after it are one rank higher.
     pub(crate) fn remove(&mut self, rank: Rank) {
         self.sweep.remove(rank);
+    }
+}
+
+impl Held for BroadPhase {
+    fn held(&self) -> usize {
+        self.sweep.held() + self.tree.held()
     }
 }
 

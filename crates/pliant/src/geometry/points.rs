@@ -1,6 +1,7 @@
 //! Points side by side in memory, laid out so that one is read as four numbers at once.
 
 use super::{Bounds, Real};
+use crate::held::{self, Held};
 use crate::ids::TreeVertex;
 
 /// Points in a row that have bounds of their own.
@@ -54,5 +55,11 @@ impl<S> Points<S> {
     #[inline(always)]
     pub(crate) fn padded(&self, vertex: TreeVertex) -> &[S; 4] {
         &self.points[vertex.index()]
+    }
+}
+
+impl<S> Held for Points<S> {
+    fn held(&self) -> usize {
+        held::list(&self.points) + held::list(&self.bounds)
     }
 }

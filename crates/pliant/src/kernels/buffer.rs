@@ -3,6 +3,8 @@
 //! How many bits a mask has cannot be predicted, and a wrong guess costs as much as ten items. So items are written four at a
 //! time whether there are so many or not, none included, and the length is then set by the number of bits.
 
+use crate::held::{self, Held};
+
 /// A list with room for the items of one more mask behind its end.
 #[derive(Debug)]
 pub(crate) struct Buffer<T> {
@@ -155,6 +157,12 @@ impl<T: Copy> Room<'_, T> {
             rest &= rest.wrapping_sub(1);
         }
         *self.len += place;
+    }
+}
+
+impl<T> Held for Buffer<T> {
+    fn held(&self) -> usize {
+        held::list(&self.items)
     }
 }
 

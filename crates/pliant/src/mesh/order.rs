@@ -6,6 +6,7 @@
 //! with the others and are in no box.
 
 use super::Topology;
+use crate::held::{self, Held};
 use crate::ids::{CallerTriangle, CallerVertex, TreeTriangle, TreeVertex};
 
 /// A mesh in tree order.
@@ -94,6 +95,12 @@ impl Order {
     #[inline]
     pub(crate) fn share_a_vertex(&self, a: TreeTriangle, b: TreeTriangle) -> bool {
         super::share_a_vertex(self.corners(a), self.corners(b))
+    }
+}
+
+impl Held for Order {
+    fn held(&self) -> usize {
+        held::list(&self.corners) + held::list(&self.triangles) + held::list(&self.vertices)
     }
 }
 

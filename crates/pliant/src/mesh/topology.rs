@@ -1,6 +1,7 @@
 //! What the caller said: triangles by their corners, in the caller's numbers; and what follows from that alone.
 
 use crate::ErrorKind;
+use crate::held::{self, Held};
 use crate::ids::{CallerTriangle, CallerVertex};
 
 /// With more triangles than this, numbers of nodes would not fit 32 bits.
@@ -77,6 +78,12 @@ pub(crate) fn share_a_vertex<V: Copy + PartialEq>(a: [V; 3], b: [V; 3]) -> bool 
         }
     }
     shared
+}
+
+impl Held for Topology {
+    fn held(&self) -> usize {
+        held::list(&self.triangles)
+    }
 }
 
 #[cfg(test)]

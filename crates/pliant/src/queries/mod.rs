@@ -9,6 +9,7 @@ pub(crate) mod grown;
 mod intersections;
 
 use crate::geometry::{Aabb, Shape};
+use crate::held::Held;
 use crate::hits::Hit;
 use crate::ids::BodyId;
 use crate::ids::TreeTriangle;
@@ -33,7 +34,7 @@ pub(crate) trait Kind: Sync {
     /// What it finds, in tree order.
     type TreeHit: Copy + Default + std::fmt::Debug + Send + Sync;
     /// What a task keeps for the tests of leaves, from query to query.
-    type Buffers: Default + std::fmt::Debug + Send;
+    type Buffers: Default + std::fmt::Debug + Held + Send;
     /// What its boxes are made of.
     type Source<'s>: BoxSource<Scalar = Self::Scalar>;
 

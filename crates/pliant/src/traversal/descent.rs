@@ -4,6 +4,7 @@ use super::context::{Budget, Context};
 use super::expand::NodePair;
 use super::task::{Task, are_free, left_out};
 use super::tree_pair::TreePair;
+use crate::held::{self, Held};
 use crate::ids::{NodeId, WideNodeId};
 use crate::kernels::Buffer;
 use crate::queries::Kind;
@@ -401,4 +402,14 @@ fn show_hits<K: Kind>(
         }
     }
     ControlFlow::Continue(())
+}
+
+impl<K: Kind> Held for Scratch<K> {
+    fn held(&self) -> usize {
+        self.wide_nodes.iter().map(held::list).sum::<usize>()
+            + self.reached.held()
+            + held::lists(&self.tasks)
+            + self.reserve.held()
+            + held::list(&self.distributed)
+    }
 }

@@ -1,6 +1,7 @@
 //! What a pair of nodes becomes: pairs of their children that overlap, or a pair of leaves.
 
 use super::tree_pair::{Side, TreePair};
+use crate::held::{self, Held};
 use crate::ids::{LeafId, NodeId};
 use crate::kernels::{Buffer, Simd, overlap_mask};
 use crate::tree::{Child, Neighbours, STRICT_UPPER};
@@ -165,6 +166,12 @@ fn columns_of(mask: u64) -> u8 {
     mask.to_le_bytes()
         .into_iter()
         .fold(0, |columns, row| columns | row)
+}
+
+impl Held for Worklists {
+    fn held(&self) -> usize {
+        self.nodes.held() + self.leaves.held() + held::within(&self.reached)
+    }
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@
 use super::context::Context;
 use super::expand::LeafPair;
 use super::tree_pair::TreePair;
+use crate::held::{self, Held};
 use crate::ids::BlockId;
 use crate::kernels::{Buffer, QuantizedRows, Simd, dispatch, overlap_mask};
 use crate::mesh::Order;
@@ -416,5 +417,17 @@ fn overlapping<I: Simd>(
         room.push_bits(overlaps, |bit| {
             [first_a.plus(bit / 8), first_b.plus(bit % 8)]
         });
+    }
+}
+
+impl<K: Kind> Held for LeafTests<K> {
+    fn held(&self) -> usize {
+        held::list(&self.blocks)
+            + self.compared.held()
+            + held::list(&self.crowded)
+            + self.candidates.held()
+            + self.buffers.held()
+            + self.hits.held()
+            + held::list(&self.of_caller)
     }
 }

@@ -6,6 +6,7 @@ use super::context::Context;
 use super::expand::{NodePair, Worklists, expand};
 use super::leaf_pairs::{Cursor, LeafTests};
 use super::tree_pair::{Side, TreePair};
+use crate::held::{self, Held};
 use crate::kernels::dispatch;
 use crate::queries::Kind;
 use crate::tree::{BoxSource, Child, Neighbours};
@@ -220,5 +221,15 @@ impl<K: Kind> Task<K> {
     pub(super) fn forget_leaves(&mut self) {
         self.found.clear_leaves();
         self.cursor = Cursor::default();
+    }
+}
+
+impl<K: Kind> Held for Task<K> {
+    fn held(&self) -> usize {
+        held::list(&self.batch)
+            + held::within(&self.stale)
+            + self.found.held()
+            + held::within(&self.reached)
+            + self.tests.held()
     }
 }

@@ -3,6 +3,7 @@
 //! With one triangle a leaf, as in the paper, the leaf's box is the triangle's, and nothing else is kept. With more, each leaf
 //! owns as many *blocks* of up to eight triangles as it needs: triangles whose boxes lie side by side (`BoxSet`).
 
+use crate::held::{self, Held};
 use crate::ids::{BlockId, LeafId, TreeTriangle};
 use std::ops::Range;
 
@@ -135,5 +136,11 @@ impl FirstsOfBlocks<'_> {
     #[inline(always)]
     pub(crate) fn of(self, block: BlockId) -> TreeTriangle {
         self.0[block.index()]
+    }
+}
+
+impl Held for Leaves {
+    fn held(&self) -> usize {
+        held::list(&self.runs) + held::list(&self.first_triangles)
     }
 }

@@ -22,6 +22,7 @@ mod validate;
 mod vertex_sets;
 mod wide_node;
 
+use crate::held::{self, Held};
 use crate::ids::{NodeId, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::Executor;
@@ -185,5 +186,16 @@ impl<'t, const N: usize> Nodes<'t, N> {
     pub(crate) fn child(self, node: NodeId) -> Child {
         let (wide_node, lane) = node.wide_node_and_lane::<N>();
         self.wide(wide_node).child(lane)
+    }
+}
+
+impl<const N: usize> Held for Tree<N> {
+    fn held(&self) -> usize {
+        let neighbours = self.neighbours.as_deref();
+        held::list(&self.wide_nodes)
+            + held::list(&self.level_starts)
+            + self.vertices.held()
+            + self.leaves.held()
+            + neighbours.map_or(0, |it| size_of::<Neighbours>() + it.held())
     }
 }

@@ -15,6 +15,7 @@
 use super::fans::Fans;
 use super::lanes_at_vertices::LanesAtVertices;
 use super::{BLOCK_LANES, Leaves, WideNode};
+use crate::held::{self, Held};
 use crate::ids::{BlockId, LeafId, TreeTriangle, WideNodeId};
 use crate::kernels::{Simd, find_lane};
 use crate::mesh::Order;
@@ -321,6 +322,18 @@ fn lists_of_wide_nodes<const N: usize>(
     }
     lists.finish();
     lists
+}
+
+impl Held for LaneLists {
+    fn held(&self) -> usize {
+        held::list(&self.starts) + held::list(&self.others) + held::list(&self.masks)
+    }
+}
+
+impl Held for Neighbours {
+    fn held(&self) -> usize {
+        self.of_blocks.held() + self.of_wide_nodes.held() + self.fans.held()
+    }
 }
 
 #[cfg(test)]

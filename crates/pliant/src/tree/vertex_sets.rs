@@ -11,6 +11,7 @@
 //! Paper, 3.3: "we update the node's AABB by traversing the shared vertices of the faces in the node".
 
 use super::build::Plan;
+use crate::held::{self, Held};
 use crate::ids::TreeVertex;
 use crate::kernels::extent::TWELVE;
 use crate::mesh::Order;
@@ -128,5 +129,11 @@ impl VertexSets {
         let (run, border) = self.run_and_border(node);
         run.map(|vertex| TreeVertex(vertex as u32))
             .chain(border.iter().copied())
+    }
+}
+
+impl Held for VertexSets {
+    fn held(&self) -> usize {
+        held::list(&self.sets) + held::list(&self.border)
     }
 }

@@ -1,5 +1,7 @@
 //! What a traversal has reached and is to be refitted: wide nodes, or leaves, each once however often it was reached.
 
+use crate::held::{self, Held};
+
 /// A set of numbers that are near each other: a bit for each.
 #[derive(Debug)]
 pub(crate) struct DirtySet {
@@ -119,6 +121,12 @@ impl DirtySet {
                 number
             })
         })
+    }
+}
+
+impl Held for DirtySet {
+    fn held(&self) -> usize {
+        held::list(&self.bits)
     }
 }
 

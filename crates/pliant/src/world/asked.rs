@@ -8,6 +8,7 @@ use super::query::Request;
 use super::scheduler::{Scheduler, is_worth_it};
 use super::step::Step;
 use crate::error::{Error, ErrorKind};
+use crate::held::{self, Held};
 use crate::hits::Hit;
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
@@ -268,5 +269,11 @@ impl<const N: usize, S: Coordinate> Common<N, S> {
     pub(super) fn note_movement(&mut self) {
         self.origin.note_movement();
         self.body_pairs.forget();
+    }
+}
+
+impl<K: Kind> Held for Asked<K> {
+    fn held(&self) -> usize {
+        self.scratch.held() + self.scheduler.held() + held::list(&self.hits) + self.keys.held()
     }
 }

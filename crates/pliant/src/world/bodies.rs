@@ -3,6 +3,7 @@
 use super::body::Body;
 use super::{BodyId, Selection};
 use crate::error::{Error, ErrorKind};
+use crate::held::{self, Held};
 use crate::ids::{Place, Rank};
 use crate::kernels::Coordinate;
 use std::collections::BTreeSet;
@@ -155,6 +156,15 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
                 Ok(())
             }
         }
+    }
+}
+
+impl<const N: usize, S> Held for Bodies<N, S> {
+    fn held(&self) -> usize {
+        held::lists(&self.list)
+            + held::list(&self.ids)
+            + held::list(&self.places)
+            + held::entries::<(BodyId, BodyId)>(self.ignored.len())
     }
 }
 

@@ -4,6 +4,7 @@ use super::BodyId;
 use super::positions::{Positions, SMALL};
 use crate::error::ErrorKind;
 use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape, denormals_are_kept};
+use crate::held::{self, Held};
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{self, Order, Topology};
@@ -380,4 +381,16 @@ fn first_outside<S: Real>(
         .position(|position| !is_good(position))
         .unwrap_or_default();
     error(vertex, positions[vertex].map(S::to_f64))
+}
+
+impl<const N: usize, S> Held for Body<N, S> {
+    fn held(&self) -> usize {
+        let boxes = self.boxes.iter().flatten();
+        self.topology.held()
+            + self.order.held()
+            + self.tree.held()
+            + held::list(&self.boxes)
+            + held::within(boxes)
+            + self.positions.held()
+    }
 }

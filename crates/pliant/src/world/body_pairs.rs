@@ -8,6 +8,7 @@ use super::bodies::Bodies;
 use crate::broad_phase::{BroadPhase, Overlap};
 use crate::error::Error;
 use crate::geometry::{Aabb, Origin};
+use crate::held::{self, Held};
 use crate::ids::{Place, Rank};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options;
@@ -212,5 +213,16 @@ impl BodyPairs {
             let loose = body.loose_box(origin);
             loose.map_or(exact, |loose| kind.body_box(loose))
         }));
+    }
+}
+
+impl Held for BodyPairs {
+    fn held(&self) -> usize {
+        held::list(&self.exact)
+            + held::list(&self.broad)
+            + held::list(&self.row)
+            + held::list(&self.of_world)
+            + held::list(&self.named)
+            + self.broad_phase.held()
     }
 }

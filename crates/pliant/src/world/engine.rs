@@ -14,6 +14,7 @@ use super::{BodyId, NodeBox, Selection, TreeShape};
 use crate::Pair;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Bounds;
+use crate::held::{self, Held};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
 use crate::queries::{Candidate, Intersections};
@@ -55,6 +56,7 @@ pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
     fn tree_boxes(&self, id: BodyId, level: u32) -> Result<Vec<NodeBox<S>>, Error>;
     fn vertex_order(&self, id: BodyId) -> Result<&[u32], Error>;
     fn statistics(&self) -> &Statistics;
+    fn memory_usage(&self) -> usize;
     fn validate(&self) -> Result<(), String>;
 }
 
@@ -307,6 +309,18 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
 
     fn statistics(&self) -> &Statistics {
         &self.common.statistics
+    }
+
+    fn memory_usage(&self) -> usize {
+        let Common {
+            bodies, body_pairs, ..
+        } = &self.common;
+        size_of::<Self>()
+            + bodies.held()
+            + body_pairs.held()
+            + self.intersections.held()
+            + self.witnesses.held()
+            + held::list(&self.lent)
     }
 
     fn validate(&self) -> Result<(), String> {

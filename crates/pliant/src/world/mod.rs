@@ -320,6 +320,21 @@ impl<S: Scalar> World<S> {
         self.engine.statistics()
     }
 
+    /// How many bytes of memory this world holds: bodies, trees, boxes, and the lists that queries keep for the next ones, with all
+    /// that they have room for. Threads, and what a query that is under way takes besides, are not counted.
+    ///
+    /// ```
+    /// let mut world = pliant::World::<f32>::new();
+    /// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// let with_it = world.memory_usage();
+    /// world.remove(body)?;
+    /// assert!(world.memory_usage() < with_it);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn memory_usage(&self) -> usize {
+        self.engine.memory_usage()
+    }
+
     /// The triangles of a body as they were added.
     ///
     /// # Errors

@@ -8,6 +8,7 @@
 //! So a new shape is [staged](Positions::stage) first, which changes nothing that can be seen, and then [committed](Positions::commit).
 
 use crate::geometry::{Bounds, IN_A_ROW, Points};
+use crate::held::{self, Held};
 use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions, check, copy_checked, gather};
 use crate::threads::Executor;
@@ -227,5 +228,11 @@ fn gather_all<S: Coordinate>(
             return;
         }
         gather(instructions, from, order, points, bounds);
+    }
+}
+
+impl<S> Held for Positions<S> {
+    fn held(&self) -> usize {
+        held::list(&self.callers) + held::list(&self.spare) + self.trees.held()
     }
 }

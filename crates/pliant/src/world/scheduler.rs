@@ -9,6 +9,7 @@ use super::bodies::Bodies;
 use super::body::Body;
 use super::body_pairs::BodyPair;
 use super::step::Step;
+use crate::held::{self, Held};
 use crate::ids::Place;
 use crate::kernels::Coordinate;
 use crate::queries::Kind;
@@ -234,5 +235,22 @@ impl<K: Kind> Scheduler<K> {
             &self.workers[*worker].hits[hits]
         };
         self.found.iter().map(hits_of)
+    }
+}
+
+impl<K: Kind> Held for Scheduler<K> {
+    fn held(&self) -> usize {
+        held::lists(&self.workers)
+            + held::list(&self.large)
+            + held::list(&self.small)
+            + held::list(&self.places)
+            + held::list(&self.jobs)
+            + held::list(&self.found)
+    }
+}
+
+impl<K: Kind> Held for Worker<K> {
+    fn held(&self) -> usize {
+        self.scratch.held() + held::list(&self.hits) + held::list(&self.found)
     }
 }

@@ -8,6 +8,7 @@
 use super::BodyId;
 use super::body::Body;
 use crate::geometry::Bounds;
+use crate::held::{self, Held};
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
 use crate::predicates::{Triangle, intersect};
@@ -131,5 +132,11 @@ impl<'b, const R: usize, const N: usize, S: Coordinate> Run<'b, R, N, S> {
             }
         }
         None
+    }
+}
+
+impl Held for Witnesses {
+    fn held(&self) -> usize {
+        held::entries::<([BodyId; 2], Candidate)>(self.answers.len())
     }
 }

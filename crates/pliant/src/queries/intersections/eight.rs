@@ -12,6 +12,7 @@
 
 use super::{Candidate, LeafTest};
 use crate::geometry::Shape;
+use crate::held::Held;
 use crate::ids::TreeVertex;
 use crate::kernels::{Buffer, Coordinate, Corners, Simd, dispatch, signs};
 use crate::predicates::intersect;
@@ -206,4 +207,10 @@ fn by_lines<I: Simd, S: Coordinate>(
     });
     let decided = signs.both_negative | signs.one_positive;
     keep(&candidates, !decided & lanes, uncertain);
+}
+
+impl Held for Undecided {
+    fn held(&self) -> usize {
+        self.crossing.held() + self.uncertain.held()
+    }
 }

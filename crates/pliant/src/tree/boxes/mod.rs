@@ -12,6 +12,7 @@ mod source;
 
 use super::{BLOCK_LANES, Tree};
 use crate::geometry::Aabb;
+use crate::held::{self, Held};
 use crate::ids::{BlockId, LeafId, NodeId, WideNodeId};
 use crate::kernels::{BoxLanes, QuantizedLanes};
 #[cfg(test)]
@@ -303,5 +304,15 @@ impl<'b> LeavesMut<'b> {
             },
             later,
         ]
+    }
+}
+
+impl<const N: usize> Held for BoxSet<N> {
+    fn held(&self) -> usize {
+        held::list(&self.nodes)
+            + held::list(&self.node_stamps)
+            + held::list(&self.blocks)
+            + held::list(&self.leaf_stamps)
+            + held::list(&self.quantized.blocks)
     }
 }

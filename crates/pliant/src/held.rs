@@ -1,0 +1,35 @@
+//! How much memory things hold: bytes of the heap, counted from what lists have room for, used or not.
+//!
+//! Maps and sets do not say what they have room for: they are reckoned by their entries.
+
+/// What holds memory.
+pub(crate) trait Held {
+    /// Bytes of the heap, without those of the thing itself.
+    fn held(&self) -> usize;
+}
+
+/// Of a list of things that hold none.
+pub(crate) fn list<T>(list: &Vec<T>) -> usize {
+    list.capacity() * size_of::<T>()
+}
+
+/// Of a list of things that hold some.
+pub(crate) fn lists<T: Held>(things: &Vec<T>) -> usize {
+    list(things) + within(things)
+}
+
+/// Of things, without those of the things themselves.
+pub(crate) fn within<'t, T: Held + 't>(things: impl IntoIterator<Item = &'t T>) -> usize {
+    things.into_iter().map(Held::held).sum()
+}
+
+/// Of so many entries in a tree of them, whose nodes are two thirds full, about.
+pub(crate) fn entries<T>(count: usize) -> usize {
+    count * size_of::<T>() * 3 / 2
+}
+
+impl Held for () {
+    fn held(&self) -> usize {
+        0
+    }
+}

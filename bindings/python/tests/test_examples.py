@@ -49,6 +49,23 @@ def test_human_morph_on_a_sheet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     assert [int(line.split()[1]) for line in said.splitlines()[:3]] == expected
 
 
+def test_cloth_on_ball() -> None:
+    """What the Rust test of the same name checks of the Rust example: the cloth stays on the ball and outside it."""
+    from cloth_on_ball import RADIUS, STEPS_A_SECOND, Simulation
+
+    simulation, met = Simulation(), 0
+    for step in range(4 * STEPS_A_SECOND):
+        met += simulation.step() > 0
+        assert simulation.depth() < 0.02, step
+    assert met > STEPS_A_SECOND
+    assert abs(simulation.height() - RADIUS) < 0.02
+
+
+def test_cloth_on_ball_prints(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    said = run("cloth_on_ball.py", 1, monkeypatch=monkeypatch, capsys=capsys).splitlines()
+    assert len(said) == 4 and said[-1].startswith(" 1.00 s: ")
+
+
 class TestTrimeshManager:
     """The manager beside trimesh's own."""
 

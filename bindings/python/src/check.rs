@@ -4,6 +4,7 @@ use crate::arrays;
 use crate::error::{Fact, Refused, after_checking, alone_with, caught, named_tuple};
 use crate::options::with_threads;
 use crate::signals::interruptible;
+use crate::usd::{self, Raised};
 use numpy::IntoPyArray;
 use pliant_check::{Baseline, Error, Found, Frames, Group, Settings, Split};
 use pliant_io::{OpenOptions, shown};
@@ -28,6 +29,7 @@ pub(crate) struct Check {
     #[pyo3(get)]
     frame_count: usize,
     is_warned: AtomicBool,
+    raised: Raised,
 }
 
 /// A body or a group, as it is named: by its name, or a body by its number.
@@ -70,7 +72,8 @@ impl Name {
 
 /// Checks files as the program `pliant check` does: each path is a body, a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with
 /// its positions ("mesh.obj+walk.pc2", .mdd), or a pattern such as "cloth_*.obj" whose files are its frames; of a glTF file (.glb,
-/// .gltf) each body, or one ("scene.glb#arm"). Returns an iterator of frames, each read and checked when it is asked for.
+/// .gltf) each body, or one ("scene.glb#arm"); of a USD file (.usd, .usda, .usdc, .usdz; pip install 'pliant[usd]') each mesh that is
+/// seen, or those at or below a prim ("walk.usdc#/root/shirt"). Returns an iterator of frames, each read and checked when it is asked for.
 ///
 ///   itself    check each body against itself too; one body alone always is
 ///   first     stop at the first pair of each frame
@@ -153,8 +156,22 @@ pub(crate) fn check(
         fps,
         ..OpenOptions::default()
     };
-    let running =
-        py.detach(|| caught(|| Ok(pliant_check::Check::open(&paths, &reading, &settings)?)))?;
+    let raised = Raised::default();
+    let open = |path: &String| {
+        if usd::is_usd(path) {
+            usd::open(path, &reading, &raised)
+        } else {
+            pliant_io::open_all(path, &reading)
+        }
+    };
+    let running = py.detach(|| {
+        caught(|| {
+            Ok(pliant_check::Check::open_each(
+                &paths, &reading, &settings, open,
+            )?)
+        })
+    });
+    let running = raised.rather(running)?;
     for source in running.sources() {
         for note in source.notes() {
             warn(py, &format!("{}: {note}", shown(source.name())))?;
@@ -165,6 +182,7 @@ pub(crate) fn check(
         frame_count: running.frame_count(),
         is_warned: AtomicBool::new(false),
         running: Mutex::new(running),
+        raised,
     })
 }
 
@@ -178,7 +196,8 @@ impl Check {
         let next = |running: &mut pliant_check::Check| {
             interruptible(|question| running.next_frame_unless(Some(question)))
         };
-        let Some(found) = alone_with(py, &self.running, next)? else {
+        let found = alone_with(py, &self.running, next);
+        let Some(found) = self.raised.rather(found)? else {
             self.warn_of_seams(py)?;
             return Ok(None);
         };

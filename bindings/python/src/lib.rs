@@ -11,6 +11,7 @@
 //! | `options.rs` | its keyword arguments |
 //! | `one_liners.rs` | questions that need no world to be made, and `pliant.reference` |
 //! | `check.rs` | files, frame by frame |
+//! | `usd.rs` | USD files, which Python evaluates |
 //! | `error.rs` | every refusal as a `pliant.Error` |
 //! | `../python/pliant/` | the package: what is easier said in Python (named tuples, the exception), and the types |
 //!
@@ -29,6 +30,7 @@ mod pickled;
 mod query;
 mod signals;
 mod state;
+mod usd;
 mod world;
 
 #[pyo3::pymodule]

@@ -59,9 +59,23 @@ impl Check {
         reading: &OpenOptions,
         settings: &Settings,
     ) -> Result<Self, Error> {
-        let opened = arguments
-            .iter()
-            .map(|argument| pliant_io::open_all(argument, reading));
+        Self::open_each(arguments, reading, settings, |argument| {
+            pliant_io::open_all(argument, reading)
+        })
+    }
+
+    /// As [`open`](Self::open), of what a program opens in its own way.
+    ///
+    /// # Errors
+    ///
+    /// As `open`.
+    pub fn open_each(
+        arguments: &[String],
+        reading: &OpenOptions,
+        settings: &Settings,
+        open: impl FnMut(&String) -> Result<Vec<Source>, pliant_io::Error>,
+    ) -> Result<Self, Error> {
+        let opened = arguments.iter().map(open);
         let opened = opened.collect::<Result<Vec<_>, _>>()?;
         let sources: Vec<Source> = opened.into_iter().flatten().collect();
         if reading.clip.is_some() && sources.iter().all(|source| source.clip().is_none()) {

@@ -309,6 +309,25 @@ impl Body {
         })
     }
 
+    /// One whose frames are evaluated by somebody else.
+    pub(crate) fn begin_evaluated(
+        (argument, name): (Arc<str>, String),
+        found: Found,
+        source: Box<dyn FrameSource>,
+        options: &OpenOptions,
+    ) -> Result<Self, Error> {
+        let asked = Asked {
+            argument,
+            options: Arc::new(options.clone()),
+        };
+        let files = vec![FrameFile {
+            found,
+            format: Format::Evaluated,
+            end: source.frame_count(),
+        }];
+        Self::begin(asked, name, files, source, 0)
+    }
+
     /// The argument as given; where it names a file of several bodies, all of them have it.
     pub fn argument(&self) -> &str {
         &self.argument

@@ -28,6 +28,8 @@ pub(crate) enum Format {
     Gltf,
     Pc2,
     Mdd,
+    /// What a program evaluates by itself; no ending is of it.
+    Evaluated,
 }
 
 /// The frames of one file, in order.
@@ -106,7 +108,7 @@ impl Format {
     pub(crate) fn frame_count(self, file: &Found, options: &OpenOptions) -> Result<usize, Fault> {
         match self {
             Self::Obj | Self::Ply | Self::Stl => Ok(1),
-            Self::Npz | Self::Gltf | Self::Pc2 | Self::Mdd => {
+            Self::Npz | Self::Gltf | Self::Pc2 | Self::Mdd | Self::Evaluated => {
                 Ok(self.open(file, options)?.frame_count())
             }
         }
@@ -131,6 +133,8 @@ impl Format {
             Self::Npz => Ok(Box::new(npz::Npz::open(file)?)),
             Self::Gltf => Ok(Box::new(gltf::open_one(file, options)?)),
             Self::Pc2 | Self::Mdd => Err(cache::alone(file.path()).into()),
+            // Not called: it begins again without being opened.
+            Self::Evaluated => Err(Reason::UnknownFormat { readable: READABLE }.into()),
         }
     }
 }

@@ -6,7 +6,8 @@
 //! [`Body::next_frame`] then hands out one frame after another, [`Body::skip`] passes over some. Only
 //! the frame handed out is in memory: a sequence larger than memory is read with the memory of one
 //! frame. A glTF file holds several bodies: [`open_all`] opens them, `scene.glb#arm` names one. A
-//! cache of positions is named beside its mesh: `shirt.obj+walk.pc2`. [`Writer`] writes.
+//! cache of positions is named beside its mesh: `shirt.obj+walk.pc2`. [`evaluated`] takes a body that a program evaluates by
+//! itself. [`Writer`] writes.
 //!
 //! ```
 //! # let folder = format!("pliant-io-front-page-{}", std::process::id());
@@ -87,6 +88,7 @@
 //! | `format.rs` | which ending is which reader: the one place to add a format |
 //! | `frame.rs`, `positions.rs`, `polygons.rs` | what readers fill, checked: recorded once, then compared |
 //! | `obj.rs`, `ply/`, `stl.rs`, `npz/`, `cache.rs`, `gltf/` | one format each |
+//! | `evaluated.rs` | bodies that a program evaluates by itself |
 //! | `write/` | one format each, and files that appear when they are whole |
 //! | `weld.rs`, `near.rs` | boundary edges that coincide, or nearly |
 //! | `triangulate.rs` | which triangles a polygon is |
@@ -97,6 +99,7 @@ mod arguments;
 mod body;
 mod cache;
 mod error;
+mod evaluated;
 mod file;
 mod format;
 mod frame;
@@ -121,6 +124,7 @@ mod write;
 
 pub use body::{Body, OpenOptions, open, open_all};
 pub use error::{Error, Place, Reason};
+pub use evaluated::{Evaluated, evaluated};
 pub use near::NearSeams;
 pub use note::Note;
 pub use positions::{Positions, Precision};

@@ -183,7 +183,7 @@ impl Writer {
             Ok(Format::Gltf) => Err(unsupported(format!(
                 "glTF can be read but not written; what can: {WRITABLE}"
             ))),
-            Err(_) => Err(unsupported(format!(
+            Err(_) | Ok(Format::Evaluated) => Err(unsupported(format!(
                 "this kind of file cannot be written; what can: {WRITABLE}"
             ))),
         }

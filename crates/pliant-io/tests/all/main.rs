@@ -4,6 +4,7 @@
 mod caches;
 mod changes;
 mod common;
+mod evaluated;
 mod gltf;
 mod hostile;
 mod n_of_m;

@@ -103,14 +103,14 @@ impl Copied {
 
 impl Written<'_> {
     /// Makes this of a world that has had no body. If anything is refused, what it is then is of no use.
-    pub(crate) fn restore(&self, py: Python<'_>, state: &mut State) -> Result<(), Refused> {
+    pub(crate) fn restore(self, py: Python<'_>, state: &mut State) -> Result<(), Refused> {
         match self.dtype.as_deref() {
             None => {}
             Some("float32") => state.fix_precision(Precision::F32),
             Some("float64") => state.fix_precision(Precision::F64),
             Some(other) => return Err(bad(format!("{other:?} is no type of a world's"))),
         }
-        for written in &self.bodies {
+        for written in self.bodies {
             let positions = CopiedCoordinates::of(&written.positions)?;
             let positions = positions.get()?;
             let faces = CopiedFaces::of(&written.faces, positions.len())?;
@@ -129,7 +129,7 @@ impl Written<'_> {
             state.set_loose_box(body, written.loose_box)?;
         }
         with_world!(&mut state.world, world => {
-            for &(a, b) in &self.ignored {
+            for (a, b) in self.ignored {
                 world.ignore(BodyId(a), BodyId(b))?;
             }
             world.skip_ids(self.next);

@@ -45,7 +45,8 @@ pub(crate) fn is_usd(argument: &str) -> bool {
 
 /// A mesh of a stage.
 struct Mesh {
-    mesh: Py<PyAny>,
+    /// Of the class in Python.
+    evaluator: Py<PyAny>,
     frames: usize,
     counts: Vec<u32>,
     corners: Vec<u32>,
@@ -63,7 +64,10 @@ impl Evaluated for Mesh {
 
     fn positions(&mut self, frame: usize, list: &mut Vec<[f64; 3]>) -> Result<(), String> {
         let evaluated = Python::attach(|py| {
-            let positions = self.mesh.bind(py).call_method1("positions", (frame,))?;
+            let positions = self
+                .evaluator
+                .bind(py)
+                .call_method1("positions", (frame,))?;
             let positions = CopiedCoordinates::of(&positions)?;
             match positions.get()? {
                 Positions::F32(rows) => list.extend(rows.iter().map(|row| row.map(f64::from))),
@@ -94,7 +98,7 @@ pub(crate) fn open(
                 frames: mesh.getattr("frame_count")?.extract()?,
                 counts: mesh.getattr("counts")?.extract()?,
                 corners: mesh.getattr("corners")?.extract()?,
-                mesh: mesh.unbind(),
+                evaluator: mesh.unbind(),
                 raised: raised.clone(),
             };
             Ok((name, source))

@@ -129,6 +129,19 @@ def test_check(tmp_path: Path) -> None:
     is_stopped(lambda: next(pliant.check(tmp_path / "many.obj", weld=False, baseline=0)))
 
 
+def test_check_while_files_are_read(tmp_path: Path) -> None:
+    """Frames in which nothing is found for long: Python looks for signals between them."""
+    faces, positions = layers(2000, 0.0)
+    np.savez(tmp_path / "still.npz", vertices=np.tile(positions, (20, 1, 1)) * [1, 1, 2000], faces=faces)
+
+    def again_and_again() -> None:
+        while True:
+            for _ in pliant.check(tmp_path / "still.npz", itself=True):
+                pass
+
+    is_stopped(again_and_again)
+
+
 def test_visit() -> None:
     world = world_of(coplanar(6000), coplanar(6000))
     hits = world.intersections()

@@ -106,7 +106,7 @@ def opened(argument: str) -> tuple[str, list[Mesh]]:
     """The file that an argument names, and its meshes that are seen; or those of them at or below a prim of it, behind a #."""
     file, _, part = argument.rpartition("#") if "#" in argument and not Path(argument).exists() else (argument, "", "")
     try:
-        from pxr import Sdf, Tf, Usd, UsdGeom, UsdSkel
+        from pxr import Sdf, Tf, Usd, UsdGeom, UsdSkel  # type: ignore[import-not-found, import-untyped, unused-ignore]
     except ImportError:
         raise _refused(file, "USD is read by usd-core, which is not installed; pip install 'pliant[usd]'") from None
     stage = _stage(file, Usd, Tf)
@@ -114,7 +114,8 @@ def opened(argument: str) -> tuple[str, list[Mesh]]:
         raise _refused(file, f"there is no prim {part}; prims have paths as /root/shirt")
 
     everything = list(stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)))
-    seen, others = [], []
+    seen: list[Any] = []
+    others: list[Any] = []
     for prim in everything:
         if part and not prim.GetPath().HasPrefix(Sdf.Path(part)):
             continue
@@ -141,12 +142,15 @@ def opened(argument: str) -> tuple[str, list[Mesh]]:
 
     moves = {prim.GetPath(): samples(prim) for prim in seen}
     # All that moves has the same frames, also where one prim alone is asked for: the numbers of frames are those of the stage.
-    of_stage = set().union(*moves.values()) if not part else set().union(*(samples(prim) for prim in everything if prim.IsA(UsdGeom.Mesh)))
+    of_all = moves.values() if not part else (samples(prim) for prim in everything if prim.IsA(UsdGeom.Mesh))
+    of_stage: set[float] = set().union(*of_all)
     times = sorted(time for time in of_stage if first <= time <= last)
     still = [Usd.TimeCode(first if np.isfinite(first) else 0.0)] if of_stage else [Usd.TimeCode.Default()]
     moving = [Usd.TimeCode(time) for time in times] or still
 
-    meshes, flicker, empty = [], [], []
+    meshes: list[tuple[Any, Mesh]] = []
+    flicker: list[Any] = []
+    empty: list[Any] = []
     for prim in seen:
         codes = moving if moves[prim.GetPath()] else moving[:1]
         visible = is_seen(prim, moving)

@@ -6,6 +6,7 @@ import json
 import os
 import struct
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -382,3 +383,10 @@ def test_arrays_have_names() -> None:
     world = pliant.World()
     assert world.add(faces=FACES, positions=FLAT) == 0
     world.set_positions(body=0, positions=FLAT)
+
+
+def test_without_usd_core_it_is_said_how_to_install_it(tmp_path: Path) -> None:
+    (tmp_path / "walk.usd").write_text("")
+    program = "import sys; sys.modules['pxr'] = None\nimport pliant\npliant.check(sys.argv[1])"
+    said = subprocess.run([sys.executable, "-c", program, tmp_path / "walk.usd"], capture_output=True, text=True)
+    assert "pliant.Error" in said.stderr and "pip install 'pliant[usd]'" in said.stderr.splitlines()[-1]

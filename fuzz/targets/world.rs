@@ -48,6 +48,7 @@ enum Call {
     Remove(u8),
     Move(u8, Shape),
     Write(u8, Shape),
+    Mesh(u8, u8, Vec<[u8; 3]>, Shape),
     Rebuild(u8),
     Filter(u8, u8, u8),
     Ignore(u8, u8),
@@ -173,6 +174,20 @@ impl<S: Scalar> Lived<S> {
             .collect()
     }
 
+    /// A mesh with its shape; perhaps without triangles.
+    fn mesh(
+        &self,
+        vertices: u8,
+        triangles: &[[u8; 3]],
+        shape: &Shape,
+    ) -> (Vec<[u32; 3]>, Vec<[S; 3]>) {
+        let count = usize::from(vertices) % VERTICES + 1;
+        let corner = |corner: u8| u32::from(corner) % count as u32;
+        let triangles = triangles.iter().take(TRIANGLES);
+        let triangles = triangles.map(|three| three.map(corner)).collect();
+        (triangles, self.places(shape, count))
+    }
+
     fn all_inside(corners: Option<([S; 3], [S; 3])>, positions: &[[S; 3]]) -> bool {
         corners.is_none_or(|(lo, hi)| {
             positions
@@ -211,14 +226,7 @@ impl<S: Scalar> Lived<S> {
                 if self.known.len() == BODIES {
                     return;
                 }
-                let count = usize::from(vertices) % VERTICES + 1;
-                let corner = |corner: u8| u32::from(corner) % count as u32;
-                let triangles: Vec<_> = triangles
-                    .iter()
-                    .take(TRIANGLES)
-                    .map(|three| three.map(corner))
-                    .collect();
-                let positions = self.places(shape, count);
+                let (triangles, positions) = self.mesh(vertices, triangles, shape);
                 let added = self.world.add(&triangles, &positions);
                 assert_eq!(added.is_ok(), !triangles.is_empty());
                 let Ok(id) = added else { return };
@@ -263,6 +271,19 @@ impl<S: Scalar> Lived<S> {
                 };
                 let positions = self.places(shape, self.known[body].positions.len());
                 self.moved(body, positions, true);
+            }
+            Call::Mesh(number, vertices, ref triangles, ref shape) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let (triangles, positions) = self.mesh(vertices, triangles, shape);
+                let known = &mut self.known[body];
+                let set = self.world.set_mesh(known.id, &triangles, &positions);
+                let is_good = !triangles.is_empty() && Self::all_inside(known.loose, &positions);
+                assert_eq!(set.is_ok(), is_good, "{set:?}");
+                if is_good {
+                    (known.triangles, known.positions) = (triangles, positions);
+                }
             }
             Call::Rebuild(number) => {
                 let Some(body) = self.body(number) else {
@@ -382,6 +403,7 @@ impl<S: Scalar> Lived<S> {
                 for id in strangers.filter(|id| self.known.iter().all(|body| body.id != *id)) {
                     assert!(self.world.set_positions(id, &[]).is_err());
                     assert!(self.world.write_positions(id, |_| {}).is_err());
+                    assert!(self.world.set_mesh(id, &[[0; 3]], &[]).is_err());
                     assert!(self.world.remove(id).is_err());
                     assert!(self.world.rebuild(id).is_err());
                     assert!(self.world.set_filter(id, 1, 1).is_err());

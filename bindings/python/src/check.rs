@@ -5,8 +5,8 @@ use crate::error::{Fact, Refused, after_checking, alone_with, caught, named_tupl
 use crate::options::with_threads;
 use crate::signals::interruptible;
 use crate::usd::{self, Raised};
-use numpy::IntoPyArray;
-use pliant_check::{Baseline, Error, Found, Frames, Group, Settings, Split};
+use numpy::{IntoPyArray, PyArray1};
+use pliant_check::{Baseline, BodyFacts, Error, Found, Frames, Group, Settings, Split};
 use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
@@ -37,6 +37,25 @@ pub(crate) struct Check {
 pub(crate) enum Name {
     Number(usize),
     Path(PathBuf),
+}
+
+/// A body that has another mesh now.
+struct Changed {
+    body: BodyFacts,
+    faces: Option<Vec<u32>>,
+    welded: usize,
+}
+
+impl Changed {
+    fn of(check: &pliant_check::Check, number: u32) -> Option<Self> {
+        let body = check.body(number)?;
+        let source = &check.sources()[body.source];
+        Some(Self {
+            faces: source.faces().map(<[u32]>::to_vec),
+            welded: source.welded(),
+            body,
+        })
+    }
 }
 
 /// Pairs that are left out: those of a frame, or of a file.
@@ -194,13 +213,33 @@ impl Check {
 
     fn __next__<'py>(&self, py: Python<'py>) -> Result<Option<Bound<'py, PyAny>>, Refused> {
         let next = |running: &mut pliant_check::Check| {
-            interruptible(|question| running.next_frame_unless(Some(question)))
+            let found = interruptible(|question| running.next_frame_unless(Some(question)))?;
+            Ok(found.map(|found| {
+                let changed = found.changed.iter();
+                let meshes = changed.filter_map(|&body| Some((body, Changed::of(running, body)?)));
+                let meshes: Vec<_> = meshes.collect();
+                (found, meshes)
+            }))
         };
         let found = alone_with(py, &self.running, next);
         let Some(found) = self.raised.rather(found)? else {
             self.warn_of_seams(py)?;
             return Ok(None);
         };
+        let (found, meshes) = found;
+        let changed = PyDict::new(py);
+        for (
+            number,
+            Changed {
+                body,
+                faces,
+                welded,
+            },
+        ) in meshes
+        {
+            let faces = faces.map(|faces| faces.into_pyarray(py));
+            changed.set_item(number, fact(py, body, faces.as_ref(), welded)?)?;
+        }
         let Found {
             frame,
             count,
@@ -216,6 +255,7 @@ impl Check {
         fields.set_item("complete", complete)?;
         fields.set_item("left_out", left_out)?;
         fields.set_item("degenerate", degenerate)?;
+        fields.set_item("changed", changed)?;
         fields.set_item("pairs", arrays::rows_of(py, pairs)?)?;
         Ok(Some(named_tuple(py, "Frame", &fields)?))
     }
@@ -304,17 +344,29 @@ fn facts<'py>(py: Python<'py>, check: &pliant_check::Check) -> PyResult<Bound<'p
     });
     let faces: Vec<_> = faces.collect();
     let facts = check.bodies().map(|body| {
-        let fields = PyDict::new(py);
-        fields.set_item("name", body.name)?;
-        fields.set_item("vertices", body.vertices)?;
-        fields.set_item("triangles", body.triangles)?;
-        fields.set_item("faces", &faces[body.source])?;
-        fields.set_item("welded", check.sources()[body.source].welded())?;
-        fields.set_item("source", body.source)?;
-        fields.set_item("first_triangle", body.first_triangle)?;
-        named_tuple(py, "Body", &fields)
+        let welded = check.sources()[body.source].welded();
+        let faces = faces[body.source].as_ref();
+        fact(py, body, faces, welded)
     });
     PyTuple::new(py, facts.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// What is known of one.
+fn fact<'py>(
+    py: Python<'py>,
+    body: BodyFacts,
+    faces: Option<&Bound<'py, PyArray1<u32>>>,
+    welded: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let fields = PyDict::new(py);
+    fields.set_item("name", body.name)?;
+    fields.set_item("vertices", body.vertices)?;
+    fields.set_item("triangles", body.triangles)?;
+    fields.set_item("faces", faces)?;
+    fields.set_item("welded", welded)?;
+    fields.set_item("source", body.source)?;
+    fields.set_item("first_triangle", body.first_triangle)?;
+    named_tuple(py, "Body", &fields)
 }
 
 impl From<Error> for Refused {
@@ -331,9 +383,11 @@ impl From<Error> for Refused {
                 .about(format!("{}, frame {frame}", shown(&source_name)))
                 .with("file", Fact::Text(source_name))
                 .with("frame", frame),
-            Error::Missing { source_name, frame } => Self::new("CannotRead", message)
-                .with("file", Fact::Text(source_name))
-                .with("frame", frame),
+            Error::Missing { source_name, frame } | Error::PiecesChanged { source_name, frame } => {
+                Self::new("CannotRead", message)
+                    .with("file", Fact::Text(source_name))
+                    .with("frame", frame)
+            }
             Error::FrameCounts { .. } | Error::AfterError => Self::new("CannotRead", message),
             Error::TooManyPairs { frame, most } | Error::Endless { frame, most } => {
                 Self::new("TooLarge", message)

@@ -76,6 +76,19 @@ impl State {
         Ok(self.world.add(triangles, positions, &mut self.widened)?)
     }
 
+    /// Gives a body another mesh and its shape.
+    pub(crate) fn set_mesh(
+        &mut self,
+        body: BodyId,
+        triangles: &[[u32; 3]],
+        positions: Positions<'_>,
+    ) -> Result<(), Refused> {
+        let taken = self
+            .world
+            .set_mesh(body, triangles, positions, &mut self.widened);
+        taken.map_err(|not_taken| of_body(body, not_taken))
+    }
+
     /// Copies a new shape of a body, as many positions as it has vertices, in the world's type: 32-bit ones are widened on the way.
     /// Takes the interpreter lock, which the caller has.
     pub(crate) fn copy<'py>(

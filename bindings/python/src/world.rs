@@ -220,6 +220,30 @@ impl World {
         })
     }
 
+    /// Gives a body another mesh and its shape, of any size: faces (m, 3) and positions (n, 3), or one mesh object, as add takes them.
+    /// Number, filter, ignored pairs and loose box stay. If the faces are those that the body has, this is set_positions; else a tree
+    /// is built, which costs as much as add.
+    #[pyo3(signature = (body, faces, positions=None))]
+    fn set_mesh(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        faces: &Bound<'_, PyAny>,
+        positions: Option<&Bound<'_, PyAny>>,
+    ) -> Result<(), Refused> {
+        let body = body.0;
+        let of_body = |refused: Refused| refused.of_body(Some(body));
+        let [faces, positions] = match positions {
+            Some(positions) => [faces.clone(), positions.clone()],
+            None => arrays::parts_of_mesh(faces)?,
+        };
+        let positions = CopiedCoordinates::of(&positions).map_err(of_body)?;
+        let positions = positions.get()?;
+        let faces = CopiedFaces::of(&faces, positions.len()).map_err(of_body)?;
+        let faces = faces.get()?;
+        self.with(py, |state| state.set_mesh(body, faces, positions))
+    }
+
     /// Removes a body. Its number will not be used again.
     fn remove(&self, py: Python<'_>, body: Body) -> Result<(), Refused> {
         self.with(

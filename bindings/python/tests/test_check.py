@@ -390,3 +390,20 @@ def test_without_usd_core_it_is_said_how_to_install_it(tmp_path: Path) -> None:
     program = "import sys; sys.modules['pxr'] = None\nimport pliant\npliant.check(sys.argv[1])"
     said = subprocess.run([sys.executable, "-c", program, tmp_path / "walk.usd"], capture_output=True, text=True)
     assert "pliant.Error" in said.stderr and "pip install 'pliant[usd]'" in said.stderr.splitlines()[-1]
+
+
+def test_a_mesh_may_change_from_file_to_file(tmp_path: Path) -> None:
+    flat = "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n"
+    spike = "v 0.5 0.5 -1\nv 0.5 0.5 1\nv 0.6 0.6 1\nv 0 0 9\nf 4 5 6\n"
+    for frame, text in enumerate([flat, flat + spike, flat + spike, flat]):
+        (tmp_path / f"cut_{frame}.obj").write_text(text)
+    pattern = str(tmp_path / "cut_*.obj")
+    check = pliant.check(pattern)
+    assert [body.triangles for body in check.bodies] == [1]
+    frames = list(check)
+    assert [frame.count for frame in frames] == [0, 1, 1, 0]
+    assert [sorted(frame.changed) for frame in frames] == [[], [0], [], [0]]
+    changed = frames[1].changed[0]
+    assert (changed.name, changed.vertices, changed.triangles, changed.faces) == (pattern, 7, 2, None)
+    with pytest.raises(pliant.Error, match="frame 1: has another mesh than before.*split="):
+        list(pliant.check(pattern, split="components"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import pickle
 from itertools import combinations
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -52,6 +53,19 @@ class World(RuleBasedStateMachine):
         self.faces[body], self.shapes[body], self.filters[body] = faces, shape.copy(), (~0, ~0)
         shape[:] = 99  # the world keeps its own copy
 
+    @rule(data=st.data(), triangles=st.integers(1, 12), by_object=st.booleans())
+    @precondition(lambda self: self.shapes)
+    def set_mesh(self, data: st.DataObject, triangles: int, by_object: bool) -> None:
+        body = self.body(data)
+        faces = np.array([[i, i + 2, i + 1] for i in range(triangles)], np.int64)
+        shape = self.shape(triangles + 2, data)
+        if by_object:
+            self.world.set_mesh(body, SimpleNamespace(faces=faces, vertices=shape))
+        else:
+            self.world.set_mesh(body, faces, shape)
+        self.faces[body], self.shapes[body] = faces, shape.copy()
+        shape[:] = 99
+
     @rule(data=st.data(), how=st.sampled_from(["set", "write", "strided"]))
     @precondition(lambda self: self.shapes)
     def move(self, data: st.DataObject, how: str) -> None:
@@ -72,9 +86,13 @@ class World(RuleBasedStateMachine):
         body = self.body(data)
         shape = self.shape(len(self.shapes[body]), data)
         shape[-1, 2] = np.nan
-        for refused in (shape, shape[1:]):
+        for call in (
+            lambda: self.world.set_positions(body, shape),
+            lambda: self.world.set_positions(body, shape[1:]),
+            lambda: self.world.set_mesh(body, [[0, 1, 1]], shape),
+        ):
             try:
-                self.world.set_positions(body, refused)
+                call()
             except pliant.Error as error:
                 assert error.body == body
             else:

@@ -76,6 +76,25 @@ impl AnyWorld {
         })
     }
 
+    /// [`World::set_mesh`]. `widened` is scratch.
+    ///
+    /// # Errors
+    ///
+    /// Those of the library, or that positions would be rounded.
+    pub fn set_mesh(
+        &mut self,
+        body: BodyId,
+        triangles: &[[u32; 3]],
+        positions: Positions<'_>,
+        widened: &mut Vec<[f64; 3]>,
+    ) -> Result<(), NotTaken> {
+        match self {
+            Self::F32(world) => world.set_mesh(body, triangles, single(positions)?)?,
+            Self::F64(world) => world.set_mesh(body, triangles, double(positions, widened))?,
+        }
+        Ok(())
+    }
+
     /// [`World::set_positions`]. `widened` is scratch.
     ///
     /// # Errors

@@ -33,6 +33,7 @@ struct WrittenFrame {
     count: usize,
     complete: Option<bool>,
     pairs: Option<Vec<Row>>,
+    changed: Option<serde::de::IgnoredAny>,
 }
 
 /// Reads the pairs, sorted, as the bodies are numbered now. The file may have so many bytes.
@@ -117,6 +118,9 @@ fn parse(path: &Path, most: u64) -> Result<Written, String> {
     }
     if written.error.is_some() {
         return Err("the check that wrote it failed".into());
+    }
+    if written.frames.iter().any(|frame| frame.changed.is_some()) {
+        return Err("a mesh changes in it from frame to frame, and so do its triangles".into());
     }
     if !written.frames.iter().all(has_all) {
         return Err(

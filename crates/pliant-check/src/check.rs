@@ -8,11 +8,12 @@ use crate::filter::Filter;
 use crate::found::{Found, MOST_COUNTED, Row, Stop, Taker};
 use crate::one_point;
 use crate::remarks::{AtSeams, Remarks, has_degenerate};
-use crate::sequence::Sequence;
+use crate::sequence::{FIRST, MeshNumber, Sequence};
 use crate::settings::{self, Frames, Settings};
 use crate::with_world;
 use pliant::{ErrorKind, Pair, Query, Selection};
 use pliant_io::{Body as Source, OpenOptions};
+use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 
 /// The caller's "stop now?".
@@ -30,6 +31,8 @@ pub struct Check {
     frames: Frames,
     baseline: Option<Baseline>,
     remarks: Remarks,
+    /// The meshes of the sources in the frame found last.
+    told: Vec<MeshNumber>,
     failed: bool,
 }
 
@@ -46,6 +49,49 @@ struct Baseline {
     frame: usize,
     /// Sorted; none before the frame was checked.
     pairs: Option<Vec<Row>>,
+    /// The meshes of sources in that frame that had not their first.
+    meshes: BTreeMap<usize, Mesh>,
+    /// For each source whether it has now the mesh that it has there.
+    comparable: Vec<bool>,
+}
+
+/// The triangles, and how many vertices.
+type Mesh = (Vec<[u32; 3]>, usize);
+
+impl Baseline {
+    fn of(frame: usize, pairs: Option<Vec<Row>>, sources: usize) -> Self {
+        Self {
+            frame,
+            pairs,
+            meshes: BTreeMap::new(),
+            comparable: vec![true; sources],
+        }
+    }
+
+    /// Takes the pairs of its frame, which the sources are in.
+    fn take(&mut self, pairs: Vec<Row>, sequence: &Sequence) {
+        self.pairs = Some(pairs);
+        let own = sequence.sources.iter().zip(&sequence.meshes).enumerate();
+        let own = own.filter(|&(_, (_, &mesh))| mesh != FIRST);
+        self.meshes = own
+            .map(|(place, (source, _))| {
+                let mesh = (source.triangles().to_vec(), source.vertex_count());
+                (place, mesh)
+            })
+            .collect();
+    }
+
+    /// Compares the meshes of a frame that the sources are in with its own.
+    fn compare(&mut self, sequence: &Sequence) {
+        for (place, source) in sequence.sources.iter().enumerate() {
+            self.comparable[place] = match self.meshes.get(&place) {
+                None => sequence.meshes[place] == FIRST,
+                Some((triangles, vertices)) => {
+                    (source.triangles(), source.vertex_count()) == (triangles, *vertices)
+                }
+            };
+        }
+    }
 }
 
 impl Check {
@@ -108,20 +154,13 @@ impl Check {
             None => None,
             Some(settings::Baseline::Frame(frame)) => {
                 there("the baseline", *frame)?;
-                Some(Baseline {
-                    frame: *frame,
-                    pairs: None,
-                })
+                Some(Baseline::of(*frame, None, sequence.sources.len()))
             }
-            Some(settings::Baseline::File(file)) => Some(Baseline {
-                frame: 0,
-                pairs: Some(baseline::read(
-                    file,
-                    &sequence.sources,
-                    &bodies,
-                    settings.max_list,
-                )?),
-            }),
+            Some(settings::Baseline::File(file)) => {
+                let most = settings.max_list;
+                let pairs = baseline::read(file, &sequence.sources, &bodies, most)?;
+                Some(Baseline::of(0, Some(pairs), sequence.sources.len()))
+            }
         };
         let all = Frames {
             start: 0,
@@ -145,6 +184,7 @@ impl Check {
             remarks: Remarks::of(sequence.sources.len()),
             failed: false,
             of: Selection::World,
+            told: sequence.meshes.clone(),
             sequence,
             bodies,
             filter,
@@ -213,6 +253,8 @@ impl Check {
 
     /// Reads the next frame and checks it; `None` after the last.
     ///
+    /// The mesh of a source may be another one from file to file: [`Found::changed`]. Triangles are numbered as in the frame.
+    ///
     /// # Errors
     ///
     /// A file cannot be read, or there are more pairs than may be listed, or counted. No frame follows: every later call is an error
@@ -239,15 +281,22 @@ impl Check {
         }
         // Set first, so that an error on any way out leaves it set.
         self.failed = true;
-        if let Some(Baseline { frame, pairs: None }) = self.baseline {
+        if let Some(Baseline {
+            frame, pairs: None, ..
+        }) = self.baseline
+        {
             let found = self.found_in(frame, false, true, stop)?;
-            self.baseline = Some(Baseline {
-                frame,
-                pairs: Some(found.pairs),
-            });
+            if let Some(baseline) = &mut self.baseline {
+                baseline.take(found.pairs, &self.sequence);
+            }
         }
         let frame = self.frames.start;
-        let found = self.found_in(frame, self.asked.first, self.asked.listed, stop)?;
+        let mut found = self.found_in(frame, self.asked.first, self.asked.listed, stop)?;
+        let meshes = &self.sequence.meshes;
+        let is_told = |&source: &usize| self.told[source] == meshes[source];
+        let changed = (0..meshes.len()).filter(|source| !is_told(source));
+        found.changed = changed.map(|source| source as u32).collect();
+        self.told.clone_from(meshes);
         self.frames.start = frame.saturating_add(self.frames.step);
         self.frames.count -= 1;
         self.failed = false;
@@ -272,6 +321,15 @@ impl Check {
     fn go_to(&mut self, frame: usize) -> Result<(), Error> {
         let begins = self.sequence.ids.is_empty();
         self.sequence.go_to(frame)?;
+        if self.bodies.are_pieces()
+            && let Some(source) = self.sequence.meshes.iter().position(|&mesh| mesh != FIRST)
+        {
+            let source_name = self.sequence.sources[source].name().to_owned();
+            return Err(Error::PiecesChanged { source_name, frame });
+        }
+        if let Some(baseline) = &mut self.baseline {
+            baseline.compare(&self.sequence);
+        }
         if begins {
             self.part_sources()
                 .map_err(|error| self.refused(frame, error))?;
@@ -323,10 +381,11 @@ impl Check {
         let skip = self.asked.skip_degenerate;
         let mut taker = Taker::new(frame, first, listed, most, known).skip_degenerate(skip);
         self.remarks.begin(frame);
+        let comparable = baseline.as_ref().map(|it| &it.comparable[..]);
         let visited = if first && known.is_none() && !skip && !self.bodies.are_pieces() {
             self.take_first(&mut taker, stop)
         } else {
-            self.take_all(&mut taker, stop)
+            self.take_all(&mut taker, comparable.unwrap_or(&[]), stop)
         };
         let found = taker.end();
         self.baseline = baseline;
@@ -355,7 +414,7 @@ impl Check {
         Ok(first.map_or(ControlFlow::Continue(()), |pair| {
             let row = pair.into();
             self.remarks.take(taker.frame(), sources, row);
-            taker.take(row, has_degenerate(sources, row))
+            taker.take(row, has_degenerate(sources, row), false)
         }))
     }
 
@@ -363,6 +422,7 @@ impl Check {
     fn take_all(
         &mut self,
         taker: &mut Taker,
+        comparable: &[bool],
         question: Option<Question>,
     ) -> Result<ControlFlow<Stop>, pliant::Error> {
         let Self {
@@ -384,7 +444,10 @@ impl Check {
             let is_asked = (body_a != body_b || *itself) && filter.meet(body_a, body_b);
             if is_asked {
                 remarks.take(taker.frame(), sources, of_sources);
-                stop = taker.take(row, has_degenerate(sources, of_sources));
+                let [a, _, b, _] = of_sources.map(|number| number as usize);
+                let comparable = [a, b].map(|source| comparable.get(source) == Some(&true));
+                let degenerate = has_degenerate(sources, of_sources);
+                stop = taker.take(row, degenerate, comparable == [true; 2]);
             }
             if stop.is_break() {
                 ControlFlow::Break(())

@@ -140,6 +140,17 @@ pub enum Error {
         /// Why not.
         why: String,
     },
+    /// Sources are split into pieces, and the mesh of one changes.
+    #[error(
+        "{}, frame {frame}: has another mesh than before, and what a body is split into is known of its first mesh only",
+        shown(source_name)
+    )]
+    PiecesChanged {
+        /// The source.
+        source_name: String,
+        /// The frame.
+        frame: usize,
+    },
     /// An earlier frame could not be checked.
     #[error("an earlier frame could not be checked, so the frames after it are not")]
     AfterError,

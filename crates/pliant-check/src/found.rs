@@ -13,6 +13,9 @@ pub type Row = [u32; 4];
 pub struct Found {
     /// The frame.
     pub frame: usize,
+    /// The bodies that have another mesh than in the frame found before, or, of the first, than at the beginning; ascending. What is
+    /// known of them now says [`Check::body`](crate::Check::body).
+    pub changed: Vec<u32>,
     /// How many pairs; at most one if only the first was asked for.
     pub count: usize,
     /// The smallest of them.
@@ -65,6 +68,7 @@ impl<'a> Taker<'a> {
     ) -> Self {
         let found = Found {
             frame,
+            changed: Vec::new(),
             count: 0,
             smallest: None,
             pairs: Vec::new(),
@@ -87,14 +91,21 @@ impl<'a> Taker<'a> {
         self
     }
 
-    /// Takes a pair, or leaves it out. `degenerate`: whether a triangle of it has no area.
-    pub(crate) fn take(&mut self, row: Row, degenerate: bool) -> ControlFlow<Stop> {
+    /// Takes a pair, or leaves it out. `degenerate`: whether a triangle of it has no area. `comparable`: whether its bodies have the
+    /// meshes that the baseline is about.
+    pub(crate) fn take(
+        &mut self,
+        row: Row,
+        degenerate: bool,
+        comparable: bool,
+    ) -> ControlFlow<Stop> {
         let found = &mut self.found;
         if degenerate && self.skip_degenerate {
             found.degenerate += 1;
             return ControlFlow::Continue(());
         }
         if let (Some(baseline), Some(left_out)) = (self.baseline, &mut found.left_out)
+            && comparable
             && baseline.binary_search(&row).is_ok()
         {
             *left_out += 1;
@@ -140,8 +151,11 @@ mod tests {
     fn no_more_pairs_are_counted_than_anybody_waits_for() {
         let mut taker = Taker::new(0, false, false, usize::MAX, None);
         taker.found.count = MOST_COUNTED - 1;
-        assert_eq!(taker.take([0, 1, 0, 2], false), ControlFlow::Continue(()));
-        let stopped = taker.take([0, 1, 0, 3], false);
+        assert_eq!(
+            taker.take([0, 1, 0, 2], false, true),
+            ControlFlow::Continue(())
+        );
+        let stopped = taker.take([0, 1, 0, 3], false, true);
         assert_eq!(stopped, ControlFlow::Break(Stop::Endless));
         assert_eq!(taker.end().count, MOST_COUNTED);
     }

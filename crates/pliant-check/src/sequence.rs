@@ -1,10 +1,19 @@
 //! Sources read side by side, and the world brought to a frame of theirs. In memory are the reader's frame and the world's (its
 //! shape and the one before it, whose memory the next is written into); where a source is widened to f64, that too.
+//!
+//! The mesh of a source may change from file to file. The world is then given the mesh, unless it is the one that it has.
 
 use crate::any_world::{AnyWorld, NotTaken};
 use crate::error::Error;
+use crate::{one_point, with_world};
 use pliant::{BodyId, Options};
 use pliant_io::{Body as Source, Precision};
+
+/// Tells meshes of a source apart. Equal numbers are equal meshes; of others, only [`FIRST`] is known to differ.
+pub(crate) type MeshNumber = u64;
+
+/// The mesh of a source's first frame.
+pub(crate) const FIRST: MeshNumber = 0;
 
 /// The sources of a check and their world. Frame counts are equal, or 1: such a source stands still while others move.
 pub(crate) struct Sequence {
@@ -15,6 +24,9 @@ pub(crate) struct Sequence {
     widened: Vec<[f64; 3]>,
     /// The body of the world that each source is; empty before the first frame.
     pub(crate) ids: Vec<BodyId>,
+    /// The mesh of each source in the world: [`FIRST`], or a number that no earlier one had.
+    pub(crate) meshes: Vec<MeshNumber>,
+    changes: MeshNumber,
     /// The frame behind the one read last.
     next: usize,
     /// The frame that the world is in.
@@ -23,7 +35,7 @@ pub(crate) struct Sequence {
 
 impl Sequence {
     /// Compares frame counts.
-    pub(crate) fn new(sources: Vec<Source>, options: Options) -> Result<Self, Error> {
+    pub(crate) fn new(mut sources: Vec<Source>, options: Options) -> Result<Self, Error> {
         let Some(frame_count) = sources.iter().map(Source::frame_count).max() else {
             return Err(Error::NoSources);
         };
@@ -39,7 +51,10 @@ impl Sequence {
             });
         }
         let precision = sources.iter().map(Source::precision).max();
+        sources.iter_mut().for_each(Source::let_mesh_change);
         Ok(Self {
+            meshes: vec![FIRST; sources.len()],
+            changes: FIRST,
             sources,
             frame_count,
             world: AnyWorld::new(precision.unwrap_or(Precision::F64), options),
@@ -84,14 +99,24 @@ impl Sequence {
                 let source_name = source.name().to_owned();
                 return Err(Error::Missing { source_name, frame });
             }
-            let positions = source.positions();
+            let had_first_mesh = self.meshes[place] == FIRST;
+            if source.has_first_mesh() {
+                self.meshes[place] = FIRST;
+            } else if makes || !is_mesh_of(&self.world, self.ids[place], source) {
+                one_point::check(source)?;
+                self.changes += 1;
+                self.meshes[place] = self.changes;
+            }
+            let keeps_first_mesh = had_first_mesh && source.has_first_mesh();
+            let (triangles, positions) = (source.triangles(), source.positions());
+            let Self { world, widened, .. } = self;
             let taken = if makes {
-                let triangles = source.triangles();
-                let added = self.world.add(triangles, positions, &mut self.widened);
+                let added = world.add(triangles, positions, widened);
                 added.map(|id| self.ids.push(id))
+            } else if keeps_first_mesh {
+                world.set_positions(self.ids[place], positions, widened)
             } else {
-                self.world
-                    .set_positions(self.ids[place], positions, &mut self.widened)
+                world.set_mesh(self.ids[place], triangles, positions, widened)
             };
             match taken {
                 Ok(()) => {}
@@ -111,4 +136,12 @@ impl Sequence {
         }
         Ok(())
     }
+}
+
+/// Whether a body of the world has the mesh that a source has now.
+fn is_mesh_of(world: &AnyWorld, id: BodyId, source: &Source) -> bool {
+    with_world!(world, world => {
+        world.vertex_count(id) == Ok(source.vertex_count())
+            && world.triangles(id) == Ok(source.triangles())
+    })
 }

@@ -26,7 +26,7 @@ pub struct Settings {
     /// A name is that of a group, of a glTF file of several sources (all bodies of it), of a source (all bodies that it is split
     /// into), of a body, or a body's number.
     pub ignore: Vec<[String; 2]>,
-    /// Pairs that are left out in all frames.
+    /// Pairs that are left out in all frames, wherever both bodies have the mesh that they have there.
     pub baseline: Option<Baseline>,
     /// Pairs with a triangle that has no area are left out.
     pub skip_degenerate: bool,

@@ -85,6 +85,7 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::BadBaseline { .. } => {
             Some("name a file that `pliant check --format json` wrote of these bodies")
         }
+        CheckError::PiecesChanged { .. } => Some("check it without `--split`"),
         CheckError::NoClip => Some("leave out `--clip`"),
         CheckError::EmptyGroup { .. } => Some("write NAME=BODY,BODY"),
         CheckError::Endless { .. } => Some("ask for less with `--first`, or mend the mesh"),

@@ -23,7 +23,8 @@ Read
   .glb, .gltf     the default scene, each node with a mesh a body: nodes, skins, morph targets, sparse and quantised accessors,
                   meshopt, one animation (--clip, --fps; KHR_animation_pointer too). Not Draco, instancing: export without
   mesh+.pc2, .mdd the mesh of one file (its first frame), moved by a cache of positions: 'shirt.obj+walk.pc2'
-  'name_*.obj'    files in natural order are frames of one body. They have the same faces
+  'name_*.obj'    files in natural order are frames of one body. Its mesh may change from file to file: each frame is checked for what
+                  it is, with seams and polygons of its own; a frame says when the mesh has changed
 
 As which surface
   polygons        a fan of triangles round the first corner where that is right, as of every convex polygon; otherwise cut inside, at

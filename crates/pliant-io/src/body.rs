@@ -1,5 +1,9 @@
 //! Files in a row are one body: the first frame fixes what holds for all, the others follow one by
 //! one.
+//!
+//! Where that is allowed ([`Body::let_mesh_change`]) a file may have another mesh than the first. It then stands for itself: its seams
+//! and polygons are those of its own first frame. So what a frame is depends on its file and on the first of all, whichever were read
+//! before it. Held are the mesh of the first file, with which every other is compared, and that of the present one.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -70,14 +74,53 @@ pub struct Body {
     /// The frames of the file that is being read.
     source: Box<dyn FrameSource>,
     file: usize,
-    frame: Frame,
-    welding: Option<Welding>,
-    notes: Vec<Note>,
+    first: Mesh,
+    /// That of the file that is being read, if it has another mesh than the first.
+    other: Option<Mesh>,
+    mesh_may_change: bool,
     options: Arc<OpenOptions>,
     /// The number that follows the frame read last, and the frame handed out or skipped last.
     read: usize,
     handed_out: usize,
     failed: bool,
+}
+
+/// A frame, and the mesh that it fixed.
+struct Mesh {
+    frame: Frame,
+    welding: Option<Welding>,
+    notes: Vec<Note>,
+}
+
+impl Mesh {
+    /// Reads the next frame of a file into an empty one.
+    fn read(
+        source: &mut dyn FrameSource,
+        mut frame: Frame,
+        file: Arc<Path>,
+        tolerance: f64,
+    ) -> Result<Self, Fault> {
+        let _complete = source.read(&mut frame)?;
+        let mut notes = frame.shape_polygons()?;
+        frame.becomes_first(file);
+        let mut welding = frame.weld(tolerance, || source.alike())?;
+        let loose = frame.loosen(welding.as_mut(), |a, b| source.moves_alike(a, b))?;
+        if loose > 0 {
+            notes.push(Note::SeamsByWeights { count: loose });
+        }
+        notes.extend(source.notes());
+        if let Some(near) = welding.as_ref().and_then(|it| it.near.as_ref()) {
+            notes.push(Note::NearSeams {
+                count: near.count(),
+                farthest: near.farthest(),
+            });
+        }
+        Ok(Self {
+            frame,
+            welding,
+            notes,
+        })
+    }
 }
 
 /// In place of the source of a body of one frame, which is never read again: what that one held is free.
@@ -245,7 +288,7 @@ impl Asked {
             let itself = argument.len() + size_of::<Body>() + size_of::<FrameFile>();
             held = held.saturating_add(itself as u64);
             let body = Body::begin(self.clone(), name, files, Box::new(source), held)?;
-            held = body.frame.held();
+            held = body.first.frame.held();
             bodies.push(body);
         }
         Ok(bodies)
@@ -269,25 +312,8 @@ impl Body {
         let mut frame = Frame::new(options.max_memory, options.weld).beside(held);
         let filled = frame.fill_from(source.held());
         filled.map_err(|reason| in_first(reason.into()))?;
-        let _complete = source.read(&mut frame).map_err(in_first)?;
-        let shaped = frame.shape_polygons();
-        let mut notes = shaped.map_err(|reason| in_first(reason.into()))?;
-        frame.becomes_first(path.clone());
         let tolerance = options.weld_tolerance;
-        let welding = frame.weld(tolerance, || source.alike());
-        let mut welding = welding.map_err(|reason| in_first(reason.into()))?;
-        let loosened = frame.loosen(welding.as_mut(), |a, b| source.moves_alike(a, b));
-        let loose = loosened.map_err(|reason| in_first(reason.into()))?;
-        if loose > 0 {
-            notes.push(Note::SeamsByWeights { count: loose });
-        }
-        notes.extend(source.notes());
-        if let Some(near) = welding.as_ref().and_then(|it| it.near.as_ref()) {
-            notes.push(Note::NearSeams {
-                count: near.count(),
-                farthest: near.farthest(),
-            });
-        }
+        let first = Mesh::read(&mut *source, frame, path.clone(), tolerance).map_err(in_first)?;
         if files.last().is_some_and(|file| file.end == 1) {
             source = Box::new(AllRead {
                 clip: source.clip().cloned(),
@@ -299,9 +325,9 @@ impl Body {
             files,
             source,
             file: 0,
-            frame,
-            welding,
-            notes,
+            first,
+            other: None,
+            mesh_may_change: false,
             options,
             read: 1,
             handed_out: 0,
@@ -338,25 +364,47 @@ impl Body {
         &self.name
     }
 
+    /// From now on lets a file have another mesh than the first: other triangles, more or fewer vertices. It then stands for itself:
+    /// its seams, and what its polygons are, are those of its own first frame, which is read also where it is skipped.
+    ///
+    /// All that is said of the mesh is then of the frame that was handed out last: its triangles, faces and outlines, how many vertices
+    /// there are and how many were welded. Notes are those of the first frame.
+    ///
+    /// A file that has another mesh is read a second time when that is found out, and the mesh of the first is held beside its own.
+    pub fn let_mesh_change(&mut self) {
+        self.mesh_may_change = true;
+    }
+
+    /// Whether the frame that was handed out last has the mesh of the first.
+    pub fn has_first_mesh(&self) -> bool {
+        self.other.is_none()
+    }
+
+    fn mesh(&self) -> &Mesh {
+        self.other.as_ref().unwrap_or(&self.first)
+    }
+
     /// The triangles, in file order, polygons as fans; of welded vertices the smallest stands for
     /// all.
     pub fn triangles(&self) -> &[[u32; 3]] {
-        match &self.welding {
+        let Mesh { frame, welding, .. } = self.mesh();
+        match welding {
             Some(welding) => &welding.triangles,
-            None => self.frame.polygons().triangles(),
+            None => frame.polygons().triangles(),
         }
     }
 
     /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
     pub fn faces(&self) -> Option<&[u32]> {
-        self.frame.polygons().faces()
+        self.mesh().frame.polygons().faces()
     }
 
     /// Of polygons that did not become fans, by their number in [`faces`](Self::faces), the corners in their order; of welded vertices
     /// the smallest stands for all.
     pub fn outlines(&self) -> BTreeMap<u32, Vec<u32>> {
-        let mut outlines = self.frame.polygons().outlines().clone();
-        if let Some(welding) = &self.welding {
+        let Mesh { frame, welding, .. } = self.mesh();
+        let mut outlines = frame.polygons().outlines().clone();
+        if let Some(welding) = welding {
             for corner in outlines.values_mut().flatten() {
                 *corner = welding.leader(*corner);
             }
@@ -366,12 +414,12 @@ impl Body {
 
     /// How many vertices each frame has: those of the file, welded or not.
     pub fn vertex_count(&self) -> usize {
-        self.frame.vertex_count()
+        self.mesh().frame.vertex_count()
     }
 
     /// How many vertices were welded away: no triangle uses them any more.
     pub fn welded(&self) -> usize {
-        self.welding.as_ref().map_or(0, Welding::count)
+        self.mesh().welding.as_ref().map_or(0, Welding::count)
     }
 
     /// Which vertices would be joined besides, in the frame that was read last, if boundary edges that are no further apart than
@@ -382,18 +430,19 @@ impl Body {
     ///
     /// [`Reason::SeamsTooLarge`] or [`Reason::SeamsTooDense`]; the body is as before.
     pub fn near_seams(&mut self, tolerance: f64) -> Result<Option<NearSeams>, Error> {
-        let found = self.frame.near_seams(self.welding.as_ref(), tolerance);
+        let Mesh { frame, welding, .. } = self.other.as_mut().unwrap_or(&mut self.first);
+        let found = frame.near_seams(welding.as_ref(), tolerance);
         found.map_err(|reason| Error::new(self.files[self.file].path(), reason))
     }
 
     /// What its reader did, or left undone, that the owner of the file would want to know.
     pub fn notes(&self) -> &[Note] {
-        &self.notes
+        &self.first.notes
     }
 
     /// The type of the coordinates of all frames.
     pub fn precision(&self) -> Precision {
-        self.frame.precision()
+        self.first.frame.precision()
     }
 
     /// How many frames there are, at least one.
@@ -445,13 +494,13 @@ impl Body {
             self.failed = false;
         }
         self.handed_out += 1;
-        Ok(Some(self.frame.positions()))
+        Ok(Some(self.positions()))
     }
 
     /// The positions of the frame handed out last, also after [`rewind`](Self::rewind), and of frame 0 before any was; after an
     /// error they mean nothing.
     pub fn positions(&self) -> Positions<'_> {
-        self.frame.positions()
+        self.mesh().frame.positions()
     }
 
     /// Begins again: the next frame is frame 0. Files that are read again must be those that were found; what is held of a glTF
@@ -487,20 +536,60 @@ impl Body {
         if at != self.file {
             self.open_file(at)?;
             self.read = self.begin_of(at);
+            if self.mesh_may_change {
+                self.read_mesh()?;
+                if frame < self.read {
+                    return Ok(());
+                }
+            }
+        } else if at == 0 {
+            self.other = None;
         }
         let path = self.files[self.file].path();
         let in_file = |fault: Fault| Error::new(path, fault);
         if frame > self.read {
             self.source.skip(frame - self.read).map_err(in_file)?;
         }
-        let _complete = self.source.read(&mut self.frame).map_err(in_file)?;
+        let Mesh {
+            frame: positions, ..
+        } = self.other.as_mut().unwrap_or(&mut self.first);
+        let _complete = self.source.read(positions).map_err(in_file)?;
         self.read = frame;
-        if let Some(welding) = &self.welding {
-            let apart = welding.check(self.frame.positions());
-            apart.map_err(|reason| Error::new(path, reason.at(self.place())))?;
+        self.check_seams()?;
+        self.read += 1;
+        Ok(())
+    }
+
+    /// Reads the first frame of a file, which may have another mesh than the first of all.
+    fn read_mesh(&mut self) -> Result<(), Error> {
+        self.other = None;
+        match self.source.read(&mut self.first.frame) {
+            Ok(_complete) => self.check_seams()?,
+            Err(fault) if fault.reason.is_of_another_mesh() => {
+                self.open_file(self.file)?;
+                let own = self.first.frame.for_another_mesh();
+                let found = &self.files[self.file].found;
+                let tolerance = self.options.weld_tolerance;
+                let other = Mesh::read(&mut *self.source, own, found.shared_path(), tolerance);
+                self.other = Some(other.map_err(|fault| Error::new(found.path(), fault))?);
+            }
+            Err(fault) => return Err(Error::new(self.files[self.file].path(), fault)),
         }
         self.read += 1;
         Ok(())
+    }
+
+    /// Holds the frame just read to what was welded.
+    fn check_seams(&self) -> Result<(), Error> {
+        let Mesh { frame, welding, .. } = self.mesh();
+        let Some(welding) = welding else {
+            return Ok(());
+        };
+        let apart = welding.check(frame.positions());
+        apart.map_err(|reason| {
+            let path = self.files[self.file].path();
+            Error::new(path, reason.at(self.place()))
+        })
     }
 
     /// Goes to the beginning of a file.
@@ -508,7 +597,7 @@ impl Body {
         let file = &self.files[at];
         self.file = at;
         self.source = file.open(file.end - self.begin_of(at), &self.options)?;
-        let filled = self.frame.fill_from(self.source.held());
+        let filled = self.first.frame.fill_from(self.source.held());
         filled.map_err(|reason| Error::new(file.path(), reason))
     }
 

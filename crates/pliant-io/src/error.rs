@@ -293,6 +293,14 @@ impl Fault {
 }
 
 impl Reason {
+    /// Whether the faces, or how many vertices there are, are others than in the first frame, and nothing else is wrong.
+    pub(crate) fn is_of_another_mesh(&self) -> bool {
+        matches!(
+            self,
+            Self::FacesDiffer { .. } | Self::FaceCount { .. } | Self::VertexCount { .. }
+        )
+    }
+
     pub(crate) fn at(self, place: Place) -> Fault {
         Fault {
             file: None,

@@ -24,6 +24,8 @@ pub(crate) struct Frame {
     source: u64,
     /// Whether seams will be looked for in the first frame.
     weld: bool,
+    /// The file that fixed the precision, once one has.
+    precision_of: Option<Arc<Path>>,
     first: Option<First>,
     /// The boundary edges that welding left, if there are not very many and it was asked for.
     open_edges: Option<Vec<[u32; 2]>>,
@@ -58,9 +60,21 @@ impl Frame {
             account: Account::new(limit),
             source: 0,
             weld,
+            precision_of: None,
             first: None,
             open_edges: None,
         }
+    }
+
+    /// A frame for another mesh, of the same body and so of the same precision, held beside this one; the positions in this one are gone.
+    pub(crate) fn for_another_mesh(&mut self) -> Self {
+        let precision = self.precision();
+        self.vertices.clear(0, &mut self.account);
+        self.vertices.set_precision(precision);
+        let mut another = Self::new(self.account.limit(), self.weld).beside(self.held());
+        another.vertices.set_precision(precision);
+        another.precision_of.clone_from(&self.precision_of);
+        another
     }
 
     /// Enters what is held already, for other bodies that are counted with this one.
@@ -89,10 +103,10 @@ impl Frame {
         precision: Precision,
         announced: Announced,
     ) -> Result<(), Reason> {
-        match &self.first {
+        match &self.precision_of {
             None => self.vertices.set_precision(precision),
-            Some(first) if precision > self.vertices.precision() => {
-                let than = first.file.to_path_buf();
+            Some(file) if precision > self.vertices.precision() => {
+                let than = file.to_path_buf();
                 return Err(Reason::Precision { than });
             }
             Some(_) => {}
@@ -220,6 +234,7 @@ impl Frame {
     /// Holds all later frames to this one, which came from `file`.
     pub(crate) fn becomes_first(&mut self, file: Arc<Path>) {
         let vertices = self.vertices.len();
+        self.precision_of.get_or_insert_with(|| file.clone());
         self.first = Some(First { file, vertices });
         self.polygons.compare_from_now_on();
     }

@@ -70,7 +70,7 @@
 //!   either of its extensions, where nothing stands in for them. Draco files, and what else a file requires and would
 //!   change shapes, are refused.
 //! - **The frames of a body agree**: same faces, same number of vertices, no later frame of a
-//!   higher precision than the first.
+//!   higher precision than the first. Where [`Body::let_mesh_change`] allows it, a file may have another mesh, and stands for itself.
 //! - **Files are not trusted.** Every coordinate is finite and at most `f32::MAX` in magnitude,
 //!   every index in range, or there is an [`Error`]: one line that says which file, where in it,
 //!   what is wrong and what to do. No count in a header reserves memory; memory grows with the data

@@ -30,6 +30,10 @@ impl Account {
         self.held
     }
 
+    pub(crate) fn limit(&self) -> u64 {
+        self.limit
+    }
+
     /// What is held and `more`; an error where that is not allowed.
     pub(crate) fn check(&self, more: u64) -> Result<u64, Excess> {
         let needed = self.held.saturating_add(more);

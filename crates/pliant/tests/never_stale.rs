@@ -10,6 +10,8 @@ use pliant::{BodyId, Options, Pair, Scalar, Selection, World};
 struct Known<S> {
     id: BodyId,
     triangles: Vec<[u32; 3]>,
+    /// The sheet that all its shapes begin as.
+    flat: Vec<[f32; 3]>,
     positions: Vec<[S; 3]>,
     membership: u32,
     mask: u32,
@@ -171,14 +173,14 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
         let mut ignored: Vec<(BodyId, BodyId)> = Vec::new();
         for _ in 0..60 {
             let some = (!known.is_empty()).then(|| random.below(known.len() as u32) as usize);
-            match (random.below(16), some) {
+            match (random.below(18), some) {
                 (13, _) => here = if here == 0.0 { shift } else { 0.0 },
                 // The world goes on as its copy; what becomes of the one is nothing to the other.
                 (15, _) => {
                     let copy = world.clone();
                     for body in &known {
                         // A loose box may not hold the flat sheet.
-                        let _ = world.set_positions(body.id, &place(&flat, here));
+                        let _ = world.set_positions(body.id, &place(&body.flat, here));
                         world.set_filter(body.id, 0, 0).unwrap();
                         if random.below(2) == 0 {
                             world.remove(body.id).unwrap();
@@ -199,6 +201,7 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                     known.push(Known {
                         id,
                         triangles: triangles.clone(),
+                        flat: flat.clone(),
                         positions,
                         membership: all,
                         mask: all,
@@ -215,7 +218,8 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                 // One body moves, perhaps twice.
                 (3..=6, Some(some)) => {
                     for _ in 0..=random.below(2) {
-                        let positions = place(&crumpled_near(&mut random, &flat), here);
+                        let flat = &known[some].flat;
+                        let positions = place(&crumpled_near(&mut random, flat), here);
                         if random.below(2) == 0 {
                             world.set_positions(known[some].id, &positions).unwrap();
                         } else {
@@ -229,6 +233,22 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                     }
                 }
                 (7, Some(some)) => world.rebuild(known[some].id).unwrap(),
+                // Another mesh, or the one that it has.
+                (16..=17, Some(some)) => {
+                    let body = &mut known[some];
+                    let (mut triangles, flat) = sheet(2 + random.below(5));
+                    triangles.truncate(1 + random.below(2 * triangles.len() as u32) as usize);
+                    if random.below(4) == 0 {
+                        triangles.rotate_left(1);
+                    }
+                    let positions = place(&crumpled_near(&mut random, &flat), here);
+                    let out_of_range = [[0, 1, positions.len() as u32]];
+                    assert!(world.set_mesh(body.id, &out_of_range, &positions).is_err());
+                    let bad = vec![[convert(f64::NAN); 3]; positions.len()];
+                    assert!(world.set_mesh(body.id, &triangles, &bad).is_err());
+                    world.set_mesh(body.id, &triangles, &positions).unwrap();
+                    (body.triangles, body.flat, body.positions) = (triangles, flat, positions);
+                }
                 (8, Some(some)) => {
                     let (membership, mask) = (1 << random.below(3), 7 ^ (1 << random.below(3)));
                     (known[some].membership, known[some].mask) = (membership, mask);
@@ -253,8 +273,9 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                 }
                 // Refused calls change nothing.
                 (11, Some(some)) => {
-                    let id = known[some].id;
-                    let mut bad = place(&crumpled_near(&mut random, &flat), here);
+                    let Known { id, flat, .. } = &known[some];
+                    let id = *id;
+                    let mut bad = place(&crumpled_near(&mut random, flat), here);
                     let vertex = random.below(bad.len() as u32) as usize;
                     bad[vertex][1] = convert(
                         [f64::NAN, f64::INFINITY, f64::NEG_INFINITY][random.below(3) as usize],
@@ -265,8 +286,8 @@ fn check_lives<S: Scalar>(seeds: std::ops::Range<u64>, shift: f64, convert: fn(f
                             .write_positions(id, |buffer| buffer[1..].fill([convert(0.0); 3]))
                             .is_err()
                     );
-                    assert!(world.set_positions(id, &place(&flat, here)[1..]).is_err());
-                    assert!(world.add(&[[0, 1, 99_999]], &place(&flat, here)).is_err());
+                    assert!(world.set_positions(id, &place(flat, here)[1..]).is_err());
+                    assert!(world.add(&[[0, 1, 99_999]], &place(flat, here)).is_err());
                     assert!(
                         world
                             .set_loose_box(
@@ -416,6 +437,7 @@ fn check_by_name<S: Scalar>(convert: fn(f32) -> S) {
             .map(|positions| Known {
                 id: world.add(&triangles, &positions).unwrap(),
                 triangles: triangles.clone(),
+                flat: Vec::new(),
                 positions,
                 membership: u32::MAX,
                 mask: u32::MAX,

@@ -180,6 +180,8 @@ fn bodies_that_are_not_there() {
                 .unwrap_err(),
             error
         );
+        let set = world.set_mesh(stranger, &[[0, 1, 2]], &positions);
+        assert_eq!(set.unwrap_err(), error);
         assert_eq!(world.remove(stranger).unwrap_err(), error);
         assert_eq!(world.rebuild(stranger).unwrap_err(), error);
         assert_eq!(world.set_filter(stranger, 0, 0).unwrap_err(), error);

@@ -147,6 +147,9 @@ class Frame:
     the first new pair."""
     degenerate: int
     """How many pairs have a triangle without area: of these, or with skip_degenerate of those that were left out for it."""
+    changed: dict[int, Body]
+    """The bodies that have another mesh than in the frame before, or, of the first, than said in bodies: what is known of them now. Pairs
+    number triangles as in the mesh of their frame."""
 
 
 class Mesh(Protocol):

@@ -306,13 +306,24 @@ impl<S: Scalar> Soak<S> {
         positions: &[[S; 3]],
         written: bool,
     ) -> Result<bool, Wrong> {
-        let Known { id, loose, .. } = self.known[place];
+        let id = self.known[place].id;
         let answer = if written {
             self.world
                 .write_positions(id, |buffer| buffer.copy_from_slice(positions))
         } else {
             self.world.set_positions(id, positions)
         };
+        self.is_held(place, positions, answer)
+    }
+
+    /// Whether a shape was taken over, as it must be unless it sticks out of the loose box.
+    fn is_held(
+        &mut self,
+        place: usize,
+        positions: &[[S; 3]],
+        answer: Result<(), Error>,
+    ) -> Result<bool, Wrong> {
+        let Known { id, loose, .. } = self.known[place];
         let outside = loose.and_then(|corners| positions.iter().position(|&p| !inside(corners, p)));
         if let Some(vertex) = outside {
             return match answer {
@@ -337,7 +348,8 @@ impl<S: Scalar> Soak<S> {
     fn call_something(&mut self) -> Result<(), Wrong> {
         let some = self.random.index(self.known.len());
         let id = self.known[some].id;
-        match self.random.below(16) {
+        match self.random.below(18) {
+            15..17 => self.cut(some),
             0..3 if self.known.len() < MOST => self.add(),
             0..6 => self.remove(some),
             6 => {
@@ -366,6 +378,19 @@ impl<S: Scalar> Soak<S> {
                 Ok(())
             }
         }
+    }
+
+    /// Gives a body another mesh: another surface, at the same place; refused if it sticks out of the loose box.
+    fn cut(&mut self, some: usize) -> Result<(), Wrong> {
+        let Known { id, place, .. } = self.known[some];
+        let surface = self.random.index(self.surfaces.len());
+        let positions = self.shape(surface, place);
+        let triangles = &self.surfaces[surface].triangles;
+        let set = self.world.set_mesh(id, triangles, &positions);
+        if self.is_held(some, &positions, set)? {
+            (self.known[some].surface, self.known[some].positions) = (surface, positions);
+        }
+        Ok(())
     }
 
     fn ignore_or_not(&mut self, a: BodyId) -> Result<(), Wrong> {

@@ -2,6 +2,7 @@
 //! One file: `cargo test -p pliant-check --test all against_worlds::`.
 
 mod against_worlds;
+mod changing;
 mod formats;
 mod messages;
 mod settings;

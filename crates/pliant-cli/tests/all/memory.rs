@@ -17,6 +17,9 @@ use std::path::Path;
 /// What checking takes at most, for each byte of two frames, beyond the program itself.
 const MULTIPLE: f64 = 3.5;
 
+/// The same where the mesh changes from file to file.
+const CHANGING: f64 = 7.5;
+
 /// What the program itself takes at most. Built for tests, most of it unoptimised, its code takes 3 MB more.
 const PROGRAM: u64 = if cfg!(debug_assertions) { 11 } else { 8 } << 20;
 
@@ -123,6 +126,31 @@ fn memory_is_a_multiple_of_two_frames() {
         let multiple = multiple(peak, PROGRAM, surface);
         println!("{what}: {multiple:.2} times two frames");
         assert!(multiple < MULTIPLE, "{what}: {multiple}");
+    }
+}
+
+/// Where the mesh changes from file to file: the first mesh is held too, and for a moment the body before.
+#[test]
+fn memory_where_the_mesh_changes() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    for (what, surface) in surfaces(300, 1) {
+        for frame in 0..4 {
+            let surface = Surface {
+                side: surface.side - frame % 2,
+                ..surface
+            };
+            let file = path.join(format!("{frame}.npz"));
+            fs::write(file, surface.file()).unwrap();
+        }
+        for arguments in [&["*.npz"][..], &["*.npz", "--baseline", "1"]] {
+            let Some(peak) = peak(path, arguments) else {
+                return;
+            };
+            let multiple = multiple(peak, PROGRAM, surface);
+            println!("{what}, {arguments:?}: {multiple:.2} times two frames");
+            assert!(multiple < CHANGING, "{what}, {arguments:?}: {multiple}");
+        }
     }
 }
 

@@ -330,10 +330,12 @@ fn polygons_that_bend_inward_are_cut_inside() {
         let counts = check(path, &["through.obj", "--format", "json"]).counts();
         assert!([1, 2].contains(&counts[0]), "{first}: {counts:?}");
         // The same polygons in a later frame are the same, and no others are.
+        let convert = |to: &str| pliant(path, &["convert", "two_*.obj", to]).code;
         assert_eq!(check(path, &["two_*.obj"]).code, 0);
+        assert_eq!(convert("same.npz"), 0);
         let turned = format!("{text}f 1 2 3 4 6 5\n");
         fs::write(path.join("two_1.obj"), turned).unwrap();
-        assert_eq!(check(path, &["two_*.obj"]).code, 2);
+        assert_eq!(convert("other.npz"), 2);
     }
 }
 
@@ -367,4 +369,90 @@ fn polygons_that_are_doubtful_are_noted() {
     );
     let said = pliant(path, &["convert", "crossed.obj", "c.ply"]).err;
     assert_eq!(said.lines().count(), 1, "{said}");
+}
+
+/// A flat strip of so many squares, and a spike through the last of them if `pierced`.
+fn strip(squares: usize, pierced: bool) -> String {
+    let mut text = String::new();
+    for x in 0..=squares {
+        writeln!(text, "v {x} 0 0\nv {x} 1 0").unwrap();
+    }
+    for square in 0..squares {
+        let [a, b, c, d] = [1, 2, 4, 3].map(|corner| 2 * square + corner);
+        writeln!(text, "f {a} {d} {b}\nf {b} {d} {c}").unwrap();
+    }
+    if pierced {
+        let x = squares as f64 - 0.7;
+        writeln!(text, "v {x} 0.2 1\nv {x} 0.2 -1\nv {x} 5 -1\nf -3 -2 -1").unwrap();
+    }
+    text
+}
+
+#[test]
+fn a_mesh_may_change_from_file_to_file() {
+    let frames = [
+        (2, false),
+        (2, false),
+        (3, true),
+        (3, true),
+        (5, true),
+        (2, false),
+    ];
+    let names: Vec<String> = (0..frames.len())
+        .map(|frame| format!("f{frame}.obj"))
+        .collect();
+    let files = frames.iter().zip(&names);
+    let files = files.map(|(&(squares, pierced), name)| (&name[..], strip(squares, pierced)));
+    let folder = folder(&files.collect::<Vec<_>>());
+    let path = folder.path();
+    let table = check(path, &["f*.obj"]);
+    assert_eq!(table.code, 1, "{}", table.err);
+    let lines: Vec<&str> = table.out.lines().map(str::trim).collect();
+    let said = |frame: usize| {
+        let row = lines.iter().position(|line| {
+            let mut words = line.split_whitespace();
+            words.next() == Some(&frame.to_string()) && words.next() == Some(&names[frame])
+        });
+        lines[row.unwrap() - 1]
+    };
+    let changes = |size: &str| format!("body 0 has another mesh from here on: {size}");
+    assert_eq!(said(2), changes("11 vertices, 7 triangles"));
+    assert_eq!(said(4), changes("15 vertices, 11 triangles"));
+    assert_eq!(said(5), changes("6 vertices, 4 triangles"));
+    assert_eq!(table.out.matches("another mesh").count(), 3);
+
+    // Each frame is what its file is, also where those before it are passed over or read first.
+    let json = check(path, &["f*.obj", "--format", "json"]).json();
+    for (frame, name) in names.iter().enumerate() {
+        let alone = check(path, &[name, "--format", "json"]).json();
+        assert_eq!(
+            json["frames"][frame]["pairs"], alone["frames"][0]["pairs"],
+            "{name}"
+        );
+    }
+    let changed = &json["frames"][4]["changed"][0];
+    assert_eq!(
+        (changed["body"].as_u64(), changed["triangles"].as_u64()),
+        (Some(0), Some(11))
+    );
+    assert!(json["frames"][3].get("changed").is_none());
+
+    // Frame 3 has the mesh of frame 2, frame 4 another one.
+    let new = check(path, &["f*.obj", "--baseline", "2", "--format", "json"]);
+    let of_all = json["frames"].as_array().unwrap().iter();
+    let all: Vec<u64> = of_all
+        .map(|frame| frame["count"].as_u64().unwrap())
+        .collect();
+    assert!(all[2] > 0 && all[2] == all[3] && all[4] > 0, "{all:?}");
+    assert_eq!(new.counts(), [0, 0, 0, 0, all[4], 0]);
+
+    // What was found of meshes that change is no baseline, and pieces are those of one mesh.
+    fs::write(path.join("before.json"), json.to_string()).unwrap();
+    let refused = check(path, &["f*.obj", "--baseline", "before.json"]);
+    refused.assert_refused(&["before.json", "a mesh changes in it"]);
+    let refused = check(path, &["f*.obj", "--split", "components", "-q"]);
+    refused.assert_refused(&["frame 2", "another mesh", "without `--split`"]);
+    // A file of one mesh cannot hold several.
+    let refused = pliant(path, &["convert", "f*.obj", "all.npz"]);
+    refused.assert_refused(&["f2.obj", "vertices", "export all of them from one mesh"]);
 }

@@ -160,3 +160,106 @@ fn a_file_that_changed_meanwhile_is_refused() {
         assert!(body.next_frame().is_err());
     }
 }
+
+/// Each frame as its triangles, positions, and how many vertices were welded.
+fn meshes(body: &mut Body) -> Vec<(Vec<[u32; 3]>, usize, usize)> {
+    let mut meshes = Vec::new();
+    while let Some(positions) = body.next_frame().unwrap() {
+        let places = positions.len();
+        meshes.push((body.triangles().to_vec(), places, body.welded()));
+    }
+    meshes
+}
+
+/// Of a body whose mesh changes a frame is the same whether those before it were read, passed over, or read twice; and its seams are
+/// its own.
+#[test]
+fn a_mesh_that_changes_is_that_of_its_file_whatever_was_read_before() {
+    // Two triangles that share the places of an edge, or do not.
+    let square = |apart: u8| {
+        let first = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        format!("{first}v 1 {apart} 0\nv 0 1 {apart}\nv 1 1 0\nf 4 6 5\n")
+    };
+    let folder = Folder::new();
+    let part = crate::common::bytes(&[0_f32; 3 * 3 * 4], f32::to_le_bytes);
+    let npz_of = |triangle: [u32; 3]| {
+        let faces = crate::common::bytes(&triangle, u32::to_le_bytes);
+        let vertices = npy("<f4", false, &[3, 4, 3], &part);
+        let faces = npy("<u4", false, &[1, 3], &faces);
+        let entries: [(&str, Vec<u8>); 2] = [("vertices", vertices), ("faces", faces)];
+        npz(CompressionMethod::Deflated, &entries)
+    };
+    folder
+        .write("s0.obj", tetrahedron(1.0))
+        .write("s1.obj", square(0))
+        .write("s2.obj", square(2))
+        .write("s3.obj", tetrahedron(2.0))
+        .write("s4.obj", tetrahedron(2.0).replace("f 3 1 4\n", ""))
+        .write("s5.obj", square(0))
+        .write("z0.npz", npz_of([0, 1, 2]))
+        .write("z1.npz", npz_of([1, 2, 3]))
+        .write("z2.npz", npz_of([0, 1, 2]));
+    let faces = tetrahedron(1.0)
+        .lines()
+        .filter(|line| line.starts_with('f'))
+        .count();
+    let square_is = |welded| (2, 6, welded);
+    let tetrahedron_is = |faces| (faces, 4, 0);
+    let expected = [
+        tetrahedron_is(faces),
+        square_is(2),
+        square_is(0),
+        tetrahedron_is(faces),
+        tetrahedron_is(faces - 1),
+        square_is(2),
+    ];
+    let mut body = folder.open("s*.obj").unwrap();
+    body.let_mesh_change();
+    let all = meshes(&mut body);
+    let sizes = all
+        .iter()
+        .map(|(triangles, vertices, welded)| (triangles.len(), *vertices, *welded));
+    assert_eq!(sizes.collect::<Vec<_>>(), expected);
+
+    let mut body = folder.open("z*.npz").unwrap();
+    body.let_mesh_change();
+    let archives = meshes(&mut body);
+    let corners: Vec<u32> = archives
+        .iter()
+        .map(|(triangles, ..)| triangles[0][0])
+        .collect();
+    assert_eq!(corners, [0, 0, 0, 1, 1, 1, 0, 0, 0]);
+
+    for (name, all) in [("s*.obj", all), ("z*.npz", archives)] {
+        let mut body = folder.open(name).unwrap();
+        body.let_mesh_change();
+        for first in (0..all.len()).chain((0..all.len()).rev()) {
+            body.rewind().unwrap();
+            body.skip(first);
+            body.next_frame().unwrap().unwrap();
+            assert_eq!(body.triangles(), all[first].0, "{name}, frame {first}");
+            assert_eq!(body.welded(), all[first].2, "{name}, frame {first}");
+            assert_eq!(meshes(&mut body), all[first + 1..], "{name}, after {first}");
+        }
+    }
+
+    // Whatever else is wrong is an error, and so is a precision that is higher.
+    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let four = ply
+        .replace("vertex 3", "vertex 4")
+        .replace("0 0 0", "0 0 0\n0 0 2");
+    for (next, is_error) in [
+        (four.clone(), false),
+        (four.replace("float", "double"), true),
+        (four.replace("3 0 1 2", "3 0 1 4"), true),
+        (four.replace("0 0 2", "0 0 nan"), true),
+    ] {
+        folder.write("p0.ply", ply).write("p1.ply", next);
+        let mut body = folder.open("p*.ply").unwrap();
+        body.let_mesh_change();
+        assert!(body.next_frame().is_ok());
+        assert_eq!(body.next_frame().is_err(), is_error);
+        assert_eq!(body.next_frame().is_err(), is_error);
+    }
+}

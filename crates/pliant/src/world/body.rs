@@ -117,6 +117,27 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         }
     }
 
+    /// Validates another mesh with its shape and takes it over; or leaves the body as it is and says what was wrong.
+    pub(super) fn set_mesh(
+        &mut self,
+        triangles: &[[u32; 3]],
+        positions: &[[S; 3]],
+        options: &Options,
+    ) -> Result<(), ErrorKind> {
+        validate(triangles, positions)?;
+        if let Some(loose) = self.loose {
+            all_inside(&loose, positions)?;
+        }
+        *self = Self {
+            epoch: self.epoch + 1,
+            membership: self.membership,
+            mask: self.mask,
+            loose: self.loose,
+            ..Self::new(self.id, triangles, positions, options)
+        };
+        Ok(())
+    }
+
     /// Builds the tree anew, on the shape of now.
     pub(super) fn rebuild(&mut self, options: &Options) {
         let positions = self.positions();
@@ -252,11 +273,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             .loose
             .filter(|loose| !(loose.holds(all.lo) && loose.holds(all.hi)))
         {
-            return Err(first_outside(
-                positions,
-                |&position| loose.holds(position),
-                |vertex, position| ErrorKind::OutsideLooseBox { vertex, position },
-            ));
+            all_inside(&loose, positions)?;
         }
         none_is_lost(positions)?;
         let order = self.order.vertex_order();
@@ -306,14 +323,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             if !is_box {
                 return Err(ErrorKind::BadLooseBox);
             }
-            let positions = self.positions();
-            if !positions.iter().all(|&position| loose.holds(position)) {
-                return Err(first_outside(
-                    &positions,
-                    |&position| loose.holds(position),
-                    |vertex, position| ErrorKind::OutsideLooseBox { vertex, position },
-                ));
-            }
+            all_inside(&loose, &self.positions())?;
         }
         self.loose = loose;
         Ok(())
@@ -368,6 +378,16 @@ fn bounds_of<S: Real>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {
     let mut bounds = Bounds::EMPTY;
     positions.for_each(|position| bounds.include(position));
     bounds
+}
+
+/// Refuses positions of which some are outside a loose box.
+fn all_inside<S: Real>(loose: &Bounds<S>, positions: &[[S; 3]]) -> Result<(), ErrorKind> {
+    let is_inside = |&position: &[S; 3]| loose.holds(position);
+    if positions.iter().all(is_inside) {
+        return Ok(());
+    }
+    let error = |vertex, position| ErrorKind::OutsideLooseBox { vertex, position };
+    Err(first_outside(positions, is_inside, error))
 }
 
 /// The error for the first position that is not good; there is one.

@@ -39,6 +39,12 @@ pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
         id: BodyId,
         write: &mut dyn FnMut(&mut [[S; 3]]),
     ) -> Result<(), Error>;
+    fn set_mesh(
+        &mut self,
+        id: BodyId,
+        triangles: &[[u32; 3]],
+        positions: &[[S; 3]],
+    ) -> Result<(), Error>;
     fn rebuild(&mut self, id: BodyId) -> Result<(), Error>;
     fn set_filter(&mut self, id: BodyId, membership: u32, mask: u32) -> Result<(), Error>;
     fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error>;
@@ -216,6 +222,25 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             }
             refused
         })
+    }
+
+    fn set_mesh(
+        &mut self,
+        id: BodyId,
+        triangles: &[[u32; 3]],
+        positions: &[[S; 3]],
+    ) -> Result<(), Error> {
+        let body = self.body(id)?;
+        if body.vertex_count() == positions.len() && body.topology.triangles() == triangles {
+            return self.move_body(id, positions);
+        }
+        let common = &mut self.common;
+        let body = common.bodies.get_mut(id)?;
+        body.set_mesh(triangles, positions, &common.options)
+            .map_err(about(id))?;
+        common.note_movement();
+        self.witnesses.forget(id);
+        Ok(())
     }
 
     fn rebuild(&mut self, id: BodyId) -> Result<(), Error> {

@@ -204,6 +204,38 @@ impl<S: Scalar> World<S> {
         })
     }
 
+    /// Gives a body another mesh and its shape, shapes (m, 3) and (n, 3), of any size. Id, filter, ignored pairs and loose box stay;
+    /// triangles and vertices are numbered as these are.
+    ///
+    /// If the triangles are those that the body has, and the vertices as many, this is [`set_positions`](Self::set_positions), and costs
+    /// a comparison more; else a tree is built, which costs as much as [`add`](Self::add).
+    ///
+    /// ```
+    /// use pliant::{Selection, World};
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// // Cut from corner 0 to the middle of the side across.
+    /// let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 1.0, 0.0]];
+    /// world.set_mesh(body, &[[0, 1, 2], [0, 2, 3]], &positions)?;
+    /// assert_eq!(world.triangle_count(body)?, 2);
+    /// assert!(world.intersections(Selection::Within(body)).first()?.is_none());
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), those of [`add`](Self::add), and
+    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox); the body keeps its mesh and its shape.
+    pub fn set_mesh(
+        &mut self,
+        body: BodyId,
+        triangles: &[[u32; 3]],
+        positions: &[[S; 3]],
+    ) -> Result<(), Error> {
+        self.engine.set_mesh(body, triangles, positions)
+    }
+
     /// Builds the tree of a body anew, on the shape it has now. Id, filters and loose box stay. Worth it when a shape has
     /// become very different from the one it was built on; never needed for right answers.
     ///

@@ -17,12 +17,16 @@
 //!
 //! `groups` (numbers of bodies by name) and `ignore` repeat what was asked. With `--baseline`, which is repeated too, a frame has
 //! `left_out`: how many pairs were, because they intersect in that frame, or in the file; not where `--first` stopped at a new pair.
+//! Where the mesh of a body is another one than in the frame before, the frame has `changed`: for each such body its number as `body`,
+//! and what `bodies` says of the others; triangles are numbered as in that mesh until it changes again.
+//!
 //! `degenerate` says how many pairs have a triangle without area, where there are any: of those counted, or with
 //! `"skip_degenerate": true` of those that were left out for it.
 
 use super::{Form, Tally};
 use crate::check::{Arguments, Names};
 use pliant_check::{Baseline, Check, Found, Group};
+use pliant_io::Body as Source;
 use serde::Serialize;
 use serde_json::json;
 use std::io::{self, Write};
@@ -44,12 +48,37 @@ pub(super) struct Json {
 #[derive(Serialize)]
 struct Entry<'a> {
     name: &'a str,
+    #[serde(flatten)]
+    mesh: MeshEntry<'a>,
+}
+
+#[derive(Serialize)]
+struct ChangedEntry<'a> {
+    body: u32,
+    #[serde(flatten)]
+    mesh: MeshEntry<'a>,
+}
+
+#[derive(Serialize)]
+struct MeshEntry<'a> {
     vertices: usize,
     triangles: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     faces: Option<&'a [u32]>,
     #[serde(skip_serializing_if = "is_zero")]
     welded: usize,
+}
+
+impl<'a> MeshEntry<'a> {
+    /// The mesh that a source has now.
+    fn of(source: &'a Source) -> Self {
+        Self {
+            vertices: source.vertex_count(),
+            triangles: source.triangles().len(),
+            faces: source.faces(),
+            welded: source.welded(),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -64,6 +93,8 @@ struct PieceEntry<'a> {
 #[derive(Serialize)]
 struct FrameEntry<'a> {
     frame: usize,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    changed: Vec<ChangedEntry<'a>>,
     count: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     complete: Option<bool>,
@@ -104,10 +135,7 @@ impl Form for Json {
             .iter()
             .map(|source| Entry {
                 name: source.name(),
-                vertices: source.vertex_count(),
-                triangles: source.triangles().len(),
-                faces: source.faces(),
-                welded: source.welded(),
+                mesh: MeshEntry::of(source),
             })
             .collect();
         write!(out, r#"{{"format":1,"bodies":"#)?;
@@ -151,9 +179,15 @@ impl Form for Json {
         write!(out, r#","frames":["#)
     }
 
-    fn frame(&mut self, out: &mut dyn Write, _: &Check, found: &Found) -> io::Result<()> {
+    fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()> {
+        let changed = found.changed.iter().filter_map(|&body| {
+            let source = &check.sources()[check.source_of(body)?];
+            let mesh = MeshEntry::of(source);
+            Some(ChangedEntry { body, mesh })
+        });
         let entry = FrameEntry {
             frame: found.frame,
+            changed: changed.collect(),
             count: found.count,
             complete: (!found.complete).then_some(false),
             left_out: found.left_out,

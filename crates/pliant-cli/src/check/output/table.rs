@@ -124,6 +124,16 @@ impl Form for Table {
 
     fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()> {
         let &Found { frame, count, .. } = found;
+        for &number in &found.changed {
+            if let Some(body) = check.body(number) {
+                let [vertices, triangles] = sizes(body.vertices, body.triangles);
+                writeln!(
+                    out,
+                    "{:>8}  body {number} has another mesh from here on: {vertices}, {triangles}",
+                    ""
+                )?;
+            }
+        }
         let files = self.files.as_ref();
         let file = files.map_or_else(String::new, |files| files.frame(check, frame));
         write!(out, "{frame:>8}{file} {:>9}", grouped(count as u64))?;

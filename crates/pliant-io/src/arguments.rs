@@ -1,9 +1,11 @@
-//! An argument is a file, a pattern whose files are the frames, a body of a glTF file, or a mesh with a cache of its positions.
+//! An argument is a file, a pattern whose files are the frames, a body of a glTF file, a group of an OBJ file or of a pattern of them,
+//! or a mesh with a cache of its positions.
 //!
 //! ```text
 //! shirt.obj            a file
 //! shirt_*.obj          the files that match, in natural order
 //! scene.glb#arm        the body of this name in a file that holds several
+//! shirt_*.obj#collar   the group of this name in each of the files
 //! shirt.obj+walk.pc2   the mesh before the last `+`, the positions behind it
 //! ```
 //!
@@ -16,9 +18,9 @@ use std::path::Path;
 use crate::error::{Error, Reason};
 use crate::file::Found;
 use crate::format::Format;
+use crate::groups::holds_one_body;
 use crate::natural;
 use crate::pattern::{is_pattern, matching};
-use crate::shown::shown;
 
 /// What an argument names.
 #[derive(Debug)]
@@ -27,43 +29,86 @@ pub(crate) enum Named {
     Files(Vec<Found>),
     /// A body in a file of several.
     Part { file: Found, name: String },
+    /// A group of the body whose frames these files are.
+    Group { files: Vec<Found>, name: String },
     /// A mesh, and the positions of its vertices.
     Cache { mesh: Found, positions: Found },
 }
 
 /// What `argument` names.
 pub(crate) fn named(argument: &str) -> Result<Named, Error> {
-    if !Path::new(argument).exists() {
-        let part = file_and_name(argument);
-        let holds_it = part.is_some_and(|(path, ..)| is_file(path));
-        if let Some((mesh, positions)) = cache(argument)
-            && (is_file(positions) || !holds_it)
-        {
-            return Ok(Named::Cache {
-                mesh: file(mesh)?,
-                positions: file(positions)?,
-            });
-        }
-        if let Some((path, name, format)) = part {
-            if format.holds_bodies() {
-                return Ok(Named::Part {
-                    file: file(path)?,
-                    name: name.to_owned(),
-                });
-            }
-            if Path::new(path).exists() {
-                let reason = format!(
-                    "holds one body, not one called \"{}\"; leave out what begins with the #",
-                    shown(name)
-                );
-                return Err(Error::new(path, Reason::Unsupported(reason)));
-            }
-        }
+    let named = |name: &str| name.to_owned();
+    match read(argument) {
+        Meant::Files => files(argument).map(Named::Files),
+        Meant::Cache { mesh, positions } => Ok(Named::Cache {
+            mesh: file(mesh)?,
+            positions: file(positions)?,
+        }),
+        Meant::Part { path, name, format } if format.holds_bodies() => Ok(Named::Part {
+            file: file(path)?,
+            name: named(name),
+        }),
+        Meant::Part { path, name, format } if format.holds_groups() => Ok(Named::Group {
+            files: files(path)?,
+            name: named(name),
+        }),
+        Meant::Part { path, name, .. } => Err(Error::new(path, holds_one_body(name))),
     }
-    files(argument).map(Named::Files)
 }
 
-/// The file, its format, and the name of a body in `scene.glb#arm`. Folders and bodies may have a `#` in their names: of the places
+/// The file, or the pattern of files, and the name, of an argument that names a group of an OBJ file, `scan.obj#arm`. Arguments
+/// that name groups of one file are best opened as one body, the file: triangles that share a vertex are then known to.
+///
+/// ```
+/// assert_eq!(pliant_io::group_argument("walk_*.obj#arm"), Some(("walk_*.obj", "arm")));
+/// assert_eq!(pliant_io::group_argument("scene.glb#arm"), None);
+/// ```
+pub fn group_argument(argument: &str) -> Option<(&str, &str)> {
+    match read(argument) {
+        Meant::Part { path, name, format } if format.holds_groups() => Some((path, name)),
+        _ => None,
+    }
+}
+
+/// How an argument is read.
+enum Meant<'a> {
+    Files,
+    Part {
+        path: &'a str,
+        name: &'a str,
+        format: Format,
+    },
+    Cache {
+        mesh: &'a str,
+        positions: &'a str,
+    },
+}
+
+fn read(argument: &str) -> Meant<'_> {
+    if Path::new(argument).exists() {
+        return Meant::Files;
+    }
+    let part = file_and_name(argument);
+    let holds_it = part.is_some_and(|(path, ..)| is_file(path));
+    if let Some((mesh, positions)) = cache(argument)
+        && (is_file(positions) || !holds_it)
+    {
+        return Meant::Cache { mesh, positions };
+    }
+    match part {
+        // Of a file that is not there its own message says most; a pattern may have a # of its own.
+        Some((path, name, format))
+            if format.holds_bodies()
+                || Path::new(path).exists()
+                || format.holds_groups() && is_pattern(path) =>
+        {
+            Meant::Part { path, name, format }
+        }
+        _ => Meant::Files,
+    }
+}
+
+/// The file, its format, and the name of a part in `scene.glb#arm`. Folders and bodies may have a `#` in their names: of the places
 /// where it may end, the first where there is a file is meant.
 fn file_and_name(argument: &str) -> Option<(&str, &str, Format)> {
     let cut = |(at, _)| {

@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::io::BufReader;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -15,11 +16,13 @@ use crate::error::{Error, Fault, Place, Reason};
 use crate::file::Found;
 use crate::format::{Format, FrameSource};
 use crate::frame::{Complete, Frame};
+use crate::groups::{Groups, Naming};
+use crate::memory::bytes_of;
 use crate::near::{self, NearSeams};
 use crate::note::Note;
 use crate::positions::{Positions, Precision};
 use crate::weld::Welding;
-use crate::{cache, gltf};
+use crate::{cache, gltf, obj};
 
 /// How to read a body.
 ///
@@ -77,12 +80,25 @@ pub struct Body {
     first: Mesh,
     /// That of the file that is being read, if it has another mesh than the first.
     other: Option<Mesh>,
+    /// The file that the mesh is from, where frames are from another one.
+    mesh_file: Option<Found>,
+    /// What it is of its mesh, if it is a group.
+    part: Option<Part>,
     mesh_may_change: bool,
     options: Arc<OpenOptions>,
     /// The number that follows the frame read last, and the frame handed out or skipped last.
     read: usize,
     handed_out: usize,
     failed: bool,
+}
+
+/// Some triangles of a mesh.
+struct Part {
+    /// Which.
+    numbers: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+    /// The polygons, numbered anew.
+    faces: Option<Vec<u32>>,
 }
 
 /// A frame, and the mesh that it fixed.
@@ -171,7 +187,7 @@ impl FrameFile {
 }
 
 /// Opens the body that `argument` names: a file, a pattern whose files are its frames, a body of a file
-/// (`scene.glb#arm`), or a mesh with its positions (`shirt.obj+walk.pc2`). Reads its first frame.
+/// (`scene.glb#arm`, `scan.obj#arm`), or a mesh with its positions (`shirt.obj+walk.pc2`). Reads its first frame.
 ///
 /// # Errors
 ///
@@ -216,6 +232,7 @@ pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Erro
         }
         Named::Files(files) => asked.open_files(files).map(|body| vec![body]),
         Named::Part { file, name } => asked.open_scene(&file, Some(&name)),
+        Named::Group { files, name } => Ok(vec![asked.open_files(files)?.only(&name)?]),
         Named::Cache { mesh, positions } => {
             let format = format_of(&positions)?;
             let path = positions.path().to_owned();
@@ -227,7 +244,8 @@ pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Erro
                 format,
                 end,
             }];
-            let body = Body::begin(asked, argument.to_owned(), files, Box::new(source), 0)?;
+            let mut body = Body::begin(asked, argument.to_owned(), files, Box::new(source), 0)?;
+            body.mesh_file = Some(mesh);
             Ok(vec![body])
         }
     }
@@ -327,6 +345,8 @@ impl Body {
             file: 0,
             first,
             other: None,
+            mesh_file: None,
+            part: None,
             mesh_may_change: false,
             options,
             read: 1,
@@ -371,8 +391,73 @@ impl Body {
     /// there are and how many were welded. Notes are those of the first frame.
     ///
     /// A file that has another mesh is read a second time when that is found out, and the mesh of the first is held beside its own.
+    ///
+    /// The mesh of a group ([`is_part`](Self::is_part)) does not change: a file that has another one stays an error.
     pub fn let_mesh_change(&mut self) {
-        self.mesh_may_change = true;
+        self.mesh_may_change = self.part.is_none();
+    }
+
+    /// The groups of an OBJ file, of the first where there are several, of the mesh where positions stand beside one. The file is read
+    /// once more for them, and is to be as it was. No names where it has none, and in every other format.
+    ///
+    /// # Errors
+    ///
+    /// The file changed, or names take more memory than is left.
+    pub fn groups(&self) -> Result<Groups, Error> {
+        let file = self.mesh_file.as_ref().unwrap_or(&self.files[0].found);
+        let path = file.shared_path();
+        let polygons = self.first.frame.polygons();
+        let read = || -> Result<Groups, Fault> {
+            // What a program evaluates by itself may be called as it likes.
+            let is_evaluated = self.files[0].format == Format::Evaluated;
+            if is_evaluated || !Format::of(file.path()).is_ok_and(Format::holds_groups) {
+                return Ok(Groups::none(path.clone()));
+            }
+            let mut naming = Naming::new(self.first.frame.account().clone());
+            let mut input = BufReader::with_capacity(1 << 16, file.open()?);
+            let named = obj::name_faces(&mut input, &mut naming);
+            // First: what looks wrong may be half of a change.
+            input.get_ref().unchanged()?;
+            named?;
+            let count = polygons.triangles().len();
+            Ok(naming.end(path.clone(), polygons.faces(), count)?)
+        };
+        read().map_err(|fault| Error::new(&*path, fault))
+    }
+
+    /// Whether it is a group of an OBJ file. Its triangles then are some of the file's, and use some of its vertices; frames have all.
+    pub fn is_part(&self) -> bool {
+        self.part.is_some()
+    }
+
+    /// What is left if only the groups stay that a name stands for. Seams are those of the whole.
+    fn only(mut self, name: &str) -> Result<Self, Error> {
+        let groups = self.groups()?;
+        let wanted = groups.called(name)?;
+        let of_triangles = groups.of_triangles.iter().zip(0..);
+        let numbers = of_triangles.filter(|(group, _)| wanted.binary_search(group).is_ok());
+        let numbers: Vec<u32> = numbers.map(|(_, triangle)| triangle).collect();
+        let all = self.triangles();
+        let triangles: Vec<_> = numbers.iter().map(|&t| all[t as usize]).collect();
+        let faces = self.faces().map(|faces| {
+            let (mut last, mut count) = (None, 0);
+            let numbered = numbers.iter().map(|&triangle| {
+                let face = Some(faces[triangle as usize]);
+                count += u32::from(face != last);
+                last = face;
+                count - 1
+            });
+            numbered.collect::<Vec<_>>()
+        });
+        let held = bytes_of(&numbers) + bytes_of(&triangles) + faces.as_deref().map_or(0, bytes_of);
+        let entered = self.first.frame.enter(held);
+        entered.map_err(|reason| Error::new(self.files[0].path(), reason))?;
+        self.part = Some(Part {
+            numbers,
+            triangles,
+            faces,
+        });
+        Ok(self)
     }
 
     /// Whether the frame that was handed out last has the mesh of the first.
@@ -387,6 +472,9 @@ impl Body {
     /// The triangles, in file order, polygons as fans; of welded vertices the smallest stands for
     /// all.
     pub fn triangles(&self) -> &[[u32; 3]] {
+        if let Some(part) = &self.part {
+            return &part.triangles;
+        }
         let Mesh { frame, welding, .. } = self.mesh();
         match welding {
             Some(welding) => &welding.triangles,
@@ -396,7 +484,10 @@ impl Body {
 
     /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
     pub fn faces(&self) -> Option<&[u32]> {
-        self.mesh().frame.polygons().faces()
+        match &self.part {
+            Some(part) => part.faces.as_deref(),
+            None => self.mesh().frame.polygons().faces(),
+        }
     }
 
     /// Of polygons that did not become fans, by their number in [`faces`](Self::faces), the corners in their order; of welded vertices
@@ -404,6 +495,14 @@ impl Body {
     pub fn outlines(&self) -> BTreeMap<u32, Vec<u32>> {
         let Mesh { frame, welding, .. } = self.mesh();
         let mut outlines = frame.polygons().outlines().clone();
+        if let Some(part) = &self.part
+            && let (Some(all), Some(own)) = (frame.polygons().faces(), &part.faces)
+        {
+            let faces = part.numbers.iter().zip(own);
+            let faces = faces.map(|(&triangle, &own)| (all[triangle as usize], own));
+            let kept = faces.filter_map(|(face, own)| Some((own, outlines.remove(&face)?)));
+            outlines = kept.collect();
+        }
         if let Some(welding) = welding {
             for corner in outlines.values_mut().flatten() {
                 *corner = welding.leader(*corner);

@@ -194,6 +194,20 @@ pub(crate) fn listed_name(name: &str) -> String {
     shown_within(name, 40)
 }
 
+/// Names for a message: the first ten, each shortened.
+pub(crate) fn listed<N: AsRef<str>>(names: impl Iterator<Item = N> + Clone) -> String {
+    let count = names.clone().count();
+    if count == 0 {
+        return "none".to_owned();
+    }
+    let short = names.take(10).map(|name| listed_name(name.as_ref()));
+    let mut list = short.collect::<Vec<_>>().join(", ");
+    if count > 10 {
+        list = format!("{list} and {} more", count - 10);
+    }
+    list
+}
+
 /// Which numbers there are; a file whose vertices are not counted yet allows all that a vertex can have.
 fn numbering(first: i64, last: i64) -> String {
     if last < first {

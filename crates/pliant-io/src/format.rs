@@ -99,6 +99,11 @@ impl Format {
         self == Self::Gltf
     }
 
+    /// Whether a file may name groups of its triangles.
+    pub(crate) fn holds_groups(self) -> bool {
+        self == Self::Obj
+    }
+
     /// Whether a file holds positions alone.
     pub(crate) fn is_cache(self) -> bool {
         matches!(self, Self::Pc2 | Self::Mdd)

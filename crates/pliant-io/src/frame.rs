@@ -83,6 +83,16 @@ impl Frame {
         self
     }
 
+    /// Enters what is held for this frame's mesh outside of it.
+    pub(crate) fn enter(&mut self, more: u64) -> Result<(), Reason> {
+        Ok(self.account.enter(more)?)
+    }
+
+    /// What is held, and the limit.
+    pub(crate) fn account(&self) -> &Account {
+        &self.account
+    }
+
     /// What is held in all.
     pub(crate) fn held(&self) -> u64 {
         self.account.held()

@@ -5,7 +5,8 @@
 //! whole body (triangles, faces, how many frames there are) and the first frame;
 //! [`Body::next_frame`] then hands out one frame after another, [`Body::skip`] passes over some. Only
 //! the frame handed out is in memory: a sequence larger than memory is read with the memory of one
-//! frame. A glTF file holds several bodies: [`open_all`] opens them, `scene.glb#arm` names one. A
+//! frame. A glTF file holds several bodies: [`open_all`] opens them, `scene.glb#arm` names one. An OBJ file is one body,
+//! `scan.obj#arm` a group of it, and [`Body::groups`] says which triangle is of which. A
 //! cache of positions is named beside its mesh: `shirt.obj+walk.pc2`. [`evaluated`] takes a body that a program evaluates by
 //! itself. [`Writer`] writes.
 //!
@@ -44,7 +45,7 @@
 //!
 //! | ending | one file is | precision |
 //! |---|---|---|
-//! | `.obj` | one frame: `v`, and the `v` indices of `f` | f64, the nearest to what is written |
+//! | `.obj` | one frame: `v`, and the `v` indices of `f`; groups: `o`, `g` | f64, the nearest to what is written |
 //! | `.ply` | one frame: ASCII, binary of either byte order; polygons, or else `tristrips` | as declared: `float` f32, `double` f64 |
 //! | `.stl` | one frame: text or binary, told apart by the length; what follows the triangles is passed over | f32 |
 //! | `.npz` | all frames: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3) | as the array: float32, float64 |
@@ -60,6 +61,9 @@
 //!   frame become one; [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off. In
 //!   glTF they must coincide at rest, morph targets move them alike to the bit, and each joint hold them alike but for 1e-5 of
 //!   the whole; the smallest vertex then stands for all, and [`Body::notes`] says how many were not alike to the bit.
+//! - **Groups** of an OBJ file have the name of their object (`o`), of their group (`g`), or `object/group`; a name is the rest of
+//!   its line. Faces without either are of the group `default`; the same name is the same group. `scan.obj#arm` is that group and
+//!   all below it (`arm/hand`), of every file of a pattern; groups are those of the first file.
 //! - **glTF**: the default scene; a body for each node whose mesh has triangles, strips or fans
 //!   (points and lines have no surface); nodes in nodes, skins, morph targets, sparse accessors;
 //!   steps, lines and cubic splines. Computed in double precision, rounded to f32. Frames at 0,
@@ -87,6 +91,7 @@
 //! | `file.rs` | a file must stay as it was found |
 //! | `format.rs` | which ending is which reader: the one place to add a format |
 //! | `frame.rs`, `positions.rs`, `polygons.rs` | what readers fill, checked: recorded once, then compared |
+//! | `groups.rs` | which triangles of an OBJ file have which name |
 //! | `obj.rs`, `ply/`, `stl.rs`, `npz/`, `cache.rs`, `gltf/` | one format each |
 //! | `evaluated.rs` | bodies that a program evaluates by itself |
 //! | `write/` | one format each, and files that appear when they are whole |
@@ -104,6 +109,7 @@ mod file;
 mod format;
 mod frame;
 mod gltf;
+mod groups;
 mod memory;
 mod natural;
 mod near;
@@ -122,9 +128,11 @@ mod triangulate;
 mod weld;
 mod write;
 
+pub use arguments::group_argument;
 pub use body::{Body, OpenOptions, open, open_all};
 pub use error::{Error, Place, Reason};
 pub use evaluated::{Evaluated, evaluated};
+pub use groups::Groups;
 pub use near::NearSeams;
 pub use note::Note;
 pub use positions::{Positions, Precision};

@@ -15,7 +15,7 @@ use crate::error::Reason;
 const FIRST: usize = 1 << 6;
 
 /// What a body holds, in bytes, and the most that it may.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Account {
     held: u64,
     limit: u64,

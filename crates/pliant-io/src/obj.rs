@@ -1,4 +1,4 @@
-//! OBJ: `v x y z`, `f a b c ...`, everything else passed over.
+//! OBJ: `v x y z`, `f a b c ...`, everything else passed over; `o` and `g` are read apart, where names are asked for.
 //!
 //! Own reader, since errors must name the line and connectivity is that of the `v` indices alone.
 //! What is read:
@@ -15,6 +15,7 @@ use std::io::BufRead;
 
 use crate::error::{Fault, Place, Reason};
 use crate::frame::{Announced, Complete, Frame};
+use crate::groups::Naming;
 use crate::positions::Precision;
 use crate::text::{LONGEST_LINE, Lines, expected, number, quoted, words};
 
@@ -42,6 +43,33 @@ pub(crate) fn read(input: impl BufRead, frame: &mut Frame) -> Result<Complete, F
         }
     }
     frame.complete(1)
+}
+
+/// Reads the names of faces, of a file that was read before.
+pub(crate) fn name_faces(input: impl BufRead, naming: &mut Naming) -> Result<(), Fault> {
+    let mut statements = Statements {
+        lines: Lines::new(input),
+        text: Vec::new(),
+    };
+    while let Some(place) = statements.advance()? {
+        let mut words = words(&statements.text);
+        match words.next() {
+            Some(b"o") => naming.object(name(words)),
+            Some(b"g") => naming.group(name(words)),
+            Some(b"f" | b"fo") => naming.face().map_err(|reason| reason.at(place))?,
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// All `words`, a `#` in them too: `o Cube #2` is not `o Cube #3`.
+fn name<'a>(words: impl Iterator<Item = &'a [u8]>) -> String {
+    let name = words.collect::<Vec<_>>().join(&b' ');
+    String::from_utf8(name).unwrap_or_else(|no_text| {
+        let bytes = no_text.as_bytes().iter();
+        bytes.map(|&latin| char::from(latin)).collect()
+    })
 }
 
 /// The first three of `words`.

@@ -1,7 +1,11 @@
 //! A pattern that the shell expanded: `check cloth_*.obj` without quotes arrives as many arguments,
 //! each then a body of its own.
 
+use std::path::Path;
+
 use glob::Pattern;
+
+use crate::format::Format;
 
 /// The pattern to quote, where `arguments` look like one numbered series: at least two, all
 /// different, equal but for one run of digits.
@@ -37,6 +41,9 @@ pub fn looks_like_a_series(arguments: &[String]) -> Option<String> {
         numbers.push(other);
     }
     let varying = varying?;
+    if is_behind_a_file(&first[..varying].concat()) {
+        return None;
+    }
     let mut numbers: Vec<&str> = numbers.iter().map(|other| other[varying]).collect();
     numbers.push(first[varying]);
     let count = numbers.len();
@@ -50,6 +57,12 @@ pub fn looks_like_a_series(arguments: &[String]) -> Option<String> {
             escape(&first[varying + 1..])
         )
     })
+}
+
+/// Whether an argument that begins so has named a file, and now names a part of it: `scene.glb#arm`.
+fn is_behind_a_file(beginning: &str) -> bool {
+    let mut cuts = beginning.match_indices('#');
+    cuts.any(|(at, _)| Format::of(Path::new(&beginning[..at])).is_ok())
 }
 
 /// Cuts `text` where digits begin or end.
@@ -96,6 +109,10 @@ mod tests {
             hint(&["run1/v2.ply", "run2/v2.ply"]).as_deref(),
             Some("run*/v2.ply")
         );
+        assert_eq!(
+            hint(&["a#1/f.obj", "a#2/f.obj"]).as_deref(),
+            Some("a#*/f.obj")
+        );
         assert_eq!(hint(&["[a]1", "[a]2"]).as_deref(), Some("[[]a[]]*"));
     }
 
@@ -110,5 +127,6 @@ mod tests {
         assert_eq!(hint(&["f1_1.obj", "f2_2.obj"]), None);
         assert_eq!(hint(&["f1_1.obj", "f1_2.obj", "f2_1.obj"]), None);
         assert_eq!(hint(&["", ""]), None);
+        assert_eq!(hint(&["f.obj#leg1", "f.obj#leg2"]), None);
     }
 }

@@ -30,7 +30,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use crate::body::OpenOptions;
-use crate::error::{Fault, Place, Reason, listed_name};
+use crate::error::{Fault, Place, Reason, listed};
 use crate::file::Found;
 use crate::format::FrameSource;
 use crate::frame::{Announced, Complete, Frame};
@@ -309,20 +309,6 @@ pub(crate) fn many_bodies(names: &[String], argument: &str) -> Reason {
         example: format!("{argument}#{first}"),
         names: listed(names.iter().cloned()),
     }
-}
-
-/// Names for a message: the first ten, each shortened.
-fn listed(names: impl Iterator<Item = String> + Clone) -> String {
-    let count = names.clone().count();
-    if count == 0 {
-        return "none".to_owned();
-    }
-    let short = names.take(10).map(|name| listed_name(&name));
-    let mut list = short.collect::<Vec<_>>().join(", ");
-    if count > 10 {
-        list = format!("{list} and {} more", count - 10);
-    }
-    list
 }
 
 impl GltfBody {

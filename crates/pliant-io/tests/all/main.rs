@@ -6,6 +6,7 @@ mod changes;
 mod common;
 mod evaluated;
 mod gltf;
+mod groups;
 mod hostile;
 mod n_of_m;
 mod npz;

@@ -1,0 +1,456 @@
+//! Groups of an OBJ file: which of its triangles `o` and `g` give a name, and which name.
+//!
+//! ```text
+//! f ...           default            nothing was named yet
+//! o shirt         shirt              an object begins, and no group of it
+//! g collar        shirt/collar       a group of the object
+//! g               shirt              none again; `g default` and `g shirt` say the same
+//! g left cuff     shirt/left cuff    a name is the rest of its line, with one blank between words
+//! o               default            no object
+//! ```
+//!
+//! So two objects whose groups are called alike stay two, and an exporter that writes `o`, or `g`, or both alike gives the names that
+//! it wrote. What has the same name is one group, however often it comes back. A name stands for its group and for what is below it:
+//! `shirt` for `shirt/collar` too. A name that is not UTF-8 is read as Latin-1, so that different names stay different.
+//!
+//! Groups are found by reading the file once more, when they are asked for: whoever does not ask pays nothing. A name is kept when
+//! the first face has it, so groups without faces are none; what is kept is counted before it is.
+
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::error::{Error, Reason, listed};
+use crate::memory::Account;
+use crate::shown::shown;
+
+/// What faces are called that no `o` and no `g` names.
+const DEFAULT: &str = "default";
+
+/// What a map takes for an entry, roughly, beside the bytes of a name.
+const ENTRY: u64 = 96;
+
+/// The groups of an OBJ file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Groups {
+    file: Arc<Path>,
+    /// Their names, all different, in the order of their lowest triangles; none where the file names nothing.
+    pub names: Vec<String>,
+    /// For each triangle the number of its group; empty where the file names nothing.
+    pub of_triangles: Vec<u32>,
+}
+
+impl Groups {
+    /// Of a file that names nothing.
+    pub(crate) fn none(file: Arc<Path>) -> Self {
+        Self {
+            file,
+            names: Vec::new(),
+            of_triangles: Vec::new(),
+        }
+    }
+
+    /// Whether a group of this name is meant by another: it is the same, or that of its object.
+    ///
+    /// ```
+    /// use pliant_io::Groups;
+    /// assert!(Groups::is_meant("shirt/collar", "shirt") && Groups::is_meant("shirt", "shirt"));
+    /// assert!(!Groups::is_meant("shirts", "shirt") && !Groups::is_meant("shirt", "shirt/collar"));
+    /// ```
+    pub fn is_meant(name: &str, by: &str) -> bool {
+        let rest = name.strip_prefix(by);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+    }
+
+    /// The numbers of the groups that a name stands for, ascending.
+    ///
+    /// # Errors
+    ///
+    /// [`Reason::NoBody`], which lists the names there are, or [`Reason::Unsupported`] where the file names nothing.
+    pub fn called(&self, name: &str) -> Result<Vec<u32>, Error> {
+        let numbered = self.names.iter().zip(0..);
+        let meant = numbered.filter(|(known, _)| Self::is_meant(known, name));
+        let meant: Vec<u32> = meant.map(|(_, number)| number).collect();
+        if !meant.is_empty() {
+            return Ok(meant);
+        }
+        let reason = if self.names.is_empty() {
+            holds_one_body(name)
+        } else {
+            Reason::NoBody {
+                name: name.to_owned(),
+                names: listed(self.names.iter().map(String::as_str)),
+            }
+        };
+        Err(Error::new(&*self.file, reason))
+    }
+}
+
+/// Why a part of a file that is one body cannot be named.
+pub(crate) fn holds_one_body(name: &str) -> Reason {
+    let name = shown(name);
+    Reason::Unsupported(format!(
+        "holds one body, not one called \"{name}\"; leave out what begins with the #"
+    ))
+}
+
+/// Takes names and faces as they come in the file.
+pub(crate) struct Naming {
+    account: Account,
+    object: Standing,
+    group: Standing,
+    /// The number of what the object and the group together are called; none until a face asks.
+    number: Option<u32>,
+    numbers: HashMap<[u32; 2], u32>,
+    /// Numbers of objects and groups, as they were numbered.
+    pairs: Vec<[u32; 2]>,
+    /// Where it changes: the number of a face, and what it and those behind it are called.
+    runs: Vec<(u32, u32)>,
+    faces: u32,
+}
+
+impl Naming {
+    /// `account`: what is held already, and the limit.
+    pub(crate) fn new(account: Account) -> Self {
+        Self {
+            account,
+            object: Standing::default(),
+            group: Standing::default(),
+            number: None,
+            numbers: HashMap::new(),
+            pairs: Vec::new(),
+            runs: Vec::new(),
+            faces: 0,
+        }
+    }
+
+    /// Begins an object; without a name, ends one.
+    pub(crate) fn object(&mut self, name: String) {
+        self.object.set(name);
+        self.group.set(String::new());
+        self.number = None;
+    }
+
+    /// Begins a group of the object; without a name, ends one.
+    pub(crate) fn group(&mut self, mut name: String) {
+        if name == DEFAULT || name == self.object.name {
+            name.clear();
+        }
+        self.group.set(name);
+        self.number = None;
+    }
+
+    /// Takes a face.
+    pub(crate) fn face(&mut self) -> Result<(), Reason> {
+        let number = match self.number {
+            Some(number) => number,
+            None => self.number()?,
+        };
+        if self.runs.last().is_none_or(|&(_, last)| last != number) {
+            let run = (self.faces, number);
+            self.account.push(&mut self.runs, run, 0)?;
+        }
+        let more = self.faces.checked_add(1);
+        self.faces = more.ok_or(Reason::TooMany { what: "faces" })?;
+        Ok(())
+    }
+
+    /// The number of what is named now.
+    fn number(&mut self) -> Result<u32, Reason> {
+        let object = self.object.number(&mut self.account)?;
+        let group = self.group.number(&mut self.account)?;
+        let number = match self.numbers.entry([object, group]) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(place) => {
+                self.account.enter(ENTRY)?;
+                let number = self.pairs.len() as u32;
+                self.account.push(&mut self.pairs, [object, group], 0)?;
+                *place.insert(number)
+            }
+        };
+        self.number = Some(number);
+        Ok(number)
+    }
+
+    /// The groups of a body of so many triangles; `polygons`: see [`Body::faces`](crate::Body::faces).
+    pub(crate) fn end(
+        self,
+        file: Arc<Path>,
+        polygons: Option<&[u32]>,
+        triangles: usize,
+    ) -> Result<Groups, Reason> {
+        let Self {
+            mut account,
+            object,
+            group,
+            pairs,
+            runs,
+            faces,
+            ..
+        } = self;
+        let last = polygons.map_or(triangles.checked_sub(1), |it| {
+            it.last().map(|&p| p as usize)
+        });
+        if last != (faces as usize).checked_sub(1) {
+            return Err(Reason::Changed);
+        }
+        let (object, group) = (object.in_order(), group.in_order());
+        let mut names = Vec::new();
+        let mut known: HashMap<String, u32> = HashMap::new();
+        let mut numbers = Vec::new();
+        for [of_object, of_group] in pairs {
+            let [object, group] = [&object[of_object as usize], &group[of_group as usize]];
+            // Before the name is made: that of one object may be that of very many groups.
+            account.enter(2 * (object.len() + group.len()) as u64 + ENTRY)?;
+            let name = match (&**object, &**group) {
+                ("", "") => DEFAULT.to_owned(),
+                (name, "") | ("", name) => name.to_owned(),
+                (object, group) => format!("{object}/{group}"),
+            };
+            let next = names.len() as u32;
+            let number = *known.entry(name).or_insert_with_key(|name| {
+                names.push(name.clone());
+                next
+            });
+            account.push(&mut numbers, number, 0)?;
+        }
+        if names == [DEFAULT] {
+            return Ok(Groups::none(file));
+        }
+        account.enter(triangles as u64 * size_of::<u32>() as u64)?;
+        let mut of_triangles = Vec::new();
+        let reserved = of_triangles.try_reserve_exact(triangles);
+        reserved.map_err(|_| Reason::OutOfMemory)?;
+        let (mut runs, mut number) = (runs.into_iter().peekable(), 0);
+        for triangle in 0..triangles {
+            let face = polygons.map_or(triangle as u32, |polygons| polygons[triangle]);
+            while let Some((_, next)) = runs.next_if(|&(first, _)| first <= face) {
+                number = numbers[next as usize];
+            }
+            of_triangles.push(number);
+        }
+        Ok(Groups {
+            file,
+            names,
+            of_triangles,
+        })
+    }
+}
+
+/// A name that stands until the next of its kind, and those that faces had.
+#[derive(Default)]
+struct Standing {
+    name: String,
+    /// None until a face asks.
+    number: Option<u32>,
+    numbers: HashMap<Arc<str>, u32>,
+}
+
+impl Standing {
+    fn set(&mut self, name: String) {
+        self.name = name;
+        self.number = None;
+    }
+
+    fn number(&mut self, account: &mut Account) -> Result<u32, Reason> {
+        if let Some(number) = self.number {
+            return Ok(number);
+        }
+        let next = self.numbers.len() as u32;
+        let known = self.numbers.get(&*self.name).copied();
+        if known.is_none() {
+            account.enter(self.name.len() as u64 + ENTRY)?;
+            self.numbers.insert((&*self.name).into(), next);
+        }
+        let number = known.unwrap_or(next);
+        self.number = Some(number);
+        Ok(number)
+    }
+
+    /// The names, by their numbers.
+    fn in_order(self) -> Vec<Arc<str>> {
+        let mut names: Vec<(Arc<str>, u32)> = self.numbers.into_iter().collect();
+        names.sort_unstable_by_key(|&(_, number)| number);
+        names.into_iter().map(|(name, _)| name).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Fault;
+    use crate::obj;
+
+    fn groups_within(limit: u64, text: impl AsRef<[u8]>) -> Result<Groups, Fault> {
+        let mut naming = Naming::new(Account::new(limit));
+        obj::name_faces(text.as_ref(), &mut naming)?;
+        let faces = naming.faces as usize;
+        Ok(naming.end(Path::new("a.obj").into(), None, faces)?)
+    }
+
+    /// The name of each face.
+    fn named(text: impl AsRef<[u8]>) -> Vec<String> {
+        let Groups {
+            names,
+            of_triangles,
+            ..
+        } = groups_within(1 << 20, text).unwrap();
+        assert!(
+            of_triangles
+                .iter()
+                .all(|&group| (group as usize) < names.len())
+        );
+        let first = |number: u32| of_triangles.iter().position(|&group| group == number);
+        let firsts: Vec<_> = (0..names.len() as u32).map(first).collect();
+        assert!(firsts.is_sorted() && firsts.iter().all(Option::is_some));
+        let name = |&group: &u32| names[group as usize].clone();
+        of_triangles.iter().map(name).collect()
+    }
+
+    #[test]
+    fn a_group_has_the_name_of_its_object_and_its_own() {
+        let text = "f 1 2 3\no shirt\nf 1 2 3\ng collar\nf 1 2 3\ng\nf 1 2 3\ng left cuff\nf 1 2 3\n\
+            o trousers\nf 1 2 3\ng collar\nf 1 2 3\ng default\nf 1 2 3\ng trousers\nf 1 2 3\no\nf 1 2 3\n\
+            g collar\nf 1 2 3\no shirt\nf 1 2 3\n";
+        let names = [
+            "default",
+            "shirt",
+            "shirt/collar",
+            "shirt",
+            "shirt/left cuff",
+            "trousers",
+            "trousers/collar",
+            "trousers",
+            "trousers",
+            "default",
+            "collar",
+            "shirt",
+        ];
+        assert_eq!(named(text), names);
+    }
+
+    /// What exporters write.
+    #[test]
+    fn names_are_those_that_were_written() {
+        for (text, names) in [
+            // Blender: objects; with groups of materials.
+            (
+                "o Cube\ns 0\nusemtl A\nf 1 2 3\no Ball\nf 1 2 3",
+                &["Cube", "Ball"][..],
+            ),
+            (
+                "o Cube\ng Cube_A\nf 1 2 3\ng Cube_B\nf 1 2 3",
+                &["Cube/Cube_A", "Cube/Cube_B"],
+            ),
+            // Maya: a group of vertices first.
+            (
+                "g default\nv 0 0 0\ns 1\ng pSphere1\nf 1 2 3\ng default\ng pCube1\nf 1 2 3",
+                &["pSphere1", "pCube1"],
+            ),
+            // 3ds Max: both, alike.
+            (
+                "o Box001\ng Box001\nf 1 2 3\no Box002\ng Box002\nf 1 2 3",
+                &["Box001", "Box002"],
+            ),
+            // SketchUp: several names.
+            (
+                "g Mesh1 Seat Model\nf 1 2 3\ng Mesh2 Seat Model\nf 1 2 3",
+                &["Mesh1 Seat Model", "Mesh2 Seat Model"],
+            ),
+            ("g 1\nf 1 2 3\ng 2\nfo 1 2 3", &["1", "2"]),
+            (
+                "o  a\t b  \r\nf 1 2 3\r\ng c \\\n  d\r\nf 1 2 3",
+                &["a b", "a b/c d"],
+            ),
+            (
+                "o Cube #2 # copy\nf 1 2 3\no Cube #3\nf 1 2 3",
+                &["Cube #2 # copy", "Cube #3"],
+            ),
+            ("# o no\nog no\no yes\nf 1 2 3", &["yes"]),
+        ] {
+            assert_eq!(named(text), names, "{text}");
+        }
+    }
+
+    #[test]
+    fn names_that_are_no_text_stay_different() {
+        let text = b"o \xe4\nf 1 2 3\no \xf6\nf 1 2 3\no \xc3\xa4\nf 1 2 3\n";
+        assert_eq!(named(text), ["ä", "ö", "ä"]);
+    }
+
+    #[test]
+    fn where_nothing_is_named_there_are_no_groups() {
+        for text in [
+            "f 1 2 3\nf 1 2 3",
+            "o\ng\nf 1 2 3\ng default\nf 1 2 3\no later",
+            "",
+        ] {
+            if !text.is_empty() {
+                assert_eq!(named(text), [""; 0], "{text}");
+            }
+        }
+        let none = Groups::none(Path::new("a.obj").into());
+        let refused = none.called("arm").unwrap_err().to_string();
+        assert_eq!(
+            refused,
+            "a.obj: holds one body, not one called \"arm\"; leave out what begins with the #"
+        );
+    }
+
+    #[test]
+    fn a_name_stands_for_what_is_below_it() {
+        let text = "o arm\nf 1 2 3\no legs\nf 1 2 3\ng left\nf 1 2 3\no arm\ng hand\nf 1 2 3\n";
+        let groups = groups_within(1 << 20, text).unwrap();
+        assert_eq!(groups.names, ["arm", "legs", "legs/left", "arm/hand"]);
+        for (name, meant) in [("arm", &[0, 3][..]), ("arm/hand", &[3]), ("legs", &[1, 2])] {
+            assert_eq!(groups.called(name).unwrap(), meant);
+        }
+        for name in ["", "leg", "arm/", "hand", "left"] {
+            let refused = groups.called(name).unwrap_err().to_string();
+            let words = format!("no body \"{name}\"; there is: arm, legs, legs/left, arm/hand");
+            assert!(refused.contains(&words), "{refused}");
+        }
+    }
+
+    #[test]
+    fn triangles_have_the_group_of_their_polygon() {
+        let mut naming = Naming::new(Account::new(1 << 20));
+        let text = "o a\nf 1 2 3 4 5\ng b\nf 1 2 3\nf 1 2 3 4\no a\nf 1 2 3\n";
+        obj::name_faces(text.as_bytes(), &mut naming).unwrap();
+        let polygons = [0, 0, 0, 1, 2, 2, 3];
+        let file: Arc<Path> = Path::new("a.obj").into();
+        let groups = naming.end(file.clone(), Some(&polygons), 7).unwrap();
+        assert_eq!(groups.of_triangles, [0, 0, 0, 1, 1, 1, 0]);
+        // Another number of faces than was read before.
+        for (polygons, count) in [(Some(&polygons[..5]), 5), (None, 3), (None, 0)] {
+            let mut naming = Naming::new(Account::new(1 << 20));
+            obj::name_faces(text.as_bytes(), &mut naming).unwrap();
+            let ended = naming.end(file.clone(), polygons, count);
+            assert!(matches!(ended, Err(Reason::Changed)), "{ended:?}");
+        }
+    }
+
+    #[test]
+    fn names_are_counted_and_what_has_no_faces_is_none() {
+        // A million groups without faces.
+        let empty = "g a\ng b\n".repeat(500_000) + "f 1 2 3\n";
+        assert_eq!(groups_within(1 << 10, empty).unwrap().names, ["b"]);
+        // Very many with one each.
+        let group = |n: u32| format!("g {n}\nf 1 2 3\n");
+        let many = (0..10_000).map(group).collect::<Vec<_>>().concat();
+        assert_eq!(groups_within(8 << 20, &many).unwrap().names.len(), 10_000);
+        let refused = groups_within(1 << 20, &many).unwrap_err();
+        assert!(
+            matches!(refused.reason, Reason::TooLarge { .. }),
+            "{refused:?}"
+        );
+        // An object with a long name, which each of its groups would repeat.
+        let long = format!("o {}\n", "x".repeat(1 << 20));
+        let refused = groups_within(1 << 26, long + &many).unwrap_err();
+        assert!(
+            matches!(refused.reason, Reason::TooLarge { .. }),
+            "{refused:?}"
+        );
+    }
+}

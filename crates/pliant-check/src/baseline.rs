@@ -51,7 +51,7 @@ pub(crate) fn read(
     let names = Names::new(sources, bodies, &[])?;
     let mut numbers = Vec::new();
     for body in &written.bodies {
-        let Some(&[number]) = names.of_bodies(&body.name).as_deref() else {
+        let Some(number) = names.of_body(&body.name) else {
             return Err(bad(names.unknown("body", &body.name).to_string()));
         };
         let triangles = bodies.facts(sources, number).triangles;
@@ -69,7 +69,7 @@ pub(crate) fn read(
             let number = *numbers.get(body as usize)?;
             let source = bodies.source_of(number);
             let is_there = (triangle as usize) < sources[source].triangles().len()
-                && bodies.of_triangle(source as u32, triangle) == number;
+                && bodies.of_triangle(source as u32, triangle) == Some(number);
             is_there.then_some((number, triangle))
         };
         let (one, other) = (now(body_a, a)?, now(body_b, b)?);

@@ -1,23 +1,26 @@
-//! What an answer calls a body: a source as a whole, or a connected piece of it.
+//! What an answer calls a body: a source as a whole, a connected piece of it, or a group of it.
 //!
-//! Pieces are names for triangles, not bodies of the world: there each source stays one body, whose pairs with itself are also
-//! the pairs between its pieces. So a source in 100,000 pieces takes no more memory, and no more time, than one in one piece.
-//! Triangles keep the numbers that they have in their source.
+//! Pieces and groups are names for triangles, not bodies of the world: there each source stays one body, whose pairs with itself are
+//! also the pairs between its pieces. So a source in 100,000 pieces takes no more memory, and no more time, than one in one piece; and
+//! triangles that share a vertex are left out whatever bodies they are of. Triangles keep the numbers that they have in their source.
+//! Where only some groups of a source are asked for, the triangles of the others are of no body.
 
 use crate::Row;
-use crate::pieces::{Piece, Pieces};
+use crate::error::Error;
+use crate::opened::Opened;
+use crate::pieces::{NONE, Piece, Pieces};
 use crate::settings::Split;
-use pliant_io::Body as Source;
+use pliant_io::{Body as Source, Groups};
 use std::ops::Range;
 
 /// A body of an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BodyFacts {
-    /// The name of its source, and where that is split, `#` and the number of the piece, from 1.
+    /// The name of its source, and where it is not all of that, `#` and the number of the piece, from 1, or the name of the group.
     pub name: String,
     /// The number of its source.
     pub source: usize,
-    /// How many vertices it has; of a piece, those that its triangles use.
+    /// How many vertices it has; of a piece or a group, those that its triangles use.
     pub vertices: usize,
     /// How many triangles it has.
     pub triangles: usize,
@@ -25,38 +28,138 @@ pub struct BodyFacts {
     pub first_triangle: usize,
 }
 
+/// What a source is split into.
+#[derive(Debug)]
+struct Parts {
+    pieces: Pieces,
+    /// None where pieces have numbers.
+    names: Option<Vec<String>>,
+}
+
 /// The bodies of all sources, numbered through.
 #[derive(Debug)]
 pub(crate) struct Bodies {
-    /// None where sources are bodies.
-    pieces: Option<Vec<Pieces>>,
+    /// For each source what it is split into; none where it is a body as a whole.
+    parts: Vec<Option<Parts>>,
     /// For each source the number of its first body, and at the end the number of bodies.
     starts: Vec<u32>,
 }
 
+impl Parts {
+    /// What a source is split into; `named` are the groups of it that take part.
+    fn of(source: &Source, named: &[String], split: Option<Split>) -> Result<Option<Self>, Error> {
+        let parts = match (split, named) {
+            (None, []) => None,
+            (Some(Split::Components), []) => Some(Self {
+                pieces: Pieces::of(source.triangles(), source.vertex_count()),
+                names: None,
+            }),
+            (Some(Split::Components), [name, ..]) => {
+                let name = format!("{}#{name}", source.name());
+                return Err(Error::PiecesOfGroup { name });
+            }
+            // It has a group's triangles only; the numbers of groups are those of the file's.
+            (Some(Split::Groups), []) if source.is_part() => None,
+            (Some(Split::Groups), []) => {
+                let groups = source.groups()?;
+                (!groups.names.is_empty()).then(|| Self::groups(source, groups))
+            }
+            (None | Some(Split::Groups), _) => {
+                let groups = some_of(source, source.groups()?, named, split.is_some())?;
+                Some(Self::groups(source, groups))
+            }
+        };
+        Ok(parts)
+    }
+
+    fn groups(source: &Source, groups: Groups) -> Self {
+        let Groups {
+            names,
+            of_triangles,
+            ..
+        } = groups;
+        Self {
+            pieces: Pieces::named(
+                of_triangles,
+                names.len(),
+                source.triangles(),
+                source.vertex_count(),
+            ),
+            names: Some(names),
+        }
+    }
+
+    fn name(&self, piece: usize) -> String {
+        match &self.names {
+            None => (piece + 1).to_string(),
+            Some(names) => names[piece].clone(),
+        }
+    }
+}
+
+/// The groups that are named, each one by itself, or all that one name stands for as one. Other triangles are of none.
+fn some_of(source: &Source, groups: Groups, named: &[String], each: bool) -> Result<Groups, Error> {
+    // For each group the place of the name that it is named by.
+    let mut by = vec![NONE; groups.names.len()];
+    for (name, place) in named.iter().zip(0..) {
+        for group in groups.called(name)? {
+            let by = &mut by[group as usize];
+            if *by != NONE {
+                return Err(Error::NamedTwice {
+                    file: source.name().to_owned(),
+                    names: [&named[*by as usize], name].map(Clone::clone),
+                    group: groups.names[group as usize].clone(),
+                });
+            }
+            *by = place;
+        }
+    }
+    let mut groups = groups;
+    if each {
+        let mut count = 0..;
+        for place in by.iter_mut().filter(|place| **place != NONE) {
+            *place = count.next().unwrap_or(NONE);
+        }
+        let mut places = by.iter();
+        groups.names.retain(|_| places.next() != Some(&NONE));
+    } else {
+        groups.names = named.to_vec();
+    }
+    for group in &mut groups.of_triangles {
+        *group = by[*group as usize];
+    }
+    Ok(groups)
+}
+
 impl Bodies {
-    pub(crate) fn of(sources: &[Source], split: Option<Split>) -> Self {
-        let pieces_of = |source: &Source| Pieces::of(source.triangles(), source.vertex_count());
-        let pieces: Option<Vec<_>> = split.map(|split| match split {
-            Split::Components => sources.iter().map(pieces_of).collect(),
-        });
+    pub(crate) fn of(
+        Opened { sources, named }: &Opened,
+        split: Option<Split>,
+    ) -> Result<Self, Error> {
+        let each = sources.iter().zip(named);
+        let parts = each.map(|(source, named)| Parts::of(source, named, split));
+        let parts = parts.collect::<Result<Vec<_>, _>>()?;
         let mut starts = vec![0];
         let mut count = 0;
-        for source in 0..sources.len() {
-            count += pieces
-                .as_ref()
-                .map_or(1, |pieces| pieces[source].all.len() as u32);
+        for parts in &parts {
+            count += parts.as_ref().map_or(1, |it| it.pieces.all.len() as u32);
             starts.push(count);
         }
-        Self { pieces, starts }
+        Ok(Self { parts, starts })
     }
 
     pub(crate) fn count(&self) -> u32 {
         self.starts.last().copied().unwrap_or(0)
     }
 
-    pub(crate) fn are_pieces(&self) -> bool {
-        self.pieces.is_some()
+    /// Whether a source is split, or not all of it a body.
+    pub(crate) fn is_split(&self, source: usize) -> bool {
+        self.parts[source].is_some()
+    }
+
+    /// Whether any is.
+    pub(crate) fn are_split(&self) -> bool {
+        self.parts.iter().any(Option::is_some)
     }
 
     /// The bodies of a source.
@@ -68,32 +171,50 @@ impl Bodies {
         self.starts.partition_point(|&start| start <= body) - 1
     }
 
-    /// The body that a triangle of a source is of.
-    pub(crate) fn of_triangle(&self, source: u32, triangle: u32) -> u32 {
-        match &self.pieces {
-            None => source,
-            Some(pieces) => {
-                let piece = pieces[source as usize].of_triangles[triangle as usize];
-                self.starts[source as usize] + piece
-            }
-        }
+    /// The body that a triangle of a source is of; none where its group was not asked for.
+    pub(crate) fn of_triangle(&self, source: u32, triangle: u32) -> Option<u32> {
+        let start = self.starts[source as usize];
+        let Some(Parts { pieces, .. }) = &self.parts[source as usize] else {
+            return Some(start);
+        };
+        let piece = pieces.of_triangles[triangle as usize];
+        (piece != NONE).then(|| start + piece)
     }
 
-    /// A pair of triangles of sources, as a pair of triangles of bodies: the smaller first.
-    pub(crate) fn row(&self, [source_a, a, source_b, b]: Row) -> Row {
-        if self.pieces.is_none() {
-            return [source_a, a, source_b, b];
-        }
-        let [one, other] =
-            [(source_a, a), (source_b, b)].map(|(source, t)| (self.of_triangle(source, t), t));
+    /// A pair of triangles of sources, as a pair of triangles of bodies: the smaller first. None if one is of no body.
+    pub(crate) fn row(&self, [source_a, a, source_b, b]: Row) -> Option<Row> {
+        let one = (self.of_triangle(source_a, a)?, a);
+        let other = (self.of_triangle(source_b, b)?, b);
         let ((body_a, a), (body_b, b)) = (one.min(other), one.max(other));
-        [body_a, a, body_b, b]
+        Some([body_a, a, body_b, b])
+    }
+
+    /// The bodies of a source that are called so behind its name and a `#`: the piece of this number, or the groups that the name
+    /// stands for.
+    pub(crate) fn called(&self, source: usize, name: &str) -> Vec<u32> {
+        let Some(Parts { pieces, names }) = &self.parts[source] else {
+            return Vec::new();
+        };
+        let of_source = self.of_source(source);
+        match names {
+            None => {
+                let number = name.parse().ok().filter(|&number| number > 0);
+                let number = number.filter(|&number: &usize| number <= pieces.all.len());
+                let body = number.and_then(|number| of_source.clone().nth(number - 1));
+                body.into_iter().collect()
+            }
+            Some(names) => {
+                let named = of_source.zip(names);
+                let meant = named.filter(|(_, known)| Groups::is_meant(known, name));
+                meant.map(|(body, _)| body).collect()
+            }
+        }
     }
 
     pub(crate) fn facts(&self, sources: &[Source], body: u32) -> BodyFacts {
         let number = self.source_of(body);
         let source = &sources[number];
-        let Some(pieces) = &self.pieces else {
+        let Some(parts) = &self.parts[number] else {
             return BodyFacts {
                 name: source.name().to_owned(),
                 source: number,
@@ -107,9 +228,9 @@ impl Bodies {
             vertices,
             triangles,
             first_triangle,
-        } = pieces[number].all[piece];
+        } = parts.pieces.all[piece];
         BodyFacts {
-            name: format!("{}#{}", source.name(), piece + 1),
+            name: format!("{}#{}", source.name(), parts.name(piece)),
             source: number,
             vertices: vertices as usize,
             triangles: triangles as usize,

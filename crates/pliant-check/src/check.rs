@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::filter::Filter;
 use crate::found::{Found, MOST_COUNTED, Row, Stop, Taker};
 use crate::one_point;
+use crate::opened::Opened;
 use crate::remarks::{AtSeams, Remarks, has_degenerate};
 use crate::sequence::{FIRST, MeshNumber, Sequence};
 use crate::settings::{self, Frames, Settings};
@@ -95,7 +96,8 @@ impl Baseline {
 }
 
 impl Check {
-    /// Opens what `arguments` name, each a source or, of a glTF file, a source for each of its bodies, and prepares to check it.
+    /// Opens what `arguments` name, each a source or, of a glTF file, a source for each of its bodies, and prepares to check it. Those
+    /// that name groups of one OBJ file, `scan.obj#arm` and `scan.obj#leg`, are one source, and the groups its bodies.
     ///
     /// # Errors
     ///
@@ -121,13 +123,12 @@ impl Check {
         settings: &Settings,
         open: impl FnMut(&String) -> Result<Vec<Source>, pliant_io::Error>,
     ) -> Result<Self, Error> {
-        let opened = arguments.iter().map(open);
-        let opened = opened.collect::<Result<Vec<_>, _>>()?;
-        let sources: Vec<Source> = opened.into_iter().flatten().collect();
-        if reading.clip.is_some() && sources.iter().all(|source| source.clip().is_none()) {
+        let opened = Opened::of(arguments, open)?;
+        let mut sources = opened.sources.iter();
+        if reading.clip.is_some() && sources.all(|source| source.clip().is_none()) {
             return Err(Error::NoClip);
         }
-        Self::new(sources, settings)
+        Self::of(opened, settings)
     }
 
     /// Prepares to check sources that are open, none of whose frames was handed out.
@@ -136,9 +137,13 @@ impl Check {
     ///
     /// There is no source, their frame counts differ, or a frame or a name in the settings is none that there is.
     pub fn new(sources: Vec<Source>, settings: &Settings) -> Result<Self, Error> {
-        sources.iter().try_for_each(one_point::check)?;
-        let sequence = Sequence::new(sources, settings.options)?;
-        let bodies = Bodies::of(&sequence.sources, settings.split);
+        Self::of(Opened::whole(sources), settings)
+    }
+
+    fn of(opened: Opened, settings: &Settings) -> Result<Self, Error> {
+        opened.sources.iter().try_for_each(one_point::check)?;
+        let bodies = Bodies::of(&opened, settings.split)?;
+        let sequence = Sequence::new(opened.sources, settings.options)?;
         let filter = Filter::new(
             &sequence.sources,
             &bodies,
@@ -209,6 +214,11 @@ impl Check {
     /// How many bodies there are in answers: the sources, or what they are split into.
     pub fn body_count(&self) -> usize {
         self.bodies.count() as usize
+    }
+
+    /// Whether a source is split into bodies, or only groups of it are; then its bodies are named behind a `#`.
+    pub fn is_split(&self, source: usize) -> bool {
+        source < self.sequence.sources.len() && self.bodies.is_split(source)
     }
 
     /// What is known of the bodies, in the order of their numbers.
@@ -295,7 +305,7 @@ impl Check {
         let meshes = &self.sequence.meshes;
         let is_told = |&source: &usize| self.told[source] == meshes[source];
         let changed = (0..meshes.len()).filter(|source| !is_told(source));
-        found.changed = changed.map(|source| source as u32).collect();
+        found.changed = changed.map(|it| self.bodies.of_source(it).start).collect();
         self.told.clone_from(meshes);
         self.frames.start = frame.saturating_add(self.frames.step);
         self.frames.count -= 1;
@@ -321,9 +331,9 @@ impl Check {
     fn go_to(&mut self, frame: usize) -> Result<(), Error> {
         let begins = self.sequence.ids.is_empty();
         self.sequence.go_to(frame)?;
-        if self.bodies.are_pieces()
-            && let Some(source) = self.sequence.meshes.iter().position(|&mesh| mesh != FIRST)
-        {
+        let mut meshes = self.sequence.meshes.iter().enumerate();
+        let changed = meshes.find(|&(source, &mesh)| mesh != FIRST && self.bodies.is_split(source));
+        if let Some((source, _)) = changed {
             let source_name = self.sequence.sources[source].name().to_owned();
             return Err(Error::PiecesChanged { source_name, frame });
         }
@@ -382,7 +392,7 @@ impl Check {
         let mut taker = Taker::new(frame, first, listed, most, known).skip_degenerate(skip);
         self.remarks.begin(frame);
         let comparable = baseline.as_ref().map(|it| &it.comparable[..]);
-        let visited = if first && known.is_none() && !skip && !self.bodies.are_pieces() {
+        let visited = if first && known.is_none() && !skip && !self.bodies.are_split() {
             self.take_first(&mut taker, stop)
         } else {
             self.take_all(&mut taker, comparable.unwrap_or(&[]), stop)
@@ -438,7 +448,9 @@ impl Check {
         let Sequence { world, sources, .. } = sequence;
         let take = |pair: Pair| {
             let of_sources = pair.into();
-            let row = bodies.row(of_sources);
+            let Some(row) = bodies.row(of_sources) else {
+                return ControlFlow::Continue(());
+            };
             let [body_a, _, body_b, _] = row;
             // The world knows sources only.
             let is_asked = (body_a != body_b || *itself) && filter.meet(body_a, body_b);

@@ -151,6 +151,31 @@ pub enum Error {
         /// The frame.
         frame: usize,
     },
+    /// A group of an OBJ file is to be split into connected pieces, whose numbers would stand where its name does.
+    #[error(
+        "{} is a group, and behind the # of a file that is split into connected pieces stand their numbers",
+        shown(name)
+    )]
+    PiecesOfGroup {
+        /// The name of the group, behind that of its file.
+        name: String,
+    },
+    /// A group of an OBJ file is named by two arguments.
+    #[error(
+        "{}: {} is named twice, as {} and as {}",
+        shown(file),
+        quoted(group),
+        quoted(&names[0]),
+        quoted(&names[1])
+    )]
+    NamedTwice {
+        /// The file.
+        file: String,
+        /// The group.
+        group: String,
+        /// What stands behind the # in the two arguments.
+        names: [String; 2],
+    },
     /// An earlier frame could not be checked.
     #[error("an earlier frame could not be checked, so the frames after it are not")]
     AfterError,

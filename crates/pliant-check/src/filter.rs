@@ -166,7 +166,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The bodies of the sources or the file of this name, the piece of this name, or the body of this number. A name without its
+    /// The bodies of the sources or the file of this name, the piece or the groups of this name, or the body of this number. A name without its
     /// folder does, where no other file is called so.
     pub(crate) fn of_bodies(&self, name: &str) -> Option<Vec<u32>> {
         let with = |is: &dyn Fn(&Source) -> bool| -> Vec<usize> {
@@ -197,16 +197,28 @@ impl<'a> Names<'a> {
                 return Some(whole);
             }
         }
-        if let Some((source, piece)) = name.rsplit_once('#')
-            && self.bodies.are_pieces()
-            && let Ok(piece @ 1..) = piece.parse::<u32>()
-        {
-            let of_piece = |source| self.bodies.of_source(source).nth(piece as usize - 1);
-            let pieces: Vec<u32> = called(source).into_iter().filter_map(of_piece).collect();
-            return (!pieces.is_empty()).then_some(pieces);
+        for (at, _) in name.match_indices('#') {
+            let parts = called(&name[..at])
+                .into_iter()
+                .flat_map(|source| self.bodies.called(source, &name[at + 1..]));
+            let parts: Vec<u32> = parts.collect();
+            if !parts.is_empty() {
+                return Some(parts);
+            }
         }
         let number = name.parse().ok()?;
         (number < self.bodies.count()).then(|| vec![number])
+    }
+
+    /// The body of this name: where it stands for several, the one that is called so and not only below it.
+    pub(crate) fn of_body(&self, name: &str) -> Option<u32> {
+        let bodies = self.of_bodies(name)?;
+        if let [body] = bodies[..] {
+            return Some(body);
+        }
+        let is_called = |&body: &u32| self.bodies.facts(self.sources, body).name == name;
+        let mut called = bodies.into_iter().filter(is_called);
+        called.next().filter(|_| called.next().is_none())
     }
 
     pub(crate) fn unknown(&self, wanted: &'static str, name: &str) -> Error {

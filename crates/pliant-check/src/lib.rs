@@ -37,8 +37,9 @@
 //! |---|---|
 //! | `settings.rs` | what is asked |
 //! | `check.rs` | the loop |
+//! | `opened.rs` | what arguments name |
 //! | `sequence.rs`, `any_world.rs` | sources side by side; the world, of either precision, in a frame of theirs |
-//! | `bodies.rs`, `pieces.rs` | what an answer calls a body; connected pieces of a mesh |
+//! | `bodies.rs`, `pieces.rs` | what an answer calls a body; pieces of a mesh |
 //! | `filter.rs` | names and groups; who may meet whom |
 //! | `found.rs`, `remarks.rs` | the pairs of one frame; what is to be said of them |
 //! | `baseline.rs` | the pairs of an earlier check, which are left out |
@@ -53,6 +54,7 @@ mod error;
 mod filter;
 mod found;
 mod one_point;
+mod opened;
 mod pieces;
 mod remarks;
 mod sequence;

@@ -1,13 +1,16 @@
-//! The connected pieces of a mesh: triangles that share a vertex are of one piece.
+//! Pieces of a mesh: the connected ones, or those that somebody names.
 //!
-//! Vertices are joined along every triangle (union-find, the smallest leads); pieces are numbered as their first triangles come.
+//! Triangles that share a vertex are of one connected piece. Vertices are joined along every triangle (union-find, the smallest leads); pieces are numbered as their first triangles come.
 //! Takes eight bytes a vertex while it works, and keeps four a triangle and twelve a piece: a mesh of 100,000 single triangles is
-//! no danger.
+//! no danger. Pieces that are named take as much.
+
+/// The number of no piece: there are fewer vertices, and fewer triangles.
+pub(crate) const NONE: u32 = u32::MAX;
 
 /// The pieces of one mesh.
 #[derive(Debug, Default)]
 pub(crate) struct Pieces {
-    /// For each triangle the number of its piece.
+    /// For each triangle the number of its piece, or [`NONE`].
     pub(crate) of_triangles: Vec<u32>,
     pub(crate) all: Vec<Piece>,
 }
@@ -24,7 +27,6 @@ pub(crate) struct Piece {
 impl Pieces {
     /// Every corner is below `vertices`.
     pub(crate) fn of(triangles: &[[u32; 3]], vertices: usize) -> Self {
-        const NONE: u32 = u32::MAX; // the number of no piece: there are fewer vertices
         let mut leader: Vec<u32> = (0..vertices as u32).collect();
         for &[a, b, c] in triangles {
             join(&mut leader, a, b);
@@ -56,6 +58,40 @@ impl Pieces {
             pieces.of_triangles.push(number);
         }
         pieces
+    }
+
+    /// So many pieces, whose triangles are given; each has one. Every corner is below `vertices`.
+    pub(crate) fn named(
+        of_triangles: Vec<u32>,
+        count: usize,
+        triangles: &[[u32; 3]],
+        vertices: usize,
+    ) -> Self {
+        let none = Piece {
+            vertices: 0,
+            triangles: 0,
+            first_triangle: 0,
+        };
+        let mut all = vec![none; count];
+        // Piece by piece: then a vertex is one more for its piece unless the last that used it was the same.
+        let mut order: Vec<u32> = (0..of_triangles.len() as u32).collect();
+        order.retain(|&triangle| of_triangles[triangle as usize] != NONE);
+        order.sort_unstable_by_key(|&triangle| (of_triangles[triangle as usize], triangle));
+        let mut last_use = vec![NONE; vertices];
+        for triangle in order {
+            let number = of_triangles[triangle as usize];
+            let piece = &mut all[number as usize];
+            if piece.triangles == 0 {
+                piece.first_triangle = triangle;
+            }
+            piece.triangles += 1;
+            for vertex in triangles[triangle as usize] {
+                let last = &mut last_use[vertex as usize];
+                piece.vertices += u32::from(*last != number);
+                *last = number;
+            }
+        }
+        Self { of_triangles, all }
     }
 }
 
@@ -97,6 +133,24 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn named_pieces_are_counted(
+            triangles in prop::collection::vec(([0..9_u32, 0..9, 0..9], 0..5_u32), 1..25),
+        ) {
+            let (triangles, numbers): (Vec<_>, Vec<_>) = triangles.into_iter().unzip();
+            // The last number is that of no piece.
+            let numbers: Vec<u32> = numbers.into_iter().map(|n| if n == 4 { NONE } else { n }).collect();
+            let pieces = Pieces::named(numbers.clone(), 4, &triangles, 9);
+            prop_assert_eq!(&pieces.of_triangles, &numbers);
+            for (number, piece) in (0..).zip(&pieces.all) {
+                let own: Vec<usize> = (0..numbers.len()).filter(|&t| numbers[t] == number).collect();
+                let vertices: BTreeSet<u32> = own.iter().flat_map(|&t| triangles[t]).collect();
+                prop_assert_eq!(piece.vertices as usize, vertices.len());
+                prop_assert_eq!(piece.triangles as usize, own.len());
+                prop_assert_eq!(piece.first_triangle as usize, own.first().copied().unwrap_or(0));
+            }
+        }
+
         /// Against growing a piece from a triangle until nothing more touches it.
         #[test]
         fn pieces_are_what_can_be_reached(triangles in prop::collection::vec([0..40_u32, 0..40, 0..40], 1..25)) {

@@ -24,7 +24,7 @@ pub struct Settings {
     /// another of them, or itself.
     ///
     /// A name is that of a group, of a glTF file of several sources (all bodies of it), of a source (all bodies that it is split
-    /// into), of a body, or a body's number.
+    /// into), of a body, of an object of an OBJ file (all groups of it that are bodies), or a body's number.
     pub ignore: Vec<[String; 2]>,
     /// Pairs that are left out in all frames, wherever both bodies have the mesh that they have there.
     pub baseline: Option<Baseline>,
@@ -42,6 +42,9 @@ pub enum Split {
     /// Connected pieces: triangles that share a vertex, after welding, are of one piece. Those of `shirt.ply` are
     /// `shirt.ply#1`, `shirt.ply#2`, … in the order of their lowest triangle.
     Components,
+    /// Groups of OBJ files: those of `shirt.obj` are `shirt.obj#collar`, … in the order of their lowest triangle, as
+    /// [`pliant_io::Body::groups`] names them. A source that names none is one body.
+    Groups,
 }
 
 /// Pairs that are known, and left out.

@@ -4,5 +4,6 @@
 mod against_worlds;
 mod changing;
 mod formats;
+mod groups;
 mod messages;
 mod settings;

@@ -85,7 +85,11 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::BadBaseline { .. } => {
             Some("name a file that `pliant check --format json` wrote of these bodies")
         }
-        CheckError::PiecesChanged { .. } => Some("check it without `--split`"),
+        CheckError::PiecesChanged { .. } => Some("check it as a whole, without `--split`"),
+        CheckError::PiecesOfGroup { .. } => {
+            Some("split the whole file, or write the group to one of its own with `pliant convert`")
+        }
+        CheckError::NamedTwice { .. } => Some("name it once"),
         CheckError::NoClip => Some("leave out `--clip`"),
         CheckError::EmptyGroup { .. } => Some("write NAME=BODY,BODY"),
         CheckError::Endless { .. } => Some("ask for less with `--first`, or mend the mesh"),

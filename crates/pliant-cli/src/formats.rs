@@ -16,7 +16,8 @@ const TEXT: &str = "\
 A surface is its triangles, where the positions of a frame put them. Inside and outside, normals, materials and colours play no part.
 
 Read
-  .obj            a frame. v, and the v indices of f. 64 bits. o, g, usemtl: one body all the same
+  .obj            a frame. v, and the v indices of f. 64 bits. One body; --split groups makes each
+                  group one, 'scan.obj#arm' names one (see below). usemtl: no part of this
   .ply            a frame. Text or binary; vertex x y z, face vertex_indices, else tristrips. As many bits as declared
   .stl            a frame. Text or binary. Corners that are equal to the bit along edges are one vertex
   .npz            all frames. vertices (T, n, 3) or (n, 3), faces (m, 3)
@@ -31,6 +32,10 @@ As which surface
                   its own corners. A polygon that crosses itself stays a fan, and a note says so
   seams           files split vertices where texture coordinates or normals differ. Boundary edges that coincide to the bit in the
                   first frame are one (--no-weld keeps them apart); with --weld TOL those that nearly do
+  groups          of an OBJ file: what o and g name. After `o shirt`, shirt; after `g collar` in it, shirt/collar; after `g collar` where
+                  no o stands, collar. A name is the rest of its line, g a b one name; without a name, and as g default, the end of the
+                  last. Faces that nothing names: default. The same name is the same group. scan.obj#shirt means shirt/collar too.
+                  Triangles that share a vertex of the file are left out across groups, whether --split groups or arguments name them
   degenerate      a triangle without area is the segment or point that it is (--skip-degenerate leaves such pairs out)
   not applied     subdivision, modifiers, displacement: export what they make
 

@@ -27,7 +27,7 @@ use std::path::PathBuf;
     reason = "each is a flag of the program"
 )]
 pub(crate) struct Arguments {
-    /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with its positions (mesh.obj+walk.pc2, .mdd), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj'); each body of a glTF file (.glb, .gltf), or one of them (scene.glb#arm)
+    /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with its positions (mesh.obj+walk.pc2, .mdd), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj'); each body of a glTF file (.glb, .gltf), or one of them (scene.glb#arm); a group of an OBJ file, or of a pattern (scan.obj#arm)
     #[arg(value_name = "BODY", required = true, value_hint = ValueHint::FilePath)]
     bodies: Vec<String>,
     /// Check each body against itself too; one body alone always is
@@ -39,7 +39,7 @@ pub(crate) struct Arguments {
     /// Stop at the first pair of each frame
     #[arg(long)]
     first: bool,
-    /// Make every connected piece of a file a body: FILE#1, FILE#2, ... in the order of their lowest triangle; triangles keep their numbers
+    /// Make every connected piece of a file a body: FILE#1, FILE#2, ...; or every group of an OBJ file: FILE#NAME; in the order of their lowest triangle. Triangles keep their numbers, and those that share a vertex of the file are left out
     #[arg(long, value_enum, value_name = "INTO")]
     split: Option<Split>,
     /// Give several bodies a name, for --ignore; each by its name, or by its number, from 0; a glTF file stands for all its bodies
@@ -98,6 +98,8 @@ Examples:
   pliant check a,1.ply b.ply c.ply --ignore 0,2      by number: one has a comma
   pliant check teeth.ply --split components          which pieces meet?
   pliant check teeth.ply --split components --ignore 'teeth.ply#1,teeth.ply#2'
+  pliant check scan.obj --split groups               which objects or groups meet?
+  pliant check 'scan.obj#arm' 'scan.obj#sleeve'      two of them
   pliant check scene.glb --ignore 'scene.glb#arm,scene.glb#sleeve'
   pliant check fox.glb --clip Run --baseline 0       what frame 0 does not have
   pliant check new.ply --baseline old.json           what an older check had not
@@ -117,6 +119,7 @@ type Names = [String; 2];
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Split {
     Components,
+    Groups,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -181,6 +184,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         max_list: arguments.max_memory,
         split: arguments.split.map(|split| match split {
             Split::Components => pliant_check::Split::Components,
+            Split::Groups => pliant_check::Split::Groups,
         }),
         groups: arguments.groups.clone(),
         ignore: arguments.ignore.clone(),
@@ -240,7 +244,8 @@ fn at_seams(check: &Check) {
     }
 }
 
-/// With what to do about the name of a piece, `FILE#1`, where no file is split; the error itself where it is none.
+/// With what to do about the name of a piece, `FILE#1`, or of a group, `FILE.obj#NAME`, where no file is split; the error itself where
+/// it is none.
 fn advise_names(arguments: &Arguments, error: Error) -> anyhow::Error {
     match &error {
         Error::NoSuchName { name, .. }
@@ -248,6 +253,13 @@ fn advise_names(arguments: &Arguments, error: Error) -> anyhow::Error {
         {
             anyhow!(
                 "{error}; choose one of these, or make the pieces of every file bodies with `--split components`"
+            )
+        }
+        Error::NoSuchName { name, .. }
+            if arguments.split.is_none() && pliant_io::group_argument(name).is_some() =>
+        {
+            anyhow!(
+                "{error}; choose one of these, or make the groups of OBJ files bodies with `--split groups`"
             )
         }
         _ => error.into(),

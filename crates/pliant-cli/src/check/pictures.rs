@@ -1,8 +1,9 @@
 //! `--report` and `--png` of a check: what is left of each frame's pairs, in the world as the check left it.
 //!
-//! A picture has the sources as its bodies, with the triangles' own numbers; pieces of a source are not told apart in it.
+//! A picture has the sources as its bodies, with the triangles' own numbers; pieces and groups of a source are not told apart in it, and groups that
+//! were not asked for are in it too.
 
-use super::Arguments;
+use super::{Arguments, Split};
 use crate::advice;
 use crate::report::{Watcher, fact};
 use pliant_check::{AnyWorld, Baseline, Check, Found, Row, with_world};
@@ -53,9 +54,14 @@ impl Pictures {
                 fact("query", asked(arguments, check)),
                 fact("precision", precision),
             ]);
-            if arguments.split.is_some() {
+            let bodies = match arguments.split {
+                None => None,
+                Some(Split::Components) => Some("pieces"),
+                Some(Split::Groups) => Some("groups"),
+            };
+            if let Some(bodies) = bodies {
                 play.facts
-                    .push(fact("pieces", check.body_count().to_string()));
+                    .push(fact(bodies, check.body_count().to_string()));
             }
             match &arguments.baseline {
                 None => {}
@@ -104,7 +110,8 @@ fn of_sources(check: &Check, [body_a, a, body_b, b]: Row) -> Row {
 }
 
 fn asked(arguments: &Arguments, check: &Check) -> &'static str {
-    let (one, each) = if arguments.split.is_some() {
+    let in_pieces = arguments.split == Some(Split::Components);
+    let (one, each) = if in_pieces {
         (
             "the piece with itself",
             "the pieces with each other, and each with itself",
@@ -119,7 +126,7 @@ fn asked(arguments: &Arguments, check: &Check) -> &'static str {
         (true, ..) => "the first pair of each frame",
         (_, 1, _) => one,
         (_, _, true) => each,
-        _ if arguments.split.is_some() => "the pieces with each other",
+        _ if in_pieces => "the pieces with each other",
         _ => "the bodies with each other",
     }
 }

@@ -1,6 +1,6 @@
 //! `pliant convert`: a mesh or a sequence in another format.
 //!
-//! Streamed like a check: in memory is one frame. Vertices stay as they are in the file; an STL file has none of its own, so its
+//! Streamed like a check: in memory is one frame. Vertices stay as they are in the file, of a group those that it has; an STL file has none of its own, so its
 //! corners are welded and each place is written once.
 
 mod frames;
@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 #[derive(Args, Debug)]
 #[command(after_help = FORMATS)]
 pub(crate) struct Arguments {
-    /// What to read, as for `pliant check`: a mesh, a sequence, a quoted pattern ('cloth_*.obj'), a mesh with its positions (mesh.obj+walk.pc2), a body of a glTF file (scene.glb#arm)
+    /// What to read, as for `pliant check`: a mesh, a sequence, a quoted pattern ('cloth_*.obj'), a mesh with its positions (mesh.obj+walk.pc2), a body of a glTF file (scene.glb#arm), a group of an OBJ file (scan.obj#arm)
     #[arg(value_name = "IN")]
     from: String,
     /// What to write: a mesh (.obj, .ply, .stl), a sequence (.npz, mesh.obj+walk.pc2, mesh.obj+walk.mdd), or a mesh a frame (cloth_%04d.obj)
@@ -142,10 +142,11 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Clear)
 }
 
-/// The vertices to write, None for all, and the triangles between them: without those that were welded away.
+/// The vertices to write, None for all, and the triangles between them: without those that were welded away, and of a group those
+/// that it has.
 fn kept(body: &Body) -> (Option<Vec<u32>>, Vec<[u32; 3]>, Outlines) {
     let (mut triangles, mut outlines) = (body.triangles().to_vec(), body.outlines());
-    if body.welded() == 0 {
+    if body.welded() == 0 && !body.is_part() {
         return (None, triangles, outlines);
     }
     let mut number = vec![None; body.vertex_count()];

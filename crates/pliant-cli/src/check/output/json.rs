@@ -10,10 +10,10 @@
 //! `--count` there are no `pairs`; with `--first`, `count` is 0 or 1 and `"complete": false` says that the list was not meant
 //! to be complete. If a frame cannot be checked, the object ends with `"error"`.
 //!
-//! With `--split components` a body is a piece of a source: `"split": "components"` says so, `"triangle_numbers": "source"` that
-//! triangles of pairs are numbered as in the source, and `sources` has what bodies have otherwise: files, or the bodies of glTF
-//! files. A body then has the number of its `source`, and its `first_triangle`; its `vertices` and `triangles` are those of the
-//! piece.
+//! With `--split` a body is a piece or a group of a source: `"split": "components"` or `"groups"` says so, `"triangle_numbers":
+//! "source"` that triangles of pairs are numbered as in the source, and `sources` has what bodies have otherwise: files, or the bodies
+//! of glTF files. A body then has the number of its `source`, and its `first_triangle`; its `vertices` and `triangles` are those of the
+//! piece. So it is, but for `split`, where arguments name groups of an OBJ file.
 //!
 //! `groups` (numbers of bodies by name) and `ignore` repeat what was asked. With `--baseline`, which is repeated too, a frame has
 //! `left_out`: how many pairs were, because they intersect in that frame, or in the file; not where `--first` stopped at a new pair.
@@ -24,20 +24,16 @@
 //! `"skip_degenerate": true` of those that were left out for it.
 
 use super::{Form, Tally};
-use crate::check::{Arguments, Names};
+use crate::check::{Arguments, Names, Split};
 use pliant_check::{Baseline, Check, Found, Group};
 use pliant_io::Body as Source;
 use serde::Serialize;
 use serde_json::json;
 use std::io::{self, Write};
 
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "what was asked for, flag by flag"
-)]
 pub(super) struct Json {
     count_only: bool,
-    split: bool,
+    split: Option<Split>,
     groups: Vec<Group>,
     ignore: Vec<Names>,
     baseline: Option<Baseline>,
@@ -118,7 +114,7 @@ impl Json {
     pub(super) fn new(arguments: &Arguments) -> Self {
         Self {
             count_only: arguments.count,
-            split: arguments.split.is_some(),
+            split: arguments.split,
             groups: arguments.groups.clone(),
             ignore: arguments.ignore.clone(),
             baseline: arguments.baseline.clone(),
@@ -139,7 +135,8 @@ impl Form for Json {
             })
             .collect();
         write!(out, r#"{{"format":1,"bodies":"#)?;
-        if self.split {
+        let is_split = |source| check.is_split(source);
+        if self.split.is_some() || (0..sources.len()).any(is_split) {
             for (number, body) in check.bodies().enumerate() {
                 write!(out, "{}", if number > 0 { "," } else { "[" })?;
                 let entry = PieceEntry {
@@ -151,10 +148,13 @@ impl Form for Json {
                 };
                 serde_json::to_writer(&mut *out, &entry)?;
             }
-            write!(
-                out,
-                r#"],"split":"components","triangle_numbers":"source","sources":"#
-            )?;
+            write!(out, "]")?;
+            match self.split {
+                None => {}
+                Some(Split::Components) => write!(out, r#","split":"components""#)?,
+                Some(Split::Groups) => write!(out, r#","split":"groups""#)?,
+            }
+            write!(out, r#","triangle_numbers":"source","sources":"#)?;
         }
         serde_json::to_writer(&mut *out, &sources)?;
         if !self.groups.is_empty() {

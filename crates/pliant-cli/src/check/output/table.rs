@@ -8,16 +8,11 @@ use pliant_check::{Baseline, BodyFacts, Check, Found};
 use pliant_io::shown;
 use std::io::{self, Write};
 
-/// A file in more pieces than this is one line of the head.
+/// A file in more pieces, or groups, than this is one line of the head.
 const MOST_PIECES: usize = 20;
 
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "what was asked for, flag by flag"
-)]
 pub(super) struct Table {
     count_only: bool,
-    split: bool,
     itself: bool,
     ignore: Vec<Names>,
     baseline: Option<Baseline>,
@@ -30,7 +25,6 @@ impl Table {
     pub(super) fn new(arguments: &Arguments) -> Self {
         Self {
             count_only: arguments.count,
-            split: arguments.split.is_some(),
             itself: arguments.itself,
             ignore: arguments.ignore.clone(),
             baseline: arguments.baseline.clone(),
@@ -78,15 +72,18 @@ impl Form for Table {
             let each = bodies.by_ref().take(count);
             let name = shown(source.name());
             let [vertices, triangles] = sizes(source.vertex_count(), source.triangles().len());
-            if !self.split {
+            if !check.is_split(place) {
                 each.for_each(drop);
                 write!(out, "body {first}: {name}, {vertices}, {triangles}")?;
             } else if count > MOST_PIECES {
-                each.for_each(drop);
+                let mut named = each.map(|(_, body)| body.name);
+                let [one, other] = [named.next(), named.last()].map(Option::unwrap_or_default);
+                let other = shown(other.strip_prefix(source.name()).unwrap_or(&other));
                 let last = first as usize + count - 1;
                 write!(
                     out,
-                    "bodies {first} to {last}: {name}#1 to #{count}, {vertices}, {triangles}"
+                    "bodies {first} to {last}: {} to {other}, {vertices}, {triangles}",
+                    shown(one)
                 )?;
             } else {
                 for (number, body) in each {

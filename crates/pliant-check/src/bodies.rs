@@ -11,6 +11,7 @@ use crate::opened::Opened;
 use crate::pieces::{NONE, Piece, Pieces};
 use crate::settings::Split;
 use pliant_io::{Body as Source, Groups};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A body of an answer.
@@ -39,8 +40,8 @@ struct Parts {
 /// The bodies of all sources, numbered through.
 #[derive(Debug)]
 pub(crate) struct Bodies {
-    /// For each source what it is split into; none where it is a body as a whole.
-    parts: Vec<Option<Parts>>,
+    /// Of a source that is no body as a whole, what it is split into.
+    parts: BTreeMap<usize, Parts>,
     /// For each source the number of its first body, and at the end the number of bodies.
     starts: Vec<u32>,
 }
@@ -136,14 +137,15 @@ impl Bodies {
         Opened { sources, named }: &Opened,
         split: Option<Split>,
     ) -> Result<Self, Error> {
-        let each = sources.iter().zip(named);
-        let parts = each.map(|(source, named)| Parts::of(source, named, split));
-        let parts = parts.collect::<Result<Vec<_>, _>>()?;
+        let mut parts = BTreeMap::new();
         let mut starts = vec![0];
         let mut count = 0;
-        for parts in &parts {
-            count += parts.as_ref().map_or(1, |it| it.pieces.all.len() as u32);
+        for (number, source) in sources.iter().enumerate() {
+            let named = named.get(&number).map_or(&[][..], |named| named);
+            let into = Parts::of(source, named, split)?;
+            count += into.as_ref().map_or(1, |it| it.pieces.all.len() as u32);
             starts.push(count);
+            parts.extend(into.map(|into| (number, into)));
         }
         Ok(Self { parts, starts })
     }
@@ -154,12 +156,12 @@ impl Bodies {
 
     /// Whether a source is split, or not all of it a body.
     pub(crate) fn is_split(&self, source: usize) -> bool {
-        self.parts[source].is_some()
+        self.parts.contains_key(&source)
     }
 
     /// Whether any is.
     pub(crate) fn are_split(&self) -> bool {
-        self.parts.iter().any(Option::is_some)
+        !self.parts.is_empty()
     }
 
     /// The bodies of a source.
@@ -174,7 +176,7 @@ impl Bodies {
     /// The body that a triangle of a source is of; none where its group was not asked for.
     pub(crate) fn of_triangle(&self, source: u32, triangle: u32) -> Option<u32> {
         let start = self.starts[source as usize];
-        let Some(Parts { pieces, .. }) = &self.parts[source as usize] else {
+        let Some(Parts { pieces, .. }) = self.parts.get(&(source as usize)) else {
             return Some(start);
         };
         let piece = pieces.of_triangles[triangle as usize];
@@ -192,7 +194,7 @@ impl Bodies {
     /// The bodies of a source that are called so behind its name and a `#`: the piece of this number, or the groups that the name
     /// stands for.
     pub(crate) fn called(&self, source: usize, name: &str) -> Vec<u32> {
-        let Some(Parts { pieces, names }) = &self.parts[source] else {
+        let Some(Parts { pieces, names }) = self.parts.get(&source) else {
             return Vec::new();
         };
         let of_source = self.of_source(source);
@@ -214,7 +216,7 @@ impl Bodies {
     pub(crate) fn facts(&self, sources: &[Source], body: u32) -> BodyFacts {
         let number = self.source_of(body);
         let source = &sources[number];
-        let Some(parts) = &self.parts[number] else {
+        let Some(parts) = self.parts.get(&number) else {
             return BodyFacts {
                 name: source.name().to_owned(),
                 source: number,

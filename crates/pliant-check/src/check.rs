@@ -218,7 +218,7 @@ impl Check {
 
     /// Whether a source is split into bodies, or only groups of it are; then its bodies are named behind a `#`.
     pub fn is_split(&self, source: usize) -> bool {
-        source < self.sequence.sources.len() && self.bodies.is_split(source)
+        self.bodies.is_split(source)
     }
 
     /// What is known of the bodies, in the order of their numbers.

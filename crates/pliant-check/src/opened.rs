@@ -6,20 +6,24 @@
 
 use crate::error::Error;
 use pliant_io::{Body as Source, group_argument};
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 
 /// Sources, and what is asked of each.
 pub(crate) struct Opened {
     pub(crate) sources: Vec<Source>,
-    /// For each the names of the groups that take part; none where all of it does.
-    pub(crate) named: Vec<Vec<String>>,
+    /// Of a source of which only some groups take part, their names.
+    pub(crate) named: BTreeMap<usize, Vec<String>>,
 }
 
 impl Opened {
     /// Sources all of which take part.
     pub(crate) fn whole(sources: Vec<Source>) -> Self {
-        let named = vec![Vec::new(); sources.len()];
-        Self { sources, named }
+        Self {
+            sources,
+            named: BTreeMap::new(),
+        }
     }
 
     /// Opens what `arguments` name.
@@ -29,24 +33,26 @@ impl Opened {
     ) -> Result<Self, Error> {
         let mut opened = Self::whole(Vec::new());
         // Files of which groups are named, with the numbers of their sources.
-        let mut files: Vec<(PathBuf, usize)> = Vec::new();
+        let mut files: BTreeMap<PathBuf, usize> = BTreeMap::new();
         for argument in arguments {
             let Some((file, name)) = group_argument(argument) else {
                 opened.sources.extend(open(argument)?);
-                opened.named.resize(opened.sources.len(), Vec::new());
                 continue;
             };
             let place = place(file);
-            let source = if let Some((_, source)) = files.iter().find(|(known, _)| *known == place)
-            {
-                *source
-            } else {
-                files.push((place, opened.sources.len()));
-                opened.sources.extend(open(&file.to_owned())?);
-                opened.named.resize(opened.sources.len(), Vec::new());
-                opened.sources.len() - 1
+            let source = match files.entry(place) {
+                Entry::Occupied(known) => *known.get(),
+                Entry::Vacant(new) => {
+                    let source = *new.insert(opened.sources.len());
+                    opened.sources.extend(open(&file.to_owned())?);
+                    source
+                }
             };
-            opened.named[source].push(name.to_owned());
+            opened
+                .named
+                .entry(source)
+                .or_default()
+                .push(name.to_owned());
         }
         Ok(opened)
     }

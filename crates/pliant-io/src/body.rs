@@ -81,9 +81,9 @@ pub struct Body {
     /// That of the file that is being read, if it has another mesh than the first.
     other: Option<Mesh>,
     /// The file that the mesh is from, where frames are from another one.
-    mesh_file: Option<Found>,
+    mesh_file: Option<Box<Found>>,
     /// What it is of its mesh, if it is a group.
-    part: Option<Part>,
+    part: Option<Box<Part>>,
     mesh_may_change: bool,
     options: Arc<OpenOptions>,
     /// The number that follows the frame read last, and the frame handed out or skipped last.
@@ -245,7 +245,7 @@ pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Erro
                 end,
             }];
             let mut body = Body::begin(asked, argument.to_owned(), files, Box::new(source), 0)?;
-            body.mesh_file = Some(mesh);
+            body.mesh_file = Some(Box::new(mesh));
             Ok(vec![body])
         }
     }
@@ -404,7 +404,8 @@ impl Body {
     ///
     /// The file changed, or names take more memory than is left.
     pub fn groups(&self) -> Result<Groups, Error> {
-        let file = self.mesh_file.as_ref().unwrap_or(&self.files[0].found);
+        let file = self.mesh_file.as_deref();
+        let file = file.unwrap_or(&self.files[0].found);
         let path = file.shared_path();
         let polygons = self.first.frame.polygons();
         let read = || -> Result<Groups, Fault> {
@@ -452,11 +453,11 @@ impl Body {
         let held = bytes_of(&numbers) + bytes_of(&triangles) + faces.as_deref().map_or(0, bytes_of);
         let entered = self.first.frame.enter(held);
         entered.map_err(|reason| Error::new(self.files[0].path(), reason))?;
-        self.part = Some(Part {
+        self.part = Some(Box::new(Part {
             numbers,
             triangles,
             faces,
-        });
+        }));
         Ok(self)
     }
 

@@ -98,7 +98,7 @@ Examples:
   pliant check a,1.ply b.ply c.ply --ignore 0,2      by number: one has a comma
   pliant check teeth.ply --split components          which pieces meet?
   pliant check teeth.ply --split components --ignore 'teeth.ply#1,teeth.ply#2'
-  pliant check scan.obj --split groups               which objects or groups meet?
+  pliant check scan.obj --split groups               which objects meet?
   pliant check 'scan.obj#arm' 'scan.obj#sleeve'      two of them
   pliant check scene.glb --ignore 'scene.glb#arm,scene.glb#sleeve'
   pliant check fox.glb --clip Run --baseline 0       what frame 0 does not have

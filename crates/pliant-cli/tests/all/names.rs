@@ -92,6 +92,11 @@ fn folder(name: &str) -> TempDir {
     let path = folder.path();
     let write = |file: &str, text: &str| fs::write(path.join(file), text).unwrap();
     write("flat.obj", FLAT);
+    let group = name.replace('\n', "\u{b}");
+    write(
+        "groups.obj",
+        &format!("o {group}\n{FLAT}g {group}\n{UPRIGHT}g other\n{UPRIGHT}"),
+    );
     write("words.obj", &format!("v {}\n", name.replace('\n', "\u{b}")));
     write(
         "element.ply",
@@ -141,6 +146,7 @@ fn folder(name: &str) -> TempDir {
 /// What is said of names in files, and of names that are asked for: each line, once as it is and once for each format of answers.
 fn asked(path: &Path, name: &str) -> Vec<Said> {
     let part = format!("scene.gltf#{name}");
+    let in_groups = format!("groups.obj#{}", name.replace('\n', "\u{b}"));
     let missing = format!("{name}.obj");
     let [group, pair] = [format!("{name}={name}"), format!("{name},{name}")];
     let vtp = format!("{name}/hits.vtp");
@@ -174,6 +180,12 @@ fn asked(path: &Path, name: &str) -> Vec<Said> {
         &["check", "scene.gltf#none"],
         &["check", &missing],
         &["check", &format!("flat.obj#{name}")],
+        &["check", "groups.obj", "--split", "groups"],
+        &["check", "groups.obj#none"],
+        &["check", &in_groups],
+        &["check", &in_groups, &in_groups],
+        &["check", &in_groups, "--split", "components"],
+        &["check", "groups.obj", "--ignore", &format!("{in_groups},0")],
         &["check", &format!("flat.obj+{name}.pc2")],
         &["check", name],
         &["check", "words.obj"],

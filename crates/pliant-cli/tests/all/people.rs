@@ -18,6 +18,8 @@ fn in_folder(arguments: &[&str]) -> Said {
         .unwrap();
     }
     fs::write(folder.path().join("bad.obj"), "v 0 0 0\nf 1 2 3\n").unwrap();
+    let groups = "v 0 0 0\nv 1 0 0\nv 0 1 0\no arm\nf 1 2 3\ng hand\nf 1 2 3\no leg\nf 1 2 3\n";
+    fs::write(folder.path().join("groups.obj"), groups).unwrap();
     fs::write(folder.path().join("empty.obj"), "").unwrap();
     // Two triangles whose edges coincide in the first frame, and not in the second.
     for (name, x) in [("seam_1.obj", 0), ("seam_2.obj", 1)] {
@@ -197,7 +199,7 @@ fn every_error_says_what_to_do_next() {
         ),
         (
             "check a.obj --split pieces",
-            "[possible values: components]",
+            "[possible values: components, groups]",
         ),
         ("check a.obj --threads 0", "write a whole number, 1 or more"),
         ("check a.obj --hits x.obj", "must end in .vtp or .vtu"),
@@ -207,6 +209,38 @@ fn every_error_says_what_to_do_next() {
         ("bench cloth --json .", "name a file in it"),
         ("completions ksh", "[possible values: bash"),
         ("man a.obj", "choose another name"),
+    ]);
+}
+
+#[test]
+fn every_error_about_groups_says_what_to_do_next() {
+    says_next(&[
+        (
+            "check groups.obj --ignore groups.obj#arm,groups.obj#leg",
+            "choose one of these, or make the groups of OBJ files bodies with `--split groups`",
+        ),
+        (
+            "check groups.obj --split groups --ignore groups.obj#arm,groups.obj#head",
+            "1 = \"groups.obj#arm/hand\", 2 = \"groups.obj#leg\"; choose one of these\n",
+        ),
+        (
+            "check groups.obj#head",
+            "groups.obj: there is no body \"head\"; there is: arm, arm/hand, leg; choose one of these\n",
+        ),
+        (
+            "check groups.obj#arm --split components",
+            "split the whole file, or write the group to one of its own with `pliant convert`\n",
+        ),
+        (
+            "check groups.obj#arm groups.obj#arm/hand",
+            "groups.obj: \"arm/hand\" is named twice, as \"arm\" and as \"arm/hand\"; name it once\n",
+        ),
+        ("check s_*.obj#b", "leave out what begins with the #"),
+        ("check no.obj#b", "from the current folder"),
+        (
+            "convert groups.obj#head x.obj",
+            "there is: arm, arm/hand, leg; choose one of these\n",
+        ),
     ]);
 }
 

@@ -646,3 +646,49 @@ fn sizes_that_are_none_are_explained() {
         "--no-weld",
     ]);
 }
+
+#[test]
+fn very_many_names_are_no_danger() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 6 5 5\nv 5 6 5\n";
+    let split = ["--split", "groups"];
+    // A million names that no face has.
+    let mut text = corners.to_owned();
+    for number in 0..1_000_000 {
+        writeln!(text, "g {number}").unwrap();
+    }
+    text += "f 1 2 3\no last\nf 4 5 6\n";
+    fs::write(path.join("empty.obj"), &text).unwrap();
+    let Measured { said, peak } = measured(path, &[&["check", "empty.obj"], &split[..]].concat());
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert!(
+        said.out.contains("body 0: empty.obj#999999, "),
+        "{}",
+        said.out
+    );
+    assert!(peak.is_none_or(|peak| peak < LITTLE), "{peak:?}");
+    // Very many with a face each, and as many names of one object, which is long.
+    let mut many = corners.to_owned();
+    for number in 0..100_000 {
+        writeln!(many, "g {number}\nf 1 2 3").unwrap();
+    }
+    fs::write(path.join("many.obj"), &many).unwrap();
+    fs::write(
+        path.join("long.obj"),
+        format!("o {}\n{many}", "x".repeat(1 << 20)),
+    )
+    .unwrap();
+    let said = measured(
+        path,
+        &[&["check", "many.obj", "--count"], &split[..]].concat(),
+    )
+    .said;
+    assert_eq!(said.code, 0, "{}", said.err);
+    let head = "bodies 0 to 99999: many.obj#0 to #99999, ";
+    assert!(said.out.starts_with(head), "{}", said.out);
+    for (name, limit) in [("many.obj", "16MiB"), ("long.obj", "32MiB")] {
+        let arguments = [&[name, "--max-memory", limit], &split[..]].concat();
+        refused_with(path, &arguments, &[name, "allow more with `--max-memory`"]);
+    }
+}

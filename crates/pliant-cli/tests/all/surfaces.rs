@@ -1,6 +1,7 @@
 //! Files as people have them: which surface a file is taken to be, and what is said where another one may be meant.
 
 use crate::common::{check, folder, pliant};
+use serde_json::json;
 use std::fmt::Write;
 use std::fs;
 
@@ -455,4 +456,187 @@ fn a_mesh_may_change_from_file_to_file() {
     // A file of one mesh cannot hold several.
     let refused = pliant(path, &["convert", "f*.obj", "all.npz"]);
     refused.assert_refused(&["f2.obj", "vertices", "export all of them from one mesh"]);
+}
+
+/// Three objects as Blender writes them, two of which share an edge of the file; the third, which crosses the first, has a group.
+const OBJECTS: &str = "mtllib a.mtl\no Flat\nv 0 0 0\nv 4 0 0\nv 0 4 0\ns 0\nf 1 2 3\no Next part\nv 4 4 0\nf 2 4 3\n\
+    o Up\nv 1 1 -1\nv 1 1 1\nv 1 2 1\ng Up_Skin\nf 5 6 7\n";
+
+#[test]
+fn groups_of_an_obj_file_are_bodies() {
+    let folder = folder(&[
+        ("scan.obj", OBJECTS.to_owned()),
+        ("still.stl", String::new()),
+    ]);
+    let path = folder.path();
+    let said = pliant(path, &["convert", "scan.obj", "still.stl", "--force", "-q"]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    let json =
+        |arguments: &[&str]| check(path, &[arguments, &["--format", "json"]].concat()).json();
+    let body = |name: &str, triangle: u32| json!({"name": name, "vertices": 3, "triangles": 1, "source": 0, "first_triangle": triangle});
+    let whole = json(&["scan.obj"]);
+    assert_eq!(
+        whole,
+        json!({"format": 1, "bodies": [{"name": "scan.obj", "vertices": 7, "triangles": 3}],
+            "frames": [{"frame": 0, "count": 1, "pairs": [[0, 0, 0, 2]]}]})
+    );
+    let split = json(&["scan.obj", "--split", "groups"]);
+    let bodies = json!([
+        body("scan.obj#Flat", 0),
+        body("scan.obj#Next part", 1),
+        body("scan.obj#Up/Up_Skin", 2),
+    ]);
+    assert_eq!(
+        split,
+        json!({
+            "format": 1, "bodies": bodies, "split": "groups", "triangle_numbers": "source",
+            "sources": whole["bodies"], "frames": [{"frame": 0, "count": 1, "pairs": [[0, 0, 2, 2]]}]
+        })
+    );
+    // Named by arguments: the same numbers of triangles, and the same source.
+    let named = json(&["scan.obj#Up", "scan.obj#Flat", "./scan.obj#Next part"]);
+    let bodies = json!([
+        body("scan.obj#Up", 2),
+        body("scan.obj#Flat", 0),
+        body("scan.obj#Next part", 1),
+    ]);
+    assert_eq!(
+        named,
+        json!({
+            "format": 1, "bodies": bodies, "triangle_numbers": "source", "sources": whole["bodies"],
+            "frames": [{"frame": 0, "count": 1, "pairs": [[0, 2, 1, 0]]}]
+        })
+    );
+    // The edge that two of them share is no hit, and nothing else is left.
+    assert_eq!(
+        check(path, &["scan.obj#Flat", "scan.obj#Next part"]).code,
+        0
+    );
+    // What has no groups stays one body, beside what has.
+    let both = json(&["still.stl", "scan.obj", "--split", "groups"]);
+    let names = both["bodies"].as_array().unwrap().iter();
+    let names: Vec<_> = names.map(|body| body["name"].as_str().unwrap()).collect();
+    assert_eq!(
+        names,
+        [
+            "still.stl",
+            "scan.obj#Flat",
+            "scan.obj#Next part",
+            "scan.obj#Up/Up_Skin"
+        ]
+    );
+    let table = check(path, &["still.stl", "scan.obj", "--split", "groups"]).out;
+    for line in [
+        "body 0: still.stl, 9 vertices, 3 triangles",
+        "body 2: scan.obj#Next part, 3 vertices, 1 triangle, from triangle 1 on",
+        "  of scan.obj, 7 vertices, 3 triangles",
+    ] {
+        assert!(
+            table.lines().any(|said| said.starts_with(line)),
+            "{line}: {table}"
+        );
+    }
+}
+
+#[test]
+fn groups_are_named_in_rules_baselines_and_pictures() {
+    let folder = folder(&[("scan.obj", OBJECTS.to_owned())]);
+    let path = folder.path();
+    let json =
+        |arguments: &[&str]| check(path, &[arguments, &["--format", "json"]].concat()).json();
+    // An object stands for its groups, in rules and as an argument of its own.
+    for rule in [
+        "scan.obj#Up,scan.obj#Flat",
+        "scan.obj#Up/Up_Skin,0",
+        "scan.obj,scan.obj",
+    ] {
+        let said = check(path, &["scan.obj", "--split", "groups", "--ignore", rule]);
+        assert_eq!(said.code, 0, "{rule}: {}", said.out);
+    }
+    let group = [
+        "--group",
+        "sheet=scan.obj#Flat,scan.obj#Next part",
+        "--ignore",
+        "sheet,2",
+    ];
+    assert_eq!(
+        check(
+            path,
+            &[&["scan.obj", "--split", "groups"], &group[..]].concat()
+        )
+        .code,
+        0
+    );
+
+    let split = json(&["scan.obj", "--split", "groups"]);
+    let named = json(&["scan.obj#Up", "scan.obj#Flat", "scan.obj#Next part"]);
+    // What one way found is a baseline for the other.
+    for (old, arguments) in [
+        (
+            &split,
+            &["scan.obj#Flat", "scan.obj#Next part", "scan.obj#Up/Up_Skin"][..],
+        ),
+        (&split, &["scan.obj", "--split", "groups"]),
+        (
+            &named,
+            &["scan.obj#Up", "scan.obj#Flat", "scan.obj#Next part"],
+        ),
+    ] {
+        fs::write(path.join("old.json"), old.to_string()).unwrap();
+        let said = check(path, &[arguments, &["--baseline", "old.json"]].concat());
+        assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    }
+
+    let hits = [
+        "--hits", "hits.vtp", "--png", "a.png", "--report", "a.html", "-q",
+    ];
+    let said = check(
+        path,
+        &[&["scan.obj#Up", "scan.obj#Flat"], &hits[..]].concat(),
+    );
+    assert_eq!((said.code, said.err.as_str()), (1, ""));
+    let said = pliant(path, &["convert", "scan.obj#Up", "up.obj"]);
+    assert_eq!(
+        said.out,
+        "up.obj: 1 frame, 3 vertices, 1 triangle\n".replace("1 triangle\n", "1 triangles\n")
+    );
+    assert_eq!(
+        fs::read_to_string(path.join("up.obj")).unwrap(),
+        "v 1 1 -1\nv 1 1 1\nv 1 2 1\nf 1 2 3\n"
+    );
+}
+
+#[test]
+fn groups_of_a_sequence_are_those_of_its_first_file() {
+    let moved = OBJECTS
+        .replace("v 1 1 -1", "v 9 9 -1")
+        .replace("v 1 1 1", "v 9 9 1");
+    let folder = folder(&[
+        ("walk_1.obj", OBJECTS.to_owned()),
+        (
+            "walk_2.obj",
+            moved.replace("v 1 2 1", "v 9 8 1").replace("o ", "# "),
+        ),
+    ]);
+    let path = folder.path();
+    for arguments in [
+        &["walk_*.obj", "--split", "groups"][..],
+        &["walk_*.obj#Flat", "walk_*.obj#Up"],
+        &["walk_*.obj#Up", "./walk_*.obj#Flat"],
+    ] {
+        let said = check(path, &[arguments, &["--format", "json"]].concat());
+        assert_eq!(said.counts(), [1, 0], "{arguments:?}");
+    }
+    let said = pliant(path, &["convert", "walk_*.obj#Up", "up.npz"]);
+    assert_eq!(
+        (said.code, &said.out[..]),
+        (0, "up.npz: 2 frames, 3 vertices, 1 triangles\n")
+    );
+    // Names that end in numbers are no series.
+    let numbered = OBJECTS
+        .replace("o Flat", "o leg1")
+        .replace("o Up", "o leg2");
+    fs::write(path.join("legs.obj"), numbered).unwrap();
+    let said = check(path, &["legs.obj#leg1", "legs.obj#leg2"]);
+    assert_eq!((said.code, &said.err[..]), (1, ""));
 }

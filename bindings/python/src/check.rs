@@ -22,7 +22,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct Check {
     running: Mutex<pliant_check::Check>,
-    /// One for each path, or for each piece that it is split into.
+    /// One for each path, or for each piece or group that it is split into.
     #[pyo3(get)]
     bodies: Py<PyTuple>,
     /// How many frames there are in the files.
@@ -91,16 +91,17 @@ impl Name {
 
 /// Checks files as the program `pliant check` does: each path is a body, a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with
 /// its positions ("mesh.obj+walk.pc2", .mdd), or a pattern such as "cloth_*.obj" whose files are its frames; of a glTF file (.glb,
-/// .gltf) each body, or one ("scene.glb#arm"); of a USD file (.usd, .usda, .usdc, .usdz; pip install 'pliant[usd]') each mesh that is
+/// .gltf) each body, or one ("scene.glb#arm"); a group of an OBJ file or of a pattern ("scan.obj#arm"); of a USD file (.usd, .usda, .usdc, .usdz; pip install 'pliant[usd]') each mesh that is
 /// seen, or those at or below a prim ("walk.usdc#/root/shirt"). Returns an iterator of frames, each read and checked when it is asked for.
 ///
 ///   itself    check each body against itself too; one body alone always is
 ///   first     stop at the first pair of each frame
 ///   weld      weld vertices where boundary edges coincide in frame 0; else seams are intersections
 ///   split     "components": each connected piece of a file is a body, "cloth.ply#1", "cloth.ply#2", ... in the order of their
-///             lowest triangle; triangles keep the numbers that they have in the file
+///             lowest triangle; "groups": each group of an OBJ file, by o and g, is one, "scan.obj#arm", and what has none one body;
+///             triangles keep the numbers that they have in the file, and those that share a vertex of it are left out
 ///   groups    names for several bodies, {"soft": ["shirt.ply", 2]}, to be used in ignore; a body has the name of its path
-///             ("scene.glb#arm"; "scene.glb" stands for all bodies of it), or its number
+///             ("scene.glb#arm"; "scene.glb" stands for all bodies of it, "scan.obj#arm" for "scan.obj#arm/hand" too), or its number
 ///   ignore    pairs of bodies or groups that do not meet, [("soft", "hair.ply")]; twice the same: none of these bodies meets
 ///             another of them, or itself
 ///   weld_tolerance  join boundary edges besides that are no further apart than this times the diagonal of their body, in frame 0
@@ -307,9 +308,10 @@ impl Check {
 fn split_named(name: &str) -> Result<Split, Refused> {
     match name {
         "components" => Ok(Split::Components),
+        "groups" => Ok(Split::Groups),
         other => Err(Refused::new(
             "BadOption",
-            format!("split is {other:?}; it can be \"components\" or None"),
+            format!("split is {other:?}; it can be \"components\", \"groups\" or None"),
         )),
     }
 }

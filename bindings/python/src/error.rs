@@ -156,7 +156,9 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         Error::BadBaseline { .. } => {
             Some("name a file that `pliant check --format json` wrote of these bodies")
         }
-        Error::PiecesChanged { .. } => Some("check it without split="),
+        Error::PiecesChanged { .. } => Some("check it as a whole, without split="),
+        Error::PiecesOfGroup { .. } => Some("split the whole file"),
+        Error::NamedTwice { .. } => Some("name it once"),
         Error::NoClip => Some("leave out clip="),
         Error::EmptyGroup { .. } => Some("give each group a list of its bodies"),
         Error::TooManyPairs { .. } | Error::Endless { .. } => {

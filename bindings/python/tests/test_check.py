@@ -93,6 +93,36 @@ def test_frames_that_are_not_there(folder: Path, frames: range) -> None:
     assert refused.value.kind == "BadOption"
 
 
+def test_groups_of_an_obj_file(tmp_path: Path) -> None:
+    path = tmp_path / "scan.obj"
+    corners = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 4 4 0\nv 1 1 -1\nv 1 1 1\nv 1 2 1\n"
+    path.write_text(corners + "o flat\nf 1 2 3\no next\nf 2 4 3\no up\ng skin\nf 5 6 7\n")
+    whole = pliant.check(path)
+    assert [body.name for body in whole.bodies] == [str(path)]
+    assert [frame.pairs.tolist() for frame in whole] == [[[0, 0, 0, 2]]]
+
+    split = pliant.check(path, split="groups")
+    assert [body.name for body in split.bodies] == [f"{path}#flat", f"{path}#next", f"{path}#up/skin"]
+    assert [(body.source, body.first_triangle, body.vertices) for body in split.bodies] == [(0, n, 3) for n in range(3)]
+    assert [frame.pairs.tolist() for frame in split] == [[[0, 0, 2, 2]]]
+    (frame,) = pliant.check(path, split="groups", ignore=[(f"{path}#up", f"{path}#flat")])
+    assert frame.count == 0
+
+    # Triangles that share a vertex of the file are left out across arguments too.
+    for names, pairs in [(("flat", "next"), []), (("up", "flat"), [[0, 2, 1, 0]])]:
+        named = pliant.check(*(f"{path}#{name}" for name in names))
+        assert [body.name for body in named.bodies] == [f"{path}#{name}" for name in names]
+        assert [frame.pairs.tolist() for frame in named] == [pairs]
+
+    for paths, options, words in [
+        ((f"{path}#arm",), {}, 'no body "arm"; there is: flat, next, up/skin'),
+        ((f"{path}#up",), {"split": "components"}, "connected pieces stand their numbers; split the whole file$"),
+        ((f"{path}#up", f"{path}#up/skin"), {}, 'named twice, as "up" and as "up/skin"; name it once$'),
+    ]:
+        with pytest.raises(pliant.Error, match=words):
+            pliant.check(*paths, **options)
+
+
 def test_seams_are_welded_unless_told_otherwise(tmp_path: Path) -> None:
     faces, positions = grid(4)
     left, right = positions[faces[: len(faces) // 2].ravel()], positions[faces[len(faces) // 2 :].ravel()]

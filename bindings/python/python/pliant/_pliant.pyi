@@ -128,7 +128,7 @@ def check(
     first: bool = False,
     weld: bool = True,
     weld_tolerance: float = 0.0,
-    split: Literal["components"] | None = None,
+    split: Literal["components", "groups"] | None = None,
     groups: Mapping[str, Sequence[_Name]] | None = None,
     ignore: Sequence[tuple[_Name, _Name]] | None = None,
     baseline: int | str | PathLike[str] | None = None,

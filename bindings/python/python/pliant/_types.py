@@ -113,11 +113,11 @@ class Statistics(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A body that was read from files, or a connected piece of one."""
+    """A body that was read from files, or a connected piece or a group of one."""
 
     name: str
     """The path as given; of a glTF file of several bodies, # and the name of the body; where it is split, # and the number of the
-    piece."""
+    piece, or the name of the group."""
     vertices: int
     triangles: int
     faces: NDArray[np.uint32] | None

@@ -40,6 +40,10 @@ fn survives(ending: &str, contents: &[u8]) {
                             .iter()
                             .all(|&corner| (corner as usize) < body.vertex_count())
                     );
+                    let groups = body.groups()?;
+                    let count = groups.names.len();
+                    let is_there = |&group: &u32| (group as usize) < count;
+                    assert!(groups.of_triangles.iter().all(is_there));
                     let (frames, vertices) = (body.frame_count(), body.vertex_count());
                     // Few bytes can hold a great many frames.
                     if frames > 1000 {
@@ -199,7 +203,9 @@ fn valid_npz(method: CompressionMethod) -> Vec<u8> {
 }
 
 fn valid_obj() -> Vec<u8> {
-    (tetrahedron(1.5) + "# end \\\nf -4/1 -3//2 \\\n-2/1/1 -1\nv 1 2 3 4\n").into_bytes()
+    (tetrahedron(1.5)
+        + "# end \\\no arm \\\n b\nf -4/1 -3//2 \\\n-2/1/1 -1\ng hand\nv 1 2 3 4\nf 1 2 3\n")
+        .into_bytes()
 }
 
 fn valid_stl(text: bool) -> Vec<u8> {

@@ -99,7 +99,12 @@ impl Parts {
 }
 
 /// The groups that are named, each one by itself, or all that one name stands for as one. Other triangles are of none.
-fn some_of(source: &Source, groups: Groups, named: &[String], each: bool) -> Result<Groups, Error> {
+fn some_of(
+    source: &Source,
+    mut groups: Groups,
+    named: &[String],
+    each: bool,
+) -> Result<Groups, Error> {
     // For each group the place of the name that it is named by.
     let mut by = vec![NONE; groups.names.len()];
     for (name, place) in named.iter().zip(0..) {
@@ -115,7 +120,6 @@ fn some_of(source: &Source, groups: Groups, named: &[String], each: bool) -> Res
             *by = place;
         }
     }
-    let mut groups = groups;
     if each {
         let mut count = 0..;
         for place in by.iter_mut().filter(|place| **place != NONE) {

@@ -35,7 +35,8 @@ As which surface
   groups          of an OBJ file: what o and g name. After `o shirt`, shirt; after `g collar` in it, shirt/collar; after `g collar` where
                   no o stands, collar. A name is the rest of its line, g a b one name; without a name, and as g default, the end of the
                   last. Faces that nothing names: default. The same name is the same group. scan.obj#shirt means shirt/collar too.
-                  Triangles that share a vertex of the file are left out across groups, whether --split groups or arguments name them
+                  Triangles that share a vertex of the file are left out across groups, whether --split groups or arguments name them.
+                  With --split components no group can be named: scan.obj#1 is then a piece
   degenerate      a triangle without area is the segment or point that it is (--skip-degenerate leaves such pairs out)
   not applied     subdivision, modifiers, displacement: export what they make
 

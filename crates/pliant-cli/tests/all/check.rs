@@ -246,7 +246,7 @@ fn two_when_it_cannot_be_checked() {
 
 #[test]
 fn two_when_a_late_frame_cannot_be_checked_even_after_hits() {
-    let other = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n".to_owned();
+    let other = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 nan\nf 1 2 3\n".to_owned();
     let folder = folder(&[
         ("s_0.obj", pair(true)),
         ("s_1.obj", pair(false)),

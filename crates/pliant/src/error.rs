@@ -83,6 +83,16 @@ pub enum ErrorKind {
     },
     /// [`interrupt_if`](crate::Query::interrupt_if) ended the query.
     Interrupted,
+    /// A margin is negative, infinite or NaN.
+    BadMargin {
+        /// The margin.
+        radius: f64,
+    },
+    /// A time within a step is not from 0 to 1.
+    BadTime {
+        /// The time.
+        time: f64,
+    },
 }
 
 impl ErrorKind {
@@ -164,6 +174,13 @@ impl fmt::Display for ErrorKind {
                 "more hits than the {limit} that were allowed; allow more, or visit them one by one"
             ),
             Self::Interrupted => write!(f, "the query was interrupted"),
+            Self::BadMargin { radius } => write!(
+                f,
+                "the margin is {radius}; give a finite number that is at least 0"
+            ),
+            Self::BadTime { time } => {
+                write!(f, "the time is {time}; within a step it is from 0 to 1")
+            }
         }
     }
 }

@@ -111,7 +111,7 @@ mod update;
 mod world;
 
 pub use error::{Error, ErrorKind};
-pub use hits::Pair;
+pub use hits::{EdgeEdge, Pair, VertexTriangle};
 pub use ids::BodyId;
 #[doc(hidden)]
 pub use kernels::Instructions;

@@ -1,11 +1,13 @@
-//! Slow and obviously right: every pair of triangles, no tree, no box, no filter, exact signs.
+//! Slow and obviously right: every pair of triangles, or of elements, no tree, no box of several, no filter, exact signs.
 //!
 //! Every configuration of [`World`](crate::World) must give these pairs. O(m^2) or O(m_a m_b) exact decisions.
 
 use crate::Scalar;
 use crate::error::Error;
+use crate::geometry::Bounds;
 use crate::mesh::share_a_vertex;
-use crate::predicates::{Exact, Triangle, triangles_intersect};
+use crate::predicates::{Exact, Triangle, are_within, triangles_intersect};
+use std::collections::BTreeSet;
 
 /// The pairs (triangle of a, triangle of b) that intersect, sorted.
 ///
@@ -62,6 +64,159 @@ fn pairs_of_one(triangles: &[[u32; 3]], all: &[Triangle]) -> Vec<[u32; 2]> {
         }
     }
     pairs
+}
+
+/// A body, and where it is going.
+#[derive(Clone, Copy, Debug)]
+pub struct Moving<'m, S> {
+    /// Its triangles.
+    pub triangles: &'m [[u32; 3]],
+    /// Where its vertices are.
+    pub positions: &'m [[S; 3]],
+    /// Where they are at the end of a motion.
+    pub end: Option<&'m [[S; 3]]>,
+    /// Vertices of one group do not meet, but for group 0; none: all meet.
+    pub groups: Option<&'m [u32]>,
+}
+
+impl<S: Scalar> Moving<'_, S> {
+    fn validate(&self) -> Result<(), Error> {
+        corners(self.triangles, self.positions)?;
+        if let Some(end) = self.end {
+            corners(self.triangles, end)?;
+        }
+        Ok(())
+    }
+
+    /// The box of some vertices, at both ends of the motion.
+    fn box_of(&self, vertices: &[u32]) -> Bounds<f64> {
+        let mut bounds = Bounds::EMPTY;
+        for positions in [Some(self.positions), self.end].into_iter().flatten() {
+            for &vertex in vertices {
+                bounds.include(positions[vertex as usize].map(Scalar::to_f64));
+            }
+        }
+        bounds
+    }
+
+    fn group(&self, vertex: u32) -> u32 {
+        self.groups.map_or(0, |groups| groups[vertex as usize])
+    }
+}
+
+/// The edges of triangles, the smaller vertex first, each once, sorted: as [`World::edges`](crate::World::edges) numbers them.
+pub fn edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
+    let of_triangle = |&[a, b, c]: &[u32; 3]| [[a, b], [b, c], [c, a]];
+    let both = triangles
+        .iter()
+        .flat_map(of_triangle)
+        .filter(|[a, b]| a != b);
+    let edges: BTreeSet<_> = both.map(|[a, b]| [a.min(b), a.max(b)]).collect();
+    edges.into_iter().collect()
+}
+
+/// The candidates (vertex of a, triangle of b), sorted, as
+/// [`World::vertex_triangle_candidates`](crate::World::vertex_triangle_candidates) means them.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn vertex_triangle_pairs<S: Scalar>(
+    a: &Moving<S>,
+    b: &Moving<S>,
+    radius: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    vertices_and_triangles(a, b, radius, false)
+}
+
+/// The candidates (vertex, triangle) of one body with itself, sorted.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn self_vertex_triangle_pairs<S: Scalar>(
+    body: &Moving<S>,
+    radius: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    vertices_and_triangles(body, body, radius, true)
+}
+
+fn vertices_and_triangles<S: Scalar>(
+    a: &Moving<S>,
+    b: &Moving<S>,
+    radius: f64,
+    itself: bool,
+) -> Result<Vec<[u32; 2]>, Error> {
+    a.validate()?;
+    b.validate()?;
+    let used: BTreeSet<u32> = a.triangles.as_flattened().iter().copied().collect();
+    let mut pairs = Vec::new();
+    for vertex in used {
+        for (triangle, corners) in (0..).zip(b.triangles) {
+            if are_candidate((a, &[vertex]), (b, corners), radius, itself) {
+                pairs.push([vertex, triangle]);
+            }
+        }
+    }
+    Ok(pairs)
+}
+
+/// The candidates (edge of a, edge of b), sorted, as [`World::edge_edge_candidates`](crate::World::edge_edge_candidates) means them.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn edge_edge_pairs<S: Scalar>(
+    a: &Moving<S>,
+    b: &Moving<S>,
+    radius: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    edges_and_edges(a, b, radius, false)
+}
+
+/// The candidates (smaller edge, larger edge) of one body with itself, sorted.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn self_edge_edge_pairs<S: Scalar>(
+    body: &Moving<S>,
+    radius: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    edges_and_edges(body, body, radius, true)
+}
+
+fn edges_and_edges<S: Scalar>(
+    a: &Moving<S>,
+    b: &Moving<S>,
+    radius: f64,
+    itself: bool,
+) -> Result<Vec<[u32; 2]>, Error> {
+    a.validate()?;
+    b.validate()?;
+    let mut pairs = Vec::new();
+    for (i, edge_a) in (0..).zip(edges(a.triangles)) {
+        for (j, edge_b) in (0..).zip(edges(b.triangles)) {
+            let is_new = !itself || i < j;
+            if is_new && are_candidate((a, &edge_a), (b, &edge_b), radius, itself) {
+                pairs.push([i, j]);
+            }
+        }
+    }
+    Ok(pairs)
+}
+
+/// Whether two elements, by their vertices, are a candidate.
+fn are_candidate<S: Scalar>(
+    (a, of_a): (&Moving<S>, &[u32]),
+    (b, of_b): (&Moving<S>, &[u32]),
+    radius: f64,
+    itself: bool,
+) -> bool {
+    let pairs = || of_a.iter().flat_map(|&i| of_b.iter().map(move |&j| (i, j)));
+    let are_kept_apart = pairs().all(|(i, j)| a.group(i) != 0 && a.group(i) == b.group(j));
+    let share = itself && pairs().any(|(i, j)| i == j);
+    !share && !are_kept_apart && are_within(&a.box_of(of_a), &b.box_of(of_b), 2.0 * radius)
 }
 
 fn corners<S: Scalar>(

@@ -94,7 +94,10 @@ const LAYERS: [(&str, &[&str]); 20] = [
             "traversal",
         ],
     ),
-    ("reference", &["error", "mesh", "predicates", "world"]),
+    (
+        "reference",
+        &["error", "geometry", "mesh", "predicates", "world"],
+    ),
     ("lib", &[]),
 ];
 

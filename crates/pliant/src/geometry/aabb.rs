@@ -1,6 +1,5 @@
 //! One axis-aligned box. Many of them side by side are `kernels::BoxLanes`.
 
-#[cfg(test)]
 use super::real::{OUTWARD, larger, smaller};
 
 /// A closed box `lo <= x <= hi` in `f32`.
@@ -24,7 +23,6 @@ impl Aabb {
     }
 
     /// The smallest box that holds both.
-    #[cfg(test)]
     pub(crate) fn union(&self, other: &Self) -> Self {
         Self {
             lo: std::array::from_fn(|axis| smaller(self.lo[axis], other.lo[axis])),
@@ -33,7 +31,6 @@ impl Aabb {
     }
 
     /// This box grown by a distance on every side, rounded outward.
-    #[cfg(test)]
     pub(crate) fn grown(&self, distance: f32) -> Self {
         // A difference is off by at most a quarter of what is taken away here, as in `Real::round_down` of f64.
         let outward = |x: f32| x.abs() * OUTWARD + f32::MIN_POSITIVE;

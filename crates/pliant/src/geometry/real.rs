@@ -36,6 +36,9 @@ pub(crate) trait Real:
     fn is_in_range(self) -> bool;
     /// Whether a thread that flushes subnormal numbers loses this coordinate, or may lose a difference of it and another.
     fn needs_subnormals(self) -> bool;
+    /// What is the part `t`, from 0 to 1, of the way from here to another: `self + t (to - self)` in `f64`, each operation rounded, and the
+    /// result rounded to this type; never beyond either end.
+    fn toward(self, to: Self, t: f64) -> Self;
     /// An `f32` that is not above `self - origin`; for `f32` itself, the origin being zero.
     fn round_down(self, origin: f64) -> f32;
     /// An `f32` that is not below `self - origin`; for `f32` itself, the origin being zero.
@@ -61,6 +64,10 @@ impl Real for f32 {
     fn needs_subnormals(self) -> bool {
         // Bits, because such a thread takes a subnormal number for zero; zero, less one, is the largest of all.
         self.abs().to_bits().wrapping_sub(1) < f32::MIN_POSITIVE.to_bits() - 1
+    }
+    #[inline]
+    fn toward(self, to: Self, t: f64) -> Self {
+        f64::from(self).toward(to.into(), t) as f32
     }
     #[inline]
     fn round_down(self, _origin: f64) -> f32 {
@@ -92,6 +99,11 @@ impl Real for f64 {
         // 2^-969: from there on coordinates, and so their differences, are multiples of 2^-1021.
         let smallest = f64::from_bits((1023 - 969) << 52);
         self.abs().to_bits().wrapping_sub(1) < smallest.to_bits() - 1
+    }
+    #[inline]
+    fn toward(self, to: Self, t: f64) -> Self {
+        let there = self + t * (to - self);
+        larger(smaller(there, larger(self, to)), smaller(self, to))
     }
     #[inline]
     fn round_down(self, origin: f64) -> f32 {

@@ -141,7 +141,7 @@ pub(crate) fn overlap_mask<I: Simd, const N: usize>(i: I, a: &BoxLanes<N>, b: &B
 
 /// A row of N numbers as eight, the rest empty.
 #[inline(always)]
-fn eight<I: Simd, const N: usize>(i: I, row: &[f32; N]) -> f32x8<I> {
+pub(super) fn eight<I: Simd, const N: usize>(i: I, row: &[f32; N]) -> f32x8<I> {
     if let Ok(eight) = row.as_slice().try_into() {
         return f32x8::load_array_ref(i, eight);
     }

@@ -24,6 +24,13 @@ pub(crate) trait Coordinate: Real {
         origin: &[f64; 4],
     ) -> (f32x4<I>, f32x4<I>);
 
+    /// The same corners of a box in f32, relative to the origin and rounded to the nearest; what is beyond f32 is the largest.
+    fn nearest<I: Simd>(
+        lo: Self::Four<I>,
+        hi: Self::Four<I>,
+        origin: &[f64; 4],
+    ) -> (f32x4<I>, f32x4<I>);
+
     /// Differences of points as lanes, each coordinate rounded to the nearest f32 (of f64 to the nearest f64 before): for every
     /// (a, b) corner a minus corner b.
     fn differences<I: Simd, const D: usize>(
@@ -60,6 +67,15 @@ impl Coordinate for f32 {
 
     #[inline(always)]
     fn outward<I: Simd>(
+        lo: Self::Four<I>,
+        hi: Self::Four<I>,
+        _origin: &[f64; 4],
+    ) -> (f32x4<I>, f32x4<I>) {
+        (lo, hi)
+    }
+
+    #[inline(always)]
+    fn nearest<I: Simd>(
         lo: Self::Four<I>,
         hi: Self::Four<I>,
         _origin: &[f64; 4],
@@ -118,6 +134,19 @@ impl Coordinate for f64 {
             lo - (lo.abs() * OUTWARD + f32::MIN_POSITIVE),
             hi + (hi.abs() * OUTWARD + f32::MIN_POSITIVE),
         )
+    }
+
+    #[inline(always)]
+    fn nearest<I: Simd>(
+        lo: Self::Four<I>,
+        hi: Self::Four<I>,
+        origin: &[f64; 4],
+    ) -> (f32x4<I>, f32x4<I>) {
+        let i = lo.token();
+        let origin = f64x4::load_array_ref(i, origin);
+        let (lo, hi) = (lo - origin).narrow(hi - origin).split();
+        let [least, most] = [-f32::MAX, f32::MAX].map(|x| f32x4::splat(i, x));
+        (lo.max(least).min(most), hi.max(least).min(most))
     }
 
     #[inline(always)]

@@ -3,9 +3,7 @@
 use super::Coordinate;
 use super::boxes::BoxLanes;
 use super::coordinate::{lanes_of, turn};
-#[cfg(test)]
-use crate::geometry::OUTWARD;
-use crate::geometry::{Aabb, IN_A_ROW, Shape};
+use crate::geometry::{Aabb, IN_A_ROW, OUTWARD, Shape};
 use crate::ids::TreeVertex;
 use fearless_simd::f32x4;
 use fearless_simd::prelude::*;
@@ -103,14 +101,12 @@ pub(crate) fn to_box<I: Simd>((lo, hi): Extent<I>) -> Aabb {
 
 /// The smallest box that holds two.
 #[inline(always)]
-#[cfg(test)]
 pub(crate) fn union<I: Simd>(a: Extent<I>, b: Extent<I>) -> Extent<I> {
     (a.0.min(b.0), a.1.max(b.1))
 }
 
 /// A box grown by a distance on every side, as `Aabb::grown` says.
 #[inline(always)]
-#[cfg(test)]
 pub(crate) fn grown<I: Simd>(i: I, (lo, hi): Extent<I>, distance: f32) -> Extent<I> {
     let distance = f32x4::splat(i, distance);
     let (lo, hi) = (lo - distance, hi + distance);

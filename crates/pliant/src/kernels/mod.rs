@@ -11,6 +11,7 @@
 //! gather        positions into tree order, and the bounds of every few
 //! extent        boxes of points and of triangles
 //! boxes         boxes side by side, and which of them overlap
+//! gaps          boxes of vertices, edges and triangles, and which of them are near each other
 //! find          where a number is among eight
 //! buffer        the lanes set in a mask, written to a list without branches
 //! signs         orientation signs of eight candidates at once, where rounding cannot change them
@@ -24,6 +25,7 @@ mod coordinate;
 mod copy_checked;
 pub(crate) mod extent;
 mod find;
+pub(crate) mod gaps;
 mod gather;
 mod instructions;
 mod quantized;

@@ -9,12 +9,14 @@
 //! The paper uses the test of Möller (1997), which decides on rounded interval ends and a tolerance.
 
 mod accumulator;
+mod gap;
 mod lattice;
 mod orientation;
 mod point;
 mod triangles;
 
 use crate::geometry::Real;
+pub(crate) use gap::are_within;
 use lattice::{Lattice, on_lattice};
 pub(crate) use orientation::Exact;
 use orientation::Filtered;

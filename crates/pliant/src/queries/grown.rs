@@ -3,7 +3,7 @@
 //! It shows that nothing but `intersections` knows intersections: it has a source of boxes, a set of boxes, a hit and a rule for
 //! neighbours of its own. The tests here ask it between the steps of an ordinary query and find the boxes of that untouched.
 
-use super::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest};
+use super::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, Leaves};
 use crate::geometry::{Aabb, Shape};
 use crate::hits::Hit;
 use crate::kernels::{Buffer, Coordinate};
@@ -48,8 +48,8 @@ impl<S: Coordinate> Kind for Near<S> {
     type Buffers = ();
     type Source<'s> = Grown<Shape<'s, S>>;
 
-    const BOX_SET: BoxSetNumber = 1;
-    const LEAVES_OUT_NEIGHBOURS: bool = false;
+    const BOX_SET: BoxSetNumber = 2;
+    const LEAVES: Leaves = Leaves::AllTriangles;
 
     fn grows_by(&self) -> f32 {
         self.distance
@@ -59,7 +59,7 @@ impl<S: Coordinate> Kind for Near<S> {
         of_shape.grown(self.distance)
     }
 
-    fn source<'s>(&self, source: Shape<'s, S>) -> Grown<Shape<'s, S>> {
+    fn source<'s>(&self, source: Shape<'s, S>, _: Option<Shape<'s, S>>) -> Grown<Shape<'s, S>> {
         Grown {
             source,
             distance: self.distance,

@@ -2,22 +2,24 @@
 //!
 //! The update, the traversal, the sorting and what users call are the same for every kind. A kind says what is different: what its boxes
 //! are made of and which set of them it uses, what two leaves do to each other, its rule for neighbours in the mesh, and what a hit is.
-//! Intersections are one kind. A second, `grown`, is for tests only and shows that nothing else knows the first.
+//! `intersections` and `candidates` are kinds. Another, `grown`, is for tests only and shows that nothing else knows the first.
 
+mod candidates;
 #[cfg(test)]
 pub(crate) mod grown;
 mod intersections;
 
-use crate::geometry::{Aabb, Shape};
+use crate::geometry::{Aabb, Points, Shape};
 use crate::held::Held;
 use crate::hits::Hit;
 use crate::ids::BodyId;
 use crate::ids::TreeTriangle;
 use crate::kernels::{Buffer, Coordinate, Instructions};
-use crate::mesh::Order;
+use crate::mesh::{Order, TriangleRun};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use crate::tree::BoxSource;
+pub(crate) use candidates::{EdgeEdgeCandidates, Groups, Margin, VertexTriangleCandidates};
 pub(crate) use intersections::Intersections;
 
 /// Two triangles whose boxes overlap, of the first body and of the second.
@@ -39,8 +41,9 @@ pub(crate) trait Kind: Sync {
     type Source<'s>: BoxSource<Scalar = Self::Scalar>;
 
     const BOX_SET: BoxSetNumber;
-    /// Whether triangles of one body that share a vertex of the mesh are left out before they are tested.
-    const LEAVES_OUT_NEIGHBOURS: bool;
+    const LEAVES: Leaves;
+    /// Whether its boxes hold the end of a motion too.
+    const HOLDS_MOTIONS: bool = false;
 
     /// By how much its boxes are larger than those of the shape, on every side.
     fn grows_by(&self) -> f32 {
@@ -52,21 +55,59 @@ pub(crate) trait Kind: Sync {
         of_shape
     }
 
-    fn source<'s>(&self, shape: Shape<'s, Self::Scalar>) -> Self::Source<'s>;
+    /// What boxes are made of, of a body that is going to have the shape `end` if that is some.
+    fn source<'s>(
+        &self,
+        shape: Shape<'s, Self::Scalar>,
+        end: Option<Shape<'s, Self::Scalar>>,
+    ) -> Self::Source<'s>;
 
     /// Decides candidates, and appends what it finds to `hits`, in an order that depends on nothing but the candidates. It counts them,
-    /// exact decisions and hits.
+    /// exact decisions and hits. For kinds that are shown triangles.
     fn test(
         &self,
-        leaves: &LeafTest<Self::Scalar>,
-        candidates: &mut Buffer<Candidate>,
-        buffers: &mut Self::Buffers,
-        hits: &mut Buffer<Self::TreeHit>,
-        statistics: &mut Statistics,
-    );
+        _leaves: &LeafTest<Self::Scalar>,
+        _candidates: &mut Buffer<Candidate>,
+        _buffers: &mut Self::Buffers,
+        _hits: &mut Buffer<Self::TreeHit>,
+        _statistics: &mut Statistics,
+    ) {
+    }
+
+    /// The same, for kinds that are shown runs of up to eight triangles, of the first body and of the second; in one body a run perhaps
+    /// with itself.
+    fn test_runs(
+        &self,
+        _leaves: &LeafTest<Self::Scalar>,
+        _pairs: &[[TriangleRun; 2]],
+        _buffers: &mut Self::Buffers,
+        _hits: &mut Buffer<Self::TreeHit>,
+        _statistics: &mut Statistics,
+    ) {
+    }
 
     /// A hit as the caller numbers things.
     fn to_caller(&self, ids: &CallerIds, hit: Self::TreeHit) -> Self::Hit;
+}
+
+/// What a kind is shown of leaves that overlap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Leaves {
+    /// Two triangles whose boxes overlap; of one body those that share no vertex of the mesh.
+    Triangles,
+    /// The same, those that share a vertex too.
+    #[cfg(test)]
+    AllTriangles,
+    /// The triangles of either leaf, up to eight at a time: boxes of triangles are not made.
+    Runs,
+}
+
+/// The vertices and edges of a body, for kinds that ask for them.
+#[derive(Clone, Copy)]
+pub(crate) struct Elements<'q> {
+    pub(crate) edges: &'q crate::mesh::Elements,
+    /// None where all vertices meet.
+    pub(crate) groups: Option<&'q Groups>,
 }
 
 /// What a test of leaves works with.
@@ -75,10 +116,17 @@ pub(crate) struct LeafTest<'q, S> {
     pub(crate) interrupt: &'q Interrupt<'q>,
     /// Of both bodies, or of the one twice.
     pub(crate) shapes: [&'q Shape<'q, S>; 2],
+    /// Where vertices are at the end of a motion, for kinds that hold motions.
+    pub(crate) ends: [Option<&'q Points<S>>; 2],
+    /// For kinds that are shown runs.
+    pub(crate) elements: [Option<Elements<'q>>; 2],
+    /// Whether it is one body with itself.
+    pub(crate) itself: bool,
 }
 
 /// How the caller numbers things.
 pub(crate) struct CallerIds<'q> {
     pub(crate) bodies: [BodyId; 2],
     pub(crate) orders: [&'q Order; 2],
+    pub(crate) elements: [Option<Elements<'q>>; 2],
 }

@@ -161,7 +161,7 @@ where
     tasks[..*used].iter_mut().for_each(Task::clear);
     reserve.clear();
     *used = 1;
-    let are_free = are_free(pair.sides());
+    let are_free = are_free::<N, K, _>(pair.sides());
     let (most_tasks, most_leaf_pairs) = shares(are_free, *wanted, executor);
     tasks.resize_with(most_tasks.max(tasks.len()), Task::default);
     tasks[0].found.nodes.push([NodeId::ROOT; 2]);

@@ -14,8 +14,8 @@ use super::tree_pair::TreePair;
 use crate::held::{self, Held};
 use crate::ids::BlockId;
 use crate::kernels::{Buffer, QuantizedRows, Simd, dispatch, overlap_mask};
-use crate::mesh::Order;
-use crate::queries::{Candidate, Kind, LeafTest};
+use crate::mesh::{Order, TriangleRun};
+use crate::queries::{Candidate, Kind, LeafTest, Leaves as Shown};
 use crate::statistics::Statistics;
 use crate::tree::{
     BlockBoxes, BoxSource, FirstsOfBlocks, Leaves, Neighbours, Quantized, STRICT_UPPER,
@@ -50,6 +50,7 @@ pub(super) struct Cursor {
 #[derive(Debug)]
 pub(super) struct LeafTests<K: Kind> {
     blocks: Vec<BlockPair>,
+    runs: Vec<[TriangleRun; 2]>,
     compared: Buffer<MaskedPair>,
     crowded: Vec<BlockPair>,
     candidates: Buffer<Candidate>,
@@ -65,6 +66,7 @@ impl<K: Kind> Default for LeafTests<K> {
     fn default() -> Self {
         Self {
             blocks: Vec::new(),
+            runs: Vec::new(),
             compared: Buffer::default(),
             crowded: Vec::new(),
             candidates: Buffer::default(),
@@ -101,12 +103,10 @@ impl<K: Kind> LeafTests<K> {
         let sides = context.pair.sides();
         let leaves = sides.map(|side| &side.tree.leaves);
         let neighbours = sides[0].tree.neighbours();
-        let leaf_test = LeafTest {
-            instructions,
-            interrupt: context.interrupt,
-            shapes: sides.map(|side| side.source.shape()),
-        };
-        if leaves.iter().all(|leaves| leaves.have_blocks()) {
+        let leaf_test = leaf_test(context);
+        if K::LEAVES == Shown::Runs {
+            cursor = self.test_runs::<N, P>(context, leaf_pairs, cursor, most, &leaf_test);
+        } else if leaves.iter().all(|leaves| leaves.have_blocks()) {
             let boxes = sides.map(|side| Boxes {
                 firsts: side.tree.leaves.firsts_of_blocks(),
                 boxes: side.boxes.blocks(),
@@ -117,7 +117,8 @@ impl<K: Kind> LeafTests<K> {
                 let blocks = &self.blocks[start..end];
                 let found = &mut self.candidates;
                 found.clear();
-                let left_out = K::LEAVES_OUT_NEIGHBOURS.then_some((sides[0].order, neighbours));
+                let left_out =
+                    (K::LEAVES == Shown::Triangles).then_some((sides[0].order, neighbours));
                 match (left_out, sides[0].boxes.quantized()) {
                     _ if !P::ITSELF => {
                         dispatch!(instructions, i => of_two(i, boxes, blocks, found));
@@ -148,7 +149,7 @@ impl<K: Kind> LeafTests<K> {
                     let b = leaves[1].first_triangle(leaf_b);
                     let order = sides[0].order;
                     let left_out = P::ITSELF
-                        && (a == b || K::LEAVES_OUT_NEIGHBOURS && order.share_a_vertex(a, b));
+                        && (a == b || K::LEAVES == Shown::Triangles && order.share_a_vertex(a, b));
                     if !left_out {
                         self.candidates.push([a, b]);
                     }
@@ -158,6 +159,45 @@ impl<K: Kind> LeafTests<K> {
             cursor.pair = end;
         }
         self.number_new(context);
+        cursor
+    }
+
+    /// Tests pairs of leaves run by run: of the blocks in them, or of their single triangles.
+    fn test_runs<const N: usize, P: TreePair<N>>(
+        &mut self,
+        context: &Context<K, P>,
+        leaf_pairs: &[LeafPair],
+        mut cursor: Cursor,
+        most: usize,
+        leaf_test: &LeafTest<K::Scalar>,
+    ) -> Cursor {
+        let leaves = context.pair.sides().map(|side| &side.tree.leaves);
+        self.runs.clear();
+        if leaves.iter().all(|leaves| leaves.have_blocks()) {
+            cursor = block_pairs::<N, P>(leaves, leaf_pairs, cursor, most, &mut self.blocks);
+            let runs = self
+                .blocks
+                .iter()
+                .map(|&[a, b]| [leaves[0].run_of_block(a), leaves[1].run_of_block(b)]);
+            self.runs.extend(runs);
+        } else {
+            let end = leaf_pairs.len().min(cursor.pair + most);
+            let pairs = &leaf_pairs[cursor.pair..end];
+            let run = |side: usize, leaf| TriangleRun {
+                first: leaves[side].first_triangle(leaf),
+                count: 1,
+            };
+            self.runs
+                .extend(pairs.iter().map(|&[a, b]| [run(0, a), run(1, b)]));
+            cursor.pair = end;
+        }
+        context.kind.test_runs(
+            leaf_test,
+            &self.runs,
+            &mut self.buffers,
+            &mut self.hits,
+            &mut self.statistics,
+        );
         cursor
     }
 
@@ -174,11 +214,7 @@ impl<K: Kind> LeafTests<K> {
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
         let [side, _] = context.pair.sides();
-        let leaf_test = LeafTest {
-            instructions: context.instructions,
-            interrupt: context.interrupt,
-            shapes: [side.source.shape(); 2],
-        };
+        let leaf_test = leaf_test(context);
         let boxes = Boxes {
             firsts: side.tree.leaves.firsts_of_blocks(),
             boxes: side.boxes.blocks(),
@@ -221,6 +257,23 @@ impl<K: Kind> LeafTests<K> {
             &mut self.hits,
             &mut self.statistics,
         );
+    }
+}
+
+/// What a kind works with.
+fn leaf_test<'q, const N: usize, K: Kind, P>(context: &Context<'q, K, P>) -> LeafTest<'q, K::Scalar>
+where
+    P: TreePair<N>,
+    P::Source: BoxSource<Scalar = K::Scalar>,
+{
+    let sides = context.pair.sides();
+    LeafTest {
+        instructions: context.instructions,
+        interrupt: context.interrupt,
+        shapes: sides.map(|side| side.source.shape()),
+        ends: sides.map(|side| side.source.end().map(|end| end.positions)),
+        elements: sides.map(|side| side.elements),
+        itself: P::ITSELF,
     }
 }
 
@@ -423,6 +476,7 @@ fn overlapping<I: Simd>(
 impl<K: Kind> Held for LeafTests<K> {
     fn held(&self) -> usize {
         held::list(&self.blocks)
+            + held::list(&self.runs)
             + self.compared.held()
             + held::list(&self.crowded)
             + self.candidates.held()

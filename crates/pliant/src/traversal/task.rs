@@ -8,7 +8,7 @@ use super::leaf_pairs::{Cursor, LeafTests};
 use super::tree_pair::{Side, TreePair};
 use crate::held::{self, Held};
 use crate::kernels::dispatch;
-use crate::queries::Kind;
+use crate::queries::{Kind, Leaves};
 use crate::tree::{BoxSource, Child, Neighbours};
 use crate::update::DirtySet;
 use std::ops::Range;
@@ -51,11 +51,13 @@ impl<K: Kind> Default for Task<K> {
     }
 }
 
-/// Whether all boxes are known to be valid because they were completed at once, so that tasks need not wait for any, and pairs of
-/// leaves can be tested as soon as they are found.
-pub(super) fn are_free<const N: usize, B>(sides: [&Side<'_, N, B>; 2]) -> bool {
-    let is_complete =
-        |side: &&Side<N, B>| side.boxes.are_nodes_complete() && side.boxes.are_leaves_complete();
+/// Whether all boxes that the kind reads are known to be valid because they were completed at once, so that tasks need not wait for any,
+/// and pairs of leaves can be tested as soon as they are found.
+pub(super) fn are_free<const N: usize, K: Kind, B>(sides: [&Side<'_, N, B>; 2]) -> bool {
+    let is_complete = |side: &&Side<N, B>| {
+        side.boxes.are_nodes_complete()
+            && (K::LEAVES == Leaves::Runs || side.boxes.are_leaves_complete())
+    };
     sides.iter().all(is_complete)
 }
 
@@ -64,9 +66,9 @@ pub(super) fn are_free<const N: usize, B>(sides: [&Side<'_, N, B>; 2]) -> bool {
 pub(super) fn left_out<const N: usize, K: Kind, P: TreePair<N>>(pair: &P) -> Option<&Neighbours> {
     let sides = pair.sides();
     let are_left_out = P::ITSELF
-        && K::LEAVES_OUT_NEIGHBOURS
+        && K::LEAVES == Leaves::Triangles
         && sides[0].tree.leaves.are_blocks()
-        && are_free(sides);
+        && are_free::<N, K, _>(sides);
     sides[0].tree.neighbours().filter(|_| are_left_out)
 }
 
@@ -101,7 +103,7 @@ impl<K: Kind> Task<K> {
     {
         self.found.node_pairs = 0;
         self.tests.clear();
-        if !are_free(context.pair.sides()) {
+        if !are_free::<N, K, _>(context.pair.sides()) {
             return self.descend(context);
         }
         let budget = context.budget;
@@ -127,7 +129,7 @@ impl<K: Kind> Task<K> {
     /// Goes on until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
     fn descend<const N: usize, P: TreePair<N>>(&mut self, context: &Context<K, P>) {
         let (budget, sides) = (context.budget, context.pair.sides());
-        let free = are_free(sides);
+        let free = are_free::<N, K, _>(sides);
         let complete = sides.iter().all(|side| side.boxes.are_nodes_complete());
         let left_out = left_out::<N, K, P>(context.pair);
         loop {
@@ -135,7 +137,11 @@ impl<K: Kind> Task<K> {
             dispatch!(context.instructions, i => expand::<_, N, P>(i, sides, batch, left_out, found));
             self.batch.clear();
             for (set, reached) in self.reached.iter_mut().zip(&mut self.found.reached) {
-                let asked_for = if free { &[] } else { reached.as_slice() };
+                let asked_for = if free || K::LEAVES == Leaves::Runs {
+                    &[]
+                } else {
+                    reached.as_slice()
+                };
                 for leaves in asked_for {
                     set.insert_eight(leaves.first.0, leaves.lanes);
                 }

@@ -2,7 +2,7 @@
 
 use crate::ids::BodyId;
 use crate::mesh::Order;
-use crate::queries::CallerIds;
+use crate::queries::{CallerIds, Elements};
 use crate::tree::{BoxSet, BoxSource, Tree};
 use crate::update::Refitted;
 
@@ -13,6 +13,8 @@ pub(crate) struct Side<'t, const N: usize, B> {
     pub(crate) tree: &'t Tree<N>,
     pub(crate) boxes: &'t mut BoxSet<N>,
     pub(crate) source: B,
+    /// For kinds that are shown runs of triangles.
+    pub(crate) elements: Option<Elements<'t>>,
 }
 
 impl<const N: usize, B: BoxSource> Side<'_, N, B> {
@@ -44,6 +46,7 @@ pub(crate) trait TreePair<const N: usize>: Sync {
         CallerIds {
             bodies: sides.map(|side| side.body),
             orders: sides.map(|side| side.order),
+            elements: sides.map(|side| side.elements),
         }
     }
 }

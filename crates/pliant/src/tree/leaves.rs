@@ -5,6 +5,7 @@
 
 use crate::held::{self, Held};
 use crate::ids::{BlockId, LeafId, TreeTriangle};
+use crate::mesh::TriangleRun;
 use std::ops::Range;
 
 /// Triangles go by eights whatever the degree of the tree is: the width of the registers in which their boxes are compared.
@@ -24,6 +25,8 @@ pub(crate) struct Leaves {
     have_blocks: bool,
     /// The first triangle of each block.
     first_triangles: Vec<TreeTriangle>,
+    /// How many it has.
+    counts: Vec<u8>,
 }
 
 impl Leaves {
@@ -33,6 +36,7 @@ impl Leaves {
             runs: Vec::new(),
             have_blocks: size > 1,
             first_triangles: Vec::new(),
+            counts: Vec::new(),
         }
     }
 
@@ -44,8 +48,11 @@ impl Leaves {
             first_block: self.first_triangles.len() as u32,
         });
         if self.have_blocks {
-            let firsts = triangles.step_by(BLOCK_LANES).map(TreeTriangle);
-            self.first_triangles.extend(firsts);
+            for first in triangles.clone().step_by(BLOCK_LANES) {
+                self.first_triangles.push(TreeTriangle(first));
+                let count = BLOCK_LANES.min((triangles.end - first) as usize);
+                self.counts.push(count as u8);
+            }
         }
         LeafId(self.runs.len() as u32 - 1)
     }
@@ -54,6 +61,7 @@ impl Leaves {
     pub(super) fn shrink_to_fit(&mut self) {
         self.runs.shrink_to_fit();
         self.first_triangles.shrink_to_fit();
+        self.counts.shrink_to_fit();
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -121,6 +129,15 @@ impl Leaves {
         self.firsts_of_blocks().of(block)
     }
 
+    /// The triangles of a block.
+    #[inline]
+    pub(crate) fn run_of_block(&self, block: BlockId) -> TriangleRun {
+        TriangleRun {
+            first: self.first_triangles[block.index()],
+            count: self.counts[block.index()].into(),
+        }
+    }
+
     /// The first triangles of all blocks, for a loop over many.
     #[inline(always)]
     pub(crate) fn firsts_of_blocks(&self) -> FirstsOfBlocks<'_> {
@@ -141,6 +158,6 @@ impl FirstsOfBlocks<'_> {
 
 impl Held for Leaves {
     fn held(&self) -> usize {
-        held::list(&self.runs) + held::list(&self.first_triangles)
+        held::list(&self.runs) + held::list(&self.first_triangles) + held::list(&self.counts)
     }
 }

@@ -26,10 +26,8 @@ use crate::held::{self, Held};
 use crate::ids::{NodeId, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::Executor;
-#[cfg(test)]
-pub(crate) use boxes::Grown;
 pub(crate) use boxes::{
-    Block, BlockBoxes, BoxSet, BoxSource, LeavesMut, NodesMut, Quantized, Version,
+    Block, BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodesMut, Quantized, Swept, Version,
 };
 use build::Plan;
 pub(crate) use leaves::{BLOCK_LANES, FirstsOfBlocks, Leaves};

@@ -7,14 +7,15 @@ use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape, denormals_are_k
 use crate::held::{self, Held};
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
-use crate::mesh::{self, Order, Topology};
+use crate::mesh::{self, Elements, Order, Topology};
 use crate::options::{Options, Partition};
-use crate::queries::Kind;
+use crate::queries::{self, Groups, Kind, Leaves};
 use crate::threads::Executor;
 use crate::traversal::Side;
 use crate::tree::build::{Balanced, Connectivity, CutAt, InitialShape, Plan, plan};
 use crate::tree::{BoxSet, Tree};
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 /// A body with its tree, of degree `N`.
 pub(super) struct Body<const N: usize, S> {
@@ -33,6 +34,37 @@ pub(super) struct Body<const N: usize, S> {
     membership: u32,
     mask: u32,
     loose: Option<Bounds<S>>,
+    motion: Motion<S>,
+    /// Groups of the caller's vertices; empty where all meet.
+    groups: Vec<u32>,
+    /// Edges, and who owns what, once somebody asks; and the groups of all that.
+    elements: OnceLock<Elements>,
+    element_groups: Option<Groups>,
+}
+
+/// Where the vertices are going.
+struct Motion<S> {
+    /// The shape at the end, if there is a motion; if not, memory for the next.
+    end: Option<Positions<S>>,
+    /// Of the vertices that triangles use.
+    bounds: Bounds<S>,
+    /// Counts motions; 0 is before the first.
+    epoch: u64,
+    is_on: bool,
+}
+
+impl<S: Real> Motion<S> {
+    const NONE: Self = Self {
+        end: None,
+        bounds: Bounds::EMPTY,
+        epoch: 0,
+        is_on: false,
+    };
+
+    /// The shape at the end, if there is a motion.
+    fn end(&self) -> Option<&Positions<S>> {
+        self.end.as_ref().filter(|_| self.is_on)
+    }
 }
 
 /// Refuses what no body can be made of.
@@ -96,6 +128,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             membership: u32::MAX,
             mask: u32::MAX,
             loose: None,
+            motion: Motion::NONE,
+            groups: Vec::new(),
+            elements: OnceLock::new(),
+            element_groups: None,
         }
     }
 
@@ -114,6 +150,15 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             membership: self.membership,
             mask: self.mask,
             loose: self.loose,
+            motion: Motion {
+                end: self.end_positions().map(|end| Positions::new(&end)),
+                bounds: self.motion.bounds,
+                epoch: self.motion.epoch,
+                is_on: self.motion.is_on,
+            },
+            groups: self.groups.clone(),
+            elements: OnceLock::new(),
+            element_groups: None,
         }
     }
 
@@ -130,6 +175,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         }
         *self = Self {
             epoch: self.epoch + 1,
+            motion: Motion {
+                epoch: self.motion.epoch,
+                ..Motion::NONE
+            },
             membership: self.membership,
             mask: self.mask,
             loose: self.loose,
@@ -143,6 +192,11 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let positions = self.positions();
         let (order, tree) = build(&self.topology, &positions, options);
         self.positions.forget_tree_order(self.order.vertex_order());
+        if let Some(end) = &mut self.motion.end {
+            end.forget_tree_order(self.order.vertex_order());
+        }
+        self.elements = OnceLock::new();
+        self.element_groups = None;
         self.boxes = first_boxes(&tree, self.triangle_count());
         (self.order, self.tree) = (order, tree);
         self.epoch += 1;
@@ -156,15 +210,82 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.positions.len()
     }
 
-    /// Brings the shape into tree order, which everything that looks at it needs. Returns false if it was interrupted.
+    /// Brings the shape into tree order, which everything that looks at it needs, and that at the end of a motion if that is looked at
+    /// too. Returns false if it was interrupted.
     pub(super) fn bring_into_tree_order(
         &mut self,
+        with_motion: bool,
         instructions: Instructions,
         executor: Executor,
     ) -> bool {
         let order = self.order.vertex_order();
-        self.positions
-            .bring_into_tree_order(instructions, executor, order)
+        let is_in_order = self
+            .positions
+            .bring_into_tree_order(instructions, executor, order);
+        let end = self.motion.end.as_mut();
+        let end = end.filter(|_| with_motion && self.motion.is_on);
+        let is_end_in_order =
+            end.is_none_or(|end| end.bring_into_tree_order(instructions, executor, order));
+        is_in_order && is_end_in_order
+    }
+
+    /// Finds out the edges of the mesh, and which triangle owns what, unless that is known. Returns false if it was stopped.
+    pub(super) fn know_elements(&mut self, stop: &dyn Fn() -> bool) -> bool {
+        let Self {
+            topology,
+            order,
+            elements,
+            groups,
+            element_groups,
+            ..
+        } = self;
+        if elements.get().is_none() {
+            let Some(new) = Elements::new(topology, order, stop) else {
+                return false;
+            };
+            *elements = OnceLock::from(new);
+        }
+        if let Some(elements) = elements.get()
+            && !groups.is_empty()
+            && element_groups.is_none()
+        {
+            *element_groups = Some(Groups::new(groups, order, elements));
+        }
+        true
+    }
+
+    /// The edges, as the caller numbers them.
+    pub(super) fn edges(&self) -> &[[u32; 2]] {
+        let known = self.elements.get();
+        let known = known.or_else(|| {
+            let new = Elements::new(&self.topology, &self.order, &|| false)?;
+            Some(self.elements.get_or_init(|| new))
+        });
+        known.map_or(&[], Elements::callers)
+    }
+
+    /// Gives every vertex a group; those of one group do not meet, unless it is 0.
+    pub(super) fn set_groups(&mut self, groups: &[u32]) -> Result<(), ErrorKind> {
+        if groups.len() != self.vertex_count() {
+            return Err(ErrorKind::WrongLength {
+                expected: self.vertex_count(),
+                found: groups.len(),
+            });
+        }
+        self.groups.clear();
+        if groups.iter().any(|&group| group != 0) {
+            self.groups.extend_from_slice(groups);
+        }
+        self.element_groups = None;
+        Ok(())
+    }
+
+    /// The group of every vertex.
+    pub(super) fn groups(&self) -> Vec<u32> {
+        if self.groups.is_empty() {
+            return vec![0; self.vertex_count()];
+        }
+        self.groups.clone()
     }
 
     /// The shape in tree order, whether it was brought into it or not.
@@ -172,6 +293,15 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let order = self.order.vertex_order();
         let vertices = (0..order.len() as u32).map(TreeVertex);
         Points::of(vertices.map(|vertex| self.positions.get(vertex, order)))
+    }
+
+    /// The shape at the end of a motion in tree order, and its epoch, if there is a motion.
+    pub(super) fn end_in_tree_order(&self) -> Option<(Points<S>, u64)> {
+        let end = self.motion.end()?;
+        let order = self.order.vertex_order();
+        let vertices = (0..order.len() as u32).map(TreeVertex);
+        let points = Points::of(vertices.map(|vertex| end.get(vertex, order)));
+        Some((points, self.motion.epoch))
     }
 
     /// The shape, of which `positions` are in tree order.
@@ -196,6 +326,17 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             origin,
             epoch: self.epoch,
         };
+        let end = self.motion.end().filter(|_| K::HOLDS_MOTIONS);
+        let end = end.map(|end| Shape {
+            positions: end.in_tree_order(),
+            epoch: self.motion.epoch,
+            ..shape
+        });
+        let elements = self.elements.get().filter(|_| K::LEAVES == Leaves::Runs);
+        let elements = elements.map(|edges| queries::Elements {
+            edges,
+            groups: self.element_groups.as_ref(),
+        });
         if self.boxes.len() <= K::BOX_SET {
             self.boxes.resize_with(K::BOX_SET + 1, || None);
         }
@@ -205,7 +346,8 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             order: &self.order,
             tree,
             boxes: self.boxes[K::BOX_SET].get_or_insert_with(|| BoxSet::new(tree)),
-            source: kind.source(shape),
+            source: kind.source(shape, end),
+            elements,
         }
     }
 
@@ -236,10 +378,15 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.bounds
     }
 
-    /// The box of the body as it is.
+    /// The box of the body, as a kind of query needs it.
     #[inline]
-    pub(super) fn exact_box(&self, origin: Origin) -> Aabb {
-        self.bounds.to_box(origin)
+    pub(super) fn box_for<K: Kind<Scalar = S>>(&self, kind: &K, origin: Origin) -> Aabb {
+        let bounds = if K::HOLDS_MOTIONS && self.motion.is_on {
+            self.bounds.union(&self.motion.bounds)
+        } else {
+            self.bounds
+        };
+        kind.body_box(bounds.to_box(origin))
     }
 
     /// The loose box, if there is one.
@@ -247,47 +394,92 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.loose.map(|loose| loose.to_box(origin))
     }
 
-    /// Validates a new shape and takes it over; or leaves the body as it is and says what was wrong.
+    /// Validates a new shape and takes it over; or leaves the body as it is and says what was wrong. A motion ends.
     pub(super) fn set_positions(
         &mut self,
         instructions: Instructions,
         executor: Executor,
         positions: &[[S; 3]],
     ) -> Result<(), ErrorKind> {
-        if positions.len() != self.positions.len() {
-            return Err(ErrorKind::WrongLength {
-                expected: self.positions.len(),
-                found: positions.len(),
-            });
-        }
-        let Some(staged) = self.positions.stage(instructions, executor, positions) else {
-            // Which vertex it was is found out only if there was one.
-            return Err(first_outside(
-                positions,
-                |&position| is_in_range(position),
-                |vertex, position| ErrorKind::BadPosition { vertex, position },
-            ));
+        let taking = Taking {
+            instructions,
+            executor,
+            order: &self.order,
+            loose: self.loose,
         };
-        let all = staged.bounds;
-        if let Some(loose) = self
-            .loose
-            .filter(|loose| !(loose.holds(all.lo) && loose.holds(all.hi)))
-        {
-            all_inside(&loose, positions)?;
-        }
-        none_is_lost(positions)?;
-        let order = self.order.vertex_order();
-        self.positions
-            .commit(&staged, instructions, executor, positions, order);
-        let used = self.order.used_vertices();
-        self.bounds = if used == positions.len() {
-            all
-        } else {
-            let used = order[..used].iter();
-            bounds_of(used.map(|&vertex| positions[vertex as usize]))
-        };
+        self.bounds = taking.take(&mut self.positions, positions)?;
         self.epoch += 1;
+        self.motion.is_on = false;
         Ok(())
+    }
+
+    /// Validates a shape that the body is going to have, and begins a motion to it, in place of any other.
+    pub(super) fn set_motion(
+        &mut self,
+        instructions: Instructions,
+        executor: Executor,
+        end: &[[S; 3]],
+    ) -> Result<(), ErrorKind> {
+        let taking = Taking {
+            instructions,
+            executor,
+            order: &self.order,
+            loose: self.loose,
+        };
+        let mut first = None;
+        let place = match &mut self.motion.end {
+            Some(place) => place,
+            // What is there before is of no interest; it has the right length.
+            None => first.insert(Positions::new(&self.positions())),
+        };
+        self.motion.bounds = taking.take(place, end)?;
+        if first.is_some() {
+            self.motion.end = first;
+        }
+        self.motion.epoch += 1;
+        self.motion.is_on = true;
+        Ok(())
+    }
+
+    /// The end of a motion is the shape of now.
+    pub(super) fn finish_motion(&mut self) {
+        if let Some(end) = &mut self.motion.end
+            && self.motion.is_on
+        {
+            std::mem::swap(&mut self.positions, end);
+            self.bounds = self.motion.bounds;
+            self.epoch += 1;
+            self.motion.is_on = false;
+        }
+    }
+
+    /// Of the way of a motion the part `t`, from 0 to 1, is gone: the shape is there, and the motion has ended.
+    pub(super) fn advance_motion(
+        &mut self,
+        instructions: Instructions,
+        executor: Executor,
+        t: f64,
+    ) -> Result<(), ErrorKind> {
+        if !self.motion.is_on {
+            return Ok(());
+        }
+        if t == 1.0 {
+            self.finish_motion();
+            return Ok(());
+        }
+        let mut shape = self.positions().into_owned();
+        if let Some(end) = self.end_positions() {
+            for (from, to) in shape.as_flattened_mut().iter_mut().zip(end.as_flattened()) {
+                *from = from.toward(*to, t);
+            }
+        }
+        self.set_positions(instructions, executor, &shape)
+    }
+
+    /// The shape at the end of a motion as the caller orders vertices, if there is a motion.
+    pub(super) fn end_positions(&self) -> Option<Cow<'_, [[S; 3]]>> {
+        let end = self.motion.end();
+        end.map(|end| end.in_callers_order(self.order.vertex_order()))
     }
 
     /// The shape as the caller orders vertices.
@@ -324,9 +516,57 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                 return Err(ErrorKind::BadLooseBox);
             }
             all_inside(&loose, &self.positions())?;
+            if let Some(end) = self.end_positions() {
+                all_inside(&loose, &end)?;
+            }
         }
         self.loose = loose;
         Ok(())
+    }
+}
+
+/// How a new shape of a body is taken over.
+struct Taking<'b, S> {
+    instructions: Instructions,
+    executor: Executor<'b>,
+    order: &'b Order,
+    loose: Option<Bounds<S>>,
+}
+
+impl<S: Coordinate> Taking<'_, S> {
+    /// Validates positions and puts them into a place for as many; or leaves it as it is and says what was wrong. Returns the bounds of
+    /// those vertices that triangles use.
+    fn take(&self, place: &mut Positions<S>, positions: &[[S; 3]]) -> Result<Bounds<S>, ErrorKind> {
+        if positions.len() != place.len() {
+            return Err(ErrorKind::WrongLength {
+                expected: place.len(),
+                found: positions.len(),
+            });
+        }
+        let Some(staged) = place.stage(self.instructions, self.executor, positions) else {
+            // Which vertex it was is found out only if there was one.
+            return Err(first_outside(
+                positions,
+                |&position| is_in_range(position),
+                |vertex, position| ErrorKind::BadPosition { vertex, position },
+            ));
+        };
+        let all = staged.bounds;
+        if let Some(loose) = self
+            .loose
+            .filter(|loose| !(loose.holds(all.lo) && loose.holds(all.hi)))
+        {
+            all_inside(&loose, positions)?;
+        }
+        none_is_lost(positions)?;
+        let order = self.order.vertex_order();
+        place.commit(&staged, self.instructions, self.executor, positions, order);
+        let used = self.order.used_vertices();
+        if used == positions.len() {
+            return Ok(all);
+        }
+        let used = order[..used].iter();
+        Ok(bounds_of(used.map(|&vertex| positions[vertex as usize])))
     }
 }
 
@@ -412,5 +652,9 @@ impl<const N: usize, S> Held for Body<N, S> {
             + held::list(&self.boxes)
             + held::within(boxes)
             + self.positions.held()
+            + self.motion.end.as_ref().map_or(0, Held::held)
+            + held::list(&self.groups)
+            + self.elements.get().map_or(0, Held::held)
+            + self.element_groups.as_ref().map_or(0, Held::held)
     }
 }

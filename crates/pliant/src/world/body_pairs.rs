@@ -33,13 +33,20 @@ pub(super) struct BodyPairs {
     row: Vec<Overlap>,
     /// The last batch of different bodies of the whole world, in the order of ids, the smaller first.
     of_world: Vec<BodyPair>,
-    /// By how much bodies' boxes were grown for it, if it holds all pairs and nothing has happened since that could change it.
-    holds_for: Option<f32>,
+    /// What bodies' boxes were for it, if it holds all pairs and nothing has happened since that could change it.
+    holds_for: Option<BodyBoxes>,
     /// What a query asked for by name.
     named: Vec<BodyPair>,
-    /// What the query has not been given yet, and by how much it grows the boxes of bodies.
+    /// What the query has not been given yet, and what boxes of bodies are for it.
     next: Next,
-    grows_by: f32,
+    boxes: BodyBoxes,
+}
+
+/// What boxes of bodies are: by how much they are grown, and whether they hold the ends of motions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct BodyBoxes {
+    grow_by: f32,
+    hold_motions: bool,
 }
 
 /// What comes after the batches that a query was given.
@@ -69,7 +76,7 @@ impl BodyPairs {
             holds_for: None,
             named: Vec::new(),
             next: Next::Nothing,
-            grows_by: 0.0,
+            boxes: BodyBoxes::default(),
         }
     }
 
@@ -90,7 +97,7 @@ impl BodyPairs {
         &mut self,
         of: Selection,
         bodies: &Bodies<N, S>,
-        kind: &impl Kind,
+        kind: &impl Kind<Scalar = S>,
         origin: Origin,
         interrupt: &Interrupt,
     ) -> Result<(), Error> {
@@ -100,7 +107,7 @@ impl BodyPairs {
             Selection::Between(a, b) => {
                 let places = [bodies.place(a)?, bodies.place(b)?];
                 let [box_a, box_b] =
-                    places.map(|place| kind.body_box(bodies.list[place.index()].exact_box(origin)));
+                    places.map(|place| bodies.list[place.index()].box_for(kind, origin));
                 if box_a.overlaps(&box_b) {
                     self.named.push(places);
                 }
@@ -118,8 +125,8 @@ impl BodyPairs {
         }
         let and_world = matches!(of, Selection::World | Selection::Everything);
         self.next = Next::Named { and_world };
-        self.grows_by = kind.grows_by();
-        if and_world && self.holds_for != Some(self.grows_by) {
+        self.boxes = boxes_for(kind);
+        if and_world && self.holds_for != Some(self.boxes) {
             self.holds_for = None;
             self.take_boxes(bodies, kind, origin);
             self.broad_phase.begin(&self.broad, interrupt);
@@ -138,7 +145,7 @@ impl BodyPairs {
             Next::Named { and_world } => {
                 self.next = match and_world {
                     false => Next::Nothing,
-                    true if self.holds_for == Some(self.grows_by) => Next::Known,
+                    true if self.holds_for == Some(self.boxes) => Next::Known,
                     true => Next::Found { is_first: true },
                 };
                 Some(&self.named)
@@ -155,7 +162,7 @@ impl BodyPairs {
                     Next::Nothing
                 };
                 if is_first && !are_more && !interrupt.is_set() {
-                    self.holds_for = Some(self.grows_by);
+                    self.holds_for = Some(self.boxes);
                 }
                 Some(&self.of_world)
             }
@@ -201,18 +208,25 @@ impl BodyPairs {
     fn take_boxes<const N: usize, S: Coordinate>(
         &mut self,
         bodies: &Bodies<N, S>,
-        kind: &impl Kind,
+        kind: &impl Kind<Scalar = S>,
         origin: Origin,
     ) {
         let Self { exact, broad, .. } = self;
         exact.clear();
         let list = bodies.in_order();
-        exact.extend(list.map(|body| kind.body_box(body.exact_box(origin))));
+        exact.extend(list.map(|body| body.box_for(kind, origin)));
         broad.clear();
         broad.extend(bodies.in_order().zip(&*exact).map(|(body, &exact)| {
             let loose = body.loose_box(origin);
             loose.map_or(exact, |loose| kind.body_box(loose))
         }));
+    }
+}
+
+fn boxes_for<K: Kind>(kind: &K) -> BodyBoxes {
+    BodyBoxes {
+        grow_by: kind.grows_by(),
+        hold_motions: K::HOLDS_MOTIONS,
     }
 }
 

@@ -11,20 +11,22 @@ use super::origin::FloatingOrigin;
 use super::query::{Ask, Request};
 use super::witness::{self, Witnesses};
 use super::{BodyId, NodeBox, Selection, TreeShape};
-use crate::Pair;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
+use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
-use crate::queries::{Candidate, Intersections};
+use crate::queries::{Candidate, EdgeEdgeCandidates, Intersections, VertexTriangleCandidates};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Threads};
 use crate::traversal::Sink;
 use std::ops::ControlFlow;
 
 /// An engine of any degree. What its methods do is said where [`World`](super::World) has them.
-pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
+pub(crate) trait AnyEngine<S>:
+    Ask<Pair> + Ask<VertexTriangle> + Ask<EdgeEdge> + Send + Sync
+{
     fn copy(&self) -> Box<dyn AnyEngine<S>>;
     fn options(&self) -> &Options;
     fn use_instructions(&mut self, instructions: Instructions);
@@ -46,6 +48,13 @@ pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
         positions: &[[S; 3]],
     ) -> Result<(), Error>;
     fn rebuild(&mut self, id: BodyId) -> Result<(), Error>;
+    fn set_motion(&mut self, id: BodyId, end: &[[S; 3]]) -> Result<(), Error>;
+    fn finish_motion(&mut self);
+    fn advance_motion(&mut self, t: f64) -> Result<(), Error>;
+    fn end_positions(&self, id: BodyId) -> Result<Option<Vec<[S; 3]>>, Error>;
+    fn set_vertex_groups(&mut self, id: BodyId, groups: &[u32]) -> Result<(), Error>;
+    fn vertex_groups(&self, id: BodyId) -> Result<Vec<u32>, Error>;
+    fn edges(&self, id: BodyId) -> Result<&[[u32; 2]], Error>;
     fn set_filter(&mut self, id: BodyId, membership: u32, mask: u32) -> Result<(), Error>;
     fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error>;
     fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error>;
@@ -70,6 +79,8 @@ pub(crate) trait AnyEngine<S>: Ask<Pair> + Send + Sync {
 pub(super) struct Engine<const N: usize, S: Coordinate> {
     pub(super) common: Common<N, S>,
     intersections: Asked<Intersections<S>>,
+    vertex_triangle: Asked<VertexTriangleCandidates<S>>,
+    edge_edge: Asked<EdgeEdgeCandidates<S>>,
     witnesses: Witnesses,
     /// What `write_positions` lends.
     lent: Vec<[S; 3]>,
@@ -108,6 +119,8 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
                 done_early: Statistics::default(),
             },
             intersections: Asked::default(),
+            vertex_triangle: Asked::default(),
+            edge_edge: Asked::default(),
             witnesses: Witnesses::default(),
             lent: Vec::new(),
             #[cfg(test)]
@@ -250,6 +263,72 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         Ok(())
     }
 
+    fn set_motion(&mut self, id: BodyId, end: &[[S; 3]]) -> Result<(), Error> {
+        let Common {
+            instructions,
+            threads,
+            bodies,
+            body_pairs,
+            ..
+        } = &mut self.common;
+        let executor = Executor {
+            threads: threads.here(),
+            interrupt: &Interrupt::default(),
+        };
+        bodies
+            .get_mut(id)?
+            .set_motion(*instructions, executor, end)
+            .map_err(about(id))?;
+        body_pairs.forget();
+        Ok(())
+    }
+
+    fn finish_motion(&mut self) {
+        let common = &mut self.common;
+        common.bodies.list.iter_mut().for_each(Body::finish_motion);
+        common.note_movement();
+    }
+
+    fn advance_motion(&mut self, t: f64) -> Result<(), Error> {
+        if !(0.0..=1.0).contains(&t) {
+            return Err(ErrorKind::BadTime { time: t }.of_query());
+        }
+        let Common {
+            instructions,
+            threads,
+            bodies,
+            ..
+        } = &mut self.common;
+        let executor = Executor {
+            threads: threads.here(),
+            interrupt: &Interrupt::default(),
+        };
+        for body in &mut bodies.list {
+            body.advance_motion(*instructions, executor, t)
+                .map_err(about(body.id))?;
+        }
+        self.common.note_movement();
+        Ok(())
+    }
+
+    fn end_positions(&self, id: BodyId) -> Result<Option<Vec<[S; 3]>>, Error> {
+        let end = self.body(id)?.end_positions();
+        Ok(end.map(std::borrow::Cow::into_owned))
+    }
+
+    fn set_vertex_groups(&mut self, id: BodyId, groups: &[u32]) -> Result<(), Error> {
+        let body = self.common.bodies.get_mut(id)?;
+        body.set_groups(groups).map_err(about(id))
+    }
+
+    fn vertex_groups(&self, id: BodyId) -> Result<Vec<u32>, Error> {
+        Ok(self.body(id)?.groups())
+    }
+
+    fn edges(&self, id: BodyId) -> Result<&[[u32; 2]], Error> {
+        Ok(self.body(id)?.edges())
+    }
+
     fn set_filter(&mut self, id: BodyId, membership: u32, mask: u32) -> Result<(), Error> {
         let body = self.common.bodies.get_mut(id)?;
         body.set_filter(membership, mask);
@@ -344,6 +423,8 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             + bodies.held()
             + body_pairs.held()
             + self.intersections.held()
+            + self.vertex_triangle.held()
+            + self.edge_edge.held()
             + self.witnesses.held()
             + held::list(&self.lent)
     }
@@ -414,6 +495,44 @@ impl<const N: usize, S: Coordinate> Ask<Pair> for Engine<N, S> {
     }
 }
 
+/// Answers queries for candidates: those of one kind, with the margin of the request.
+macro_rules! ask_candidates {
+    ($hit:ty, $kind:ident, $asked:ident) => {
+        impl<const N: usize, S: Coordinate> Ask<$hit> for Engine<N, S> {
+            fn all(&mut self, request: &Request) -> Result<&[$hit], Error> {
+                let kind = &$kind::within(request.margin()?);
+                self.$asked.all(kind, &mut self.common, request)
+            }
+
+            fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
+                let mut found = None;
+                Ask::<$hit>::visit(self, request, &mut |hits| {
+                    found = hits.first().copied();
+                    if found.is_some() {
+                        ControlFlow::Break(0)
+                    } else {
+                        ControlFlow::Continue(())
+                    }
+                })?;
+                Ok(found)
+            }
+
+            fn visit(&mut self, request: &Request, sink: Sink<$hit>) -> Result<(), Error> {
+                let kind = &$kind::within(request.margin()?);
+                self.$asked.visit(kind, &mut self.common, request, sink)
+            }
+
+            fn prepare(&mut self, request: &Request) -> Result<(), Error> {
+                let kind = &$kind::within(request.margin()?);
+                self.$asked.prepare(kind, &mut self.common, request)
+            }
+        }
+    };
+}
+
+ask_candidates!(VertexTriangle, VertexTriangleCandidates, vertex_triangle);
+ask_candidates!(EdgeEdge, EdgeEdgeCandidates, edge_edge);
+
 /// The pair that answered the last question for a first pair.
 impl<const N: usize, S: Coordinate> Engine<N, S> {
     /// Whether bodies that were there are there still, and meet in a query of these.
@@ -458,6 +577,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
 fn pair_of<const N: usize, S: Coordinate>(both: [&Body<N, S>; 2], found: Candidate) -> Pair {
     use crate::queries::{CallerIds, Kind};
     let ids = CallerIds {
+        elements: [None; 2],
         bodies: both.map(|body| body.id),
         orders: both.map(|body| &body.order),
     };

@@ -25,7 +25,7 @@ mod validate;
 mod witness;
 
 use crate::error::Error;
-use crate::hits::Pair;
+use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::ids::BodyId;
 use crate::kernels::Instructions;
 use crate::options::Options;
@@ -246,6 +246,78 @@ impl<S: Scalar> World<S> {
         self.engine.rebuild(body)
     }
 
+    /// Begins a motion: says where the vertices of a body will be at the end of the step, shape (n, 3). On the way they move on straight
+    /// lines, from the shape that the body has now. Queries for candidates look at the whole way; what intersects is asked of the shape
+    /// of now, as ever. A body without a motion stands still.
+    ///
+    /// The positions are checked as those of [`set_positions`](Self::set_positions) are. A motion takes the place of the one before, and
+    /// ends with [`finish_motion`](Self::finish_motion), [`advance_motion`](Self::advance_motion), the next new shape or mesh.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`set_positions`](Self::set_positions); the body keeps the motion that it has.
+    #[doc(alias = "set_velocity")]
+    pub fn set_motion(&mut self, body: BodyId, end: &[[S; 3]]) -> Result<(), Error> {
+        self.engine.set_motion(body, end)
+    }
+
+    /// Ends all motions: every body that has one gets the shape at its end, without a copy. The others stand still.
+    pub fn finish_motion(&mut self) {
+        self.engine.finish_motion();
+    }
+
+    /// Ends all motions on the way: every body that has one gets the shape in which it is at time `t`, from 0 (where it is) to 1 (the end).
+    /// Each coordinate is x0 + t (x1 - x0), computed in `f64`, each operation rounded, kept between x0 and x1, and rounded to `S`.
+    ///
+    /// ```
+    /// # use pliant::World;
+    /// let mut world = World::<f32>::new();
+    /// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// world.set_motion(body, &[[0.0, 0.0, 4.0], [1.0, 0.0, 4.0], [0.0, 1.0, 4.0]])?;
+    /// world.advance_motion(0.25)?;
+    /// assert_eq!(world.positions(body)?[1], [1.0, 0.0, 1.0]);
+    /// assert_eq!(world.end_positions(body)?, None);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`BadTime`](crate::ErrorKind::BadTime) if `t` is not from 0 to 1; nothing has moved.
+    pub fn advance_motion(&mut self, t: f64) -> Result<(), Error> {
+        self.engine.advance_motion(t)
+    }
+
+    /// The shape that a body will have at the end of its motion; `None` if it has none.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn end_positions(&self, body: BodyId) -> Result<Option<Vec<[S; 3]>>, Error> {
+        self.engine.end_positions(body)
+    }
+
+    /// Gives every vertex of a body a group, shape (n,): candidates are left out if all their vertices are of one group, in whichever
+    /// bodies they are. Those of group 0, as all are at first, meet all. For vertices that are pinned, or glued together.
+    ///
+    /// They stay with the body until it is given another mesh.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`WrongLength`](crate::ErrorKind::WrongLength).
+    #[doc(alias = "can_vertices_collide")]
+    pub fn set_vertex_groups(&mut self, body: BodyId, groups: &[u32]) -> Result<(), Error> {
+        self.engine.set_vertex_groups(body, groups)
+    }
+
+    /// The group of every vertex of a body.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn vertex_groups(&self, body: BodyId) -> Result<Vec<u32>, Error> {
+        self.engine.vertex_groups(body)
+    }
+
     /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
     /// common with the mask of the other. At first both are all ones. A query that names its bodies does not look at them.
     ///
@@ -347,6 +419,46 @@ impl<S: Scalar> World<S> {
         Query::new(&mut *self.engine, of)
     }
 
+    /// Asks which vertices are near which triangles, now or on the way to the end of a motion: the search of a solver that then decides by
+    /// distance, or when they touch. See [`edge_edge_candidates`](Self::edge_edge_candidates) for the other half.
+    ///
+    /// The box of an element is the hull of its corners, at both ends of the motion where there is one. A vertex and a triangle are a
+    /// candidate if on every axis the gap of their boxes is at most twice `radius`, in real arithmetic on the numbers given, and the vertex
+    /// is no corner of the triangle. So with half the distance at which things are to be found nothing is missed that comes as near as
+    /// that. Degenerate triangles and those that come twice count; vertices that no triangle uses are in no candidate.
+    ///
+    /// Of two bodies it is the vertices of either and the triangles of the other. Filters keep bodies apart as in
+    /// [`intersections`](Self::intersections), and [`set_vertex_groups`](Self::set_vertex_groups) keeps apart parts of them.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// let mut world = World::<f64>::new();
+    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 2.0], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// // Within 0.1 of each other: 0.05 round each.
+    /// assert!(world.vertex_triangle_candidates(Selection::World, 0.05).all()?.is_empty());
+    /// world.set_motion(leaf, &[[0.0, 0.0, 0.05], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]])?;
+    /// let near = world.vertex_triangle_candidates(Selection::World, 0.05).all()?;
+    /// assert_eq!((near[0].vertex_body, near[0].vertex, near[0].triangle_body), (leaf, 0, floor));
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    #[doc(alias = "broad_phase")]
+    #[doc(alias = "detect_face_vertex_candidates")]
+    pub fn vertex_triangle_candidates(
+        &mut self,
+        of: Selection,
+        radius: f64,
+    ) -> Query<'_, VertexTriangle> {
+        Query::<VertexTriangle>::new(&mut *self.engine, of).within(radius)
+    }
+
+    /// Asks which edges are near which edges, as [`vertex_triangle_candidates`](Self::vertex_triangle_candidates) asks it of vertices and
+    /// triangles. Edges have the numbers that [`edges`](Self::edges) gives them; two that have an end in common are no candidate.
+    #[doc(alias = "detect_edge_edge_candidates")]
+    pub fn edge_edge_candidates(&mut self, of: Selection, radius: f64) -> Query<'_, EdgeEdge> {
+        Query::<EdgeEdge>::new(&mut *self.engine, of).within(radius)
+    }
+
     /// What the last query did, with what [`Query::prepare`] did before it.
     pub fn statistics(&self) -> &Statistics {
         self.engine.statistics()
@@ -374,6 +486,18 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn triangles(&self, body: BodyId) -> Result<&[[u32; 3]], Error> {
         self.engine.triangles(body)
+    }
+
+    /// The edges of a body, shape (k, 2): two vertices each, the smaller first. Every edge once, whatever triangles share it; sorted, so
+    /// that the number of an edge, its place here, depends on the mesh alone. A degenerate triangle has the edges whose two ends differ.
+    ///
+    /// Cost: O(m) the first time, and after [`rebuild`](Self::rebuild).
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn edges(&self, body: BodyId) -> Result<&[[u32; 2]], Error> {
+        self.engine.edges(body)
     }
 
     /// The shape that a body has now: the positions that it was given last.

@@ -1,7 +1,8 @@
 //! A query on its way: who is asked about, how much is wanted of it, and what may end it early.
 
 use super::Selection;
-use crate::error::Error;
+use crate::error::{Error, ErrorKind};
+use crate::queries::Margin;
 use crate::threads::Question;
 use crate::traversal::Sink;
 use std::fmt;
@@ -14,6 +15,19 @@ pub(crate) struct Request<'q> {
     /// The most hits that a list may have.
     pub(super) most: usize,
     pub(super) question: Option<Question<'q>>,
+    /// Of candidates, the margin round each element; else 0.
+    pub(super) radius: f64,
+}
+
+impl Request<'_> {
+    /// The margin that is asked for.
+    pub(super) fn margin(&self) -> Result<Margin, Error> {
+        let radius = self.radius;
+        if radius.is_finite() && radius >= 0.0 {
+            return Ok(Margin::new(radius));
+        }
+        Err(ErrorKind::BadMargin { radius }.of_query())
+    }
 }
 
 /// Answers queries of one kind.
@@ -34,7 +48,8 @@ pub(crate) trait Ask<H> {
 /// - [`NoSuchBody`](crate::ErrorKind::NoSuchBody) if the selection names a body that is not there,
 ///   [`SameBody`](crate::ErrorKind::SameBody) if it names one twice as two;
 /// - [`Interrupted`](crate::ErrorKind::Interrupted) if [`interrupt_if`](Self::interrupt_if) said so;
-/// - [`TooManyHits`](crate::ErrorKind::TooManyHits) if a list would be longer than [`at_most`](Self::at_most) allows.
+/// - [`TooManyHits`](crate::ErrorKind::TooManyHits) if a list would be longer than [`at_most`](Self::at_most) allows;
+/// - of candidates, [`BadMargin`](crate::ErrorKind::BadMargin) if the margin is negative, infinite or NaN.
 #[must_use = "a query does nothing until it is asked for all, for the first, or to visit"]
 pub struct Query<'w, H> {
     engine: &'w mut dyn Ask<H>,
@@ -47,8 +62,15 @@ impl<'w, H: Copy> Query<'w, H> {
             of,
             most: usize::MAX,
             question: None,
+            radius: 0.0,
         };
         Self { engine, request }
+    }
+
+    /// With a margin round each element.
+    pub(super) fn within(mut self, radius: f64) -> Self {
+        self.request.radius = radius;
+        self
     }
 
     /// Refuses a list of more hits than this, instead of making one that may fill the memory. While it is found, no more than
@@ -139,6 +161,29 @@ impl<'w, H: Copy> Query<'w, H> {
                     answer = ControlFlow::Break(value);
                     return ControlFlow::Break(place);
                 }
+            }
+            ControlFlow::Continue(())
+        })?;
+        Ok(answer)
+    }
+
+    /// Shows `visit` every hit once, some at a time, until it breaks; returns what it broke with. For whoever counts or filters many:
+    /// no list of all is made. The order, and how many come at a time, is deterministic.
+    ///
+    /// # Errors
+    ///
+    /// See [`Query`]. If it is interrupted, hits that were shown were true.
+    pub fn visit_some<B>(
+        self,
+        mut visit: impl FnMut(&[H]) -> ControlFlow<B>,
+    ) -> Result<ControlFlow<B>, Error> {
+        let mut answer = ControlFlow::Continue(());
+        self.engine.visit(&self.request, &mut |found| {
+            if !found.is_empty()
+                && let ControlFlow::Break(value) = visit(found)
+            {
+                answer = ControlFlow::Break(value);
+                return ControlFlow::Break(0);
             }
             ControlFlow::Continue(())
         })?;

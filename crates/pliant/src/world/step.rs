@@ -6,7 +6,7 @@ use super::body::Body;
 use super::body_pairs::BodyPair;
 use crate::geometry::Origin;
 use crate::kernels::Coordinate;
-use crate::queries::Kind;
+use crate::queries::{Kind, Leaves};
 use crate::statistics::Statistics;
 use crate::traversal::{OneTree, Scratch, Side, Sink, TreePair, TwoTrees, descend};
 use crate::tree::BoxSource;
@@ -84,19 +84,23 @@ where
         partner: Partner,
     ) -> ControlFlow<(), Side<'b, N, K::Source<'b>>> {
         let executor = self.refit.executor;
-        if !body.bring_into_tree_order(self.refit.instructions, executor) {
+        let instructions = self.refit.instructions;
+        if !body.bring_into_tree_order(K::HOLDS_MOTIONS, instructions, executor) {
             return ControlFlow::Break(());
         }
         let itself = partner == Partner::Itself;
-        if itself && K::LEAVES_OUT_NEIGHBOURS {
+        if itself && K::LEAVES == Leaves::Triangles {
             body.tree.know_neighbours(&body.order, executor);
+        }
+        if K::LEAVES == Leaves::Runs && !body.know_elements(&|| executor.is_interrupted()) {
+            return ControlFlow::Break(());
         }
         let mut side = body.side(self.kind, self.origin);
         let lists = &mut self.scratch.wide_nodes[0];
         let statistics = &mut *self.statistics;
         self.refit
             .ahead(&mut side.refitted(), partner, lists, statistics);
-        if itself && side.boxes.are_nodes_complete() {
+        if itself && K::LEAVES != Leaves::Runs && side.boxes.are_nodes_complete() {
             // Every leaf is going to meet at least itself.
             let reached = &mut self.scratch.reached;
             self.refit

@@ -5,7 +5,7 @@
 
 mod eight;
 
-use super::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest};
+use super::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, Leaves};
 use crate::Pair;
 use crate::geometry::Shape;
 use crate::kernels::{Buffer, Coordinate};
@@ -31,9 +31,9 @@ impl<S: Coordinate> Kind for Intersections<S> {
     type Source<'s> = Shape<'s, S>;
 
     const BOX_SET: BoxSetNumber = 0;
-    const LEAVES_OUT_NEIGHBOURS: bool = true;
+    const LEAVES: Leaves = Leaves::Triangles;
 
-    fn source<'s>(&self, shape: Shape<'s, S>) -> Shape<'s, S> {
+    fn source<'s>(&self, shape: Shape<'s, S>, _: Option<Shape<'s, S>>) -> Shape<'s, S> {
         shape
     }
 

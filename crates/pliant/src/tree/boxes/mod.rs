@@ -15,9 +15,7 @@ use crate::geometry::Aabb;
 use crate::held::{self, Held};
 use crate::ids::{BlockId, LeafId, NodeId, WideNodeId};
 use crate::kernels::{BoxLanes, QuantizedLanes};
-#[cfg(test)]
-pub(crate) use source::Grown;
-pub(crate) use source::{BoxSource, Version};
+pub(crate) use source::{BoxSource, Grown, Swept, Version};
 
 /// The boxes of up to eight triangles.
 pub(crate) type Block = BoxLanes<BLOCK_LANES>;
@@ -144,6 +142,11 @@ impl<const N: usize> BoxSet<N> {
     #[inline]
     pub(crate) fn stamp(&self) -> u64 {
         self.stamp
+    }
+
+    /// By how much those that are valid are grown.
+    pub(crate) fn grown_by(&self) -> f32 {
+        self.version.map_or(0.0, Version::grown_by)
     }
 
     /// Whether only boxes of this version are valid.

@@ -6,7 +6,7 @@
 //! - the box over some vertices holds the box over any of them;
 //! - it is the union of boxes over parts of them, so boxes of inner nodes may be merged from those of their children, bit for bit.
 //!
-//! Growing keeps both, because rounding is monotonic. So far only tests grow boxes or make them of two shapes.
+//! Growing keeps both, because rounding is monotonic.
 
 use crate::geometry::{Aabb, Bounds, Shape};
 use crate::ids::TreeVertex;
@@ -25,12 +25,24 @@ pub(crate) struct Version {
     grown_by: u32,
 }
 
+impl Version {
+    /// By how much boxes are grown.
+    pub(crate) fn grown_by(self) -> f32 {
+        f32::from_bits(self.grown_by)
+    }
+}
+
 /// Gives the box over any vertices of a body.
 pub(crate) trait BoxSource: Sync {
     type Scalar: Coordinate;
 
     /// The shape that the body has now.
     fn shape(&self) -> &Shape<'_, Self::Scalar>;
+
+    /// The shape that it has at the end of a motion, if boxes hold that too.
+    fn end(&self) -> Option<&Shape<'_, Self::Scalar>> {
+        None
+    }
 
     fn version(&self) -> Version;
 
@@ -86,14 +98,12 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
 
 /// Boxes of another source, grown by a distance on every side, and a little more where that is not exact.
 #[derive(Clone, Copy)]
-#[cfg(test)]
 pub(crate) struct Grown<B> {
     pub(crate) source: B,
     /// At least 0, and finite.
     pub(crate) distance: f32,
 }
 
-#[cfg(test)]
 impl<B> Grown<B> {
     #[inline(always)]
     fn grow<I: Simd>(&self, i: I, known: Extent<I>) -> Extent<I> {
@@ -101,12 +111,16 @@ impl<B> Grown<B> {
     }
 }
 
-#[cfg(test)]
 impl<B: BoxSource> BoxSource for Grown<B> {
     type Scalar = B::Scalar;
 
     fn shape(&self) -> &Shape<'_, B::Scalar> {
         self.source.shape()
+    }
+
+    #[inline(always)]
+    fn end(&self) -> Option<&Shape<'_, B::Scalar>> {
+        self.source.end()
     }
 
     fn version(&self) -> Version {
@@ -136,25 +150,29 @@ impl<B: BoxSource> BoxSource for Grown<B> {
     }
 }
 
-/// Boxes that hold two shapes of one body: those at both ends of a motion.
+/// Boxes that hold the shapes at both ends of a motion; of a body that stands still, its shape.
 #[derive(Clone, Copy)]
-#[cfg(test)]
-pub(crate) struct Hull<A, B> {
-    pub(crate) from: A,
-    pub(crate) to: B,
+pub(crate) struct Swept<'s, S> {
+    pub(crate) from: Shape<'s, S>,
+    pub(crate) to: Option<Shape<'s, S>>,
 }
 
-#[cfg(test)]
-impl<A: BoxSource, B: BoxSource<Scalar = A::Scalar>> BoxSource for Hull<A, B> {
-    type Scalar = A::Scalar;
+impl<S: Coordinate> BoxSource for Swept<'_, S> {
+    type Scalar = S;
 
-    fn shape(&self) -> &Shape<'_, A::Scalar> {
-        self.from.shape()
+    #[inline(always)]
+    fn shape(&self) -> &Shape<'_, S> {
+        &self.from
+    }
+
+    #[inline(always)]
+    fn end(&self) -> Option<&Shape<'_, S>> {
+        self.to.as_ref()
     }
 
     fn version(&self) -> Version {
         Version {
-            second: self.to.shape().epoch,
+            second: self.to.map_or(0, |to| to.epoch),
             ..self.from.version()
         }
     }
@@ -162,24 +180,36 @@ impl<A: BoxSource, B: BoxSource<Scalar = A::Scalar>> BoxSource for Hull<A, B> {
     #[inline(always)]
     fn over<I: Simd>(&self, i: I, run: Range<usize>, others: &[TreeVertex]) -> Extent<I> {
         let from = self.from.over(i, run.clone(), others);
-        extent::union(from, self.to.over(i, run, others))
+        match &self.to {
+            Some(to) => extent::union(from, to.over(i, run, others)),
+            None => from,
+        }
     }
 
     #[inline(always)]
     fn over_twelve<I: Simd>(&self, i: I, vertices: &[TreeVertex; TWELVE]) -> Extent<I> {
         let from = self.from.over_twelve(i, vertices);
-        extent::union(from, self.to.over_twelve(i, vertices))
+        match &self.to {
+            Some(to) => extent::union(from, to.over_twelve(i, vertices)),
+            None => from,
+        }
     }
 
     #[inline(always)]
     fn over_triangle<I: Simd>(&self, i: I, corners: [TreeVertex; 3]) -> Extent<I> {
         let from = self.from.over_triangle(i, corners);
-        extent::union(from, self.to.over_triangle(i, corners))
+        match &self.to {
+            Some(to) => extent::union(from, to.over_triangle(i, corners)),
+            None => from,
+        }
     }
 
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb {
         let from = self.from.plainly(vertices.clone());
-        from.union(&self.to.plainly(vertices))
+        match &self.to {
+            Some(to) => from.union(&to.plainly(vertices)),
+            None => from,
+        }
     }
 }
 
@@ -225,7 +255,10 @@ mod tests {
         };
         let (from, to) = (shape(&from, 3), shape(&to, 7));
         check(&from);
-        let hull = Hull { from, to };
+        let still = Swept { from, to: None };
+        check(&still);
+        assert_eq!(still.version(), from.version());
+        let hull = Swept { from, to: Some(to) };
         check(&hull);
         for distance in [0.0, 0.1, 1e6] {
             let grown = |source| Grown { source, distance };

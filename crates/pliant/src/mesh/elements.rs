@@ -1,0 +1,249 @@
+//! The edges of a mesh, and which triangle each vertex and each edge belongs to.
+//!
+//! Each belongs to one of its triangles (representative triangles: Curtis, Tamstorf, Manocha 2008), the first in tree order. Vertices are
+//! numbered in the order in which triangles first use them, and edges are here numbered so too. So those that belong to a run of
+//! triangles are a run of numbers, and pairs of runs are looked at once each and never twice for one pair of elements.
+
+use super::{Order, Topology};
+use crate::held::{self, Held};
+use crate::ids::{CallerVertex, TreeEdge, TreeTriangle, TreeVertex};
+use std::ops::Range;
+
+/// The edges of a mesh, as the caller numbers them and in tree order.
+#[derive(Debug)]
+pub(crate) struct Elements {
+    /// The two ends of each edge, as the caller numbers vertices, the smaller first; sorted. The caller's edge numbers are places here.
+    callers: Vec<[u32; 2]>,
+    /// The ends of each edge in tree order.
+    ends: Vec<[TreeVertex; 2]>,
+    /// The caller's number of each.
+    numbers: Vec<u32>,
+    /// For each triangle the first vertex and the first edge that belong to it or to a later one; and how many there are.
+    firsts: Vec<[u32; 2]>,
+}
+
+/// So many triangles are gone through before it is asked whether somebody wants to stop.
+const UNINTERRUPTED: usize = 1 << 14;
+
+impl Elements {
+    /// Of a mesh in tree order; `None` if `stop` said so on the way. Linear, but for the edges at one vertex, which are sorted.
+    pub(crate) fn new(topology: &Topology, order: &Order, stop: &dyn Fn() -> bool) -> Option<Self> {
+        let triangles = topology.triangles();
+        let vertices = topology.vertex_count();
+        // By their lower end: how many there are, then where the next one goes.
+        let mut next = vec![0_u32; vertices + 1];
+        for some in triangles.chunks(UNINTERRUPTED) {
+            for [low, _] in some.iter().flat_map(edges_of) {
+                next[low as usize + 1] += 1;
+            }
+            if stop() {
+                return None;
+            }
+        }
+        for vertex in 0..vertices {
+            next[vertex + 1] += next[vertex];
+        }
+        let count = next[vertices] as usize;
+        let mut higher = vec![0_u32; count];
+        for some in triangles.chunks(UNINTERRUPTED) {
+            for [low, high] in some.iter().flat_map(edges_of) {
+                let place = &mut next[low as usize];
+                higher[*place as usize] = high;
+                *place += 1;
+            }
+            if stop() {
+                return None;
+            }
+        }
+        // Where those of a vertex went ends where those of the next began; what is left of them are edges, each once.
+        let mut callers = Vec::with_capacity(count / 2 + 1);
+        let mut first_of_vertex = Vec::with_capacity(vertices + 1);
+        let mut start = 0;
+        for vertex in 0..vertices {
+            first_of_vertex.push(callers.len() as u32);
+            let end = next[vertex] as usize;
+            let others = &mut higher[start..end];
+            others.sort_unstable();
+            let mut last = None;
+            for &mut other in others {
+                if last != Some(other) {
+                    callers.push([vertex as u32, other]);
+                }
+                last = Some(other);
+            }
+            start = end;
+            if vertex % UNINTERRUPTED == 0 && stop() {
+                return None;
+            }
+        }
+        first_of_vertex.push(callers.len() as u32);
+        drop((next, higher));
+        callers.shrink_to_fit();
+
+        const UNSEEN: u32 = u32::MAX; // the number of no edge
+        let mut seen = vec![UNSEEN; callers.len()];
+        let mut ends = Vec::with_capacity(callers.len());
+        let mut numbers = Vec::with_capacity(callers.len());
+        let mut firsts = Vec::with_capacity(triangles.len() + 1);
+        let mut used = 0;
+        for (at, corners) in order.all_corners().iter().enumerate() {
+            firsts.push([used, ends.len() as u32]);
+            for corner in corners {
+                used = used.max(corner.0 + 1);
+            }
+            let triangle = corners.map(|vertex| order.caller_vertex(vertex));
+            for [i, j] in [[0, 1], [1, 2], [2, 0]] {
+                let (CallerVertex(low), CallerVertex(high)) = if triangle[i] < triangle[j] {
+                    (triangle[i], triangle[j])
+                } else {
+                    (triangle[j], triangle[i])
+                };
+                if low == high {
+                    continue;
+                }
+                let [first, end] = [0, 1].map(|next| first_of_vertex[low as usize + next] as usize);
+                let number = first + callers[first..end].partition_point(|edge| edge[1] < high);
+                if seen[number] == UNSEEN {
+                    seen[number] = ends.len() as u32;
+                    ends.push([corners[i], corners[j]]);
+                    numbers.push(number as u32);
+                }
+            }
+            if at % UNINTERRUPTED == 0 && stop() {
+                return None;
+            }
+        }
+        firsts.push([used, ends.len() as u32]);
+        Some(Self {
+            callers,
+            ends,
+            numbers,
+            firsts,
+        })
+    }
+
+    /// The edges in the caller's order.
+    pub(crate) fn callers(&self) -> &[[u32; 2]] {
+        &self.callers
+    }
+
+    /// The vertices that belong to a run of triangles.
+    #[inline]
+    pub(crate) fn vertices_of(&self, run: TriangleRun) -> Range<u32> {
+        let [first, end] = run.ends();
+        self.firsts[first][0]..self.firsts[end][0]
+    }
+
+    /// The edges that belong to a run of triangles.
+    #[inline]
+    pub(crate) fn edges_of(&self, run: TriangleRun) -> Range<u32> {
+        let [first, end] = run.ends();
+        self.firsts[first][1]..self.firsts[end][1]
+    }
+
+    /// The ends of all edges in tree order.
+    #[inline]
+    pub(crate) fn ends(&self) -> &[[TreeVertex; 2]] {
+        &self.ends
+    }
+
+    /// The caller's number of an edge.
+    #[inline]
+    pub(crate) fn caller_edge(&self, edge: TreeEdge) -> u32 {
+        self.numbers[edge.index()]
+    }
+}
+
+/// Some triangles in a row, in tree order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct TriangleRun {
+    pub(crate) first: TreeTriangle,
+    pub(crate) count: u32,
+}
+
+impl TriangleRun {
+    /// The first, and the one behind the last.
+    #[inline]
+    fn ends(self) -> [usize; 2] {
+        [self.first.index(), self.first.index() + self.count as usize]
+    }
+
+    /// As the range that it is.
+    #[inline]
+    pub(crate) fn range(self) -> Range<u32> {
+        self.first.0..self.first.0 + self.count
+    }
+}
+
+/// The edges of a triangle that have two different ends, the smaller first.
+fn edges_of(&[a, b, c]: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> {
+    let three = [[a, b], [b, c], [c, a]];
+    let three = three.into_iter().filter(|[a, b]| a != b);
+    three.map(|[a, b]| [a.min(b), a.max(b)])
+}
+
+impl Held for Elements {
+    fn held(&self) -> usize {
+        held::list(&self.callers)
+            + held::list(&self.ends)
+            + held::list(&self.numbers)
+            + held::list(&self.firsts)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_edge_has_one_number_and_one_triangle() {
+        let triangles = [
+            [4, 1, 2],
+            [2, 1, 0],
+            [6, 6, 4],
+            [1, 2, 4],
+            [5, 5, 5],
+            [0, 7, 1],
+        ];
+        let topology = Topology::new(&triangles, 9);
+        let order = Order::new(&topology, vec![3, 5, 0, 4, 2, 1]);
+        let elements = Elements::new(&topology, &order, &|| false).unwrap();
+        let expected: BTreeSet<[u32; 2]> = triangles.iter().flat_map(edges_of).collect();
+        assert!(expected.into_iter().eq(elements.callers().iter().copied()));
+        for (edge, ends) in (0..).zip(elements.ends()) {
+            let mut named = ends.map(|end| order.caller_vertex(end).0);
+            named.sort_unstable();
+            let number = elements.caller_edge(TreeEdge(edge));
+            assert_eq!(elements.callers()[number as usize], named);
+        }
+        // What belongs to triangles one after the other is everything that is used, once.
+        let mut next = [0, 0];
+        for triangle in 0..triangles.len() as u32 {
+            let run = TriangleRun {
+                first: TreeTriangle(triangle),
+                count: 1,
+            };
+            let [vertices, edges] = [elements.vertices_of(run), elements.edges_of(run)];
+            assert_eq!([vertices.start, edges.start], next);
+            next = [vertices.end, edges.end];
+            let corners = order.corners(TreeTriangle(triangle));
+            let is_corner = |vertex: u32| corners.contains(&TreeVertex(vertex));
+            assert!(vertices.clone().all(is_corner));
+            let ends = |edge: u32| elements.ends()[edge as usize];
+            assert!(
+                edges
+                    .clone()
+                    .all(|edge| ends(edge).iter().all(|end| corners.contains(end)))
+            );
+        }
+        assert_eq!(
+            next,
+            [
+                order.used_vertices() as u32,
+                elements.callers().len() as u32
+            ]
+        );
+        assert!(Elements::new(&topology, &order, &|| true).is_none());
+    }
+}

@@ -1,0 +1,66 @@
+//! Whether the gap of two boxes is at most a distance on every axis, in real arithmetic on the numbers given.
+//!
+//! On an axis the gap of two intervals is the larger of lo_a - hi_b and lo_b - hi_a, negative where they overlap. Rounding is monotonic,
+//! so a rounded difference on one side of a number says on which side the difference is; only if it is that number is it not known, and
+//! then the error of the subtraction, which is a floating-point number, decides.
+
+use crate::geometry::Bounds;
+
+/// Whether real lo - hi is at most `distance`, which may be infinite.
+#[inline]
+fn is_within(lo: f64, hi: f64, distance: f64) -> bool {
+    let difference = lo - hi;
+    if difference != distance {
+        return difference < distance;
+    }
+    // The error of a subtraction (Knuth 1969): exact, as nothing overflows. Coordinates are at most `f32::MAX`.
+    let of_lo = difference + hi;
+    let error = (lo - of_lo) - (hi - (of_lo - difference));
+    error <= 0.0
+}
+
+/// Whether on every axis the gap of two boxes is at most `distance`.
+pub(crate) fn are_within(a: &Bounds<f64>, b: &Bounds<f64>, distance: f64) -> bool {
+    (0..3).all(|axis| {
+        is_within(a.lo[axis], b.hi[axis], distance) && is_within(b.lo[axis], a.hi[axis], distance)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pliant_oracle::{Class, Random, sign_of_sum};
+
+    #[test]
+    fn ties_are_decided_to_the_last_bit() {
+        let mut random = Random::new(21);
+        let (mut ties, mut outside) = (0, 0);
+        for round in 0..40_000 {
+            let class = Class::ALL[round % Class::ALL.len()];
+            let [[a, ..], [b, ..]] = class.pair(&mut random);
+            for (lo, hi) in a.into_iter().zip(b) {
+                let near = lo - hi;
+                let distances = [
+                    near.abs(),
+                    near.abs().next_up(),
+                    near.abs().next_down(),
+                    0.0,
+                    1e-3,
+                    f64::INFINITY,
+                ];
+                for distance in distances {
+                    let expected =
+                        distance == f64::INFINITY || sign_of_sum(&[lo, -hi, -distance]) <= 0;
+                    assert_eq!(
+                        is_within(lo, hi, distance),
+                        expected,
+                        "{lo} {hi} {distance}"
+                    );
+                    ties += u32::from(near == distance);
+                    outside += u32::from(near == distance && !expected);
+                }
+            }
+        }
+        assert!(ties > 10_000 && outside > 1000, "{ties} {outside}");
+    }
+}

@@ -1,0 +1,56 @@
+//! Groups of vertices that do not meet each other: those that are pinned, or glued together.
+//!
+//! Two vertices of one group do not meet; those of group 0 meet all. A pair of elements is left out only if every vertex of the one is
+//! kept from every vertex of the other: if all of them are of one group. So each element has a group, that of all its vertices or 0.
+
+use crate::held::{self, Held};
+use crate::ids::TreeVertex;
+use crate::mesh::{Elements, Order};
+
+/// The groups of a body's elements, in tree order.
+#[derive(Clone, Debug)]
+pub(crate) struct Groups {
+    pub(super) vertices: Vec<u32>,
+    pub(super) edges: Vec<u32>,
+    pub(super) triangles: Vec<u32>,
+}
+
+impl Groups {
+    /// `of_vertices`: as the caller orders vertices.
+    pub(crate) fn new(of_vertices: &[u32], order: &Order, elements: &Elements) -> Self {
+        let in_order = order.vertex_order().iter();
+        let vertices: Vec<u32> = in_order
+            .map(|&vertex| of_vertices[vertex as usize])
+            .collect();
+        let of_all = |corners: &[TreeVertex]| {
+            let mut groups = corners.iter().map(|corner| vertices[corner.index()]);
+            let first = groups.next().unwrap_or(0);
+            if groups.all(|group| group == first) {
+                first
+            } else {
+                0
+            }
+        };
+        Self {
+            edges: elements.ends().iter().map(|ends| of_all(ends)).collect(),
+            triangles: order
+                .all_corners()
+                .iter()
+                .map(|corners| of_all(corners))
+                .collect(),
+            vertices,
+        }
+    }
+}
+
+/// Whether elements of these groups meet.
+#[inline(always)]
+pub(super) fn meet(a: u32, b: u32) -> bool {
+    a == 0 || a != b
+}
+
+impl Held for Groups {
+    fn held(&self) -> usize {
+        held::list(&self.vertices) + held::list(&self.edges) + held::list(&self.triangles)
+    }
+}

@@ -1,0 +1,89 @@
+//! Candidates within a margin: vertices and triangles, and edges and edges, whose boxes are near each other, now or on the way.
+//!
+//! The box of an element is the hull of its corners, at both ends of the motion if its body has one. Two elements are a candidate if on
+//! every axis the gap of their boxes is at most 2 r, in real arithmetic on the numbers given, and they have no vertex in common. So r is
+//! a margin round each element, and two are found that are within 2 r of each other (Li et al. 2020, Incremental Potential Contact).
+//!
+//! The tree has boxes of the same hulls, grown by r, in a set of its own. Every vertex and every edge belongs to one triangle
+//! (`mesh::Elements`), in whose leaf it is looked for; as a leaf's box holds what belongs to it, leaves that hold a candidate are found,
+//! adjacent ones included. So an element pair comes up once, in the one pair of runs of up to eight triangles that its two belong to.
+//! `runs` has the boxes of what belongs to a run, `kernels::gaps` compares them eight at a time, and few are left to exact arithmetic.
+
+mod edge_edge;
+mod groups;
+mod runs;
+mod vertex_triangle;
+
+use super::LeafTest;
+use crate::geometry::{Aabb, Bounds, Real, Shape};
+use crate::ids::TreeVertex;
+use crate::kernels::Coordinate;
+use crate::kernels::gaps::Limits;
+use crate::predicates::are_within;
+use crate::tree::{Grown, Swept};
+pub(crate) use edge_edge::EdgeEdgeCandidates;
+pub(crate) use groups::Groups;
+pub(crate) use vertex_triangle::VertexTriangleCandidates;
+
+/// How near is near.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Margin {
+    /// The gap of boxes that is small enough; perhaps infinite.
+    gap: f64,
+    /// By how much boxes of nodes are grown: at least half of that, unless no two boxes are further apart.
+    grown_by: f32,
+}
+
+impl Margin {
+    /// `radius` is finite and at least 0.
+    pub(crate) fn new(radius: f64) -> Self {
+        let nearest = (radius as f32).min(f32::MAX);
+        let grown_by = if f64::from(nearest) < radius {
+            nearest.next_up().min(f32::MAX)
+        } else {
+            nearest
+        };
+        Self {
+            gap: 2.0 * radius,
+            grown_by,
+        }
+    }
+
+    fn body_box(self, of_shape: Aabb) -> Aabb {
+        of_shape.grown(self.grown_by)
+    }
+
+    fn source<'s, S>(self, from: Shape<'s, S>, to: Option<Shape<'s, S>>) -> Grown<Swept<'s, S>> {
+        Grown {
+            source: Swept { from, to },
+            distance: self.grown_by,
+        }
+    }
+
+    fn limits<S: Real>(self, most: f32) -> Limits {
+        Limits::new::<S>(self.gap, f64::from(most))
+    }
+
+    /// Whether two elements, one of either side, are as near as that: exactly.
+    #[cold]
+    fn holds<S: Coordinate>(
+        self,
+        leaves: &LeafTest<S>,
+        sides: [usize; 2],
+        a: &[TreeVertex],
+        b: &[TreeVertex],
+    ) -> bool {
+        let [a, b] = [(sides[0], a), (sides[1], b)].map(|(side, corners)| {
+            let mut bounds = Bounds::EMPTY;
+            for &corner in corners {
+                let now = leaves.shapes[side].positions;
+                bounds.include(now.get(corner).map(Real::to_f64));
+                if let Some(end) = leaves.ends[side] {
+                    bounds.include(end.get(corner).map(Real::to_f64));
+                }
+            }
+            bounds
+        });
+        are_within(&a, &b, self.gap)
+    }
+}

@@ -1,0 +1,421 @@
+//! Candidates within a margin, still and in motion: every configuration gives the lists of the plain reference, at every step of lives in
+//! which bodies move, turn back, stop on the way, are pinned, kept apart and given other meshes.
+
+mod common;
+
+use common::{Lcg, every_configuration, sheet};
+use pliant::reference::{self, Moving};
+use pliant::{BodyId, EdgeEdge, ErrorKind, Options, Scalar, Selection, VertexTriangle, World};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+
+/// What a test knows of a body.
+#[derive(Clone, Debug)]
+struct Known<S> {
+    id: BodyId,
+    triangles: Vec<[u32; 3]>,
+    positions: Vec<[S; 3]>,
+    end: Option<Vec<[S; 3]>>,
+    groups: Option<Vec<u32>>,
+}
+
+impl<S> Known<S> {
+    fn moving(&self) -> Moving<'_, S> {
+        Moving {
+            triangles: &self.triangles,
+            positions: &self.positions,
+            end: self.end.as_deref(),
+            groups: self.groups.as_deref(),
+        }
+    }
+}
+
+/// Both lists.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Lists {
+    vertex_triangle: Vec<VertexTriangle>,
+    edge_edge: Vec<EdgeEdge>,
+}
+
+impl Lists {
+    fn two<S: Scalar>(&mut self, a: &Known<S>, b: &Known<S>, radius: f64) {
+        for (of, with) in [(a, b), (b, a)] {
+            let pairs = reference::vertex_triangle_pairs(&of.moving(), &with.moving(), radius);
+            let row = |[vertex, triangle]: [u32; 2]| VertexTriangle {
+                vertex_body: of.id,
+                vertex,
+                triangle_body: with.id,
+                triangle,
+            };
+            self.vertex_triangle
+                .extend(pairs.unwrap().into_iter().map(row));
+        }
+        let (a, b) = if a.id < b.id { (a, b) } else { (b, a) };
+        let pairs = reference::edge_edge_pairs(&a.moving(), &b.moving(), radius);
+        let row = |[edge_a, edge_b]: [u32; 2]| EdgeEdge {
+            body_a: a.id,
+            edge_a,
+            body_b: b.id,
+            edge_b,
+        };
+        self.edge_edge.extend(pairs.unwrap().into_iter().map(row));
+    }
+
+    fn one<S: Scalar>(&mut self, body: &Known<S>, radius: f64) {
+        let id = body.id;
+        let pairs = reference::self_vertex_triangle_pairs(&body.moving(), radius);
+        let row = |[vertex, triangle]: [u32; 2]| VertexTriangle {
+            vertex_body: id,
+            vertex,
+            triangle_body: id,
+            triangle,
+        };
+        self.vertex_triangle
+            .extend(pairs.unwrap().into_iter().map(row));
+        let pairs = reference::self_edge_edge_pairs(&body.moving(), radius);
+        let row = |[edge_a, edge_b]: [u32; 2]| EdgeEdge {
+            body_a: id,
+            edge_a,
+            body_b: id,
+            edge_b,
+        };
+        self.edge_edge.extend(pairs.unwrap().into_iter().map(row));
+    }
+
+    fn sorted(mut self) -> Self {
+        self.vertex_triangle.sort_unstable();
+        self.edge_edge.sort_unstable();
+        self
+    }
+}
+
+/// What the world says; *first*, *visit_some* and *at_most* agree with *all*.
+fn ask<S: Scalar>(world: &mut World<S>, of: Selection, radius: f64) -> Lists {
+    macro_rules! asked {
+        ($ask:ident) => {{
+            let all = world.$ask(of, radius).all().unwrap().to_vec();
+            let first = world.$ask(of, radius).first().unwrap();
+            assert_eq!(first.is_some(), !all.is_empty());
+            assert!(first.is_none_or(|first| all.binary_search(&first).is_ok()));
+            let mut shown = Vec::new();
+            let visited = world.$ask(of, radius).visit_some(|some| {
+                assert!(!some.is_empty());
+                shown.extend_from_slice(some);
+                ControlFlow::<()>::Continue(())
+            });
+            assert!(visited.unwrap().is_continue());
+            shown.sort_unstable();
+            assert_eq!(shown, all);
+            if let Some(fewer) = all.len().checked_sub(1) {
+                let refused = world.$ask(of, radius).at_most(fewer).all().unwrap_err();
+                assert_eq!(refused.kind, ErrorKind::TooManyHits { limit: fewer });
+                assert_eq!(
+                    world.$ask(of, radius).at_most(all.len()).all().unwrap(),
+                    all
+                );
+                let stopped = || true;
+                let refused = world.$ask(of, radius).interrupt_if(&stopped).all();
+                assert_eq!(refused.unwrap_err().kind, ErrorKind::Interrupted);
+            }
+            all
+        }};
+    }
+    let lists = Lists {
+        vertex_triangle: asked!(vertex_triangle_candidates),
+        edge_edge: asked!(edge_edge_candidates),
+    };
+    world.validate().unwrap();
+    lists
+}
+
+/// Asks of everybody.
+fn check<S: Scalar>(
+    world: &mut World<S>,
+    known: &[Known<S>],
+    apart: &[[BodyId; 2]],
+    radius: f64,
+    when: &str,
+) {
+    let options = *world.options();
+    let meet = |a: BodyId, b: BodyId| !apart.contains(&[a.min(b), a.max(b)]);
+    let (mut all, mut between) = (Lists::default(), Lists::default());
+    for (at, a) in known.iter().enumerate() {
+        let mut own = Lists::default();
+        own.one(a, radius);
+        let own = own.sorted();
+        assert_eq!(
+            ask(world, Selection::Within(a.id), radius),
+            own,
+            "{when}, {options:?}"
+        );
+        assert_eq!(world.edges(a.id).unwrap(), reference::edges(&a.triangles));
+        if meet(a.id, a.id) {
+            all.one(a, radius);
+        }
+        for b in &known[at + 1..] {
+            let mut two = Lists::default();
+            two.two(a, b, radius);
+            let two = two.sorted();
+            for of in [
+                Selection::Between(a.id, b.id),
+                Selection::Between(b.id, a.id),
+            ] {
+                assert_eq!(ask(world, of, radius), two, "{when}, {of:?}, {options:?}");
+            }
+            if meet(a.id, b.id) {
+                between.two(a, b, radius);
+                all.two(a, b, radius);
+            }
+        }
+    }
+    assert_eq!(
+        ask(world, Selection::World, radius),
+        between.sorted(),
+        "{when}, {options:?}"
+    );
+    assert_eq!(
+        ask(world, Selection::Everything, radius),
+        all.sorted(),
+        "{when}, {options:?}"
+    );
+}
+
+/// Adjacency of every kind.
+fn mesh(random: &mut Lcg) -> (Vec<[u32; 3]>, usize) {
+    match random.below(6) {
+        // A sheet, with a vertex that nothing uses.
+        0 => {
+            let side = 2 + random.below(5);
+            (sheet(side).0, (side * side) as usize + 1)
+        }
+        // A fan, and triangles twice.
+        1 => {
+            let rim = 3 + random.below(12);
+            let fan = (1..rim).map(|at| [0, at, at + 1]);
+            (fan.clone().chain(fan.take(2)).collect(), rim as usize + 1)
+        }
+        // Many triangles on one edge.
+        2 => {
+            let leaves = 1 + random.below(12);
+            (
+                (0..leaves).map(|at| [at + 2, 0, 1]).collect(),
+                leaves as usize + 2,
+            )
+        }
+        // Segments and points among others.
+        3 => {
+            let degenerate = vec![[0, 1, 1], [2, 2, 2], [3, 4, 5], [5, 5, 0], [0, 1, 2]];
+            (degenerate, 6)
+        }
+        // A soup.
+        4 => {
+            let triangles = 1 + random.below(20);
+            let soup = (0..triangles).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]);
+            (soup.collect(), 3 * triangles as usize)
+        }
+        // A tangle.
+        _ => {
+            let vertices = 3 + random.below(9);
+            let corner = |random: &mut Lcg| random.below(vertices);
+            let triangles = (0..1 + random.below(24)).map(|_| [(); 3].map(|()| corner(random)));
+            (triangles.collect(), vertices as usize)
+        }
+    }
+}
+
+fn lives<S: Scalar>(seeds: std::ops::Range<u64>, threads: usize, here: f64, of: fn(f64) -> S) {
+    let configurations = every_configuration();
+    for seed in seeds {
+        let random = &mut Lcg(seed);
+        let mut options: Options =
+            configurations[random.below(configurations.len() as u32) as usize];
+        options.threads = NonZeroUsize::new(threads).unwrap();
+        let mut world = World::<S>::with_options(options);
+        // On a lattice many gaps are the margin to the last bit; elsewhere few are.
+        let unit = [1.0, 0.125, 0.1, 1e-3][random.below(4) as usize];
+        let is_lattice = random.below(2) == 0;
+        let place = |random: &mut Lcg| {
+            [(); 3].map(|()| {
+                let x = if is_lattice {
+                    f64::from(random.below(9))
+                } else {
+                    f64::from(random.unit()) * 9.0
+                };
+                of(here + unit * x)
+            })
+        };
+        let shape = |random: &mut Lcg, vertices: usize| -> Vec<[S; 3]> {
+            (0..vertices).map(|_| place(random)).collect()
+        };
+        let mut known: Vec<Known<S>> = Vec::new();
+        let mut apart: Vec<[BodyId; 2]> = Vec::new();
+        for step in 0..14 {
+            let some = random.below(known.len().max(1) as u32) as usize;
+            match random.below(12) {
+                _ if known.is_empty() => {}
+                0..=3 => {
+                    let body = &mut known[some];
+                    let mut end = body.positions.clone();
+                    match random.below(4) {
+                        0 => end = shape(random, end.len()),
+                        1 => end[0] = place(random),
+                        2 => end.iter_mut().for_each(|p| p[1] = of(p[1].to_f64() + unit)),
+                        _ => {}
+                    }
+                    world.set_motion(body.id, &end).unwrap();
+                    assert_eq!(world.end_positions(body.id).unwrap().as_ref(), Some(&end));
+                    body.end = Some(end);
+                }
+                4 => {
+                    world.finish_motion();
+                    for body in &mut known {
+                        body.positions = body.end.take().unwrap_or(body.positions.clone());
+                    }
+                }
+                5 => {
+                    let t = [0.0, 0.25, f64::from(random.unit()), 1.0][random.below(4) as usize];
+                    world.advance_motion(t).unwrap();
+                    for body in &mut known {
+                        let Some(end) = body.end.take() else {
+                            continue;
+                        };
+                        let now = body.positions.as_flattened_mut().iter_mut();
+                        for (x, end) in now.zip(end.as_flattened()) {
+                            let (from, to) = (x.to_f64(), end.to_f64());
+                            let there = from + t * (to - from);
+                            *x = of(there.min(from.max(to)).max(from.min(to)));
+                            if t == 1.0 {
+                                *x = *end;
+                            }
+                        }
+                    }
+                }
+                6 => {
+                    let body = &mut known[some];
+                    body.positions = shape(random, body.positions.len());
+                    world.set_positions(body.id, &body.positions).unwrap();
+                    body.end = None;
+                }
+                7 => {
+                    let body = &mut known[some];
+                    let of_vertex = |_| random.below(3);
+                    let groups: Vec<u32> = (0..body.positions.len()).map(of_vertex).collect();
+                    world.set_vertex_groups(body.id, &groups).unwrap();
+                    assert_eq!(world.vertex_groups(body.id).unwrap(), groups);
+                    body.groups = Some(groups);
+                }
+                8 => {
+                    let body = &mut known[some];
+                    let (triangles, vertices) = mesh(random);
+                    let positions = shape(random, vertices);
+                    let is_other =
+                        (&triangles, vertices) != (&body.triangles, body.positions.len());
+                    world.set_mesh(body.id, &triangles, &positions).unwrap();
+                    let groups = body.groups.take().filter(|_| !is_other);
+                    let id = body.id;
+                    *body = Known {
+                        id,
+                        triangles,
+                        positions,
+                        end: None,
+                        groups,
+                    };
+                }
+                9 => {
+                    let pair = [
+                        known[some].id,
+                        known[random.below(known.len() as u32) as usize].id,
+                    ];
+                    world.ignore(pair[0], pair[1]).unwrap();
+                    apart.push([pair[0].min(pair[1]), pair[0].max(pair[1])]);
+                }
+                10 => {
+                    world.rebuild(known[some].id).unwrap();
+                    world = world.clone();
+                }
+                _ => {
+                    // What is refused changes nothing.
+                    let body = &known[some];
+                    let mut end = body.positions.clone();
+                    end[0][2] = of(f64::NAN);
+                    let refused = world.set_motion(body.id, &end).unwrap_err();
+                    assert!(matches!(
+                        refused.kind,
+                        ErrorKind::BadPosition { vertex: 0, .. }
+                    ));
+                    assert!(world.set_motion(body.id, &end[1..]).is_err());
+                    assert!(world.set_vertex_groups(body.id, &[1]).is_err() || end.len() == 1);
+                    for t in [-0.1, 1.5, f64::NAN] {
+                        assert!(matches!(
+                            world.advance_motion(t).unwrap_err().kind,
+                            ErrorKind::BadTime { .. }
+                        ));
+                    }
+                    for radius in [-1.0, f64::NAN, f64::INFINITY] {
+                        let refused = world
+                            .edge_edge_candidates(Selection::World, radius)
+                            .all()
+                            .unwrap_err();
+                        assert!(matches!(refused.kind, ErrorKind::BadMargin { .. }));
+                    }
+                }
+            }
+            if known.len() < 3 && (known.is_empty() || random.below(3) == 0) {
+                let (triangles, vertices) = mesh(random);
+                let positions = shape(random, vertices);
+                let id = world.add(&triangles, &positions).unwrap();
+                let (end, groups) = (None, None);
+                known.push(Known {
+                    id,
+                    triangles,
+                    positions,
+                    end,
+                    groups,
+                });
+            }
+            // Half of a multiple of the unit is a tie on the lattice; the margins of all coordinates, and of none.
+            let radius = match random.below(6) {
+                0 => 0.0,
+                1 => unit,
+                2 => unit / 2.0,
+                3 => (unit / 2.0).next_down(),
+                4 => f64::from(random.unit()) * unit,
+                _ => [f64::MAX, 1e38, 5e-324, 1e-300][random.below(4) as usize],
+            };
+            check(
+                &mut world,
+                &known,
+                &apart,
+                radius,
+                &format!("seed {seed}, step {step}, radius {radius:e}"),
+            );
+            if let Some(body) = known.get(some) {
+                // Intersections know nothing of motions.
+                let before =
+                    reference::self_intersection_pairs(&body.triangles, &body.positions).unwrap();
+                let found = world
+                    .intersections(Selection::Within(body.id))
+                    .all()
+                    .unwrap();
+                assert!(found.iter().map(|pair| pair.triangles()).eq(before));
+            }
+        }
+    }
+}
+
+#[test]
+fn every_list_is_that_of_the_reference() {
+    lives::<f32>(0..60, 1, 0.0, |x| x as f32);
+    lives::<f64>(60..120, 1, 0.0, |x| x);
+    lives::<f32>(120..140, 3, 1000.0, |x| x as f32);
+    lives::<f64>(140..180, 3, 1e7, |x| x);
+}
+
+#[test]
+fn coordinates_as_large_and_as_small_as_there_are() {
+    lives::<f64>(200..215, 1, 3e38, |x| x.clamp(0.0, f32::MAX.into()));
+    lives::<f32>(215..230, 1, 0.0, |x| (x * 1e37).clamp(-3e38, 3e38) as f32);
+    lives::<f64>(230..245, 1, 0.0, |x| x * 1e-300);
+    lives::<f32>(245..260, 1, 0.0, |x| (x * 1e-41) as f32);
+    lives::<f64>(260..275, 1, 0.0, |x| ((x - 4.0) * 4e37).clamp(-3e38, 3e38));
+}

@@ -223,7 +223,13 @@ fn mesh(random: &mut Lcg) -> (Vec<[u32; 3]>, usize) {
     }
 }
 
-fn lives<S: Scalar>(seeds: std::ops::Range<u64>, threads: usize, here: f64, of: fn(f64) -> S) {
+fn lives<S: Scalar>(
+    seeds: std::ops::Range<u64>,
+    threads: usize,
+    here: f64,
+    of: fn(f64) -> S,
+    cast: fn(f64) -> S,
+) {
     let configurations = every_configuration();
     for seed in seeds {
         let random = &mut Lcg(seed);
@@ -283,7 +289,7 @@ fn lives<S: Scalar>(seeds: std::ops::Range<u64>, threads: usize, here: f64, of: 
                         for (x, end) in now.zip(end.as_flattened()) {
                             let (from, to) = (x.to_f64(), end.to_f64());
                             let there = from + t * (to - from);
-                            *x = of(there.min(from.max(to)).max(from.min(to)));
+                            *x = cast(there.min(from.max(to)).max(from.min(to)));
                             if t == 1.0 {
                                 *x = *end;
                             }
@@ -405,17 +411,29 @@ fn lives<S: Scalar>(seeds: std::ops::Range<u64>, threads: usize, here: f64, of: 
 
 #[test]
 fn every_list_is_that_of_the_reference() {
-    lives::<f32>(0..60, 1, 0.0, |x| x as f32);
-    lives::<f64>(60..120, 1, 0.0, |x| x);
-    lives::<f32>(120..140, 3, 1000.0, |x| x as f32);
-    lives::<f64>(140..180, 3, 1e7, |x| x);
+    lives::<f32>(0..60, 1, 0.0, |x| x as f32, |x| x as f32);
+    lives::<f64>(60..120, 1, 0.0, |x| x, |x| x);
+    lives::<f32>(120..140, 3, 1000.0, |x| x as f32, |x| x as f32);
+    lives::<f64>(140..180, 3, 1e7, |x| x, |x| x);
 }
 
 #[test]
 fn coordinates_as_large_and_as_small_as_there_are() {
-    lives::<f64>(200..215, 1, 3e38, |x| x.clamp(0.0, f32::MAX.into()));
-    lives::<f32>(215..230, 1, 0.0, |x| (x * 1e37).clamp(-3e38, 3e38) as f32);
-    lives::<f64>(230..245, 1, 0.0, |x| x * 1e-300);
-    lives::<f32>(245..260, 1, 0.0, |x| (x * 1e-41) as f32);
-    lives::<f64>(260..275, 1, 0.0, |x| ((x - 4.0) * 4e37).clamp(-3e38, 3e38));
+    lives::<f64>(200..215, 1, 3e38, |x| x.clamp(0.0, f32::MAX.into()), |x| x);
+    lives::<f32>(
+        215..230,
+        1,
+        0.0,
+        |x| (x * 1e37).clamp(-3e38, 3e38) as f32,
+        |x| x as f32,
+    );
+    lives::<f64>(230..245, 1, 0.0, |x| x * 1e-300, |x| x);
+    lives::<f32>(245..260, 1, 0.0, |x| (x * 1e-41) as f32, |x| x as f32);
+    lives::<f64>(
+        260..275,
+        1,
+        0.0,
+        |x| ((x - 4.0) * 4e37).clamp(-3e38, 3e38),
+        |x| x,
+    );
 }

@@ -34,37 +34,29 @@ pub(super) struct Body<const N: usize, S> {
     membership: u32,
     mask: u32,
     loose: Option<Bounds<S>>,
-    motion: Motion<S>,
-    /// Groups of the caller's vertices; empty where all meet.
-    groups: Vec<u32>,
-    /// Edges, and who owns what, once somebody asks; and the groups of all that.
-    elements: OnceLock<Elements>,
-    element_groups: Option<Groups>,
+    /// None before the first.
+    motion: Option<Box<Motion<S>>>,
+    /// Edges, and who owns what, once somebody asks.
+    elements: OnceLock<Box<Elements>>,
+    /// None where all vertices meet.
+    groups: Option<Box<VertexGroups>>,
 }
 
 /// Where the vertices are going.
 struct Motion<S> {
     /// The shape at the end, if there is a motion; if not, memory for the next.
-    end: Option<Positions<S>>,
+    end: Positions<S>,
     /// Of the vertices that triangles use.
     bounds: Bounds<S>,
-    /// Counts motions; 0 is before the first.
+    /// Counts motions, from 1.
     epoch: u64,
     is_on: bool,
 }
 
-impl<S: Real> Motion<S> {
-    const NONE: Self = Self {
-        end: None,
-        bounds: Bounds::EMPTY,
-        epoch: 0,
-        is_on: false,
-    };
-
-    /// The shape at the end, if there is a motion.
-    fn end(&self) -> Option<&Positions<S>> {
-        self.end.as_ref().filter(|_| self.is_on)
-    }
+/// Groups of the caller's vertices, and of all elements in tree order once these are known.
+struct VertexGroups {
+    callers: Vec<u32>,
+    of_elements: Option<Groups>,
 }
 
 /// Refuses what no body can be made of.
@@ -128,10 +120,9 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             membership: u32::MAX,
             mask: u32::MAX,
             loose: None,
-            motion: Motion::NONE,
-            groups: Vec::new(),
+            motion: None,
             elements: OnceLock::new(),
-            element_groups: None,
+            groups: None,
         }
     }
 
@@ -150,15 +141,19 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             membership: self.membership,
             mask: self.mask,
             loose: self.loose,
-            motion: Motion {
-                end: self.end_positions().map(|end| Positions::new(&end)),
-                bounds: self.motion.bounds,
-                epoch: self.motion.epoch,
-                is_on: self.motion.is_on,
-            },
-            groups: self.groups.clone(),
+            motion: self.motion().map(|motion| {
+                Box::new(Motion {
+                    end: Positions::new(&motion.end.in_callers_order(self.order.vertex_order())),
+                    ..*motion
+                })
+            }),
             elements: OnceLock::new(),
-            element_groups: None,
+            groups: self.groups.as_ref().map(|groups| {
+                Box::new(VertexGroups {
+                    callers: groups.callers.clone(),
+                    of_elements: None,
+                })
+            }),
         }
     }
 
@@ -175,10 +170,6 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         }
         *self = Self {
             epoch: self.epoch + 1,
-            motion: Motion {
-                epoch: self.motion.epoch,
-                ..Motion::NONE
-            },
             membership: self.membership,
             mask: self.mask,
             loose: self.loose,
@@ -192,11 +183,13 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let positions = self.positions();
         let (order, tree) = build(&self.topology, &positions, options);
         self.positions.forget_tree_order(self.order.vertex_order());
-        if let Some(end) = &mut self.motion.end {
-            end.forget_tree_order(self.order.vertex_order());
+        if let Some(motion) = &mut self.motion {
+            motion.end.forget_tree_order(self.order.vertex_order());
         }
         self.elements = OnceLock::new();
-        self.element_groups = None;
+        if let Some(groups) = &mut self.groups {
+            groups.of_elements = None;
+        }
         self.boxes = first_boxes(&tree, self.triangle_count());
         (self.order, self.tree) = (order, tree);
         self.epoch += 1;
@@ -222,11 +215,18 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let is_in_order = self
             .positions
             .bring_into_tree_order(instructions, executor, order);
-        let end = self.motion.end.as_mut();
-        let end = end.filter(|_| with_motion && self.motion.is_on);
-        let is_end_in_order =
-            end.is_none_or(|end| end.bring_into_tree_order(instructions, executor, order));
-        is_in_order && is_end_in_order
+        let motion = self.motion.as_mut();
+        let motion = motion.filter(|motion| with_motion && motion.is_on);
+        is_in_order
+            && motion.is_none_or(|motion| {
+                let end = &mut motion.end;
+                end.bring_into_tree_order(instructions, executor, order)
+            })
+    }
+
+    /// The motion, if there is one.
+    fn motion(&self) -> Option<&Motion<S>> {
+        self.motion.as_deref().filter(|motion| motion.is_on)
     }
 
     /// Finds out the edges of the mesh, and which triangle owns what, unless that is known. Returns false if it was stopped.
@@ -236,20 +236,18 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             order,
             elements,
             groups,
-            element_groups,
             ..
         } = self;
         if elements.get().is_none() {
             let Some(new) = Elements::new(topology, order, stop) else {
                 return false;
             };
-            *elements = OnceLock::from(new);
+            *elements = OnceLock::from(Box::new(new));
         }
-        if let Some(elements) = elements.get()
-            && !groups.is_empty()
-            && element_groups.is_none()
+        if let (Some(elements), Some(groups)) = (elements.get(), groups)
+            && groups.of_elements.is_none()
         {
-            *element_groups = Some(Groups::new(groups, order, elements));
+            groups.of_elements = Some(Groups::new(&groups.callers, order, elements));
         }
         true
     }
@@ -259,9 +257,9 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let known = self.elements.get();
         let known = known.or_else(|| {
             let new = Elements::new(&self.topology, &self.order, &|| false)?;
-            Some(self.elements.get_or_init(|| new))
+            Some(self.elements.get_or_init(|| Box::new(new)))
         });
-        known.map_or(&[], Elements::callers)
+        known.map_or(&[], |known| known.callers())
     }
 
     /// Gives every vertex a group; those of one group do not meet, unless it is 0.
@@ -272,20 +270,22 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                 found: groups.len(),
             });
         }
-        self.groups.clear();
-        if groups.iter().any(|&group| group != 0) {
-            self.groups.extend_from_slice(groups);
-        }
-        self.element_groups = None;
+        let is_any = groups.iter().any(|&group| group != 0);
+        self.groups = is_any.then(|| {
+            Box::new(VertexGroups {
+                callers: groups.to_vec(),
+                of_elements: None,
+            })
+        });
         Ok(())
     }
 
     /// The group of every vertex.
     pub(super) fn groups(&self) -> Vec<u32> {
-        if self.groups.is_empty() {
-            return vec![0; self.vertex_count()];
+        match &self.groups {
+            None => vec![0; self.vertex_count()],
+            Some(groups) => groups.callers.clone(),
         }
-        self.groups.clone()
     }
 
     /// The shape in tree order, whether it was brought into it or not.
@@ -297,11 +297,11 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// The shape at the end of a motion in tree order, and its epoch, if there is a motion.
     pub(super) fn end_in_tree_order(&self) -> Option<(Points<S>, u64)> {
-        let end = self.motion.end()?;
+        let motion = self.motion()?;
         let order = self.order.vertex_order();
         let vertices = (0..order.len() as u32).map(TreeVertex);
-        let points = Points::of(vertices.map(|vertex| end.get(vertex, order)));
-        Some((points, self.motion.epoch))
+        let points = Points::of(vertices.map(|vertex| motion.end.get(vertex, order)));
+        Some((points, motion.epoch))
     }
 
     /// The shape, of which `positions` are in tree order.
@@ -326,16 +326,17 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             origin,
             epoch: self.epoch,
         };
-        let end = self.motion.end().filter(|_| K::HOLDS_MOTIONS);
-        let end = end.map(|end| Shape {
-            positions: end.in_tree_order(),
-            epoch: self.motion.epoch,
+        let motion = self.motion.as_deref();
+        let motion = motion.filter(|motion| K::HOLDS_MOTIONS && motion.is_on);
+        let end = motion.map(|motion| Shape {
+            positions: motion.end.in_tree_order(),
+            epoch: motion.epoch,
             ..shape
         });
         let elements = self.elements.get().filter(|_| K::LEAVES == Leaves::Runs);
         let elements = elements.map(|edges| queries::Elements {
             edges,
-            groups: self.element_groups.as_ref(),
+            groups: self.groups.as_ref().and_then(|it| it.of_elements.as_ref()),
         });
         if self.boxes.len() <= K::BOX_SET {
             self.boxes.resize_with(K::BOX_SET + 1, || None);
@@ -381,11 +382,8 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// The box of the body, as a kind of query needs it.
     #[inline]
     pub(super) fn box_for<K: Kind<Scalar = S>>(&self, kind: &K, origin: Origin) -> Aabb {
-        let bounds = if K::HOLDS_MOTIONS && self.motion.is_on {
-            self.bounds.union(&self.motion.bounds)
-        } else {
-            self.bounds
-        };
+        let motion = self.motion().filter(|_| K::HOLDS_MOTIONS);
+        let bounds = motion.map_or(self.bounds, |motion| self.bounds.union(&motion.bounds));
         kind.body_box(bounds.to_box(origin))
     }
 
@@ -409,8 +407,14 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         };
         self.bounds = taking.take(&mut self.positions, positions)?;
         self.epoch += 1;
-        self.motion.is_on = false;
+        self.end_motion();
         Ok(())
+    }
+
+    fn end_motion(&mut self) {
+        if let Some(motion) = &mut self.motion {
+            motion.is_on = false;
+        }
     }
 
     /// Validates a shape that the body is going to have, and begins a motion to it, in place of any other.
@@ -426,30 +430,31 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             order: &self.order,
             loose: self.loose,
         };
-        let mut first = None;
-        let place = match &mut self.motion.end {
-            Some(place) => place,
-            // What is there before is of no interest; it has the right length.
-            None => first.insert(Positions::new(&self.positions())),
-        };
-        self.motion.bounds = taking.take(place, end)?;
-        if first.is_some() {
-            self.motion.end = first;
+        if let Some(motion) = &mut self.motion {
+            motion.bounds = taking.take(&mut motion.end, end)?;
+            motion.epoch += 1;
+            motion.is_on = true;
+            return Ok(());
         }
-        self.motion.epoch += 1;
-        self.motion.is_on = true;
+        // What is there before is of no interest; it has the right length.
+        let mut place = Positions::new(&self.positions());
+        let bounds = taking.take(&mut place, end)?;
+        self.motion = Some(Box::new(Motion {
+            end: place,
+            bounds,
+            epoch: 1,
+            is_on: true,
+        }));
         Ok(())
     }
 
     /// The end of a motion is the shape of now.
     pub(super) fn finish_motion(&mut self) {
-        if let Some(end) = &mut self.motion.end
-            && self.motion.is_on
-        {
-            std::mem::swap(&mut self.positions, end);
-            self.bounds = self.motion.bounds;
+        if let Some(motion) = self.motion.as_mut().filter(|motion| motion.is_on) {
+            std::mem::swap(&mut self.positions, &mut motion.end);
+            self.bounds = motion.bounds;
             self.epoch += 1;
-            self.motion.is_on = false;
+            motion.is_on = false;
         }
     }
 
@@ -460,7 +465,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         executor: Executor,
         t: f64,
     ) -> Result<(), ErrorKind> {
-        if !self.motion.is_on {
+        if self.motion().is_none() {
             return Ok(());
         }
         if t == 1.0 {
@@ -478,8 +483,8 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// The shape at the end of a motion as the caller orders vertices, if there is a motion.
     pub(super) fn end_positions(&self) -> Option<Cow<'_, [[S; 3]]>> {
-        let end = self.motion.end();
-        end.map(|end| end.in_callers_order(self.order.vertex_order()))
+        let motion = self.motion();
+        motion.map(|motion| motion.end.in_callers_order(self.order.vertex_order()))
     }
 
     /// The shape as the caller orders vertices.
@@ -652,9 +657,17 @@ impl<const N: usize, S> Held for Body<N, S> {
             + held::list(&self.boxes)
             + held::within(boxes)
             + self.positions.held()
-            + self.motion.end.as_ref().map_or(0, Held::held)
-            + held::list(&self.groups)
-            + self.elements.get().map_or(0, Held::held)
-            + self.element_groups.as_ref().map_or(0, Held::held)
+            + self
+                .motion
+                .as_ref()
+                .map_or(0, |motion| size_of::<Motion<S>>() + motion.end.held())
+            + self
+                .elements
+                .get()
+                .map_or(0, |it| size_of::<Elements>() + it.held())
+            + self.groups.as_ref().map_or(0, |groups| {
+                let of_elements = groups.of_elements.as_ref().map_or(0, Held::held);
+                size_of::<VertexGroups>() + held::list(&groups.callers) + of_elements
+            })
     }
 }

@@ -142,6 +142,34 @@ pub(crate) fn parts_of_mesh<'py>(
     }
 }
 
+/// Copies an (n,) array of integers from 0 to 2^32 - 1, or what numpy makes one of.
+pub(crate) fn numbers(given: &Bound<'_, PyAny>) -> Result<Vec<u32>, Refused> {
+    let py = given.py();
+    refuse_masks(given, "groups")?;
+    let array = py
+        .import(intern!(py, "numpy"))?
+        .call_method1(intern!(py, "asarray"), (given,))?;
+    let array = array.cast_into::<PyUntypedArray>().map_err(PyErr::from)?;
+    let dtype = array.dtype();
+    let bad = |what: String| {
+        Refused::new(
+            "BadArray",
+            format!(
+                "groups {what}; they must be integers from 0 to 4294967295, one for each vertex"
+            ),
+        )
+    };
+    if array.ndim() != 1 || !matches!(dtype.kind(), b'u' | b'i') {
+        return Err(bad(format!(
+            "have {} dimensions and are of type {dtype}",
+            array.ndim()
+        )));
+    }
+    let rows: Vec<i128> = array.call_method0(intern!(py, "tolist"))?.extract()?;
+    let number = |&number: &i128| u32::try_from(number).map_err(|_| bad(format!("hold {number}")));
+    rows.iter().map(number).collect()
+}
+
 /// Three numbers, rounded to 64-bit ones.
 pub(crate) fn point(given: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
     given.extract()

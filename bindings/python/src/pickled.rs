@@ -1,5 +1,5 @@
-//! A world as Python's pickle writes it down, and what is read back: bodies with their numbers, in their shapes of now, filters, ignored
-//! pairs and loose boxes. Options are arguments of what makes the new world.
+//! A world as Python's pickle writes it down, and what is read back: bodies with their numbers, in their shapes of now, with their motions,
+//! filters, groups of vertices, ignored pairs and loose boxes. Options are arguments of what makes the new world.
 //!
 //! Trees are not written: they are built anew, on the shapes of now, which changes no answer. What is read is checked as if it was
 //! given to a world by calls, which it is.
@@ -21,6 +21,8 @@ struct Body {
     id: u32,
     triangles: Vec<[u32; 3]>,
     positions: Owned,
+    end: Option<Owned>,
+    groups: Vec<u32>,
     filter: (u32, u32),
     loose: Option<Corners>,
 }
@@ -49,6 +51,8 @@ struct WrittenBody<'py> {
     body: u32,
     faces: Bound<'py, PyAny>,
     positions: Bound<'py, PyAny>,
+    end: Option<Bound<'py, PyAny>>,
+    groups: Vec<u32>,
     filter: (u32, u32),
     loose_box: Option<Corners>,
 }
@@ -61,6 +65,8 @@ impl Copied {
                     id: id.0,
                     triangles: world.triangles(id)?.to_vec(),
                     positions: Owned::from(world.positions(id)?),
+                    end: world.end_positions(id)?.map(Owned::from),
+                    groups: world.vertex_groups(id)?,
                     filter: world.filter(id)?,
                     loose: loose_box(&state.world, id)?,
                 })
@@ -83,6 +89,12 @@ impl Copied {
             dict.set_item("body", body.id)?;
             dict.set_item("faces", rows_of(py, body.triangles)?)?;
             dict.set_item("positions", body.positions.into_array(py)?)?;
+            let end = body.end.map(|end| end.into_array(py)).transpose()?;
+            dict.set_item("end", end)?;
+            // Mostly none: then it is not written at all.
+            let groups = body.groups;
+            let are_any = groups.iter().any(|&group| group != 0);
+            dict.set_item("groups", if are_any { groups } else { Vec::new() })?;
             dict.set_item("filter", body.filter)?;
             dict.set_item("loose_box", body.loose)?;
             bodies.append(dict)?;
@@ -127,6 +139,14 @@ impl Written<'_> {
             let (membership, mask) = written.filter;
             with_world!(&mut state.world, world => world.set_filter(body, membership, mask)?);
             state.set_loose_box(body, written.loose_box)?;
+            if let Some(end) = &written.end {
+                let end = CopiedCoordinates::of(end)?;
+                state.set_motion(body, end.get()?)?;
+            }
+            if !written.groups.is_empty() {
+                let groups = &written.groups;
+                with_world!(&mut state.world, world => world.set_vertex_groups(body, groups)?);
+            }
         }
         with_world!(&mut state.world, world => {
             for (a, b) in self.ignored {

@@ -1,11 +1,11 @@
-//! `Selection` and `Query` as Python sees them: who is asked about, and how much is wanted.
+//! `Selection` and `Query` as Python sees them: who is asked about, what, and how much is wanted.
 
 use crate::arrays;
 use crate::error::Refused;
 use crate::signals::interruptible;
 use crate::world::{Body, World};
 use numpy::PyArray2;
-use pliant::{Error, Pair};
+use pliant::Error;
 use pliant_check::with_world;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -72,6 +72,87 @@ impl Selection {
     }
 }
 
+/// What is asked.
+#[derive(Clone, Copy)]
+pub(crate) enum Kind {
+    Intersections,
+    /// Within a margin round each.
+    VertexTriangleCandidates(f64),
+    EdgeEdgeCandidates(f64),
+}
+
+impl Kind {
+    /// The class of its hits.
+    fn class(self, py: Python<'_>) -> PyResult<&Bound<'_, PyType>> {
+        // Visitors are shown many, so each is looked up once.
+        static CLASSES: [PyOnceLock<Py<PyType>>; 3] = [const { PyOnceLock::new() }; 3];
+        let (place, name) = match self {
+            Self::Intersections => (0, "Pair"),
+            Self::VertexTriangleCandidates(_) => (1, "VertexTriangle"),
+            Self::EdgeEdgeCandidates(_) => (2, "EdgeEdge"),
+        };
+        CLASSES[place].import(py, "pliant._types", name)
+    }
+
+    fn hit(self, py: Python<'_>, row: Row) -> PyResult<Bound<'_, PyAny>> {
+        let [body_a, a, body_b, b] = row;
+        self.class(py)?.call1((body_a, a, body_b, b))
+    }
+}
+
+/// A hit of any kind.
+type Row = [u32; 4];
+
+/// How much is wanted of a query, whatever its kind.
+trait Want<T> {
+    fn of<H: Copy + Into<Row>>(self, query: pliant::Query<'_, H>) -> Result<T, Error>;
+}
+
+struct All(usize);
+
+impl Want<Vec<Row>> for All {
+    fn of<H: Copy + Into<Row>>(self, query: pliant::Query<'_, H>) -> Result<Vec<Row>, Error> {
+        let hits = query.at_most(self.0).all()?;
+        Ok(hits.iter().map(|&hit| hit.into()).collect())
+    }
+}
+
+struct First;
+
+impl Want<Option<Row>> for First {
+    fn of<H: Copy + Into<Row>>(self, query: pliant::Query<'_, H>) -> Result<Option<Row>, Error> {
+        Ok(query.first()?.map(Into::into))
+    }
+}
+
+/// Shows some rows at a time to a function.
+struct SomeAtATime<F>(F);
+
+type Stopped = ControlFlow<PyResult<()>>;
+
+impl<F: FnMut(Vec<Row>) -> Stopped> Want<Stopped> for SomeAtATime<F> {
+    fn of<H: Copy + Into<Row>>(mut self, query: pliant::Query<'_, H>) -> Result<Stopped, Error> {
+        query.visit_some(|hits| self.0(hits.iter().map(|&hit| hit.into()).collect()))
+    }
+}
+
+/// Shows one row after the other to a function.
+struct Each<F>(F);
+
+impl<F: FnMut(Row) -> Stopped> Want<Stopped> for Each<F> {
+    fn of<H: Copy + Into<Row>>(mut self, query: pliant::Query<'_, H>) -> Result<Stopped, Error> {
+        query.visit(|hit| self.0(hit.into()))
+    }
+}
+
+struct Prepare;
+
+impl Want<()> for Prepare {
+    fn of<H: Copy + Into<Row>>(self, query: pliant::Query<'_, H>) -> Result<(), Error> {
+        query.prepare()
+    }
+}
+
 /// A question that was put to a world, and waits to be told how much is wanted: all() hits, the first(), or a visit(...) to one after
 /// the other. Each call asks anew, about the shapes that the bodies have then.
 ///
@@ -81,37 +162,59 @@ impl Selection {
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct Query {
     world: Py<World>,
+    kind: Kind,
     of: Selection,
 }
 
 impl Query {
-    pub(crate) fn new(world: Py<World>, of: Selection) -> Self {
-        Self { world, of }
+    pub(crate) fn new(world: Py<World>, kind: Kind, of: Selection) -> Self {
+        Self { world, kind, of }
     }
 
     /// Asks the world, without the interpreter lock, for what is wanted.
-    fn ask<T: Send>(
-        &self,
-        py: Python<'_>,
-        want: impl FnOnce(pliant::Query<'_, Pair>) -> Result<T, Error> + Send,
-    ) -> Result<T, Refused> {
-        let of = self.of.0;
+    fn ask<T: Send>(&self, py: Python<'_>, want: impl Want<T> + Send) -> Result<T, Refused> {
+        let (kind, of) = (self.kind, self.of.0);
         self.world.get().with(py, |state| {
             interruptible(|question| {
-                let query = with_world!(&mut state.world, world => world.intersections(of));
-                want(query.interrupt_if(question))
+                with_world!(&mut state.world, world => match kind {
+                    Kind::Intersections => {
+                        want.of(world.intersections(of).interrupt_if(question))
+                    }
+                    Kind::VertexTriangleCandidates(radius) => {
+                        let query = world.vertex_triangle_candidates(of, radius);
+                        want.of(query.interrupt_if(question))
+                    }
+                    Kind::EdgeEdgeCandidates(radius) => {
+                        let query = world.edge_edge_candidates(of, radius);
+                        want.of(query.interrupt_if(question))
+                    }
+                })
             })
         })
     }
 }
 
+/// Whether a visitor stopped, or what it raised.
+fn stopped(visited: Stopped) -> PyResult<bool> {
+    match visited {
+        ControlFlow::Continue(()) => Ok(false),
+        ControlFlow::Break(stopped) => stopped.map(|()| true),
+    }
+}
+
+/// What a visitor's answer means.
+fn go_on(answer: PyResult<bool>) -> Stopped {
+    match answer {
+        Ok(false) => ControlFlow::Continue(()),
+        Ok(true) => ControlFlow::Break(Ok(())),
+        Err(raised) => ControlFlow::Break(Err(raised)),
+    }
+}
+
 #[pymethods]
-#[expect(
-    clippy::redundant_closure_for_method_calls,
-    reason = "the method itself takes a query of one lifetime, the closure one of any"
-)]
 impl Query {
-    /// All hits, sorted: (k, 4) uint32, body, triangle, body, triangle; the same for every option, history and number of threads.
+    /// All hits, sorted: (k, 4) uint32; the same for every option, history and number of threads. A row is body, triangle, body, triangle;
+    /// of candidates body, vertex, body, triangle, or body, edge, body, edge.
     ///
     /// at_most refuses a list of more hits than this with pliant.Error, kind "TooManyHits", instead of making one that may fill the
     /// memory.
@@ -121,63 +224,66 @@ impl Query {
         py: Python<'py>,
         at_most: Option<usize>,
     ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
-        let rows = self.ask(py, |query| {
-            let pairs = query.at_most(at_most.unwrap_or(usize::MAX)).all()?;
-            Ok(pairs.iter().map(|&pair| pair.into()).collect())
-        })?;
+        let rows = self.ask(py, All(at_most.unwrap_or(usize::MAX)))?;
         Ok(arrays::rows_of::<_, 4>(py, rows)?)
     }
 
-    /// Some hit, a Pair, or None if there is none: much cheaper than all where there are many. Which one may depend on options and
-    /// history; whether there is one never does.
+    /// Some hit, a Pair, VertexTriangle or EdgeEdge, or None if there is none: much cheaper than all where there are many. Which one may
+    /// depend on options and history; whether there is one never does.
     fn first<'py>(&self, py: Python<'py>) -> Result<Option<Bound<'py, PyAny>>, Refused> {
-        let pair = self.ask(py, |query| query.first())?;
-        Ok(pair.map(|pair| pair_of_python(py, pair)).transpose()?)
+        let row = self.ask(py, First)?;
+        Ok(row.map(|row| self.kind.hit(py, row)).transpose()?)
     }
 
-    /// Calls visit(pair) for every hit once, until it returns True (or anything true). Returns whether it did. The order is
+    /// Calls visit(hit) for every hit once, until it returns True (or anything true). Returns whether it did. The order is
     /// deterministic, not sorted; visit may not ask this world.
     fn visit(&self, py: Python<'_>, visit: &Bound<'_, PyAny>) -> Result<bool, Refused> {
+        let (visit, kind) = (visit.as_unbound(), self.kind);
+        let visited = self.ask(
+            py,
+            Each(|row| {
+                go_on(Python::attach(|py| {
+                    let hit = kind.hit(py, row)?;
+                    visit.bind(py).call1((hit,))?.is_truthy()
+                }))
+            }),
+        )?;
+        Ok(stopped(visited)?)
+    }
+
+    /// Calls visit(rows) with some hits at a time, (k, 4) uint32 as of all(), until it returns True (or anything true). Returns whether it
+    /// did. Every hit comes once; no list of all is made. The order, and how many come at a time, is deterministic.
+    fn visit_some(&self, py: Python<'_>, visit: &Bound<'_, PyAny>) -> Result<bool, Refused> {
         let visit = visit.as_unbound();
-        let show = |pair| {
-            Python::attach(|py| {
-                let pair = pair_of_python(py, pair)?;
-                visit.bind(py).call1((pair,))?.is_truthy()
-            })
-        };
-        let visited = self.ask(py, |query| {
-            query.visit(|pair| match show(pair) {
-                Ok(false) => ControlFlow::Continue(()),
-                Ok(true) => ControlFlow::Break(Ok(())),
-                Err(raised) => ControlFlow::Break(Err(raised)),
-            })
-        })?;
-        match visited {
-            ControlFlow::Continue(()) => Ok(false),
-            ControlFlow::Break(stopped) => Ok(stopped.map(|()| true)?),
-        }
+        let visited = self.ask(
+            py,
+            SomeAtATime(|rows| {
+                go_on(Python::attach(|py| {
+                    let rows = arrays::rows_of::<_, 4>(py, rows)?;
+                    visit.bind(py).call1((rows,))?.is_truthy()
+                }))
+            }),
+        )?;
+        Ok(stopped(visited)?)
     }
 
     /// Does early what the query would do first, and asks nothing: finds the bodies that may meet and refits the upper levels of their
     /// trees; all of it in a body that meets itself. Never needed for right answers; it is for whoever wants to time it, or has time
     /// to spare.
     fn prepare(&self, py: Python<'_>) -> Result<(), Refused> {
-        self.ask(py, |query| query.prepare())
+        self.ask(py, Prepare)
     }
 
     fn __repr__(&self) -> String {
-        format!("<pliant.Query of {}>", self.of.__repr__())
+        let of = self.of.__repr__();
+        match self.kind {
+            Kind::Intersections => format!("<pliant.Query of {of}>"),
+            Kind::VertexTriangleCandidates(radius) => {
+                format!("<pliant.Query of {of}, vertices and triangles, margin {radius}>")
+            }
+            Kind::EdgeEdgeCandidates(radius) => {
+                format!("<pliant.Query of {of}, edges and edges, margin {radius}>")
+            }
+        }
     }
-}
-
-/// Visitors are shown many, so the class is looked up once.
-fn pair_of_python(py: Python<'_>, pair: Pair) -> PyResult<Bound<'_, PyAny>> {
-    static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
-    let class = CLASS.import(py, "pliant._types", "Pair")?;
-    class.call1((
-        pair.body_a.0,
-        pair.triangle_a,
-        pair.body_b.0,
-        pair.triangle_b,
-    ))
 }

@@ -124,6 +124,18 @@ impl State {
         taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
+    /// Says where the vertices of a body are going.
+    pub(crate) fn set_motion(&mut self, body: BodyId, end: Positions<'_>) -> Result<(), Refused> {
+        let taken = match &mut self.world {
+            AnyWorld::F32(world) => single(end).and_then(|end| Ok(world.set_motion(body, end)?)),
+            AnyWorld::F64(world) => {
+                let end = double(end, &mut self.widened);
+                world.set_motion(body, end).map_err(NotTaken::Refused)
+            }
+        };
+        taken.map_err(|not_taken| of_body(body, not_taken))
+    }
+
     /// Gives a body the shape that somebody wrote, or did not.
     pub(crate) fn write_positions(
         &mut self,

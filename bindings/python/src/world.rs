@@ -4,7 +4,7 @@ use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedFaces};
 use crate::error::{Refused, alone, alone_with, named_tuple};
 use crate::options::Keywords;
 use crate::pickled::{self, Written};
-use crate::query::{Query, Selection};
+use crate::query::{Kind, Query, Selection};
 use crate::state::State;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pliant::{BodyId, ErrorKind};
@@ -299,6 +299,98 @@ impl World {
         self.with(py, |state| state.write_positions(body, written))
     }
 
+    /// Begins a motion: says where the vertices of a body will be at the end of the step, (n, 3). On the way they move on straight lines,
+    /// from the shape that the body has now. Queries for candidates look at the whole way; intersections are of the shape of now, as
+    /// ever. A body without a motion stands still.
+    ///
+    /// The positions are checked as those of set_positions are. A motion takes the place of the one before, and ends with finish_motion,
+    /// advance_motion, the next new shape or mesh.
+    fn set_motion(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        end: &Bound<'_, PyAny>,
+    ) -> Result<(), Refused> {
+        let body = body.0;
+        let end = Coordinates::read(end).map_err(|refused| refused.of_body(Some(body)))?;
+        let mut state = alone(&self.state)?;
+        let copied = state.copy(body, &end)?;
+        let (state, copied) = (&mut *state, copied.get()?);
+        py.detach(|| state.set_motion(body, copied))
+    }
+
+    /// Ends all motions: every body that has one gets the shape at its end, without a copy. The others stand still.
+    fn finish_motion(&self, py: Python<'_>) -> Result<(), Refused> {
+        self.with(py, |state| {
+            with_world!(&mut state.world, world => world.finish_motion());
+            Ok(())
+        })
+    }
+
+    /// Ends all motions on the way: every body that has one gets the shape in which it is at time t, from 0 (where it is) to 1 (the end).
+    /// Each coordinate is x0 + t (x1 - x0), computed in float64, each operation rounded, kept between x0 and x1, and rounded to the
+    /// world's type.
+    fn advance_motion(&self, py: Python<'_>, t: f64) -> Result<(), Refused> {
+        self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.advance_motion(t)?)),
+        )
+    }
+
+    /// The shape that a body will have at the end of its motion, a new array (n, 3) of the world's type; None if it has none.
+    fn end_positions<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+    ) -> Result<Option<Bound<'py, PyAny>>, Refused> {
+        let end = self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.end_positions(body.0)?.map(Owned::from)))
+        })?;
+        Ok(end.map(|end| end.into_array(py)).transpose()?)
+    }
+
+    /// Gives every vertex of a body a group, (n,) of integers from 0 to 2^32 - 1: candidates are left out if all their vertices are of one
+    /// group, in whichever bodies they are. Those of group 0, as all are at first, meet all. For vertices that are pinned, or glued
+    /// together. They stay with the body until it is given another mesh.
+    fn set_vertex_groups(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        groups: &Bound<'_, PyAny>,
+    ) -> Result<(), Refused> {
+        let groups = arrays::numbers(groups).map_err(|refused| refused.of_body(Some(body.0)))?;
+        self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.set_vertex_groups(body.0, &groups)?)),
+        )
+    }
+
+    /// The group of every vertex of a body: a new array (n,) uint32.
+    fn vertex_groups<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+    ) -> Result<Bound<'py, PyArray1<u32>>, Refused> {
+        let groups = self.with(
+            py,
+            |state| with_world!(&state.world, world => Ok(world.vertex_groups(body.0)?)),
+        )?;
+        Ok(groups.into_pyarray(py))
+    }
+
+    /// The edges of a body: a new array (k, 2) uint32, two vertices each, the smaller first. Every edge once, whatever triangles share it;
+    /// sorted, so that the number of an edge, its row here, depends on the mesh alone.
+    fn edges<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+    ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
+        let edges = self.with(py, |state| {
+            Ok(with_world!(&state.world, world => world.edges(body.0))?.to_vec())
+        })?;
+        Ok(arrays::rows_of(py, edges)?)
+    }
+
     /// Builds the tree of a body anew, on the shape it has now. Worth it when a shape has become very different from the one
     /// it was built on; never needed for right answers.
     fn rebuild(&self, py: Python<'_>, body: Body) -> Result<(), Refused> {
@@ -486,7 +578,26 @@ impl World {
     /// another meets none of its triangles.
     #[pyo3(signature = (of=Selection::WORLD))]
     fn intersections(slf: Py<Self>, of: Selection) -> Query {
-        Query::new(slf, of)
+        Query::new(slf, Kind::Intersections, of)
+    }
+
+    /// Asks which vertices are near which triangles, now or on the way to the end of a motion: rows of body, vertex, body, triangle.
+    ///
+    /// The box of an element is the hull of its corners, at both ends of the motion where there is one. A vertex and a triangle are a
+    /// candidate if on every axis the gap of their boxes is at most twice radius, in real arithmetic on the numbers given, and the vertex
+    /// is no corner of the triangle. So with half the distance at which things are to be found nothing is missed that comes as near as
+    /// that. Of two bodies it is the vertices of either and the triangles of the other. Filters keep bodies apart as in intersections,
+    /// and set_vertex_groups keeps apart parts of them.
+    #[pyo3(signature = (of, radius))]
+    fn vertex_triangle_candidates(slf: Py<Self>, of: Selection, radius: f64) -> Query {
+        Query::new(slf, Kind::VertexTriangleCandidates(radius), of)
+    }
+
+    /// Asks which edges are near which edges, as vertex_triangle_candidates asks it of vertices and triangles: rows of body, edge, body,
+    /// edge, the smaller (body, edge) first. Edges have the numbers that edges(body) gives them; two that have an end in common are none.
+    #[pyo3(signature = (of, radius))]
+    fn edge_edge_candidates(slf: Py<Self>, of: Selection, radius: f64) -> Query {
+        Query::new(slf, Kind::EdgeEdgeCandidates(radius), of)
     }
 
     /// What the last query did, with what Query.prepare did before it.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+from collections.abc import Callable
 from itertools import combinations
 from types import SimpleNamespace
 from typing import Any
@@ -86,11 +87,13 @@ class World(RuleBasedStateMachine):
         body = self.body(data)
         shape = self.shape(len(self.shapes[body]), data)
         shape[-1, 2] = np.nan
-        for call in (
+        calls: list[Callable[[], None]] = [
             lambda: self.world.set_positions(body, shape),
             lambda: self.world.set_positions(body, shape[1:]),
+            lambda: self.world.set_motion(body, shape),
             lambda: self.world.set_mesh(body, [[0, 1, 1]], shape),
-        ):
+        ]
+        for call in calls:
             try:
                 call()
             except pliant.Error as error:

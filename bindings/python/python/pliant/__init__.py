@@ -15,11 +15,12 @@ share a vertex are left out. Surfaces only: a body wholly inside another meets n
 
 from . import reference
 from ._pliant import Check, Query, Selection, World, __version__, check, intersection_pairs, self_intersection_pairs
-from ._types import Body, Error, Frame, Mesh, OpenMesh, Pair, Statistics, TreeBoxes, TreeShape
+from ._types import Body, EdgeEdge, Error, Frame, Mesh, OpenMesh, Pair, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Body",
     "Check",
+    "EdgeEdge",
     "Error",
     "Frame",
     "Mesh",
@@ -30,6 +31,7 @@ __all__ = [
     "Statistics",
     "TreeBoxes",
     "TreeShape",
+    "VertexTriangle",
     "World",
     "__version__",
     "check",

@@ -13,7 +13,7 @@ class Error(ValueError):
     """A call that was refused; the world is as it was before. Facts that do not apply are None.
 
     kind is a name of the Rust library's ErrorKind (NoTriangles, TooLarge, TooManyBodies, VertexOutOfRange, WrongLength,
-    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody, TooManyHits), or:
+    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody, TooManyHits, BadMargin, BadTime), or:
 
       BadArray     not an array of three columns, or not of a type that is taken
       BadOption    an option has no such value
@@ -66,6 +66,27 @@ class Pair(NamedTuple):
     triangle_a: int
     body_b: int
     triangle_b: int
+
+
+class VertexTriangle(NamedTuple):
+    """A vertex near a triangle that it is no corner of, of two bodies or of one. Rows of Query.all have the same four numbers."""
+
+    vertex_body: int
+    vertex: int
+    triangle_body: int
+    triangle: int
+
+
+class EdgeEdge(NamedTuple):
+    """Two edges near each other that have no end in common, of two bodies or of one; World.edges numbers them.
+
+    The smaller (body, edge) is first. Rows of Query.all have the same four numbers.
+    """
+
+    body_a: int
+    edge_a: int
+    body_b: int
+    edge_b: int
 
 
 class TreeShape(NamedTuple):
@@ -170,5 +191,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, TreeBoxes, TreeShape, Statistics, Body, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, VertexTriangle, EdgeEdge, TreeBoxes, TreeShape, Statistics, Body, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

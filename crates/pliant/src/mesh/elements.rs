@@ -25,6 +25,9 @@ pub(crate) struct Elements {
 /// So many triangles are gone through before it is asked whether somebody wants to stop.
 const UNINTERRUPTED: usize = 1 << 14;
 
+/// The number of no edge: there are fewer.
+const UNSEEN: u32 = u32::MAX;
+
 impl Elements {
     /// Of a mesh in tree order; `None` if `stop` said so on the way. Linear, but for the edges at one vertex, which are sorted.
     pub(crate) fn new(topology: &Topology, order: &Order, stop: &dyn Fn() -> bool) -> Option<Self> {
@@ -80,7 +83,6 @@ impl Elements {
         drop((next, higher));
         callers.shrink_to_fit();
 
-        const UNSEEN: u32 = u32::MAX; // the number of no edge
         let mut seen = vec![UNSEEN; callers.len()];
         let mut ends = Vec::with_capacity(callers.len());
         let mut numbers = Vec::with_capacity(callers.len());

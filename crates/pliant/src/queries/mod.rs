@@ -122,6 +122,8 @@ pub(crate) struct LeafTest<'q, S> {
     pub(crate) elements: [Option<Elements<'q>>; 2],
     /// Whether it is one body with itself.
     pub(crate) itself: bool,
+    /// Tells the descents apart that the same buffers are used for: what was read of the bodies in another may not be true.
+    pub(crate) descent: u64,
 }
 
 /// How the caller numbers things.

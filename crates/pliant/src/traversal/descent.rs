@@ -67,6 +67,8 @@ pub(crate) struct Scratch<K: Kind> {
     distributed: Vec<NodePair>,
     wanted: Wanted,
     sizes: Sizes,
+    /// How many descents there were, this one included.
+    descents: u64,
     /// The hit at which a query stopped, in tree order.
     pub(crate) broke_at: Option<K::TreeHit>,
 }
@@ -82,6 +84,7 @@ impl<K: Kind> Default for Scratch<K> {
             distributed: Vec::new(),
             wanted: Wanted::default(),
             sizes: Sizes::new(Wanted::default()),
+            descents: 0,
             broke_at: None,
         }
     }
@@ -154,8 +157,11 @@ where
         distributed,
         wanted,
         sizes,
+        descents,
         broke_at,
     } = scratch;
+    *descents += 1;
+    let descent = *descents;
     let executor = refit.executor;
     // Tasks are left as they were where a visitor stopped, or panicked.
     tasks[..*used].iter_mut().for_each(Task::clear);
@@ -175,7 +181,7 @@ where
         if tasks.len() == 1 {
             budget.stack = ENOUGH_TO_DISTRIBUTE;
         }
-        let now = context(refit, kind, pair, budget);
+        let now = context(refit, kind, pair, budget, descent);
         executor.run(tasks, |_, task| task.advance(&now));
         // What a task that was not run found before is not to be shown again.
         if executor.is_interrupted() {
@@ -203,7 +209,7 @@ where
                     rebalance(tasks);
                 }
                 while shown.is_continue() && !tasks.iter().all(Task::all_tested) {
-                    let now = context(refit, kind, pair, sizes.budget(most_leaf_pairs));
+                    let now = context(refit, kind, pair, sizes.budget(most_leaf_pairs), descent);
                     executor.run(tasks, |_, task| task.test_some(&now));
                     if executor.is_interrupted() {
                         return ControlFlow::Break(());
@@ -266,7 +272,7 @@ where
     }
     let executor = refit.executor;
     while tasks.iter().any(|task| task.run.start < task.run.end) && !executor.is_interrupted() {
-        let now = context(refit, kind, pair, sizes.budget(usize::MAX));
+        let now = context(refit, kind, pair, sizes.budget(usize::MAX), 0);
         executor.run(tasks, |_, task| task.test_neighbours(&now, neighbours));
         if executor.is_interrupted() {
             break;
@@ -282,6 +288,7 @@ fn context<'q, K, P>(
     kind: &'q K,
     pair: &'q P,
     budget: Budget,
+    descent: u64,
 ) -> Context<'q, K, P> {
     Context {
         kind,
@@ -289,6 +296,7 @@ fn context<'q, K, P>(
         instructions: refit.instructions,
         interrupt: refit.executor.interrupt,
         budget,
+        descent,
     }
 }
 

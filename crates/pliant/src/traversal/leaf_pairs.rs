@@ -274,6 +274,7 @@ where
         ends: sides.map(|side| side.source.end().map(|end| end.positions)),
         elements: sides.map(|side| side.elements),
         itself: P::ITSELF,
+        descent: context.descent,
     }
 }
 

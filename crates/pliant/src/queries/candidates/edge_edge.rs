@@ -83,8 +83,8 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
             });
             !is_shared & meet
         };
-        runs_a.begin();
-        runs_b.begin();
+        runs_a.go_on(leaves.descent);
+        runs_b.go_on(leaves.descent);
         dispatch!(leaves.instructions, i => {
             for &[a, b] in pairs {
                 let itself = leaves.itself && a == b;
@@ -97,10 +97,12 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
                     let mut rest = possible & !sure;
                     while rest != 0 {
                         let [a, b] = pair(rest.trailing_zeros());
-                        let corners = [ends_a[a as usize], ends_b[b as usize]];
-                        statistics.exact_decisions += 1;
-                        if !self.margin.holds(leaves, [0, 1], &corners[0], &corners[1]) {
-                            near &= !(rest & rest.wrapping_neg());
+                        if is_candidate([a, b]) {
+                            let corners = [ends_a[a as usize], ends_b[b as usize]];
+                            statistics.exact_decisions += 1;
+                            if !self.margin.holds(leaves, [0, 1], &corners[0], &corners[1]) {
+                                near &= !(rest & rest.wrapping_neg());
+                            }
                         }
                         rest &= rest - 1;
                     }

@@ -1,5 +1,5 @@
-//! The boxes of the vertices, edges or triangles of a run of triangles, side by side; kept for as long as a batch of pairs of runs is
-//! tested, in which a run comes up again and again.
+//! The boxes of the vertices, edges or triangles of a run of triangles, side by side; kept during a descent, in which a run comes up again
+//! and again, mostly soon.
 
 use crate::geometry::{Aabb, Points, Shape, larger};
 use crate::held::{self, Held};
@@ -14,14 +14,14 @@ use std::ops::Range;
 const EIGHTS: usize = 3;
 
 /// Runs that are kept, as a power of two.
-const KEPT: u32 = 6;
+const KEPT: u32 = 8;
 
 /// The elements of one kind that belong to a run of triangles, and their boxes.
 #[derive(Debug)]
 pub(super) struct ElementRun {
     of: TriangleRun,
-    /// The batch that this was made for.
-    batch: u64,
+    /// The descent that this was made for; 0 is none.
+    descent: u64,
     /// Numbers of the elements.
     elements: Range<u32>,
     boxes: [Eight; EIGHTS],
@@ -33,20 +33,20 @@ pub(super) struct ElementRun {
 /// Where the vertices of a body are, and where at the end of a motion, if it has one.
 pub(super) type Ends<'p, S> = (&'p Shape<'p, S>, Option<&'p Points<S>>);
 
-/// Runs that were looked at in a batch; each has one place where it may be.
+/// Runs that were looked at in a descent; each has one place where it may be.
 #[derive(Debug, Default)]
 pub(super) struct Runs {
     kept: Vec<ElementRun>,
-    batch: u64,
+    descent: u64,
 }
 
 impl Runs {
-    /// Forgets all.
-    pub(super) fn begin(&mut self) {
+    /// Goes on with a descent, or begins it.
+    pub(super) fn go_on(&mut self, descent: u64) {
         if self.kept.is_empty() {
             self.kept.resize_with(1 << KEPT, ElementRun::none);
         }
-        self.batch += 1;
+        self.descent = descent;
     }
 
     /// The elements of a run of triangles, of which there are as many as `numbers` says, each with its corners.
@@ -62,8 +62,8 @@ impl Runs {
         // The high bits of a product depend on all of the number.
         let place = run.first.0.wrapping_mul(0x9E37_79B9) >> (u32::BITS - KEPT);
         let kept = &mut self.kept[place as usize];
-        if kept.batch != self.batch || kept.of != run {
-            kept.batch = self.batch;
+        if kept.descent != self.descent || kept.of != run {
+            kept.descent = self.descent;
             kept.of = run;
             kept.make(i, positions, numbers, corners);
         }
@@ -75,7 +75,7 @@ impl ElementRun {
     fn none() -> Self {
         Self {
             of: TriangleRun::default(),
-            batch: 0,
+            descent: 0,
             elements: 0..0,
             boxes: [Eight::EMPTY; EIGHTS],
             all: Eight::EMPTY.get(0),

@@ -75,10 +75,9 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
             vertices,
             triangles,
         } = buffers;
-        vertices
-            .iter_mut()
-            .chain(&mut *triangles)
-            .for_each(Runs::begin);
+        for runs in vertices.iter_mut().chain(&mut *triangles) {
+            runs.go_on(leaves.descent);
+        }
         dispatch!(leaves.instructions, i => {
             for &[a, b] in pairs {
                 for (side, [of, other]) in [[a, b], [b, a]].into_iter().enumerate() {
@@ -88,7 +87,7 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
                     }
                     let vertices = &mut vertices[side];
                     let triangles = &mut triangles[1 - side];
-                    self.compare(i, leaves, side, [of, other], [vertices, triangles], hits, statistics);
+                    self.compare(i, leaves, side, [of, other], [vertices, triangles], (hits, statistics));
                 }
             }
         });
@@ -117,8 +116,7 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
         side: usize,
         [run, other]: [TriangleRun; 2],
         [vertices, triangles]: [&mut Runs; 2],
-        hits: &mut Buffer<[u32; 2]>,
-        statistics: &mut Statistics,
+        (hits, statistics): (&mut Buffer<[u32; 2]>, &mut Statistics),
     ) {
         let sides = [side, 1 - side];
         let [Some(of_vertices), Some(of_triangles)] = sides.map(|side| leaves.elements[side])
@@ -158,13 +156,15 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
                 let mut rest = possible & !sure;
                 while rest != 0 {
                     let [vertex, triangle] = pair(rest.trailing_zeros());
-                    let corners = corners[(triangle & !OF_SECOND) as usize];
-                    statistics.exact_decisions += 1;
-                    if !self
-                        .margin
-                        .holds(leaves, sides, &[TreeVertex(vertex)], &corners)
-                    {
-                        near &= !(rest & rest.wrapping_neg());
+                    if is_candidate([vertex, triangle]) {
+                        let corners = corners[(triangle & !OF_SECOND) as usize];
+                        statistics.exact_decisions += 1;
+                        if !self
+                            .margin
+                            .holds(leaves, sides, &[TreeVertex(vertex)], &corners)
+                        {
+                            near &= !(rest & rest.wrapping_neg());
+                        }
                     }
                     rest &= rest - 1;
                 }

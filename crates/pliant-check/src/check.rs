@@ -6,8 +6,10 @@ use crate::bodies::{Bodies, BodyFacts};
 use crate::error::Error;
 use crate::filter::Filter;
 use crate::found::{Found, MOST_COUNTED, Row, Stop, Taker};
+use crate::lives::{Life, Lives};
 use crate::one_point;
 use crate::opened::Opened;
+use crate::places::{Meshes, Places};
 use crate::remarks::{AtSeams, Remarks, has_degenerate};
 use crate::sequence::{FIRST, MeshNumber, Sequence};
 use crate::settings::{self, Frames, Settings};
@@ -32,6 +34,8 @@ pub struct Check {
     frames: Frames,
     baseline: Option<Baseline>,
     remarks: Remarks,
+    places: Places,
+    lives: Lives,
     /// The meshes of the sources in the frame found last.
     told: Vec<MeshNumber>,
     failed: bool,
@@ -42,6 +46,36 @@ fn unless<'q>(stop: Option<Question<'q>>, query: Query<'q, Pair>) -> Query<'q, P
     match stop {
         Some(stop) => query.interrupt_if(stop),
         None => query,
+    }
+}
+
+/// What is asked of one frame.
+#[derive(Clone, Copy)]
+struct Wanted {
+    first: bool,
+    listed: bool,
+    places: bool,
+}
+
+/// Sources, and the bodies that their triangles are of.
+struct Split<'a>(&'a [Source], &'a Bodies);
+
+impl Meshes for Split<'_> {
+    fn sizes(&self, source: u32) -> [usize; 2] {
+        let source = &self.0[source as usize];
+        [source.vertex_count(), source.triangles().len()]
+    }
+
+    fn corners(&self, source: u32, triangle: u32) -> [u32; 3] {
+        self.0[source as usize].triangles()[triangle as usize]
+    }
+
+    fn position(&self, source: u32, vertex: u32) -> [f64; 3] {
+        self.0[source as usize].positions().get(vertex)
+    }
+
+    fn body(&self, source: u32, triangle: u32) -> u32 {
+        self.1.of_triangle(source, triangle).unwrap_or_default()
     }
 }
 
@@ -187,6 +221,8 @@ impl Check {
             frames,
             baseline,
             remarks: Remarks::of(sequence.sources.len()),
+            places: Places::new(),
+            lives: Lives::new(),
             failed: false,
             of: Selection::World,
             told: sequence.meshes.clone(),
@@ -250,6 +286,12 @@ impl Check {
         self.remarks.at_seams(source)
     }
 
+    /// The places of the frames so far, if [`Settings::places`] are asked for: how many there were, and those with the most pairs in a
+    /// frame, most first; of very many, a thousand.
+    pub fn places(&self) -> (usize, Vec<Life>) {
+        (self.lives.count(), self.lives.largest())
+    }
+
     /// Whether bodies are checked against themselves.
     pub fn checks_itself(&self) -> bool {
         self.asked.itself
@@ -295,16 +337,36 @@ impl Check {
             frame, pairs: None, ..
         }) = self.baseline
         {
-            let found = self.found_in(frame, false, true, stop)?;
+            let wanted = Wanted {
+                first: false,
+                listed: true,
+                places: false,
+            };
+            let found = self.found_in(frame, wanted, stop)?;
             if let Some(baseline) = &mut self.baseline {
                 baseline.take(found.pairs, &self.sequence);
             }
         }
         let frame = self.frames.start;
-        let mut found = self.found_in(frame, self.asked.first, self.asked.listed, stop)?;
+        let wanted = Wanted {
+            first: self.asked.first,
+            listed: self.asked.listed,
+            places: self.asked.places && !self.asked.first,
+        };
+        let mut found = self.found_in(frame, wanted, stop)?;
         let meshes = &self.sequence.meshes;
         let is_told = |&source: &usize| self.told[source] == meshes[source];
         let changed = (0..meshes.len()).filter(|source| !is_told(source));
+        let changed: Vec<usize> = changed.collect();
+        self.places.forget(&changed);
+        if wanted.places {
+            let places = self
+                .places
+                .end(&Split(&self.sequence.sources, &self.bodies));
+            self.lives.take(frame, &places);
+            found.places = Some(places);
+        }
+        let changed = changed.into_iter();
         found.changed = changed.map(|it| self.bodies.of_source(it).start).collect();
         self.told.clone_from(meshes);
         self.frames.start = frame.saturating_add(self.frames.step);
@@ -317,12 +379,11 @@ impl Check {
     fn found_in(
         &mut self,
         frame: usize,
-        first: bool,
-        listed: bool,
+        wanted: Wanted,
         stop: Option<Question>,
     ) -> Result<Found, Error> {
         self.go_to(frame)?;
-        let found = self.find(frame, first, listed, stop);
+        let found = self.find(frame, wanted, stop);
         // What was read stays, and nothing else was lost.
         self.failed = !matches!(found, Err(Error::Interrupted { .. }));
         found
@@ -380,10 +441,10 @@ impl Check {
     fn find(
         &mut self,
         frame: usize,
-        first: bool,
-        listed: bool,
+        wanted: Wanted,
         stop: Option<Question>,
     ) -> Result<Found, Error> {
+        let Wanted { first, listed, .. } = wanted;
         let baseline = self.baseline.take();
         let known = baseline.as_ref().and_then(|it| it.pairs.as_deref());
         let most = self.asked.max_list / size_of::<Row>() as u64;
@@ -391,11 +452,12 @@ impl Check {
         let skip = self.asked.skip_degenerate;
         let mut taker = Taker::new(frame, first, listed, most, known).skip_degenerate(skip);
         self.remarks.begin(frame);
+        self.places.begin();
         let comparable = baseline.as_ref().map(|it| &it.comparable[..]);
         let visited = if first && known.is_none() && !skip && !self.bodies.are_split() {
             self.take_first(&mut taker, stop)
         } else {
-            self.take_all(&mut taker, comparable.unwrap_or(&[]), stop)
+            self.take_all(&mut taker, wanted.places, comparable.unwrap_or(&[]), stop)
         };
         let found = taker.end();
         self.baseline = baseline;
@@ -432,6 +494,7 @@ impl Check {
     fn take_all(
         &mut self,
         taker: &mut Taker,
+        finds_places: bool,
         comparable: &[bool],
         question: Option<Question>,
     ) -> Result<ControlFlow<Stop>, pliant::Error> {
@@ -441,6 +504,7 @@ impl Check {
             bodies,
             filter,
             remarks,
+            places,
             asked: Settings { itself, .. },
             ..
         } = self;
@@ -459,7 +523,11 @@ impl Check {
                 let [a, _, b, _] = of_sources.map(|number| number as usize);
                 let comparable = [a, b].map(|source| comparable.get(source) == Some(&true));
                 let degenerate = has_degenerate(sources, of_sources);
+                let before = taker.count();
                 stop = taker.take(row, degenerate, comparable == [true; 2]);
+                if finds_places && taker.count() > before {
+                    places.take(&Split(sources, bodies), of_sources, row);
+                }
             }
             if stop.is_break() {
                 ControlFlow::Break(())

@@ -3,13 +3,14 @@
 //! A small file can hold a great many intersecting pairs: their number is up to the square of the number of triangles. Where only
 //! their number is asked for, none is kept; where they are listed, the list has a limit.
 
+use crate::places::Place;
 use std::ops::ControlFlow;
 
 /// Body, triangle, body, triangle; the smaller (body, triangle) first.
 pub type Row = [u32; 4];
 
 /// The pairs of a frame.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Found {
     /// The frame.
     pub frame: usize,
@@ -29,6 +30,8 @@ pub struct Found {
     pub degenerate: usize,
     /// Whether these are all; not if only the first was asked for.
     pub complete: bool,
+    /// The places of these pairs, most pairs first, if they were asked for and all pairs were.
+    pub places: Option<Vec<Place>>,
 }
 
 /// Why a search stopped.
@@ -75,6 +78,7 @@ impl<'a> Taker<'a> {
             left_out: baseline.map(|_| 0),
             degenerate: 0,
             complete: !first,
+            places: None,
         };
         Self {
             found,
@@ -129,6 +133,11 @@ impl<'a> Taker<'a> {
         // What else is left out is not known.
         found.left_out = None;
         ControlFlow::Break(Stop::First)
+    }
+
+    /// How many pairs it has taken.
+    pub(crate) fn count(&self) -> usize {
+        self.found.count
     }
 
     /// The frame whose pairs it takes.

@@ -42,6 +42,7 @@
 //! | `bodies.rs`, `pieces.rs` | what an answer calls a body; pieces of a mesh |
 //! | `filter.rs` | names and groups; who may meet whom |
 //! | `found.rs`, `remarks.rs` | the pairs of one frame; what is to be said of them |
+//! | `places.rs`, `lives.rs` | hits that hang together, the same from frame to frame; their lives |
 //! | `baseline.rs` | the pairs of an earlier check, which are left out |
 //! | `one_point.rs` | what cannot be checked for the number of pairs |
 //! | `error.rs` | one type, one line |
@@ -53,9 +54,11 @@ mod check;
 mod error;
 mod filter;
 mod found;
+mod lives;
 mod one_point;
 mod opened;
 mod pieces;
+mod places;
 mod remarks;
 mod sequence;
 mod settings;
@@ -65,5 +68,7 @@ pub use bodies::BodyFacts;
 pub use check::Check;
 pub use error::Error;
 pub use found::{Found, Row};
+pub use lives::{Life, Lives};
+pub use places::{BodyThere, Meshes, Place, Places};
 pub use remarks::AtSeams;
 pub use settings::{Baseline, Frames, Group, Settings, Split};

@@ -95,7 +95,7 @@ impl Pieces {
     }
 }
 
-fn find(leader: &mut [u32], mut vertex: u32) -> u32 {
+pub(crate) fn find(leader: &mut [u32], mut vertex: u32) -> u32 {
     while leader[vertex as usize] != vertex {
         let above = leader[leader[vertex as usize] as usize];
         leader[vertex as usize] = above;
@@ -104,7 +104,7 @@ fn find(leader: &mut [u32], mut vertex: u32) -> u32 {
     vertex
 }
 
-fn join(leader: &mut [u32], a: u32, b: u32) {
+pub(crate) fn join(leader: &mut [u32], a: u32, b: u32) {
     let (a, b) = (find(leader, a), find(leader, b));
     leader[a.max(b) as usize] = a.min(b);
 }

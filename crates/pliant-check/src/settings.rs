@@ -30,6 +30,9 @@ pub struct Settings {
     pub baseline: Option<Baseline>,
     /// Pairs with a triangle that has no area are left out.
     pub skip_degenerate: bool,
+    /// The pairs of a frame are joined into places, which have the same numbers from frame to frame: [`Found::places`](crate::Found).
+    /// Not in frames of which only the first pair is asked for; such a frame is as if it had been passed over.
+    pub places: bool,
     /// Which frames are checked; all if `None`. Others are passed over, and not read where the format allows it.
     pub frames: Option<Frames>,
     /// How the world works. No choice changes an answer.
@@ -89,6 +92,7 @@ impl Default for Settings {
             ignore: Vec::new(),
             baseline: None,
             skip_degenerate: false,
+            places: false,
             frames: None,
             options: Options::default(),
         }

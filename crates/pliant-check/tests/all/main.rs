@@ -6,4 +6,5 @@ mod changing;
 mod formats;
 mod groups;
 mod messages;
+mod places;
 mod settings;

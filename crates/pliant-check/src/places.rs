@@ -1,0 +1,293 @@
+//! Places: hits that hang together, and which of them are the same from frame to frame.
+//!
+//! Two triangles of a mesh are *neighbours* if they share a vertex of it as it is checked, after welding, whatever bodies they are of.
+//! Two pairs are of one place if a triangle of the one and a triangle of the other, of the same source, are equal or neighbours; and
+//! so on from pair to pair. A place is then a set of vertices, those of its triangles, no two places of a frame share one, and a place
+//! shares a triangle or a neighbour with one of another frame exactly if it shares a vertex with it. So pairs are joined by union-find
+//! over vertices, as they are found and in any order: three vertices of a triangle that is new, and one step a pair. It takes four
+//! bytes a vertex and a bit a triangle of sources that are hit, and about 60 bytes a vertex that is.
+//!
+//! **Numbers.** Places of a frame are ordered by their pairs, most first; of equally many, the one with the smaller first pair. In this
+//! order each takes the lowest number, not yet taken in this frame, of the places that it shares a vertex with in the frame before. So
+//! where places merge the lowest number goes on, and where one splits its largest part keeps the number. What finds none gets a new one,
+//! new places in the order of their first pairs. A number that is not taken is never used again. The frame before is the one
+//! looked at before, however many were passed over. A source whose mesh has changed since has no vertex in common with what it
+//! was: places go on through sources that kept theirs only.
+
+use crate::found::Row;
+use crate::pieces::{NONE, find, join};
+use std::cmp::Reverse;
+use std::collections::BTreeSet;
+
+/// Hits that hang together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The same from frame to frame while the place lives; from 0.
+    pub number: usize,
+    /// How many pairs.
+    pub count: usize,
+    /// The smallest of them.
+    pub first_pair: Row,
+    /// Whose triangles intersect here, ascending.
+    pub bodies: Vec<BodyThere>,
+    /// The smallest coordinates of these triangles.
+    pub lower: [f64; 3],
+    /// The largest.
+    pub upper: [f64; 3],
+}
+
+/// The triangles of a body in a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BodyThere {
+    /// The body.
+    pub body: u32,
+    /// How many of its triangles intersect there.
+    pub triangles: usize,
+    /// The lowest of them.
+    pub first_triangle: u32,
+}
+
+impl Place {
+    /// The longest side of its box.
+    pub fn size(&self) -> f64 {
+        let side = |axis: usize| self.upper[axis] - self.lower[axis];
+        side(0).max(side(1)).max(side(2))
+    }
+
+    /// The middle of its box.
+    pub fn centre(&self) -> [f64; 3] {
+        std::array::from_fn(|axis| f64::midpoint(self.lower[axis], self.upper[axis]))
+    }
+}
+
+/// Where triangles are. Sources and their triangles are numbered as in pairs.
+pub trait Meshes {
+    /// How many vertices a source has, and how many triangles.
+    fn sizes(&self, source: u32) -> [usize; 2];
+    /// The vertices of a triangle.
+    fn corners(&self, source: u32, triangle: u32) -> [u32; 3];
+    /// Where a vertex is.
+    fn position(&self, source: u32, vertex: u32) -> [f64; 3];
+    /// What a triangle is a part of in answers: the source, where that is not split.
+    fn body(&self, source: u32, _triangle: u32) -> u32 {
+        source
+    }
+}
+
+/// Finds places, frame by frame.
+#[derive(Debug, Default)]
+pub struct Places {
+    sources: Vec<Marks>,
+    /// Of each vertex that is hit in this frame, by slot.
+    vertices: Vec<[u32; 2]>,
+    leaders: Vec<u32>,
+    /// The pairs whose first triangle has this slot for its first corner: how many, and the smallest.
+    pairs: Vec<(u32, Row)>,
+    /// Source and triangle.
+    triangles: Vec<[u32; 2]>,
+    /// Source and vertex of the places of the frame before, and their number.
+    before: Vec<([u32; 2], usize)>,
+    next: usize,
+}
+
+/// What is marked of a source while a frame is looked at.
+#[derive(Debug, Default)]
+struct Marks {
+    /// For each vertex its slot, or none.
+    slots: Vec<u32>,
+    /// A bit a triangle: whether it was seen.
+    seen: Vec<u64>,
+}
+
+impl Places {
+    /// Nothing found yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Begins a frame, or begins it again: pairs since the last [`end`](Self::end) are forgotten.
+    pub fn begin(&mut self) {
+        for [source, vertex] in self.vertices.drain(..) {
+            self.sources[source as usize].slots[vertex as usize] = NONE;
+        }
+        for [source, triangle] in self.triangles.drain(..) {
+            self.sources[source as usize].seen[triangle as usize / 64] = 0;
+        }
+        self.leaders.clear();
+        self.pairs.clear();
+    }
+
+    /// Takes a pair of triangles of sources, and what it is in answers. Each pair of a frame is to be taken once; a triangle, or a
+    /// vertex, that the meshes have not is ignored.
+    pub fn take(&mut self, meshes: &impl Meshes, of_sources: Row, row: Row) {
+        let [source_a, a, source_b, b] = of_sources;
+        let (Some(of_a), Some(of_b)) = (
+            self.slot(meshes, source_a, a),
+            self.slot(meshes, source_b, b),
+        ) else {
+            return;
+        };
+        let (count, smallest) = &mut self.pairs[of_a as usize];
+        *count += 1;
+        *smallest = row.min(*smallest);
+        join(&mut self.leaders, of_a, of_b);
+    }
+
+    /// The slot of a triangle's first corner, joined with those of the others.
+    fn slot(&mut self, meshes: &impl Meshes, source: u32, triangle: u32) -> Option<u32> {
+        let place = source as usize;
+        if place >= self.sources.len() {
+            self.sources.resize_with(place + 1, Marks::default);
+        }
+        let marks = &mut self.sources[place];
+        let (word, bit) = (triangle as usize / 64, 1 << (triangle % 64));
+        if marks.seen.get(word).is_none_or(|word| word & bit == 0) {
+            let [vertices, triangles] = meshes.sizes(source);
+            if triangle as usize >= triangles {
+                return None;
+            }
+            let corners = meshes.corners(source, triangle);
+            if corners.iter().any(|&vertex| vertex as usize >= vertices) {
+                return None;
+            }
+            // Everything in them was taken back at the end of the frame before, whatever mesh that had.
+            if marks.seen.len() < triangles.div_ceil(64) {
+                marks.seen.resize(triangles.div_ceil(64), 0);
+            }
+            if marks.slots.len() < vertices {
+                marks.slots.resize(vertices, NONE);
+            }
+            marks.seen[word] |= bit;
+            self.triangles.push([source, triangle]);
+            for vertex in corners {
+                let slot = &mut marks.slots[vertex as usize];
+                if *slot == NONE {
+                    *slot = self.leaders.len() as u32;
+                    self.leaders.push(*slot);
+                    self.pairs.push((0, [NONE; 4]));
+                    self.vertices.push([source, vertex]);
+                }
+            }
+            let [a, b, c] = corners.map(|vertex| marks.slots[vertex as usize]);
+            join(&mut self.leaders, a, b);
+            join(&mut self.leaders, b, c);
+            return Some(a);
+        }
+        let [first, ..] = meshes.corners(source, triangle);
+        Some(marks.slots[first as usize])
+    }
+
+    /// The sources that have another mesh than in the frame before: what is known of their vertices is forgotten.
+    pub fn forget(&mut self, changed: &[usize]) {
+        if !changed.is_empty() {
+            self.before
+                .retain(|([source, _], _)| !changed.contains(&(*source as usize)));
+        }
+    }
+
+    /// The places of the pairs that were taken, most pairs first; of equally many, the smaller first pair first.
+    pub fn end(&mut self, meshes: &impl Meshes) -> Vec<Place> {
+        // The smallest of a set leads it, so that its place is there before any other slot of it comes.
+        let mut found: Vec<Place> = Vec::new();
+        let mut place_of = vec![0_u32; self.leaders.len()];
+        for slot in 0..self.leaders.len() {
+            let leader = find(&mut self.leaders, slot as u32) as usize;
+            if leader == slot {
+                place_of[slot] = found.len() as u32;
+                found.push(Place {
+                    number: usize::MAX,
+                    count: 0,
+                    first_pair: [NONE; 4],
+                    bodies: Vec::new(),
+                    lower: [f64::INFINITY; 3],
+                    upper: [f64::NEG_INFINITY; 3],
+                });
+            } else {
+                place_of[slot] = place_of[leader];
+            }
+            let place = &mut found[place_of[slot] as usize];
+            let (count, smallest) = self.pairs[slot];
+            place.count += count as usize;
+            place.first_pair = place.first_pair.min(smallest);
+            let [source, vertex] = self.vertices[slot];
+            let position = meshes.position(source, vertex);
+            for axis in 0..3 {
+                place.lower[axis] = place.lower[axis].min(position[axis]);
+                place.upper[axis] = place.upper[axis].max(position[axis]);
+            }
+        }
+        self.say_bodies(meshes, &place_of, &mut found);
+        let mut order: Vec<u32> = (0..found.len() as u32).collect();
+        order.sort_unstable_by_key(|&place| {
+            let place = &found[place as usize];
+            (Reverse(place.count), place.first_pair)
+        });
+        self.number(&place_of, &order, &mut found);
+        let vertices = self.vertices.iter().zip(&place_of);
+        self.before.clear();
+        self.before
+            .extend(vertices.map(|(&vertex, &place)| (vertex, found[place as usize].number)));
+        self.begin();
+        found.sort_unstable_by_key(|place| (Reverse(place.count), place.first_pair));
+        found
+    }
+
+    /// Whose triangles are where.
+    fn say_bodies(&self, meshes: &impl Meshes, place_of: &[u32], found: &mut [Place]) {
+        let mut there: Vec<[u32; 3]> = self
+            .triangles
+            .iter()
+            .map(|&[source, triangle]| {
+                let [first, ..] = meshes.corners(source, triangle);
+                let slot = self.sources[source as usize].slots[first as usize];
+                let body = meshes.body(source, triangle);
+                [place_of[slot as usize], body, triangle]
+            })
+            .collect();
+        there.sort_unstable();
+        for same in there.chunk_by(|one, other| one[..2] == other[..2]) {
+            let [place, body, first_triangle] = same[0];
+            found[place as usize].bodies.push(BodyThere {
+                body,
+                triangles: same.len(),
+                first_triangle,
+            });
+        }
+    }
+
+    /// Gives numbers to places, which are in `order`.
+    fn number(&mut self, place_of: &[u32], order: &[u32], found: &mut [Place]) {
+        let mut shared: Vec<(u32, usize)> = Vec::new();
+        for &([source, vertex], number) in &self.before {
+            let slots = self.sources.get(source as usize).map(|marks| &marks.slots);
+            let slot = slots.and_then(|slots| slots.get(vertex as usize));
+            if let Some(&slot) = slot.filter(|&&slot| slot != NONE) {
+                let place = place_of[slot as usize];
+                if shared.last() != Some(&(place, number)) {
+                    shared.push((place, number));
+                }
+            }
+        }
+        shared.sort_unstable();
+        shared.dedup();
+        let mut taken = BTreeSet::new();
+        for &place in order {
+            let from = shared.partition_point(|&(other, _)| other < place);
+            let own = shared[from..].iter().take_while(|&&(it, _)| it == place);
+            let mut numbers = own.map(|&(_, number)| number);
+            if let Some(number) = numbers.find(|number| !taken.contains(number)) {
+                taken.insert(number);
+                found[place as usize].number = number;
+            }
+        }
+        let mut new: Vec<&mut Place> = found
+            .iter_mut()
+            .filter(|place| place.number == usize::MAX)
+            .collect();
+        new.sort_unstable_by_key(|place| place.first_pair);
+        for place in new {
+            place.number = self.next;
+            self.next += 1;
+        }
+    }
+}

@@ -6,7 +6,9 @@ use crate::options::with_threads;
 use crate::signals::interruptible;
 use crate::usd::{self, Raised};
 use numpy::{IntoPyArray, PyArray1};
-use pliant_check::{Baseline, BodyFacts, Error, Found, Frames, Group, Settings, Split};
+use pliant_check::{
+    Baseline, BodyFacts, Error, Found, Frames, Group, Life, Place, Settings, Split,
+};
 use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
@@ -107,12 +109,14 @@ impl Name {
 ///   weld_tolerance  join boundary edges besides that are no further apart than this times the diagonal of their body, in frame 0
 ///   baseline  a frame, or a file that `pliant check --format json` wrote: the pairs that intersect in it are left out in all
 ///   skip_degenerate  leave out pairs with a triangle that has no area
+///   places    join the pairs of each frame into places, whose numbers are the same from frame to frame: Frame.places, and of all
+///             frames so far Check.places; not with first
 ///   frames    a range: only these frames; others are passed over, and not read where the format allows it
 ///   clip      the animation of glTF files, by name; the first if none is named
 ///   fps       frames a second at which animations of glTF files are evaluated
 ///   threads   how many share the work of a frame; no number changes an answer
 #[pyfunction]
-#[pyo3(signature = (*paths, itself=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, frames=None, clip=None, fps=30.0, threads=1))]
+#[pyo3(signature = (*paths, itself=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0, threads=1))]
 #[expect(
     clippy::too_many_arguments,
     clippy::fn_params_excessive_bools,
@@ -130,6 +134,7 @@ pub(crate) fn check(
     ignore: Option<Vec<(Name, Name)>>,
     baseline: Option<Known>,
     skip_degenerate: bool,
+    places: bool,
     frames: Option<&Bound<'_, PyRange>>,
     clip: Option<String>,
     fps: f64,
@@ -150,6 +155,7 @@ pub(crate) fn check(
         ignore: (ignore.into_iter().flatten().map(two)).collect::<Result<_, _>>()?,
         baseline: baseline.map(Known::understood).transpose()?,
         skip_degenerate,
+        places,
         frames: frames.map(range_of_frames).transpose()?,
         options: with_threads(threads)?,
         ..Settings::default()
@@ -248,8 +254,13 @@ impl Check {
             left_out,
             degenerate,
             complete,
+            places,
             ..
         } = found;
+        let places = places.map(|places| {
+            let places = places.into_iter().map(|it| place(py, &it));
+            PyTuple::new(py, places.collect::<PyResult<Vec<_>>>()?)
+        });
         let fields = PyDict::new(py);
         fields.set_item("frame", frame)?;
         fields.set_item("count", count)?;
@@ -258,7 +269,16 @@ impl Check {
         fields.set_item("degenerate", degenerate)?;
         fields.set_item("changed", changed)?;
         fields.set_item("pairs", arrays::rows_of(py, pairs)?)?;
+        fields.set_item("places", places.transpose()?)?;
         Ok(Some(named_tuple(py, "Frame", &fields)?))
+    }
+
+    /// The places of the frames so far, those with the most pairs in a frame first; of very many, a thousand.
+    #[getter]
+    fn places<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyTuple>, Refused> {
+        let (_, lives) = alone_with(py, &self.running, |running| Ok(running.places()))?;
+        let lives = lives.iter().map(|it| life(py, it));
+        Ok(PyTuple::new(py, lives.collect::<PyResult<Vec<_>>>()?)?)
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {
@@ -369,6 +389,36 @@ fn fact<'py>(
     fields.set_item("source", body.source)?;
     fields.set_item("first_triangle", body.first_triangle)?;
     named_tuple(py, "Body", &fields)
+}
+
+/// A place of a frame.
+fn place<'py>(py: Python<'py>, place: &Place) -> PyResult<Bound<'py, PyAny>> {
+    let bodies = place.bodies.iter().map(|it| {
+        let fields = PyDict::new(py);
+        fields.set_item("body", it.body)?;
+        fields.set_item("triangles", it.triangles)?;
+        fields.set_item("first_triangle", it.first_triangle)?;
+        named_tuple(py, "BodyThere", &fields)
+    });
+    let bodies = PyTuple::new(py, bodies.collect::<PyResult<Vec<_>>>()?)?;
+    let fields = PyDict::new(py);
+    fields.set_item("number", place.number)?;
+    fields.set_item("count", place.count)?;
+    fields.set_item("first_pair", <(u32, u32, u32, u32)>::from(place.first_pair))?;
+    fields.set_item("bodies", bodies)?;
+    fields.set_item("lower", <(f64, f64, f64)>::from(place.lower))?;
+    fields.set_item("upper", <(f64, f64, f64)>::from(place.upper))?;
+    named_tuple(py, "Place", &fields)
+}
+
+/// A place, from its first frame to its last.
+fn life<'py>(py: Python<'py>, life: &Life) -> PyResult<Bound<'py, PyAny>> {
+    let fields = PyDict::new(py);
+    fields.set_item("first_frame", life.first_frame)?;
+    fields.set_item("last_frame", life.last_frame)?;
+    fields.set_item("worst_frame", life.worst_frame)?;
+    fields.set_item("worst", place(py, &life.worst)?)?;
+    named_tuple(py, "Life", &fields)
 }
 
 impl From<Error> for Refused {

@@ -78,6 +78,29 @@ def test_several_bodies_and_only_the_first_pair(folder: Path) -> None:
             assert all(pair in pairs for pair in frame.pairs.tolist())
 
 
+def test_places(folder: Path) -> None:
+    paths = (folder / "cloth.npz", folder / "still.obj")
+    assert all(frame.places is None for frame in pliant.check(*paths, itself=True))
+    checked = pliant.check(*paths, itself=True, places=True)
+    assert checked.places == ()
+    lives: dict[int, list[int]] = {}
+    for frame in checked:
+        assert frame.places is not None
+        assert sum(place.count for place in frame.places) == frame.count
+        counts = [place.count for place in frame.places]
+        assert counts == sorted(counts, reverse=True)
+        for place in frame.places:
+            lives.setdefault(place.number, []).append(frame.frame)
+            assert list(place.first_pair) in frame.pairs.tolist()
+            assert all(low <= high for low, high in zip(place.lower, place.upper))
+            assert {place.first_pair[0], place.first_pair[2]} <= {there.body for there in place.bodies}
+    assert lives
+    said = {life.worst.number: (life.first_frame, life.last_frame) for life in checked.places}
+    assert said == {number: (frames[0], frames[-1]) for number, frames in lives.items()}
+    (first, *_) = pliant.check(*paths, itself=True, places=True, first=True)
+    assert first.places is None
+
+
 @pytest.mark.parametrize("frames", [range(0), range(2), range(2, 5), range(1, 6, 2), range(5, 6), range(0, 6, 5)])
 def test_ranges_of_frames(folder: Path, frames: range) -> None:
     paths = (folder / "cloth.npz", folder / "still.obj")

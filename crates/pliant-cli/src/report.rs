@@ -29,6 +29,13 @@ pub(crate) struct PictureOptions {
     pub(crate) over: Overwrite,
 }
 
+impl PictureOptions {
+    /// Whether anything is to be drawn.
+    pub(crate) fn any(&self) -> bool {
+        self.report.is_some() || self.png.is_some()
+    }
+}
+
 /// The number of a frame.
 pub(crate) fn frame<N: FromStr>(text: &str) -> Result<N, String> {
     text.parse()

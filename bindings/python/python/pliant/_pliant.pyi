@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Generic, Literal, SupportsIndex, TypeAlias, Ty
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._types import Body, EdgeEdge, Frame, Mesh, OpenMesh, Pair, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._types import Body, EdgeEdge, Frame, Life, Mesh, OpenMesh, Pair, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Check",
@@ -130,6 +130,8 @@ class Check:
     def bodies(self) -> tuple[Body, ...]: ...
     @property
     def frame_count(self) -> int: ...
+    @property
+    def places(self) -> tuple[Life, ...]: ...
     def __iter__(self) -> Check: ...
     def __next__(self) -> Frame: ...
 
@@ -144,6 +146,7 @@ def check(
     ignore: Sequence[tuple[_Name, _Name]] | None = None,
     baseline: int | str | PathLike[str] | None = None,
     skip_degenerate: bool = False,
+    places: bool = False,
     frames: range | None = None,
     clip: str | None = None,
     fps: float = 30.0,

@@ -151,6 +151,49 @@ class Body:
     """Its lowest triangle, as numbered in the file."""
 
 
+@dataclass(frozen=True)
+class BodyThere:
+    """The triangles of a body in a place."""
+
+    body: int
+    """Its number."""
+    triangles: int
+    """How many of its triangles intersect there."""
+    first_triangle: int
+    """The lowest of them."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Pairs that hang together through triangles that are equal or share a vertex."""
+
+    number: int
+    """The same from frame to frame while the place lives, counted from 0."""
+    count: int
+    """How many pairs."""
+    first_pair: tuple[int, int, int, int]
+    """The smallest of them: body, triangle, body, triangle."""
+    bodies: tuple[BodyThere, ...]
+    """Whose triangles intersect there."""
+    lower: tuple[float, float, float]
+    """The smallest coordinates of these triangles."""
+    upper: tuple[float, float, float]
+    """The largest."""
+
+
+@dataclass(frozen=True)
+class Life:
+    """A place, from its first frame to its last."""
+
+    first_frame: int
+    last_frame: int
+    """The last so far."""
+    worst_frame: int
+    """The first frame in which it has the most pairs."""
+    worst: Place
+    """What it is there."""
+
+
 @dataclass(frozen=True, eq=False)
 class Frame:
     """A frame that was checked."""
@@ -171,6 +214,8 @@ class Frame:
     changed: dict[int, Body]
     """The bodies that have another mesh than in the frame before, or, of the first, than said in bodies: what is known of them now. Pairs
     number triangles as in the mesh of their frame."""
+    places: tuple[Place, ...] | None
+    """What the pairs join into, most pairs first; None where places were not asked for, and with first."""
 
 
 class Mesh(Protocol):
@@ -191,5 +236,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, VertexTriangle, EdgeEdge, TreeBoxes, TreeShape, Statistics, Body, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, VertexTriangle, EdgeEdge, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

@@ -161,7 +161,7 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     );
     let checked = checked.and_then(|()| hits.map_or(Ok(()), Hits::end));
     let drawn = pictures.end(arguments, &check, &checked);
-    let outcome = output.end(checked)?;
+    let outcome = output.end(&check, checked)?;
     drawn?;
     if !arguments.quiet {
         at_seams(&check);
@@ -190,10 +190,17 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         ignore: arguments.ignore.clone(),
         baseline: arguments.baseline.clone(),
         skip_degenerate: arguments.skip_degenerate,
+        places: finds_places(arguments),
         options,
         ..Settings::default()
     };
     Check::open(&arguments.bodies, &reading, &settings)
+}
+
+/// Whether anything shows places.
+fn finds_places(arguments: &Arguments) -> bool {
+    let printed = !arguments.quiet && !arguments.count && arguments.format != Format::Lines;
+    printed || arguments.pictures.any()
 }
 
 fn frames(

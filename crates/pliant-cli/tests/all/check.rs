@@ -54,7 +54,7 @@ fn one_when_something_intersects() {
     let bodies = json!([{"name": "a.obj", "vertices": 6, "triangles": 2}]);
     let frames = json!([{"frame": 0, "count": 1, "pairs": [[0, 0, 0, 1]]}]);
     assert_eq!(
-        itself.json(),
+        itself.json_without_places(),
         json!({"format": 1, "bodies": bodies, "frames": frames})
     );
 
@@ -133,8 +133,13 @@ fn the_table_separates_thousands_in_counts_and_not_in_numbers_of_triangles() {
         lines[4],
         "       0     1,225  triangle 1000 of body 0, triangle 1001 of body 0"
     );
+    assert_eq!(lines[6], "1 place:");
     assert_eq!(
-        lines[6],
+        lines[7],
+        "  place 0: 1,225 pairs; 148 across, round (74, 49.5, 0); 50 triangles from 1000 on"
+    );
+    assert_eq!(
+        lines[9],
         "1 of 1 frames intersect; most pairs: 1,225 in frame 0"
     );
 }
@@ -267,10 +272,16 @@ fn two_when_a_late_frame_cannot_be_checked_even_after_hits() {
     );
     let table = check(folder.path(), &["s_*.obj"]);
     table.assert_refused(&["s_2.obj"]);
+    assert!(
+        table.out.contains("place 0: 1 pair in frame 0; "),
+        "{}",
+        table.out
+    );
     assert_eq!(
         table
             .out
             .lines()
+            .take_while(|line| *line != "1 place:")
             .filter(|line| line.trim_start().starts_with(['0', '1']))
             .count(),
         2,

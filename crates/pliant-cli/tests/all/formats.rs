@@ -20,7 +20,7 @@ fn folder(name: &str) -> TempDir {
 }
 
 #[test]
-fn github_shows_the_first_frames_on_their_files() {
+fn github_shows_places_on_the_files_of_their_frames() {
     let folder = folder("m,100%:_");
     let said = check(
         folder.path(),
@@ -28,11 +28,32 @@ fn github_shows_the_first_frames_on_their_files() {
     );
     assert_eq!((said.code, said.err.as_str()), (1, ""));
     let lines: Vec<_> = said.out.lines().collect();
-    // Commas, colons and per cents would end the name, or begin an escape.
+    // Commas, colons and per cents would end the name, or begin an escape. The same place after a frame without it is another.
+    let first = "triangle 0 of m*.obj and triangle 0 of sheet.obj";
+    assert_eq!(
+        lines,
+        [
+            &*format!(
+                "::error file=m%2C100%25%3A_0.obj,title=pliant::place 0: frames 0 to 1, 1 pair at most, in frame 0; the first: {first}"
+            ),
+            &*format!(
+                "::error file=m%2C100%25%3A_3.obj,title=pliant::place 1: frames 3 to 14, 1 pair at most, in frame 3; the first: {first}"
+            ),
+            "pliant: 14 of 15 frames intersect; most pairs: 1 in frame 0; 2 places",
+        ]
+    );
+
+    // Where places are not found, the first frames.
+    let count = check(
+        folder.path(),
+        &["m*.obj", "sheet.obj", "--format", "github", "--count"],
+    );
+    let lines: Vec<_> = count.out.lines().collect();
     assert_eq!(
         lines[0],
-        "::error file=m%2C100%25%3A_0.obj,title=pliant::frame 0: 1 pair of triangles intersects; \
-         the first: triangle 0 of m*.obj and triangle 0 of sheet.obj"
+        format!(
+            "::error file=m%2C100%25%3A_0.obj,title=pliant::frame 0: 1 pair of triangles intersects; the first: {first}"
+        )
     );
     assert!(
         lines[2].contains("_3.obj,") && lines[2].contains("::frame 3: "),
@@ -73,7 +94,7 @@ fn github_says_why_it_could_not_be_checked() {
     fs::write(folder.path().join("m4.obj"), "no mesh\n").unwrap();
     fs::write(folder.path().join("bad.obj"), "v 0 0 100%\n").unwrap();
     let advice = "; mend it, or export it again";
-    for (body, errors, words) in [("m*.obj", 4, "m4.obj"), ("bad.obj", 1, "bad.obj, line 1")] {
+    for (body, errors, words) in [("m*.obj", 3, "m4.obj"), ("bad.obj", 1, "bad.obj, line 1")] {
         let said = check(folder.path(), &[body, "sheet.obj", "--format", "github"]);
         said.assert_refused(&[words, advice]);
         let lines: Vec<_> = said.out.lines().collect();
@@ -86,6 +107,68 @@ fn github_says_why_it_could_not_be_checked() {
             "{last}"
         );
         assert!(!last.contains("% "), "{last}");
+    }
+}
+
+/// Thirty needles through a sheet of their own each, the third pierced twice; in three frames, in the second of which they are away.
+#[test]
+fn places_of_table_json_and_annotations_are_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    for frame in 0..3 {
+        let mut text = String::new();
+        for (place, twice) in (0..30).map(|place| (place, place == 2)) {
+            let low = if frame == 1 { 5 } else { -1 };
+            let x = 20 * place;
+            writeln!(text, "v {x} -1 0\nv {} -1 0\nv {x} 9 0\nf -3 -2 -1", x + 9).unwrap();
+            for needle in 0..=i32::from(twice) {
+                let x = x + 1 + 2 * needle;
+                writeln!(text, "v {x} 0 {low}\nv {x} 0 7\nv {x} 2 7\nf -3 -2 -1").unwrap();
+            }
+        }
+        fs::write(folder.path().join(format!("m{frame}.obj")), text).unwrap();
+    }
+    let said = |format| check(folder.path(), &["m*.obj", "--format", format]);
+    let json = said("json").json();
+    let places = json["places"].as_array().unwrap();
+    assert_eq!((places.len(), json.get("places_left_out")), (60, None));
+    let first = serde_json::json!({
+        "number": 2, "frames": [0, 0], "most_pairs": 2, "most_in": 0, "box": [[40.0, -1.0, -1.0], [49.0, 9.0, 7.0]],
+        "first_pair": [0, 4, 0, 5], "bodies": [{"body": 0, "triangles": 3, "first_triangle": 4}]
+    });
+    assert_eq!(places[0], first);
+    assert_eq!(places[1]["number"], 32);
+    let frame = &json["frames"][0]["places"];
+    assert_eq!(frame[0]["count"], 2);
+    assert_eq!(frame[0]["first_pair"], first["first_pair"]);
+    assert_eq!(frame.as_array().unwrap().len(), 30);
+    assert_eq!(json["frames"][1]["places"], serde_json::json!([]));
+
+    let table = said("table").out;
+    assert!(
+        table.contains(
+            "\n60 places, most pairs first:\n  place 2: 2 pairs in frame 0; 10 across, round (44.5, 4, 3); 3 triangles from 4 on\n"
+        ),
+        "{table}"
+    );
+    let lines = table.lines().filter(|line| line.starts_with("  place "));
+    assert_eq!(lines.count(), 20);
+    assert!(table.contains("\n  and 40 more\n"), "{table}");
+
+    let github = said("github").out;
+    let lines: Vec<_> = github.lines().collect();
+    assert_eq!(lines.len(), 11);
+    assert!(
+        lines[10].ends_with("; 60 places, the 10 with the most pairs are annotated"),
+        "{github}"
+    );
+    assert!(lines[1].contains("file=m2.obj,title=pliant::place 32: 2 pairs in frame 2; "));
+
+    // Of a first pair, and of numbers alone, nothing is said.
+    for less in ["--first", "--count"] {
+        for format in ["json", "table"] {
+            let said = check(folder.path(), &["m*.obj", "--format", format, less]);
+            assert!(!said.out.contains("place"), "{}", said.out);
+        }
     }
 }
 

@@ -1,9 +1,10 @@
 //! Annotations for GitHub Actions: the runner reads `::error file=...::message` from standard output.
 //!
-//! One for each of the first frames that intersect, on the file of the frame; then a summary. The runner shows ten errors of a
-//! step, so no more are printed.
+//! One for each of the places with the most pairs, on the file of the frame in which it has them; then a summary. Where places are not
+//! found, with `--first` or `--count`, one for each of the first frames that intersect. The runner shows ten errors of a step, so no
+//! more are printed.
 
-use super::{Form, Tally, counted};
+use super::{Form, Tally, counted, places};
 use crate::advice;
 use crate::table::grouped;
 use pliant_check::{Check, Found, Row};
@@ -24,20 +25,13 @@ impl Form for Github {
     }
 
     fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()> {
-        let Some([body_a, a, body_b, b]) = found.smallest else {
+        let Some(smallest) = found.smallest.filter(|_| found.places.is_none()) else {
             return Ok(());
         };
         if self.annotated == MOST_ANNOTATIONS {
             return Ok(());
         }
         self.annotated += 1;
-        let file = file_of(check, found.frame, [body_a, a, body_b, b]);
-        let file = file.map_or_else(String::new, |file| format!("file={},", property(&file)));
-        let name = |body| {
-            check
-                .body(body)
-                .map_or_else(String::new, |body| shown(body.name))
-        };
         let pairs = if found.complete {
             counted((
                 found.count,
@@ -52,29 +46,71 @@ impl Form for Github {
             _ => String::new(),
         };
         let message = format!(
-            "frame {}: {pairs}{left_out}; the first: triangle {a} of {} and triangle {b} of {}",
+            "frame {}: {pairs}{left_out}; {}",
             found.frame,
-            name(body_a),
-            name(body_b)
+            first_pair(check, smallest)
         );
-        writeln!(out, "::error {file}title=pliant::{}", data(&message))
+        annotation(out, check, found.frame, smallest, &message)
     }
 
     fn end(
         &mut self,
         out: &mut dyn Write,
+        check: &Check,
         tally: &Tally,
         error: Option<&anyhow::Error>,
     ) -> io::Result<()> {
+        let (count, lives) = check.places();
+        // What stopped the check is one of those that are shown.
+        let room = MOST_ANNOTATIONS - usize::from(error.is_some());
+        for life in lives.iter().take(room) {
+            let pair = life.worst.first_pair;
+            let (lived, first) = (places::lived(check, life), first_pair(check, pair));
+            annotation(
+                out,
+                check,
+                life.worst_frame,
+                pair,
+                &format!("{lived}; {first}"),
+            )?;
+        }
         if let Some(error) = error {
             return out.write_all(failure(error).as_bytes());
         }
         write!(out, "pliant: {}", tally.summary())?;
-        if tally.intersecting > MOST_ANNOTATIONS {
+        if count > 0 {
+            write!(out, "; {}", counted((count, "place", "places")))?;
+        }
+        if count > MOST_ANNOTATIONS {
+            write!(
+                out,
+                ", the {MOST_ANNOTATIONS} with the most pairs are annotated"
+            )?;
+        } else if count == 0 && tally.intersecting > MOST_ANNOTATIONS {
             write!(out, "; the first {MOST_ANNOTATIONS} are annotated")?;
         }
         writeln!(out)
     }
+}
+
+fn annotation(
+    out: &mut dyn Write,
+    check: &Check,
+    frame: usize,
+    pair: Row,
+    message: &str,
+) -> io::Result<()> {
+    let file = file_of(check, frame, pair);
+    let file = file.map_or_else(String::new, |file| format!("file={},", property(&file)));
+    writeln!(out, "::error {file}title=pliant::{}", data(message))
+}
+
+fn first_pair(check: &Check, [body_a, a, body_b, b]: Row) -> String {
+    let [one, other] = [body_a, body_b].map(|body| {
+        let body = check.body(body);
+        body.map_or_else(String::new, |body| shown(body.name))
+    });
+    format!("the first: triangle {a} of {one} and triangle {b} of {other}")
 }
 
 /// That the check could not begin, or go on.

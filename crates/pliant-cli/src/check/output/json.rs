@@ -20,12 +20,19 @@
 //! Where the mesh of a body is another one than in the frame before, the frame has `changed`: for each such body its number as `body`,
 //! and what `bodies` says of the others; triangles are numbered as in that mesh until it changes again.
 //!
+//! `places` of a frame joins its pairs: those of one place hang together through neighbouring triangles. Most pairs first, each with its
+//! `number`, the same from frame to frame while the place lives, how many pairs (`count`), the smallest and largest coordinates of its
+//! triangles (`box`), its `first_pair`, and its `bodies`: the number of each, how many triangles of it and the lowest. Behind the frames
+//! `places` has them all: the first and the last of its `frames`, its `most_pairs` and the frame `most_in`; then the rest is what it is
+//! in that frame. Of more than a thousand those with the most pairs are there, and `places_left_out` says how many are not. With
+//! `--count` and `--first` there are none.
+//!
 //! `degenerate` says how many pairs have a triangle without area, where there are any: of those counted, or with
 //! `"skip_degenerate": true` of those that were left out for it.
 
 use super::{Form, Tally};
 use crate::check::{Arguments, Names, Split};
-use pliant_check::{Baseline, Check, Found, Group};
+use pliant_check::{Baseline, Check, Found, Group, Life, Place};
 use pliant_io::Body as Source;
 use serde::Serialize;
 use serde_json::json;
@@ -39,6 +46,7 @@ pub(super) struct Json {
     baseline: Option<Baseline>,
     skip_degenerate: bool,
     has_frames: bool,
+    lists_places: bool,
 }
 
 #[derive(Serialize)]
@@ -100,6 +108,79 @@ struct FrameEntry<'a> {
     degenerate: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     pairs: Option<&'a [[u32; 4]]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    places: Option<Vec<PlaceEntry>>,
+}
+
+#[derive(Serialize)]
+struct PlaceEntry {
+    number: usize,
+    count: usize,
+    #[serde(flatten)]
+    lies: Lies,
+}
+
+#[derive(Serialize)]
+struct LifeEntry {
+    number: usize,
+    frames: [usize; 2],
+    most_pairs: usize,
+    most_in: usize,
+    #[serde(flatten)]
+    lies: Lies,
+}
+
+/// Where a place is in a frame.
+#[derive(Serialize)]
+struct Lies {
+    #[serde(rename = "box")]
+    around: [[f64; 3]; 2],
+    first_pair: [u32; 4],
+    bodies: Vec<BodyEntry>,
+}
+
+#[derive(Serialize)]
+struct BodyEntry {
+    body: u32,
+    triangles: usize,
+    first_triangle: u32,
+}
+
+impl Lies {
+    fn of(place: &Place) -> Self {
+        let bodies = place.bodies.iter().map(|it| BodyEntry {
+            body: it.body,
+            triangles: it.triangles,
+            first_triangle: it.first_triangle,
+        });
+        Self {
+            around: [place.lower, place.upper],
+            first_pair: place.first_pair,
+            bodies: bodies.collect(),
+        }
+    }
+}
+
+impl PlaceEntry {
+    fn of(place: &Place) -> Self {
+        Self {
+            number: place.number,
+            count: place.count,
+            lies: Lies::of(place),
+        }
+    }
+}
+
+impl LifeEntry {
+    fn of(life: &Life) -> Self {
+        Self {
+            number: life.worst.number,
+            frames: [life.first_frame, life.last_frame],
+            most_pairs: life.worst.count,
+            most_in: life.worst_frame,
+            lies: Lies::of(&life.worst),
+        }
+    }
 }
 
 #[expect(
@@ -120,6 +201,7 @@ impl Json {
             baseline: arguments.baseline.clone(),
             skip_degenerate: arguments.skip_degenerate,
             has_frames: false,
+            lists_places: !arguments.count && !arguments.first,
         }
     }
 }
@@ -185,6 +267,7 @@ impl Form for Json {
             let mesh = MeshEntry::of(source);
             Some(ChangedEntry { body, mesh })
         });
+        let places = found.places.as_ref().filter(|_| !self.count_only);
         let entry = FrameEntry {
             frame: found.frame,
             changed: changed.collect(),
@@ -193,6 +276,7 @@ impl Form for Json {
             left_out: found.left_out,
             degenerate: found.degenerate,
             pairs: (!self.count_only).then_some(&found.pairs),
+            places: places.map(|places| places.iter().map(PlaceEntry::of).collect()),
         };
         let separator = if self.has_frames { "," } else { "" };
         self.has_frames = true;
@@ -203,14 +287,25 @@ impl Form for Json {
     fn end(
         &mut self,
         out: &mut dyn Write,
+        check: &Check,
         _: &Tally,
         error: Option<&anyhow::Error>,
     ) -> io::Result<()> {
+        write!(out, "\n]")?;
+        if self.lists_places {
+            let (count, lives) = check.places();
+            let entries: Vec<_> = lives.iter().map(LifeEntry::of).collect();
+            write!(out, ",\"places\":")?;
+            serde_json::to_writer(&mut *out, &entries)?;
+            if count > lives.len() {
+                write!(out, ",\"places_left_out\":{}", count - lives.len())?;
+            }
+        }
         match error {
-            None => writeln!(out, "\n]}}"),
+            None => writeln!(out, "}}"),
             Some(error) => {
                 let error = json!(format!("{error:#}"));
-                writeln!(out, "\n],\"error\":{error}}}")
+                writeln!(out, ",\"error\":{error}}}")
             }
         }
     }

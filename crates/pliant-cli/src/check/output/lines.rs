@@ -33,7 +33,13 @@ impl Form for Lines {
         })
     }
 
-    fn end(&mut self, _: &mut dyn Write, _: &Tally, _: Option<&anyhow::Error>) -> io::Result<()> {
+    fn end(
+        &mut self,
+        _: &mut dyn Write,
+        _: &Check,
+        _: &Tally,
+        _: Option<&anyhow::Error>,
+    ) -> io::Result<()> {
         Ok(())
     }
 }

@@ -4,6 +4,7 @@ mod files;
 mod github;
 mod json;
 mod lines;
+mod places;
 mod table;
 
 use super::{Arguments, Format};
@@ -34,6 +35,7 @@ trait Form {
     fn end(
         &mut self,
         out: &mut dyn Write,
+        check: &Check,
         tally: &Tally,
         error: Option<&anyhow::Error>,
     ) -> io::Result<()>;
@@ -100,10 +102,14 @@ impl Output {
     }
 
     /// Prints the end, of a check that was completed or of one that could not be.
-    pub(super) fn end(mut self, checked: anyhow::Result<()>) -> anyhow::Result<Outcome> {
+    pub(super) fn end(
+        mut self,
+        check: &Check,
+        checked: anyhow::Result<()>,
+    ) -> anyhow::Result<Outcome> {
         let error = checked.as_ref().err();
         let printed = self.print(|form, out, tally| {
-            form.end(out, tally, error)?;
+            form.end(out, check, tally, error)?;
             out.flush()
         });
         // If both went wrong, what stopped the check comes first.

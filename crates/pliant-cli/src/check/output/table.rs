@@ -1,7 +1,7 @@
 //! A table for people.
 
 use super::files::Files;
-use super::{Form, Tally, counted};
+use super::{Form, Tally, counted, places};
 use crate::check::{Arguments, Names};
 use crate::table::grouped;
 use pliant_check::{Baseline, BodyFacts, Check, Found};
@@ -10,6 +10,9 @@ use std::io::{self, Write};
 
 /// A file in more pieces, or groups, than this is one line of the head.
 const MOST_PIECES: usize = 20;
+
+/// So many places have a line.
+const MOST_PLACES: usize = 20;
 
 pub(super) struct Table {
     count_only: bool,
@@ -152,9 +155,13 @@ impl Form for Table {
     fn end(
         &mut self,
         out: &mut dyn Write,
+        check: &Check,
         tally: &Tally,
         error: Option<&anyhow::Error>,
     ) -> io::Result<()> {
+        if !self.count_only {
+            list_places(out, check)?;
+        }
         match error {
             None => {
                 writeln!(out, "\n{}", tally.summary())?;
@@ -175,6 +182,24 @@ impl Form for Table {
             Some(_) => Ok(()),
         }
     }
+}
+
+/// A line a place, most pairs first.
+fn list_places(out: &mut dyn Write, check: &Check) -> io::Result<()> {
+    let (count, lives) = check.places();
+    if count == 0 {
+        return Ok(());
+    }
+    let many = counted((count, "place", "places, most pairs first"));
+    writeln!(out, "\n{many}:")?;
+    for life in lives.iter().take(MOST_PLACES) {
+        let (lived, lies) = (places::lived(check, life), places::lies(check, &life.worst));
+        writeln!(out, "  {lived}; {lies}")?;
+    }
+    if count > MOST_PLACES {
+        writeln!(out, "  and {} more", grouped((count - MOST_PLACES) as u64))?;
+    }
+    Ok(())
 }
 
 fn sizes(vertices: usize, triangles: usize) -> [String; 2] {

@@ -24,6 +24,18 @@ impl Said {
             .unwrap_or_else(|error| panic!("{error}: {}{}", self.out, self.err))
     }
 
+    /// The same without the places, which have tests of their own.
+    pub(crate) fn json_without_places(&self) -> Value {
+        let mut json = self.json();
+        let members = json.as_object_mut().unwrap();
+        let has_places = members.remove("places").is_some();
+        for frame in members["frames"].as_array_mut().unwrap() {
+            let places = frame.as_object_mut().unwrap().remove("places");
+            assert_eq!(places.is_some(), has_places, "{}", self.out);
+        }
+        json
+    }
+
     /// The number of pairs in each frame.
     pub(crate) fn counts(&self) -> Vec<u64> {
         let json = self.json();

@@ -1,0 +1,85 @@
+//! Places, in words: a line each, for the table and for annotations.
+
+use super::counted;
+use pliant_check::{Check, Life, Place};
+use pliant_io::shown;
+
+/// So many bodies of a place are named.
+const MOST_NAMED: usize = 3;
+
+/// `place 3: frames 12 to 40, 118 pairs at most, in frame 20`; of a place of one frame `place 3: 118 pairs in frame 20`; where the check
+/// has one frame `place 3: 118 pairs`.
+pub(super) fn lived(check: &Check, life: &Life) -> String {
+    let Life {
+        first_frame,
+        last_frame,
+        worst_frame,
+        worst,
+    } = life;
+    let number = worst.number;
+    let pairs = counted((worst.count, "pair", "pairs"));
+    if first_frame < last_frame {
+        format!(
+            "place {number}: frames {first_frame} to {last_frame}, {pairs} at most, in frame {worst_frame}"
+        )
+    } else if check.frame_count() > 1 {
+        format!("place {number}: {pairs} in frame {worst_frame}")
+    } else {
+        format!("place {number}: {pairs}")
+    }
+}
+
+/// How large, where, and whose triangles.
+pub(super) fn lies(check: &Check, place: &Place) -> String {
+    let [x, y, z] = place.centre().map(short);
+    let size = short(place.size());
+    let name = |body| check.body(body).map_or_else(String::new, |body| body.name);
+    let named = place.bodies.iter().take(MOST_NAMED).map(|it| {
+        let triangles = counted((it.triangles, "triangle", "triangles"));
+        let of = match check.body_count() {
+            1 => String::new(),
+            _ => format!(" of {}", shown(name(it.body))),
+        };
+        format!("{triangles}{of} from {} on", it.first_triangle)
+    });
+    let named: Vec<String> = named.collect();
+    let more = match place.bodies.len().saturating_sub(MOST_NAMED) {
+        0 => String::new(),
+        more => format!(" and of {}", counted((more, "more body", "more bodies"))),
+    };
+    format!(
+        "{size} across, round ({x}, {y}, {z}); {}{more}",
+        named.join(", ")
+    )
+}
+
+/// Four digits that count: nobody types it elsewhere.
+fn short(x: f64) -> String {
+    let digits = format!("{x:.3e}");
+    match digits.parse::<f64>() {
+        Ok(rounded) if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) => {
+            format!("{}", rounded + 0.0)
+        }
+        _ => digits,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn coordinates_have_four_digits() {
+        for (x, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (-1.234_56, "-1.235"),
+            (123_456.0, "123500"),
+            (0.000_123_456, "0.0001235"),
+            (1.0 / 3.0 * 1e-9, "3.333e-10"),
+            (f64::MAX, "1.798e308"),
+        ] {
+            assert_eq!(short(x), text, "{x}");
+        }
+    }
+}

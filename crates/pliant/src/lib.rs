@@ -52,11 +52,13 @@
 //! |---|---|
 //! | a first loop, step by step, and what to do with hits | [`guide`] |
 //! | bodies | [`World::add`], [`remove`](World::remove), [`bodies`](World::bodies), [`BodyId`] |
-//! | moving them | [`World::set_positions`], [`write_positions`](World::write_positions); [`rebuild`](World::rebuild) |
+//! | moving them | [`World::set_positions`], [`write_positions`](World::write_positions); [`rebuild`](World::rebuild); other meshes, [`set_mesh`](World::set_mesh) |
 //! | asking: what | [`World::intersections`]; [`Pair`] |
+//! | what is near, now or on the way | [`World::vertex_triangle_candidates`], [`edge_edge_candidates`](World::edge_edge_candidates); [`VertexTriangle`], [`EdgeEdge`]; [`World::edges`] |
+//! | where bodies are going | [`World::set_motion`], [`finish_motion`](World::finish_motion), [`advance_motion`](World::advance_motion) |
 //! | of whom | [`Selection`]: the whole world, each body with itself too, two bodies, one with itself |
-//! | and how much | [`Query::all`], [`first`](Query::first), [`visit`](Query::visit); [`at_most`](Query::at_most), [`interrupt_if`](Query::interrupt_if) |
-//! | who may meet whom | [`World::set_filter`], [`ignore`](World::ignore), [`unignore`](World::unignore) |
+//! | and how much | [`Query::all`], [`first`](Query::first), [`visit`](Query::visit), [`visit_some`](Query::visit_some); [`at_most`](Query::at_most), [`interrupt_if`](Query::interrupt_if) |
+//! | who may meet whom | [`World::set_filter`], [`ignore`](World::ignore), [`unignore`](World::unignore); of candidates, [`set_vertex_groups`](World::set_vertex_groups) |
 //! | the broad phase | [`BroadPhase`], [`World::set_loose_box`] |
 //! | what was refused, and why | [`Error`], [`ErrorKind`] |
 //! | time and work | [`Query::prepare`], [`World::statistics`], [`Statistics`] |

@@ -102,10 +102,11 @@ const LAYERS: [(&str, &[&str]); 20] = [
 ];
 
 /// What the root exports under a name of its own, and where it is from.
-const EXPORTED: [(&str, &str); 18] = [
+const EXPORTED: [(&str, &str); 20] = [
     ("BodyId", "ids"),
     ("BroadPhase", "options"),
     ("Degree", "options"),
+    ("EdgeEdge", "hits"),
     ("Error", "error"),
     ("ErrorKind", "error"),
     ("Instructions", "kernels"),
@@ -119,6 +120,7 @@ const EXPORTED: [(&str, &str); 18] = [
     ("Statistics", "statistics"),
     ("TreeShape", "world"),
     ("Update", "options"),
+    ("VertexTriangle", "hits"),
     ("World", "world"),
     ("kernels", "kernels"),
 ];

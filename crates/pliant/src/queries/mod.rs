@@ -15,11 +15,13 @@ use crate::hits::Hit;
 use crate::ids::BodyId;
 use crate::ids::TreeTriangle;
 use crate::kernels::{Buffer, Coordinate, Instructions};
-use crate::mesh::{Order, TriangleRun};
+use crate::mesh::Order;
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use crate::tree::BoxSource;
-pub(crate) use candidates::{EdgeEdgeCandidates, Groups, Margin, VertexTriangleCandidates};
+pub(crate) use candidates::{
+    EdgeEdgeCandidates, Groups, Margin, NearBoxes, NearElements, VertexTriangleCandidates, Which,
+};
 pub(crate) use intersections::Intersections;
 
 /// Two triangles whose boxes overlap, of the first body and of the second.
@@ -74,13 +76,12 @@ pub(crate) trait Kind: Sync {
     ) {
     }
 
-    /// The same, for kinds that are shown runs of up to eight triangles, of the first body and of the second; in one body a run perhaps
-    /// with itself.
+    /// The same, for kinds that are shown runs of up to eight triangles, of the first body and of the second, by their numbers: those of
+    /// blocks, or of triangles where every leaf is one; in one body a run perhaps with itself.
     fn test_runs(
         &self,
         _leaves: &LeafTest<Self::Scalar>,
-        _pairs: &[[TriangleRun; 2]],
-        _buffers: &mut Self::Buffers,
+        _pairs: &[[u32; 2]],
         _hits: &mut Buffer<Self::TreeHit>,
         _statistics: &mut Statistics,
     ) {
@@ -98,16 +99,8 @@ pub(crate) enum Leaves {
     /// The same, those that share a vertex too.
     #[cfg(test)]
     AllTriangles,
-    /// The triangles of either leaf, up to eight at a time: boxes of triangles are not made.
-    Runs,
-}
-
-/// The vertices and edges of a body, for kinds that ask for them.
-#[derive(Clone, Copy)]
-pub(crate) struct Elements<'q> {
-    pub(crate) edges: &'q crate::mesh::Elements,
-    /// None where all vertices meet.
-    pub(crate) groups: Option<&'q Groups>,
+    /// The triangles of either leaf, up to eight at a time: not their boxes, but those of elements that belong to them.
+    Runs(Which),
 }
 
 /// What a test of leaves works with.
@@ -119,16 +112,26 @@ pub(crate) struct LeafTest<'q, S> {
     /// Where vertices are at the end of a motion, for kinds that hold motions.
     pub(crate) ends: [Option<&'q Points<S>>; 2],
     /// For kinds that are shown runs.
-    pub(crate) elements: [Option<Elements<'q>>; 2],
+    pub(crate) elements: [Option<NearElements<'q>>; 2],
     /// Whether it is one body with itself.
     pub(crate) itself: bool,
-    /// Tells the descents apart that the same buffers are used for: what was read of the bodies in another may not be true.
-    pub(crate) descent: u64,
+}
+
+impl Leaves {
+    /// Which elements a kind looks at, if it is shown runs.
+    pub(crate) const fn elements(self) -> Option<Which> {
+        match self {
+            Self::Runs(which) => Some(which),
+            Self::Triangles => None,
+            #[cfg(test)]
+            Self::AllTriangles => None,
+        }
+    }
 }
 
 /// How the caller numbers things.
 pub(crate) struct CallerIds<'q> {
     pub(crate) bodies: [BodyId; 2],
     pub(crate) orders: [&'q Order; 2],
-    pub(crate) elements: [Option<Elements<'q>>; 2],
+    pub(crate) elements: [Option<NearElements<'q>>; 2],
 }

@@ -10,8 +10,6 @@ pub(super) struct Context<'q, K, P> {
     pub(super) instructions: Instructions,
     pub(super) interrupt: &'q Interrupt<'q>,
     pub(super) budget: Budget,
-    /// The number of the descent, among those of its tasks.
-    pub(super) descent: u64,
 }
 
 /// How far a task goes.

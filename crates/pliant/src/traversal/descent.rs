@@ -67,8 +67,6 @@ pub(crate) struct Scratch<K: Kind> {
     distributed: Vec<NodePair>,
     wanted: Wanted,
     sizes: Sizes,
-    /// How many descents there were, this one included.
-    descents: u64,
     /// The hit at which a query stopped, in tree order.
     pub(crate) broke_at: Option<K::TreeHit>,
 }
@@ -84,7 +82,6 @@ impl<K: Kind> Default for Scratch<K> {
             distributed: Vec::new(),
             wanted: Wanted::default(),
             sizes: Sizes::new(Wanted::default()),
-            descents: 0,
             broke_at: None,
         }
     }
@@ -157,11 +154,8 @@ where
         distributed,
         wanted,
         sizes,
-        descents,
         broke_at,
     } = scratch;
-    *descents += 1;
-    let descent = *descents;
     let executor = refit.executor;
     // Tasks are left as they were where a visitor stopped, or panicked.
     tasks[..*used].iter_mut().for_each(Task::clear);
@@ -181,7 +175,7 @@ where
         if tasks.len() == 1 {
             budget.stack = ENOUGH_TO_DISTRIBUTE;
         }
-        let now = context(refit, kind, pair, budget, descent);
+        let now = context(refit, kind, pair, budget);
         executor.run(tasks, |_, task| task.advance(&now));
         // What a task that was not run found before is not to be shown again.
         if executor.is_interrupted() {
@@ -209,7 +203,7 @@ where
                     rebalance(tasks);
                 }
                 while shown.is_continue() && !tasks.iter().all(Task::all_tested) {
-                    let now = context(refit, kind, pair, sizes.budget(most_leaf_pairs), descent);
+                    let now = context(refit, kind, pair, sizes.budget(most_leaf_pairs));
                     executor.run(tasks, |_, task| task.test_some(&now));
                     if executor.is_interrupted() {
                         return ControlFlow::Break(());
@@ -272,7 +266,7 @@ where
     }
     let executor = refit.executor;
     while tasks.iter().any(|task| task.run.start < task.run.end) && !executor.is_interrupted() {
-        let now = context(refit, kind, pair, sizes.budget(usize::MAX), 0);
+        let now = context(refit, kind, pair, sizes.budget(usize::MAX));
         executor.run(tasks, |_, task| task.test_neighbours(&now, neighbours));
         if executor.is_interrupted() {
             break;
@@ -288,7 +282,6 @@ fn context<'q, K, P>(
     kind: &'q K,
     pair: &'q P,
     budget: Budget,
-    descent: u64,
 ) -> Context<'q, K, P> {
     Context {
         kind,
@@ -296,7 +289,6 @@ fn context<'q, K, P>(
         instructions: refit.instructions,
         interrupt: refit.executor.interrupt,
         budget,
-        descent,
     }
 }
 

@@ -14,7 +14,7 @@ use super::tree_pair::TreePair;
 use crate::held::{self, Held};
 use crate::ids::BlockId;
 use crate::kernels::{Buffer, QuantizedRows, Simd, dispatch, overlap_mask};
-use crate::mesh::{Order, TriangleRun};
+use crate::mesh::Order;
 use crate::queries::{Candidate, Kind, LeafTest, Leaves as Shown};
 use crate::statistics::Statistics;
 use crate::tree::{
@@ -50,7 +50,7 @@ pub(super) struct Cursor {
 #[derive(Debug)]
 pub(super) struct LeafTests<K: Kind> {
     blocks: Vec<BlockPair>,
-    runs: Vec<[TriangleRun; 2]>,
+    runs: Vec<[u32; 2]>,
     compared: Buffer<MaskedPair>,
     crowded: Vec<BlockPair>,
     candidates: Buffer<Candidate>,
@@ -104,7 +104,7 @@ impl<K: Kind> LeafTests<K> {
         let leaves = sides.map(|side| &side.tree.leaves);
         let neighbours = sides[0].tree.neighbours();
         let leaf_test = leaf_test(context);
-        if K::LEAVES == Shown::Runs {
+        if K::LEAVES.elements().is_some() {
             cursor = self.test_runs::<N, P>(context, leaf_pairs, cursor, most, &leaf_test);
         } else if leaves.iter().all(|leaves| leaves.have_blocks()) {
             let boxes = sides.map(|side| Boxes {
@@ -175,29 +175,19 @@ impl<K: Kind> LeafTests<K> {
         self.runs.clear();
         if leaves.iter().all(|leaves| leaves.have_blocks()) {
             cursor = block_pairs::<N, P>(leaves, leaf_pairs, cursor, most, &mut self.blocks);
-            let runs = self
-                .blocks
-                .iter()
-                .map(|&[a, b]| [leaves[0].run_of_block(a), leaves[1].run_of_block(b)]);
+            let runs = self.blocks.iter().map(|pair| pair.map(|block| block.0));
             self.runs.extend(runs);
         } else {
             let end = leaf_pairs.len().min(cursor.pair + most);
-            let pairs = &leaf_pairs[cursor.pair..end];
-            let run = |side: usize, leaf| TriangleRun {
-                first: leaves[side].first_triangle(leaf),
-                count: 1,
-            };
-            self.runs
-                .extend(pairs.iter().map(|&[a, b]| [run(0, a), run(1, b)]));
+            let pairs = leaf_pairs[cursor.pair..end].iter();
+            let triangles =
+                |&[a, b]: &LeafPair| [leaves[0].first_triangle(a).0, leaves[1].first_triangle(b).0];
+            self.runs.extend(pairs.map(triangles));
             cursor.pair = end;
         }
-        context.kind.test_runs(
-            leaf_test,
-            &self.runs,
-            &mut self.buffers,
-            &mut self.hits,
-            &mut self.statistics,
-        );
+        context
+            .kind
+            .test_runs(leaf_test, &self.runs, &mut self.hits, &mut self.statistics);
         cursor
     }
 
@@ -274,7 +264,6 @@ where
         ends: sides.map(|side| side.source.end().map(|end| end.positions)),
         elements: sides.map(|side| side.elements),
         itself: P::ITSELF,
-        descent: context.descent,
     }
 }
 

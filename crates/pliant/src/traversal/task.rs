@@ -56,7 +56,7 @@ impl<K: Kind> Default for Task<K> {
 pub(super) fn are_free<const N: usize, K: Kind, B>(sides: [&Side<'_, N, B>; 2]) -> bool {
     let is_complete = |side: &&Side<N, B>| {
         side.boxes.are_nodes_complete()
-            && (K::LEAVES == Leaves::Runs || side.boxes.are_leaves_complete())
+            && (K::LEAVES.elements().is_some() || side.boxes.are_leaves_complete())
     };
     sides.iter().all(is_complete)
 }
@@ -137,7 +137,7 @@ impl<K: Kind> Task<K> {
             dispatch!(context.instructions, i => expand::<_, N, P>(i, sides, batch, left_out, found));
             self.batch.clear();
             for (set, reached) in self.reached.iter_mut().zip(&mut self.found.reached) {
-                let asked_for = if free || K::LEAVES == Leaves::Runs {
+                let asked_for = if free || K::LEAVES.elements().is_some() {
                     &[]
                 } else {
                     reached.as_slice()

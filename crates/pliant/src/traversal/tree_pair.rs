@@ -2,7 +2,7 @@
 
 use crate::ids::BodyId;
 use crate::mesh::Order;
-use crate::queries::{CallerIds, Elements};
+use crate::queries::{CallerIds, NearElements};
 use crate::tree::{BoxSet, BoxSource, Tree};
 use crate::update::Refitted;
 
@@ -14,7 +14,7 @@ pub(crate) struct Side<'t, const N: usize, B> {
     pub(crate) boxes: &'t mut BoxSet<N>,
     pub(crate) source: B,
     /// For kinds that are shown runs of triangles.
-    pub(crate) elements: Option<Elements<'t>>,
+    pub(crate) elements: Option<NearElements<'t>>,
 }
 
 impl<const N: usize, B: BoxSource> Side<'_, N, B> {

@@ -9,11 +9,11 @@ use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{self, Elements, Order, Topology};
 use crate::options::{Options, Partition};
-use crate::queries::{self, Groups, Kind, Leaves};
+use crate::queries::{Groups, Kind, NearBoxes, NearElements, Which};
 use crate::threads::Executor;
 use crate::traversal::Side;
 use crate::tree::build::{Balanced, Connectivity, CutAt, InitialShape, Plan, plan};
-use crate::tree::{BoxSet, Tree};
+use crate::tree::{BoxSet, BoxSource, Swept, Tree};
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
@@ -38,6 +38,8 @@ pub(super) struct Body<const N: usize, S> {
     motion: Option<Box<Motion<S>>>,
     /// Edges, and who owns what, once somebody asks.
     elements: OnceLock<Box<Elements>>,
+    /// Boxes of elements, once somebody asks for those.
+    near_boxes: Option<Box<NearBoxes>>,
     /// None where all vertices meet.
     groups: Option<Box<VertexGroups>>,
 }
@@ -122,6 +124,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             loose: None,
             motion: None,
             elements: OnceLock::new(),
+            near_boxes: None,
             groups: None,
         }
     }
@@ -148,6 +151,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                 })
             }),
             elements: OnceLock::new(),
+            near_boxes: None,
             groups: self.groups.as_ref().map(|groups| {
                 Box::new(VertexGroups {
                     callers: groups.callers.clone(),
@@ -187,6 +191,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             motion.end.forget_tree_order(self.order.vertex_order());
         }
         self.elements = OnceLock::new();
+        self.near_boxes = None;
         if let Some(groups) = &mut self.groups {
             groups.of_elements = None;
         }
@@ -229,8 +234,48 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.motion.as_deref().filter(|motion| motion.is_on)
     }
 
+    /// Makes the boxes of elements, unless they are those of the shape and the motion of now. Returns false if it was interrupted. The body
+    /// was brought into tree order, with its motion.
+    pub(super) fn make_near_boxes(
+        &mut self,
+        which: Which,
+        origin: Origin,
+        instructions: Instructions,
+        executor: Executor,
+    ) -> bool {
+        if !self.know_elements(&|| executor.is_interrupted()) {
+            return false;
+        }
+        let shape = Shape {
+            positions: self.positions.in_tree_order(),
+            triangles: self.order.all_corners(),
+            origin,
+            epoch: self.epoch,
+        };
+        let motion = self.motion.as_deref().filter(|motion| motion.is_on);
+        let end = motion.map(|motion| Shape {
+            positions: motion.end.in_tree_order(),
+            epoch: motion.epoch,
+            ..shape
+        });
+        let source = Swept {
+            from: shape,
+            to: end,
+        };
+        let Some(elements) = self.elements.get() else {
+            return false;
+        };
+        self.near_boxes.get_or_insert_default().make(
+            which,
+            source.version(),
+            (instructions, executor),
+            (&shape, end.map(|end| end.positions)),
+            (&self.tree.leaves, elements),
+        )
+    }
+
     /// Finds out the edges of the mesh, and which triangle owns what, unless that is known. Returns false if it was stopped.
-    pub(super) fn know_elements(&mut self, stop: &dyn Fn() -> bool) -> bool {
+    fn know_elements(&mut self, stop: &dyn Fn() -> bool) -> bool {
         let Self {
             topology,
             order,
@@ -333,9 +378,12 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             epoch: motion.epoch,
             ..shape
         });
-        let elements = self.elements.get().filter(|_| K::LEAVES == Leaves::Runs);
-        let elements = elements.map(|edges| queries::Elements {
+        let near_boxes = self.near_boxes.as_deref();
+        let elements = self.elements.get().zip(near_boxes);
+        let elements = elements.filter(|_| K::LEAVES.elements().is_some());
+        let elements = elements.map(|(edges, boxes)| NearElements {
             edges,
+            boxes,
             groups: self.groups.as_ref().and_then(|it| it.of_elements.as_ref()),
         });
         if self.boxes.len() <= K::BOX_SET {
@@ -665,6 +713,10 @@ impl<const N: usize, S> Held for Body<N, S> {
                 .elements
                 .get()
                 .map_or(0, |it| size_of::<Elements>() + it.held())
+            + self
+                .near_boxes
+                .as_ref()
+                .map_or(0, |it| size_of::<NearBoxes>() + it.held())
             + self.groups.as_ref().map_or(0, |groups| {
                 let of_elements = groups.of_elements.as_ref().map_or(0, Held::held);
                 size_of::<VertexGroups>() + held::list(&groups.callers) + of_elements

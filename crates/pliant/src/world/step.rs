@@ -92,7 +92,9 @@ where
         if itself && K::LEAVES == Leaves::Triangles {
             body.tree.know_neighbours(&body.order, executor);
         }
-        if K::LEAVES == Leaves::Runs && !body.know_elements(&|| executor.is_interrupted()) {
+        if let Some(which) = K::LEAVES.elements()
+            && !body.make_near_boxes(which, self.origin, instructions, executor)
+        {
             return ControlFlow::Break(());
         }
         let mut side = body.side(self.kind, self.origin);
@@ -100,7 +102,7 @@ where
         let statistics = &mut *self.statistics;
         self.refit
             .ahead(&mut side.refitted(), partner, lists, statistics);
-        if itself && K::LEAVES != Leaves::Runs && side.boxes.are_nodes_complete() {
+        if itself && K::LEAVES.elements().is_none() && side.boxes.are_nodes_complete() {
             // Every leaf is going to meet at least itself.
             let reached = &mut self.scratch.reached;
             self.refit

@@ -1,13 +1,10 @@
 //! Edges near edges.
 
-use super::runs::Runs;
-use super::{Margin, groups};
+use super::{Margin, Which, groups};
 use crate::geometry::{Aabb, Shape, larger};
-use crate::held::Held;
 use crate::hits::EdgeEdge;
 use crate::ids::TreeEdge;
 use crate::kernels::{Buffer, Coordinate, dispatch};
-use crate::mesh::TriangleRun;
 use crate::queries::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves};
 use crate::statistics::Statistics;
 use crate::tree::{Grown, Swept};
@@ -29,20 +26,16 @@ impl<S> EdgeEdgeCandidates<S> {
     }
 }
 
-/// The edges that belong to runs, of either side.
-#[derive(Debug, Default)]
-pub(crate) struct EdgeRuns([Runs; 2]);
-
 impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
     type Scalar = S;
     type Hit = EdgeEdge;
     /// Edges in tree order.
     type TreeHit = [u32; 2];
-    type Buffers = EdgeRuns;
+    type Buffers = ();
     type Source<'s> = Grown<Swept<'s, S>>;
 
     const BOX_SET: BoxSetNumber = 1;
-    const LEAVES: Leaves = Leaves::Runs;
+    const LEAVES: Leaves = Leaves::Runs(Which::Edges);
     const HOLDS_MOTIONS: bool = true;
 
     fn grows_by(&self) -> f32 {
@@ -60,38 +53,38 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
     fn test_runs(
         &self,
         leaves: &LeafTest<S>,
-        pairs: &[[TriangleRun; 2]],
-        EdgeRuns([runs_a, runs_b]): &mut EdgeRuns,
+        pairs: &[[u32; 2]],
         hits: &mut Buffer<[u32; 2]>,
         statistics: &mut Statistics,
     ) {
         let [Some(of_a), Some(of_b)] = leaves.elements else {
             return;
         };
+        let (Some(runs_a), Some(runs_b)) = (&of_a.boxes.edges, &of_b.boxes.edges) else {
+            return;
+        };
         let [ends_a, ends_b] = [of_a.edges.ends(), of_b.edges.ends()];
-        let [at_a, at_b] = [0, 1].map(|side| (leaves.shapes[side], leaves.ends[side]));
+        let limits = self
+            .margin
+            .limits::<S>(larger(runs_a.most(), runs_b.most()));
         let groups = of_a.groups.zip(of_b.groups);
         let is_candidate = |[a, b]: [u32; 2]| {
             let (edge_a, edge_b) = (ends_a[a as usize], ends_b[b as usize]);
-            let is_shared = leaves.itself
-                && (edge_a[0] == edge_b[0])
-                    | (edge_a[0] == edge_b[1])
-                    | (edge_a[1] == edge_b[0])
-                    | (edge_a[1] == edge_b[1]);
+            let is_shared = (edge_a[0] == edge_b[0])
+                | (edge_a[0] == edge_b[1])
+                | (edge_a[1] == edge_b[0])
+                | (edge_a[1] == edge_b[1]);
             let meet = groups.is_none_or(|(of_a, of_b)| {
                 groups::meet(of_a.edges[a as usize], of_b.edges[b as usize])
             });
-            !is_shared & meet
+            !(leaves.itself & is_shared) & meet
         };
-        runs_a.go_on(leaves.descent);
-        runs_b.go_on(leaves.descent);
+        let before = hits.len();
         dispatch!(leaves.instructions, i => {
             for &[a, b] in pairs {
                 let itself = leaves.itself && a == b;
-                let a = runs_a.get(i, a, at_a, of_a.edges.edges_of(a), |edge| ends_a[edge as usize]);
-                let b = runs_b.get(i, b, at_b, of_b.edges.edges_of(b), |edge| ends_b[edge as usize]);
-                let limits = self.margin.limits::<S>(larger(a.most, b.most));
-                a.compare(i, b, itself, limits, |[first_a, first_b], sure, possible| {
+                let (a, b) = (runs_a.run(a), runs_b.run(b));
+                a.compare(i, &b, itself, limits, |[first_a, first_b], sure, possible| {
                     let pair = |bit: u32| [first_a + bit / 8, first_b + bit % 8];
                     let mut near = possible;
                     let mut rest = possible & !sure;
@@ -107,12 +100,11 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
                         rest &= rest - 1;
                     }
                     statistics.candidate_pairs += u64::from(near.count_ones());
-                    let before = hits.len();
                     hits.room().push_bits_if(near, pair, is_candidate);
-                    statistics.pairs += (hits.len() - before) as u64;
                 });
             }
         });
+        statistics.pairs += (hits.len() - before) as u64;
     }
 
     fn to_caller(&self, ids: &CallerIds, [a, b]: [u32; 2]) -> EdgeEdge {
@@ -129,11 +121,5 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
             body_b,
             edge_b,
         }
-    }
-}
-
-impl Held for EdgeRuns {
-    fn held(&self) -> usize {
-        self.0.iter().map(Held::held).sum()
     }
 }

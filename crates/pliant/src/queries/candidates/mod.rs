@@ -11,6 +11,7 @@
 
 mod edge_edge;
 mod groups;
+mod near_boxes;
 mod runs;
 mod vertex_triangle;
 
@@ -23,6 +24,7 @@ use crate::predicates::are_within;
 use crate::tree::{Grown, Swept};
 pub(crate) use edge_edge::EdgeEdgeCandidates;
 pub(crate) use groups::Groups;
+pub(crate) use near_boxes::{NearBoxes, NearElements, Which};
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
 
 /// How near is near.

@@ -1,13 +1,10 @@
 //! Vertices near triangles.
 
-use super::runs::Runs;
-use super::{Margin, groups};
+use super::{Margin, Which, groups};
 use crate::geometry::{Aabb, Shape, larger};
-use crate::held::Held;
 use crate::hits::VertexTriangle;
 use crate::ids::{TreeTriangle, TreeVertex};
-use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
-use crate::mesh::TriangleRun;
+use crate::kernels::{Buffer, Coordinate, dispatch};
 use crate::queries::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves};
 use crate::statistics::Statistics;
 use crate::tree::{Grown, Swept};
@@ -29,13 +26,6 @@ impl<S> VertexTriangleCandidates<S> {
     }
 }
 
-/// The vertices that belong to runs, and the triangles in them, of either side.
-#[derive(Debug, Default)]
-pub(crate) struct VertexAndTriangleRuns {
-    vertices: [Runs; 2],
-    triangles: [Runs; 2],
-}
-
 /// Beside the number of a triangle: the vertex is of the second body. There are fewer triangles than this.
 const OF_SECOND: u32 = 1 << 31;
 
@@ -44,11 +34,11 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
     type Hit = VertexTriangle;
     /// A vertex and a triangle in tree order, the triangle with [`OF_SECOND`] or without.
     type TreeHit = [u32; 2];
-    type Buffers = VertexAndTriangleRuns;
+    type Buffers = ();
     type Source<'s> = Grown<Swept<'s, S>>;
 
     const BOX_SET: BoxSetNumber = 1;
-    const LEAVES: Leaves = Leaves::Runs;
+    const LEAVES: Leaves = Leaves::Runs(Which::VerticesAndTriangles);
     const HOLDS_MOTIONS: bool = true;
 
     fn grows_by(&self) -> f32 {
@@ -66,31 +56,15 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
     fn test_runs(
         &self,
         leaves: &LeafTest<S>,
-        pairs: &[[TriangleRun; 2]],
-        buffers: &mut VertexAndTriangleRuns,
+        pairs: &[[u32; 2]],
         hits: &mut Buffer<[u32; 2]>,
         statistics: &mut Statistics,
     ) {
-        let VertexAndTriangleRuns {
-            vertices,
-            triangles,
-        } = buffers;
-        for runs in vertices.iter_mut().chain(&mut *triangles) {
-            runs.go_on(leaves.descent);
+        let before = hits.len();
+        for side in 0..2 {
+            self.test_side(leaves, side, pairs, hits, statistics);
         }
-        dispatch!(leaves.instructions, i => {
-            for &[a, b] in pairs {
-                for (side, [of, other]) in [[a, b], [b, a]].into_iter().enumerate() {
-                    // Within one run, all of its vertices meet all of its triangles.
-                    if side == 1 && leaves.itself && a == b {
-                        break;
-                    }
-                    let vertices = &mut vertices[side];
-                    let triangles = &mut triangles[1 - side];
-                    self.compare(i, leaves, side, [of, other], [vertices, triangles], (hits, statistics));
-                }
-            }
-        });
+        statistics.pairs += (hits.len() - before) as u64;
     }
 
     fn to_caller(&self, ids: &CallerIds, [vertex, triangle]: [u32; 2]) -> VertexTriangle {
@@ -107,79 +81,67 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
 }
 
 impl<S: Coordinate> VertexTriangleCandidates<S> {
-    /// The vertices of a run of one side with the triangles of a run of the other.
-    #[inline(always)]
-    fn compare<I: Simd>(
+    /// The vertices of runs of one side with the triangles of runs of the other.
+    fn test_side(
         &self,
-        i: I,
         leaves: &LeafTest<S>,
         side: usize,
-        [run, other]: [TriangleRun; 2],
-        [vertices, triangles]: [&mut Runs; 2],
-        (hits, statistics): (&mut Buffer<[u32; 2]>, &mut Statistics),
+        pairs: &[[u32; 2]],
+        hits: &mut Buffer<[u32; 2]>,
+        statistics: &mut Statistics,
     ) {
         let sides = [side, 1 - side];
         let [Some(of_vertices), Some(of_triangles)] = sides.map(|side| leaves.elements[side])
         else {
             return;
         };
-        let [at_vertices, at_triangles] =
-            sides.map(|side| (leaves.shapes[side], leaves.ends[side]));
+        let boxes = (&of_vertices.boxes.vertices, &of_triangles.boxes.triangles);
+        let (Some(vertices), Some(triangles)) = boxes else {
+            return;
+        };
+        let limits = self
+            .margin
+            .limits::<S>(larger(vertices.most(), triangles.most()));
         let corners = leaves.shapes[1 - side].triangles;
         let groups = of_vertices.groups.zip(of_triangles.groups);
         let is_candidate = |[vertex, triangle]: [u32; 2]| {
             let triangle = (triangle & !OF_SECOND) as usize;
-            let [a, b, c] = corners[triangle].map(|corner| corner.0 == vertex);
-            let is_shared = leaves.itself & (a | b | c);
+            let [a, b, c] = corners[triangle];
+            let is_shared = (a.0 == vertex) | (b.0 == vertex) | (c.0 == vertex);
             let meet = groups.is_none_or(|(of_vertices, of_triangles)| {
                 let vertex = of_vertices.vertices[vertex as usize];
                 groups::meet(vertex, of_triangles.triangles[triangle])
             });
-            !is_shared & meet
+            !(leaves.itself & is_shared) & meet
         };
         let tag = if side == 1 { OF_SECOND } else { 0 };
-        let numbers = of_vertices.edges.vertices_of(run);
-        let vertices = vertices.get(i, run, at_vertices, numbers, |vertex| [TreeVertex(vertex)]);
-        let of_triangle = |triangle: u32| corners[triangle as usize];
-        let triangles = triangles.get(i, other, at_triangles, other.range(), of_triangle);
-        let limits = self
-            .margin
-            .limits::<S>(larger(vertices.most, triangles.most));
-        vertices.compare(
-            i,
-            triangles,
-            false,
-            limits,
-            |[vertex, triangle], sure, possible| {
-                let pair = |bit: u32| [vertex + bit / 8, (triangle + bit % 8) | tag];
-                let mut near = possible;
-                let mut rest = possible & !sure;
-                while rest != 0 {
-                    let [vertex, triangle] = pair(rest.trailing_zeros());
-                    if is_candidate([vertex, triangle]) {
-                        let corners = corners[(triangle & !OF_SECOND) as usize];
-                        statistics.exact_decisions += 1;
-                        if !self
-                            .margin
-                            .holds(leaves, sides, &[TreeVertex(vertex)], &corners)
-                        {
-                            near &= !(rest & rest.wrapping_neg());
-                        }
-                    }
-                    rest &= rest - 1;
+        dispatch!(leaves.instructions, i => {
+            for pair in pairs {
+                // Within one run, all of its vertices meet all of its triangles.
+                if side == 1 && leaves.itself && pair[0] == pair[1] {
+                    continue;
                 }
-                statistics.candidate_pairs += u64::from(near.count_ones());
-                let before = hits.len();
-                hits.room().push_bits_if(near, pair, is_candidate);
-                statistics.pairs += (hits.len() - before) as u64;
-            },
-        );
-    }
-}
-
-impl Held for VertexAndTriangleRuns {
-    fn held(&self) -> usize {
-        let all = self.vertices.iter().chain(&self.triangles);
-        all.map(Held::held).sum()
+                let of_vertices = vertices.run(pair[side]);
+                let of_triangles = triangles.run(pair[1 - side]);
+                of_vertices.compare(i, &of_triangles, false, limits, |[first, second], sure, possible| {
+                    let pair = |bit: u32| [first + bit / 8, (second + bit % 8) | tag];
+                    let mut near = possible;
+                    let mut rest = possible & !sure;
+                    while rest != 0 {
+                        let [vertex, triangle] = pair(rest.trailing_zeros());
+                        if is_candidate([vertex, triangle]) {
+                            let corners = corners[(triangle & !OF_SECOND) as usize];
+                            statistics.exact_decisions += 1;
+                            if !self.margin.holds(leaves, sides, &[TreeVertex(vertex)], &corners) {
+                                near &= !(rest & rest.wrapping_neg());
+                            }
+                        }
+                        rest &= rest - 1;
+                    }
+                    statistics.candidate_pairs += u64::from(near.count_ones());
+                    hits.room().push_bits_if(near, pair, is_candidate);
+                });
+            }
+        });
     }
 }

@@ -1,0 +1,94 @@
+//! The boxes of all elements of a body, each kind once somebody asks for it.
+
+use super::groups::Groups;
+use super::runs::{Ends, RunBoxes};
+use crate::held::Held;
+use crate::ids::{BlockId, TreeTriangle, TreeVertex};
+use crate::kernels::{Coordinate, Instructions};
+use crate::mesh::{Elements, TriangleRun};
+use crate::threads::Executor;
+use crate::tree::{Leaves, Version};
+
+/// Which elements a kind of query looks at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Which {
+    VerticesAndTriangles,
+    Edges,
+}
+
+/// The boxes of a body's elements.
+#[derive(Debug, Default)]
+pub(crate) struct NearBoxes {
+    pub(super) vertices: Option<RunBoxes>,
+    pub(super) triangles: Option<RunBoxes>,
+    pub(super) edges: Option<RunBoxes>,
+}
+
+/// The vertices and edges of a body, and their boxes.
+#[derive(Clone, Copy)]
+pub(crate) struct NearElements<'q> {
+    pub(crate) edges: &'q Elements,
+    pub(crate) boxes: &'q NearBoxes,
+    /// None where all vertices meet.
+    pub(crate) groups: Option<&'q Groups>,
+}
+
+impl NearBoxes {
+    /// Makes boxes, unless they are those of this version. Returns false if it was interrupted.
+    pub(crate) fn make<S: Coordinate>(
+        &mut self,
+        which: Which,
+        version: Version,
+        threads: (Instructions, Executor),
+        positions: Ends<S>,
+        (leaves, elements): (&Leaves, &Elements),
+    ) -> bool {
+        let runs = || {
+            let count = if leaves.have_blocks() {
+                leaves.block_count()
+            } else {
+                positions.0.triangles.len()
+            };
+            (0..count as u32).map(|number| run(leaves, number))
+        };
+        match which {
+            Which::VerticesAndTriangles => {
+                let vertices = self.vertices.get_or_insert_with(|| {
+                    RunBoxes::new(runs().map(|it| elements.vertices_of(it)))
+                });
+                let triangles = self
+                    .triangles
+                    .get_or_insert_with(|| RunBoxes::new(runs().map(TriangleRun::range)));
+                let corners = positions.0.triangles;
+                vertices.make(version, threads, positions, |vertex| [TreeVertex(vertex)])
+                    && triangles.make(version, threads, positions, |it| corners[it as usize])
+            }
+            Which::Edges => {
+                let edges = self
+                    .edges
+                    .get_or_insert_with(|| RunBoxes::new(runs().map(|it| elements.edges_of(it))));
+                let ends = elements.ends();
+                edges.make(version, threads, positions, |edge| ends[edge as usize])
+            }
+        }
+    }
+}
+
+/// The triangles of a run, by its number: that of a block, or of a triangle where there are none.
+fn run(leaves: &Leaves, number: u32) -> TriangleRun {
+    if leaves.have_blocks() {
+        leaves.run_of_block(BlockId(number))
+    } else {
+        TriangleRun {
+            first: TreeTriangle(number),
+            count: 1,
+        }
+    }
+}
+
+impl Held for NearBoxes {
+    fn held(&self) -> usize {
+        let all = [&self.vertices, &self.triangles, &self.edges];
+        all.into_iter().flatten().map(Held::held).sum()
+    }
+}

@@ -6,6 +6,7 @@
 use std::ops::ControlFlow;
 
 use arbitrary::Arbitrary;
+use pliant::reference::Moving;
 use pliant::{
     BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Selection, Update, World,
     reference,
@@ -72,6 +73,11 @@ enum Call {
     Visit(u8),
     Between(u8, u8),
     Itself(u8),
+    Motion(u8, Shape),
+    Finish,
+    Advance(u8),
+    Groups(u8, Vec<u8>),
+    Near(u8, u8, u8),
 }
 
 libfuzzer_sys::fuzz_target!(|life: Life| {
@@ -118,6 +124,9 @@ struct Known<S> {
     id: BodyId,
     triangles: Vec<[u32; 3]>,
     positions: Vec<[S; 3]>,
+    /// Where a motion ends; and the group of every vertex.
+    end: Option<Vec<[S; 3]>>,
+    groups: Vec<u32>,
     membership: u32,
     mask: u32,
     loose: Option<([S; 3], [S; 3])>,
@@ -212,6 +221,7 @@ impl<S: Scalar> Lived<S> {
         );
         if moved.is_ok() {
             known.positions = positions;
+            known.end = None;
         }
     }
 
@@ -243,6 +253,8 @@ impl<S: Scalar> Lived<S> {
                 self.known.push(Known {
                     id,
                     triangles,
+                    groups: vec![0; positions.len()],
+                    end: None,
                     positions,
                     membership,
                     mask,
@@ -282,7 +294,11 @@ impl<S: Scalar> Lived<S> {
                 let is_good = !triangles.is_empty() && Self::all_inside(known.loose, &positions);
                 assert_eq!(set.is_ok(), is_good, "{set:?}");
                 if is_good {
+                    if triangles != known.triangles || positions.len() != known.positions.len() {
+                        known.groups = vec![0; positions.len()];
+                    }
                     (known.triangles, known.positions) = (triangles, positions);
+                    known.end = None;
                 }
             }
             Call::Rebuild(number) => {
@@ -329,9 +345,10 @@ impl<S: Scalar> Lived<S> {
                 let corners = corners.map(|(lo, hi)| (corner(lo), corner(hi)));
                 let known = &mut self.known[body];
                 let set = self.world.set_loose_box(known.id, corners);
+                let end = known.end.as_deref().unwrap_or(&[]);
                 assert_eq!(
                     set.is_ok(),
-                    Self::all_inside(corners, &known.positions),
+                    Self::all_inside(corners, &known.positions) && Self::all_inside(corners, end),
                     "{set:?}"
                 );
                 if set.is_ok() {
@@ -369,8 +386,12 @@ impl<S: Scalar> Lived<S> {
                 let length = known.positions.len().saturating_add_signed(by.into());
                 let mut positions = known.positions.clone();
                 positions.resize(length, [(self.convert)(0.0); 3]);
+                let is_right = length == known.positions.len();
                 let set = self.world.set_positions(known.id, &positions);
-                assert_eq!(set.is_ok(), length == known.positions.len());
+                assert_eq!(set.is_ok(), is_right);
+                if is_right {
+                    self.known[body].end = None;
+                }
             }
             Call::Unwritten(number, vertex) => {
                 let Some(body) = self.body(number) else {
@@ -504,7 +525,107 @@ impl<S: Scalar> Lived<S> {
                 };
                 self.itself(body);
             }
+            Call::Motion(number, ref shape) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let end = self.places(shape, self.known[body].positions.len());
+                let known = &mut self.known[body];
+                let set = self.world.set_motion(known.id, &end);
+                assert_eq!(set.is_ok(), Self::all_inside(known.loose, &end), "{set:?}");
+                if set.is_ok() {
+                    known.end = Some(end);
+                }
+            }
+            Call::Finish => {
+                self.world.finish_motion();
+                for known in &mut self.known {
+                    known.positions = known.end.take().unwrap_or(known.positions.clone());
+                }
+            }
+            Call::Advance(part) => {
+                let t = f64::from(part) / 255.0;
+                self.world.advance_motion(t).expect("a part of the step");
+                for known in &mut self.known {
+                    let Some(end) = known.end.take() else {
+                        continue;
+                    };
+                    let now = self.world.positions(known.id).expect("the body is there");
+                    let all = now.iter().zip(&known.positions).zip(&end);
+                    for ((now, from), to) in all {
+                        for axis in 0..3 {
+                            let (x, from, to) = (now[axis], from[axis], to[axis]);
+                            assert!(from <= x && x <= to || to <= x && x <= from);
+                        }
+                    }
+                    known.positions = now;
+                }
+            }
+            Call::Groups(number, ref groups) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                let known = &mut self.known[body];
+                let groups = groups.iter().map(|group| u32::from(group % 4));
+                let groups = groups
+                    .chain(std::iter::repeat(0))
+                    .take(known.positions.len());
+                known.groups = groups.collect();
+                let set = self.world.set_vertex_groups(known.id, &known.groups);
+                set.expect("one for each vertex");
+            }
+            Call::Near(a, b, radius) => {
+                let (Some(a), Some(b)) = (self.body(a), self.body(b)) else {
+                    return;
+                };
+                self.near(a, b, f64::from(radius) / 16.0);
+            }
         }
+    }
+
+    /// The candidates of two bodies, or of one with itself.
+    fn near(&mut self, a: usize, b: usize, radius: f64) {
+        let (one, other) = (&self.known[a], &self.known[b]);
+        let of = if a == b {
+            Selection::Within(one.id)
+        } else {
+            Selection::Between(one.id, other.id)
+        };
+        let [moving_a, moving_b] = [one, other].map(Known::moving);
+        let mut expected = Vec::new();
+        let mut add = |(of, with): (&Known<S>, &Known<S>), pairs: Vec<[u32; 2]>| {
+            expected.extend(pairs.into_iter().map(|[i, j]| [of.id.0, i, with.id.0, j]));
+        };
+        if a == b {
+            let pairs = reference::self_vertex_triangle_pairs(&moving_a, radius);
+            add((one, one), pairs.expect("the body was taken"));
+        } else {
+            let pairs = reference::vertex_triangle_pairs(&moving_a, &moving_b, radius);
+            add((one, other), pairs.expect("the bodies were taken"));
+            let pairs = reference::vertex_triangle_pairs(&moving_b, &moving_a, radius);
+            add((other, one), pairs.expect("the bodies were taken"));
+        }
+        expected.sort_unstable();
+        let found = self.world.vertex_triangle_candidates(of, radius).all();
+        let found = found.expect("both are there").iter();
+        assert!(found.map(|&hit| <[u32; 4]>::from(hit)).eq(expected));
+
+        let (one, other) = if one.id <= other.id {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let [moving_a, moving_b] = [one, other].map(Known::moving);
+        let pairs = if a == b {
+            reference::self_edge_edge_pairs(&moving_a, radius)
+        } else {
+            reference::edge_edge_pairs(&moving_a, &moving_b, radius)
+        };
+        let pairs = pairs.expect("the bodies were taken").into_iter();
+        let expected = pairs.map(|[i, j]| [one.id.0, i, other.id.0, j]);
+        let found = self.world.edge_edge_candidates(of, radius).all();
+        let found = found.expect("both are there").iter();
+        assert!(found.map(|&hit| <[u32; 4]>::from(hit)).eq(expected));
     }
 
     fn all(&mut self) {
@@ -593,6 +714,17 @@ impl<S: Scalar> Lived<S> {
         }
         all.sort_unstable();
         all
+    }
+}
+
+impl<S> Known<S> {
+    fn moving(&self) -> Moving<'_, S> {
+        Moving {
+            triangles: &self.triangles,
+            positions: &self.positions,
+            end: self.end.as_deref(),
+            groups: Some(&self.groups),
+        }
     }
 }
 

@@ -4,10 +4,11 @@
 //! make one key, and two or three passes over digits of up to eleven bits put thousands of pairs in order without a
 //! comparison, for a tenth of the work of a comparison sort. The keys of few items are compared.
 //!
-//! Several threads sort a run each; one thread sorts several runs if there are very many items, because it can be interrupted between
-//! runs. Then some keys of every run, evenly spaced, say where to cut all runs, so that what lies between two cuts is about as much
-//! for each thread to merge (Shi and Schaeffer 1992, parallel sorting by regular sampling). Items of equal keys are equal: the result
-//! does not depend on the number of threads.
+//! Very many items are put into buckets by their first digit, by one thread, and each bucket is then sorted in cache. Several threads sort a
+//! run each; so does one thread, several runs, where most items are in one bucket, because it can be interrupted between runs. Then some
+//! keys of every run, evenly spaced, say where to cut all runs, so that what lies between two cuts is about as much for each thread to
+//! merge (Shi and Schaeffer 1992, parallel sorting by regular sampling). Items of equal keys are equal: the result does not depend on
+//! the number of threads.
 
 use crate::held::{self, Held};
 use crate::hits::Hit;
@@ -21,6 +22,8 @@ const DIGIT: u32 = 11;
 const SHORTEST_RUN: usize = 1024;
 /// Items of a run, at most: some milliseconds of work.
 const LONGEST_RUN: usize = 1 << 17;
+/// So many items are put into buckets before it is asked whether somebody wants to stop.
+const UNINTERRUPTED: usize = 1 << 16;
 
 /// Scratch.
 #[derive(Debug, Default)]
@@ -56,6 +59,12 @@ pub(crate) fn sort<T: Hit>(executor: Executor, items: &mut [T], Keys { keys, spa
         }
     };
 
+    if !executor.are_many()
+        && items.len() > LONGEST_RUN
+        && sort_by_buckets(executor, items, packing, [keys, spare])
+    {
+        return;
+    }
     let most = executor.count().min(items.len() / SHORTEST_RUN);
     let runs = most.max(items.len().div_ceil(LONGEST_RUN));
     if runs < 2 {
@@ -76,6 +85,65 @@ pub(crate) fn sort<T: Hit>(executor: Executor, items: &mut [T], Keys { keys, spa
         merge.put_in_order();
         unpack(merge.keys, merge.items);
     });
+}
+
+/// Sorts items by buckets: those of equal first digits. Returns false, and has done nothing, if a bucket is too large to be sorted without
+/// being interrupted.
+fn sort_by_buckets<T: Hit>(
+    executor: Executor,
+    items: &mut [T],
+    packing: Packing,
+    [keys, spare]: [&mut [u64]; 2],
+) -> bool {
+    let bits = packing.bits();
+    let width = bits.min(DIGIT);
+    let rest = bits - width;
+    let bucket = |key: u64| (key.checked_shr(rest).unwrap_or(0)) as usize;
+    let mut ends = vec![0_u32; 1 << width];
+    for (items, keys) in items
+        .chunks(UNINTERRUPTED)
+        .zip(keys.chunks_mut(UNINTERRUPTED))
+    {
+        for (item, place) in items.iter().zip(keys) {
+            let key = packing.key(item.numbers());
+            *place = key;
+            ends[bucket(key)] += 1;
+        }
+        if executor.is_interrupted() {
+            return true;
+        }
+    }
+    if ends.iter().any(|&count| count as usize > LONGEST_RUN) {
+        return false;
+    }
+    let mut before = 0;
+    for end in &mut ends {
+        before += std::mem::replace(end, before);
+    }
+    for keys in keys.chunks(UNINTERRUPTED) {
+        for &key in keys {
+            let place = &mut ends[bucket(key)];
+            spare[*place as usize] = key;
+            *place += 1;
+        }
+        if executor.is_interrupted() {
+            return true;
+        }
+    }
+    let mut start = 0;
+    for end in ends {
+        let of_bucket = start..end as usize;
+        start = of_bucket.end;
+        let (from, to) = (&mut spare[of_bucket.clone()], &mut keys[of_bucket.clone()]);
+        let sorted = sort_digits(from, to, rest);
+        for (place, &key) in items[of_bucket].iter_mut().zip(&*sorted) {
+            *place = T::of_numbers(packing.numbers(key));
+        }
+        if executor.is_interrupted() {
+            return true;
+        }
+    }
+    true
 }
 
 /// Items that one thread sorts: their keys will be in order.
@@ -193,13 +261,8 @@ impl Packing {
 
 /// Puts keys of some bits into `sorted`, in order; the slices are as long as there are keys.
 fn sort_keys(keys: impl Iterator<Item = u64>, sorted: &mut [u64], spare: &mut [u64], bits: u32) {
-    let passes = if sorted.len() < FEW {
-        0
-    } else {
-        bits.div_ceil(DIGIT)
-    };
     // Every pass goes from one to the other, the last to `sorted`.
-    let (mut from, mut to) = if passes % 2 == 0 {
+    let (from, to) = if passes(sorted.len(), bits).is_multiple_of(2) {
         (sorted, spare)
     } else {
         (spare, sorted)
@@ -207,6 +270,17 @@ fn sort_keys(keys: impl Iterator<Item = u64>, sorted: &mut [u64], spare: &mut [u
     for (place, key) in from.iter_mut().zip(keys) {
         *place = key;
     }
+    sort_digits(from, to, bits);
+}
+
+/// How many passes so many keys need; none where they are compared.
+fn passes(count: usize, bits: u32) -> u32 {
+    if count < FEW { 0 } else { bits.div_ceil(DIGIT) }
+}
+
+/// Puts keys in the order of some low bits, the others being equal; returns where they are then.
+fn sort_digits<'k>(mut from: &'k mut [u64], mut to: &'k mut [u64], bits: u32) -> &'k mut [u64] {
+    let passes = passes(from.len(), bits);
     if passes == 0 {
         from.sort_unstable();
     }
@@ -216,6 +290,7 @@ fn sort_keys(keys: impl Iterator<Item = u64>, sorted: &mut [u64], spare: &mut [u
         distribute(from, to, low, high - low);
         std::mem::swap(&mut from, &mut to);
     }
+    from
 }
 
 /// Puts keys in the order of a digit, equal ones in the order in which they are.
@@ -275,6 +350,10 @@ mod tests {
             (4000, 1, 32),
             (70_000, 16, 17),
             (LONGEST_RUN + 9, 16, 17),
+            (3 * LONGEST_RUN, 0, 0),
+            (3 * LONGEST_RUN, 1, 9),
+            (4 * LONGEST_RUN, 19, 18),
+            (2 * LONGEST_RUN, 32, 31),
         ] {
             let items: Vec<Pair> = (0..count)
                 .map(|_| [5, next(first_bits), 7, next(second_bits)])

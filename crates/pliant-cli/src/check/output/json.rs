@@ -38,6 +38,10 @@ use serde::Serialize;
 use serde_json::json;
 use std::io::{self, Write};
 
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "what was asked for, flag by flag"
+)]
 pub(super) struct Json {
     count_only: bool,
     split: Option<Split>,

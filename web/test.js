@@ -54,9 +54,14 @@ async function open(name, options = {}) {
   await page.goto(address);
   await page.waitForSelector('body[data-ready]', { timeout: 60_000 });
   const state = async () => {
-    const { number, pairs, red, made, boxes } = await page.locator('.stage').evaluate((stage) => ({ ...stage.dataset }));
-    return { number: +number, pairs: +pairs, red: +red, made: +made, boxes: +boxes };
+    const { number, pairs, red, made, boxes, places, focus, glass, hidden } = await page.locator('.stage').evaluate((stage) => ({ ...stage.dataset }));
+    return { number: +number, pairs: +pairs, red: +red, made: +made, boxes: +boxes, places: +places, focus: focus === '' ? null : +focus, glass, hidden: +hidden };
   };
+  /** Waits until the eye has come to the place that it flies to. */
+  const arrived = (focus) => page.waitForFunction((focus) => {
+    const { dataset } = document.querySelector('.stage');
+    return dataset.focus === String(focus) && dataset.flies === 'no';
+  }, focus);
   /** Waits for the picture to be drawn. */
   const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   /** The pixels of the picture as it is on the screen: how many are red, one in the middle of red, one on a body that is not. */
@@ -69,7 +74,7 @@ async function open(name, options = {}) {
     assert.deepEqual(errors, []);
     assert.deepEqual(requests, [address], 'nothing is asked for but the page itself');
   };
-  return { page, state, drawn, pixels, close };
+  return { page, state, arrived, drawn, pixels, close };
 }
 
 /** What is on a PNG; the browser decodes it, on a page of its own. */
@@ -129,6 +134,11 @@ test('the red triangles are those of the JSON, scrubbed to', { skip }, async () 
   const json = JSON.parse(pliant('run', '--triangles', '1280', '--stride', '5', '--report', 'run.html', '--format', 'json'));
   const { page, state, pixels, close } = await open('run.html');
   assert.equal((await state()).number, json.step[json.pairs.indexOf(Math.max(...json.pairs))], 'begins where most pairs are');
+  // It opens on the largest place, where something red is seen.
+  assert.notEqual((await state()).focus, null);
+  assert.ok((await pixels()).count.red > 100);
+  await page.getByText('Show everything').click();
+  assert.equal((await state()).focus, null);
   for (const place of [0, 12, 25, 39]) {
     await scrub(page, place);
     const { number, pairs, red } = await state();
@@ -156,11 +166,89 @@ test('real meshes: frame by frame as many red triangles as are in the pairs', { 
   const { page, state, close } = await open('morph.html', { colorScheme: 'dark' });
   for (const place of [0, 1, 20, 38, 50, 59]) {
     await scrub(page, place);
-    const { number, pairs, red } = await state();
+    const { number, pairs, red, places } = await state();
     const frame = json.frames[place];
     assert.deepEqual([number, pairs, red], [frame.frame, frame.count, redOf(frame.pairs)]);
+    assert.equal(places, frame.places.length);
+    const listed = await page.locator('.places button').evaluateAll((all) => all.map((button) => +button.dataset.number));
+    assert.deepEqual(listed, frame.places.map((place) => place.number));
   }
   await page.screenshot({ path: join(shots, 'check-dark.png'), fullPage: true });
+  await close();
+});
+
+test('opens on the largest place, above the fold; a click flies to another, where the hit is seen', { skip: skip || (existsSync(morph) ? false : 'there is no shared/data beside the checkout') }, async () => {
+  const json = JSON.parse(pliant('check', morph, '--report', 'places.html', '--format', 'json'));
+  const { page, state, arrived, pixels, close } = await open('places.html', { viewport: { width: 1366, height: 768 } });
+  const worst = json.frames.reduce((most, frame) => (frame.count > most.count ? frame : most));
+  assert.equal((await state()).focus, worst.places[0].number);
+  const box = await page.locator('.play').boundingBox();
+  assert.ok(box.y + box.height < 768, `the play button ends at ${box.y + box.height}`);
+  assert.ok((await pixels()).count.red > 1000);
+  await page.screenshot({ path: join(shots, 'morph-1366.png') });
+  for (const [nth, { number }] of [...worst.places.entries()].slice(1, 6)) {
+    await page.locator('.places button').nth(nth).click();
+    await arrived(number);
+    const { count } = await pixels();
+    assert.ok(count.red > 500, `place ${number}: ${count.red} red pixels`);
+  }
+  // Scrubbed to another frame the same place stays looked at while it lives.
+  const { focus, number } = await state();
+  await page.keyboard.press('ArrowRight');
+  assert.equal((await state()).number, number + 1);
+  if (json.frames[number + 1].places.some((place) => place.number === focus)) assert.equal((await state()).focus, focus);
+  // Everything, with markers where places are too small to be seen.
+  await page.keyboard.press('r');
+  const { places } = await state();
+  await pixels();
+  assert.equal(await page.locator('.markers i:not([hidden])').count(), places);
+  // A wireframe has holes.
+  const solid = (await pixels()).count.plain;
+  await page.keyboard.press('o');
+  assert.ok((await pixels()).count.plain < solid);
+  await page.keyboard.press('o');
+  await close();
+});
+
+test('a body round everything that holds no hit starts hidden, and is found by typing', { skip }, async () => {
+  const cube = (half) => [...Array(8).keys()].map((corner) => `v ${[0, 1, 2].map((axis) => ((corner >> axis) & 1 ? half : -half)).join(' ')}`).join('\n')
+    + '\nf 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n';
+  const names = ['sky.obj', 'a.obj', 'b.obj', ...Array.from({ length: 9 }, (_, i) => `far${i}.obj`)];
+  const triangles = { 'a.obj': 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n', 'b.obj': 'v 0.2 0.2 -1\nv 0.3 0.2 1\nv 0.2 0.3 1\nf 1 2 3\n' };
+  for (const name of names) writeFileSync(join(folder, name), triangles[name] ?? (name === 'sky.obj' ? cube(90) : `v 3 0 ${name[3]}\nv 4 0 ${name[3]}\nv 3 1 ${name[3]}\nf 1 2 3\n`));
+  pliant('check', ...names, '--report', 'sky.html');
+  const { page, state, pixels, close } = await open('sky.html');
+  assert.equal((await state()).hidden, 1);
+  assert.match(await page.locator('.aside').innerText(), /Hidden, .*sky\.obj/);
+  assert.ok((await pixels()).count.red > 100);
+  await page.screenshot({ path: join(shots, 'sky.png') });
+  await page.locator('input[type=search]').fill('FAR3');
+  assert.equal(await page.locator('.eye').count(), 1);
+  await page.locator('.eye').click();
+  assert.equal((await state()).hidden, 2);
+  await page.getByText('Show all').click();
+  assert.equal((await state()).hidden, 0);
+  await page.locator('input[type=search]').fill('');
+  assert.equal(await page.locator('.eye').count(), 12);
+  await close();
+});
+
+test('each frame shows its own mesh', { skip }, async () => {
+  const sheet = 'v 0 0 0\nv 4 0 0\nv 0 4 0\nv 4 4 0\nf 1 2 3\n';
+  ['', 'f 2 4 3\n', ''].forEach((more, frame) => writeFileSync(join(folder, `mesh_${frame}.obj`), sheet + more));
+  writeFileSync(join(folder, 'pin.obj'), 'v 1 1 -1\nv 1 1 1\nv 1 1.5 1\nf 1 2 3\nv 3 3 -1\nv 3 3 1\nv 3 3.5 1\nf 4 5 6\n');
+  const json = JSON.parse(pliant('check', 'mesh_*.obj', 'pin.obj', '--report', 'mesh.html', '--format', 'json'));
+  assert.deepEqual(json.frames.map(({ count }) => count), [1, 2, 1]);
+  const { page, state, pixels, close } = await open('mesh.html');
+  assert.equal(await page.locator('.eye').count(), 2, 'one body, whatever its mesh');
+  const seen = [];
+  await page.keyboard.press('r');
+  for (const place of [0, 1, 2]) {
+    await scrub(page, place);
+    assert.deepEqual(await state().then(({ pairs, red }) => [pairs, red]), [[1, 2], [2, 4], [1, 2]][place]);
+    seen.push((await pixels()).count.red);
+  }
+  assert.ok(seen[1] > 1.5 * seen[0] && Math.abs(seen[0] - seen[2]) < 0.1 * seen[0], String(seen));
   await close();
 });
 
@@ -191,21 +279,18 @@ test('keys: steps, ends, hits, first contact, most pairs, play', { skip }, async
   await page.locator('.track input').focus();
   await press('Home', 0);
   await press('ArrowRight', 1);
-  // Play runs to the end and stops; Space on a button presses the button alone.
+  // Play goes on from the beginning behind the last; Space on a button presses the button alone.
   await page.locator('canvas').first().focus();
   await page.keyboard.press('Space');
   assert.equal(await page.locator('.play').textContent(), 'Pause');
   await page.keyboard.press('Space');
   assert.equal(await page.locator('.play').textContent(), 'Play');
-  // From the end it begins anew.
   await page.keyboard.press('End');
-  await page.keyboard.press('Space');
-  await page.keyboard.press('Space');
-  assert.ok((await at()) < last);
   await page.locator('.play').focus();
   await page.keyboard.press('Space');
-  await page.waitForFunction((number) => document.querySelector('.stage').dataset.number === String(number), json.step[last]);
-  await page.waitForFunction(() => document.querySelector('.play').textContent === 'Play');
+  await page.waitForFunction((number) => +document.querySelector('.stage').dataset.number < number, json.step[last]);
+  assert.equal(await page.locator('.play').textContent(), 'Pause');
+  await page.keyboard.press('Space');
   // Every control is reached, and the focus is seen.
   await page.locator('.play').focus();
   await page.keyboard.press('Tab');
@@ -258,7 +343,10 @@ test('names are text, whatever is in them', { skip }, async () => {
   assert.match(await page.title(), /^pliant check/);
   assert.equal(await page.locator('img').count(), 0);
   const legend = await page.locator('.legend').innerText();
-  for (const name of names) assert.ok(legend.includes(name), legend);
+  for (const name of names) {
+    assert.ok(legend.includes(name.split('/').pop()), legend);
+    assert.equal(await page.getByLabel(`Show ${name}`, { exact: true }).count(), 1);
+  }
   await close();
 });
 
@@ -338,6 +426,7 @@ test('a narrow screen, and both schemes', { skip }, async () => {
     assert.ok(overflow <= 0, `${name}: ${overflow} pixels too wide`);
     await page.screenshot({ path: join(shots, `${name}.png`), fullPage: true });
     // Far apart, and still in the picture.
+    await page.keyboard.press('r');
     await page.keyboard.press('Home');
     const { count } = await pixels();
     assert.ok(count.plain > 100 && count.edge === 0, `${name}: ${JSON.stringify(count)}`);

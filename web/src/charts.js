@@ -30,6 +30,8 @@ export class Chart {
       axes: [axis, { ...axis, size: 64, label: unit, labelSize: 18, labelFont: axis.font }],
       // Dragging moves the picture; it does not zoom.
       cursor: { drag: { x: false, y: false }, points: { size: 6 } },
+      // The legend has colour and dash of each line.
+      legend: { markers: { width: 2, dash: (_, i) => ['solid', 'dashed', 'dotted'][Math.max(0, [0, 6, 2].indexOf(lines[i - 1]?.dash?.[0] ?? 0))] } },
       series: [
         { label: along },
         ...lines.map((line) => ({

@@ -84,8 +84,10 @@ export async function unpack(facts, base64) {
   });
   const bits = facts.bodies.flatMap((body) => body.levels).reduce((sum, count) => sum + count, 0);
   const before = bodies.map(() => [null, null]);
-  const frames = facts.frames.map((place) => {
+  const frames = facts.frames.map((place, at) => {
     const shapes = bodies.map((body, number) => {
+      // A body whose mesh changes is several in this list; a frame has one of them.
+      if (reader.byte() === 0) return null;
       const lower = [reader.float(), reader.float(), reader.float()];
       const [last, lastButOne] = before[number];
       const steps = reader.positions(3 * body.vertices, last, lastButOne);
@@ -105,6 +107,8 @@ export async function unpack(facts, base64) {
       partners: arePairs ? { a, b } : null,
       red: arePairs ? distinct(a, b) : a,
       made,
+      places: facts.places[at].map(([number, count, lower, upper, label]) => ({ number, count, lower, upper, label })),
+      placeCount: facts.placeCounts[at],
     };
   });
   return { bodies, frames, numbers: facts.numbers, pairs: facts.pairs };

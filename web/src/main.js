@@ -1,11 +1,14 @@
 // The page: what was asked and found, the bodies in motion, and under them what was measured.
 
+import { BodyList } from './bodies.js';
 import { Chart } from './charts.js';
 import { unpack } from './data.js';
 import { element, grouped } from './dom.js';
+import { PlaceList } from './places.js';
 import { Player } from './player.js';
 import { Selection } from './selection.js';
 import { Stage } from './stage.js';
+import { explained } from './words.js';
 
 const KEYS = [
   ['Space', 'play, pause'],
@@ -17,9 +20,12 @@ const KEYS = [
   ['W', 'the most pairs'],
   ['T', 'choose the next red triangle; Escape lets it go'],
   ['[ ]', 'boxes of the level above, below'],
+  ['L', 'the next place'],
   ['X', 'see through the bodies'],
+  ['O', 'wireframe'],
+  ['Double click', 'what is there comes into the middle'],
   ['Shift and arrows, + −', 'turn, come nearer, go away'],
-  ['R', 'look from where it began'],
+  ['R', 'look at everything'],
 ];
 
 const report = JSON.parse(document.getElementById('report').textContent);
@@ -35,17 +41,20 @@ const selection = new Selection((triangles) => stage?.mark(triangles));
 const canvas = element('canvas', { tabIndex: 0, 'aria-label': 'The bodies. Drag to turn, click a triangle; then scroll to come nearer.' });
 const levels = element('select', { id: 'levels', onchange: showBoxes });
 const boxesSaid = element('span', { className: 'hint' });
-const seeThrough = element('button', { type: 'button', 'aria-pressed': 'false', onclick: toggleSeeThrough }, 'See through');
-const legend = element('ul', { className: 'legend' });
+const seeThrough = element('button', { type: 'button', 'aria-pressed': 'false', onclick: () => stage?.toggleSeeThrough() }, 'See through');
+const wireframe = element('button', { type: 'button', 'aria-pressed': 'false', onclick: toggleWireframe }, 'Wireframe');
+const places = new PlaceList((number) => stage?.flyTo(number));
+const bodies = new BodyList(report.hit, (hidden) => stage?.hide(hidden));
 const stageBox = element('section', { className: 'stage', 'aria-label': 'The bodies in motion' },
-  element('div', { className: 'picture' }, canvas, player.status),
-  player.bar,
-  element('div', { className: 'tools' },
-    element('label', { for: 'levels' }, 'Boxes'), levels, boxesSaid,
-    element('span', { className: 'space' }), seeThrough,
-    element('button', { type: 'button', onclick: () => stage?.look() }, 'Reset view')),
-  selection.panel,
-  legend);
+  element('div', { className: 'shown' },
+    element('div', { className: 'picture' }, canvas, player.status),
+    player.bar,
+    element('div', { className: 'tools' },
+      element('label', { for: 'levels' }, ...explained('Boxes')), levels, boxesSaid,
+      element('span', { className: 'space' }), wireframe, seeThrough,
+      element('button', { type: 'button', onclick: () => stage?.look() }, 'Show everything')),
+    selection.panel),
+  element('div', { className: 'aside' }, places.box, bodies.box));
 const notes = element('ul', { className: 'notes' });
 const playFacts = element('dl', { className: 'facts' });
 const chartsBox = element('section', { className: 'charts', 'aria-label': 'Figures' });
@@ -68,11 +77,11 @@ function build() {
       element('p', { className: 'brand' }, 'pliant ', element('span', {}, report.version)),
       element('h1', {}, report.found),
       element('p', { className: 'asked' }, element('code', {}, report.asked))),
-    facts(report.facts),
     ...(report.plays.length > 1 ? [element('p', { className: 'choice' }, element('label', { for: 'plays' }, 'Show'), choice)] : []),
-    playFacts,
     stageBox,
     notes,
+    facts(report.facts),
+    playFacts,
     chartsBox,
     element('details', { className: 'keys' }, element('summary', {}, 'Keys'),
       element('table', {}, element('tbody', {}, ...KEYS.map(([key, what]) =>
@@ -83,7 +92,7 @@ function build() {
 }
 
 function facts(list, into = element('dl', { className: 'facts' })) {
-  into.replaceChildren(...list.map(([name, value]) => element('div', { className: value.length > 26 ? 'long' : '' }, element('dt', {}, name), element('dd', {}, value))));
+  into.replaceChildren(...list.map(([name, value]) => element('div', { className: value.length > 26 ? 'long' : '' }, element('dt', {}, ...explained(name)), element('dd', {}, ...explained(value)))));
   into.hidden = list.length === 0;
   return into;
 }
@@ -110,10 +119,16 @@ async function choose(place) {
     player.slider.setAttribute('aria-label', play.along);
     stage.show(motion);
     offerLevels(motion);
-    legend.replaceChildren(...named(motion.bodies));
     selection.load(motion);
+    places.load(motion);
+    bodies.load(motion);
     current = motion;
     player.load(motion);
+    // Opens on the largest place, or on everything.
+    const [largest] = player.frame.places;
+    stage.resize();
+    if (largest) stage.flyTo(largest.number, false);
+    else stage.look();
   }
   ready();
 }
@@ -125,7 +140,7 @@ function ready() {
 
 function openStage() {
   try {
-    stage = new Stage(canvas, report.hit, (triangle) => selection.choose(triangle));
+    stage = new Stage(canvas, report.hit, (triangle) => selection.choose(triangle), lookedAt);
     return true;
   } catch (error) {
     console.warn(error);
@@ -148,9 +163,18 @@ function shown(frame) {
   const red = stage.set(frame);
   selection.set(frame);
   sayBoxes();
+  lookedAt();
   charts.forEach((chart) => chart.mark(frame.number));
   Object.assign(stageBox.dataset, { number: frame.number, pairs: frame.pairs, red });
   return red;
+}
+
+/** Another place is looked at, or bodies have become glass. */
+function lookedAt() {
+  if (!stage?.frame) return;
+  seeThrough.setAttribute('aria-pressed', String(stage.seeThrough));
+  places.show(stage.frame, player.along, stage.focus);
+  Object.assign(stageBox.dataset, { places: stage.frame.placeCount, focus: stage.focus ?? '', glass: stage.seeThrough ? 'yes' : 'no', flies: stage.flight ? 'yes' : 'no', hidden: stage.hidden.size });
 }
 
 function offerLevels(motion) {
@@ -172,20 +196,16 @@ function sayBoxes() {
   Object.assign(stageBox.dataset, { boxes: all, made });
 }
 
-function toggleSeeThrough() {
-  seeThrough.setAttribute('aria-pressed', String(stage.toggleSeeThrough()));
+function toggleWireframe() {
+  wireframe.setAttribute('aria-pressed', String(stage.toggleWireframe()));
 }
 
-function named(bodies) {
-  const listed = bodies.slice(0, 12).map((body) => {
-    const chip = element('span', { className: 'chip' });
-    chip.style.background = body.colour;
-    return element('li', {}, chip, element('bdi', {}, body.name));
-  });
-  if (bodies.length > 12) listed.push(element('li', {}, `and ${bodies.length - 12} more`));
-  const chip = element('span', { className: 'chip' });
-  chip.style.background = report.hit;
-  return [...listed, element('li', {}, chip, 'intersects')];
+/** The place after the one that is looked at, the largest after the last. */
+function nextPlace() {
+  const all = stage.frame.places;
+  const now = all.findIndex(({ number }) => number === stage.focus);
+  const next = all[(now + 1) % Math.max(1, all.length)];
+  if (next) stage.flyTo(next.number);
 }
 
 function guarded(promise) {
@@ -213,7 +233,9 @@ const ACTS = {
   Escape: () => selection.choose(null),
   '[': () => moveLevel(-1),
   ']': () => moveLevel(1),
-  x: toggleSeeThrough,
+  x: () => stage.toggleSeeThrough(),
+  o: toggleWireframe,
+  l: nextPlace,
   r: () => stage.look(),
   '+': () => stage.turn(0, 0, 1.15),
   '=': () => stage.turn(0, 0, 1.15),
@@ -237,7 +259,7 @@ document.addEventListener('keydown', (event) => {
   if (!current || event.ctrlKey || event.metaKey || event.altKey) return;
   const { tagName } = event.target;
   // Where a key has a meaning of its own already, it keeps it.
-  if (tagName === 'SELECT') return;
+  if (tagName === 'SELECT' || event.target.type === 'search') return;
   if (event.key === ' ' && (tagName === 'BUTTON' || tagName === 'SUMMARY')) return;
   const act = event.shiftKey && TURNS[event.key] ? TURNS[event.key] : ACTS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
   if (!act) return;

@@ -99,13 +99,12 @@ export class Player {
   toggle() {
     if (this.timer) return this.pause();
     if (this.frames.length < 2) return;
-    if (this.place === this.frames.length - 1) this.go(0);
     // About eight seconds for all, but neither a slide show nor a blur.
     const pause = 1000 / Math.max(6, Math.min(30, this.frames.length / 8));
     this.status.setAttribute('aria-live', 'off');
     this.timer = setInterval(() => {
-      this.go(this.place + 1);
-      if (this.place === this.frames.length - 1) this.pause();
+      // Behind the last comes the first.
+      this.go((this.place + 1) % this.frames.length);
     }, pause);
     this.showPlaying();
   }

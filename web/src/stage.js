@@ -2,11 +2,12 @@
 
 import {
   AmbientLight, Box3, BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, DynamicDrawUsage, LineBasicMaterial,
-  LineSegments, Mesh, MeshLambertMaterial, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+  LineSegments, Mesh, MeshLambertMaterial, PerspectiveCamera, Plane, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { boxAround } from './data.js';
 import { colour, element } from './dom.js';
+import { SIZE, areHidden, directions, fit } from './views.js';
 
 // Where a picture of pliant's looks from, too.
 const TOWARDS_EYE = new Vector3(0.55, 0.45, 1).normalize();
@@ -15,10 +16,21 @@ const EDGES = [0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4, 6, 5, 7, 0, 4, 1, 5, 2, 6,
 
 export class Stage {
   /** Throws where the browser has no WebGL. `picked` is told what is clicked: a body and a triangle, or null. */
-  constructor(canvas, red, picked) {
+  constructor(canvas, red, picked, told) {
     this.canvas = canvas;
+    this.told = told;
     this.ring = element('div', { className: 'ring', hidden: true });
-    canvas.after(this.ring);
+    this.markers = element('div', { className: 'markers', 'aria-hidden': 'true' });
+    this.spot = element('i');
+    this.overview = element('div', { className: 'overview', hidden: true, 'aria-hidden': 'true' }, this.spot);
+    canvas.after(this.markers, this.ring, this.overview);
+    this.far = new PerspectiveCamera(28, 1, 0.01, 100);
+    /** Numbers of bodies that are not shown. */
+    this.hidden = new Set();
+    this.focus = null;
+    this.chosenGlass = null;
+    this.autoGlass = false;
+    this.wireframe = false;
     this.red = red;
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.scene = new Scene();
@@ -30,7 +42,8 @@ export class Stage {
     this.camera.add(light);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.draw());
-    this.controls.addEventListener('start', () => (this.follows = false));
+    this.controls.addEventListener('start', () => this.takenOver());
+    this.controls.addEventListener('end', () => this.seeWhatHides());
     // Scrolling is the page's until somebody has chosen the picture.
     this.controls.enableZoom = false;
     canvas.addEventListener('focus', () => (this.controls.enableZoom = true));
@@ -41,7 +54,6 @@ export class Stage {
     this.outline.material.depthTest = false;
     this.outline.renderOrder = 3;
     this.bodies = [];
-    this.seeThrough = false;
     this.scene.add(this.made, this.notMade, this.outline);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.listen(picked);
@@ -57,9 +69,33 @@ export class Stage {
     }
     this.motion = motion;
     this.bodies = motion.bodies.map((body) => this.body(body));
-    this.applySeeThrough();
+    this.hidden = new Set();
+    this.focus = null;
+    this.autoGlass = false;
     this.frame = this.view = null;
     this.follows = true;
+    this.applySeeThrough();
+  }
+
+  /** Whether bodies are glass: as somebody has chosen, or because they hide what is looked at. */
+  get seeThrough() {
+    return this.chosenGlass ?? this.autoGlass;
+  }
+
+  isShown(number) {
+    return Boolean(this.frame?.shapes[number]) && !this.hidden.has(this.bodies[number].body.number);
+  }
+
+  /** Shows these bodies and no others. */
+  hide(numbers) {
+    this.hidden = numbers;
+    this.bodies.forEach(({ mesh, hits }, number) => {
+      mesh.visible = this.isShown(number);
+      hits.visible = mesh.visible && hits.geometry.drawRange.count > 0;
+    });
+    this.boxesOf(this.level);
+    this.seeWhatHides();
+    this.draw();
   }
 
   body(body) {
@@ -85,9 +121,16 @@ export class Stage {
 
   /** Brings a frame on stage. */
   set(frame) {
+    const before = this.place(this.focus);
     this.frame = frame;
     let [at, red] = [0, 0];
     this.bodies.forEach(({ body, mesh, hits, position }, number) => {
+      mesh.visible = this.isShown(number);
+      if (!frame.shapes[number]) {
+        hits.visible = false;
+        hits.geometry.setDrawRange(0, 0);
+        return;
+      }
       const { lower, steps } = frame.shapes[number];
       const [out, n] = [position.array, body.vertices];
       for (let i = 0; i < n; i++) {
@@ -103,20 +146,48 @@ export class Stage {
       }
       index.needsUpdate = true;
       hits.geometry.setDrawRange(0, length);
-      hits.visible = length > 0;
+      hits.visible = mesh.visible && length > 0;
       red += length / 3;
     });
-    this.keepInView();
+    this.showMarkers();
+    const now = this.place(this.focus);
+    if (before && now && this.follows) {
+      // The place stays where it is in the picture, wherever its body goes.
+      const moved = middle(now).sub(middle(before));
+      this.controls.target.add(moved);
+      this.camera.position.add(moved);
+      this.controls.update();
+    } else if (this.focus === null) this.keepInView();
+    clearTimeout(this.soon);
+    this.soon = setTimeout(() => this.seeWhatHides(), 150);
     this.boxesOf(this.level);
     this.mark(this.marked ?? []);
     return red;
   }
 
-  /** The box of all bodies. */
+  /** The box of all bodies that are shown. */
   bounds() {
     const box = new Box3();
-    for (const { position } of this.bodies) box.union(new Box3().setFromBufferAttribute(position));
+    this.bodies.forEach(({ position }, number) => this.isShown(number) && box.union(new Box3().setFromBufferAttribute(position)));
+    if (box.isEmpty()) box.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
     return box;
+  }
+
+  /** The positions of all bodies that are shown. */
+  shownPositions() {
+    return this.bodies.filter((_, number) => this.isShown(number)).map(({ position }) => position.array);
+  }
+
+  /** A place of this frame, by its number. */
+  place(number) {
+    return number === null ? undefined : this.frame?.places.find((place) => place.number === number);
+  }
+
+  /** Somebody takes the view into their own hands. */
+  takenOver() {
+    this.follows = false;
+    cancelAnimationFrame(this.flight);
+    this.flight = null;
   }
 
   /** Goes back where bodies leave the picture, until somebody takes the view into their own hands. Never comes nearer: bodies that grow are seen to grow. */
@@ -125,7 +196,133 @@ export class Stage {
     if (!this.view) return this.look();
     const roomy = this.view.clone().expandByScalar(0.06 * this.view.getSize(new Vector3()).length());
     if (!this.follows || roomy.containsBox(now)) return;
-    this.look(now.union(this.view));
+    this.view = now.union(this.view);
+    this.moveTo(fit([corners(this.view)], TOWARDS_EYE, this.camera), false);
+  }
+
+  /** Looks at a place from where most of it is seen; its surroundings fill the rest of the picture. */
+  flyTo(number, animated = true) {
+    const place = this.place(number);
+    if (!place) return;
+    this.focus = number;
+    this.follows = true;
+    const whole = this.bounds().getSize(new Vector3()).length() / 2;
+    const at = middle(place);
+    const radius = Math.max(1.7 * (new Vector3(...place.upper).distanceTo(at)), 0.03 * whole, 1e-6);
+    const distance = radius / Math.sin(((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
+    const towards = this.bestDirection(place, at, distance);
+    this.moveTo({ target: at, position: towards.clone().multiplyScalar(distance).add(at) }, animated);
+    if (!animated) this.seeWhatHides();
+    this.told();
+  }
+
+  /** From the usual side, unless more of the place is seen from another. */
+  bestDirection(place, at, distance) {
+    let [best, most] = [TOWARDS_EYE, 0];
+    for (const towards of directions(TOWARDS_EYE)) {
+      const eye = this.camera.clone();
+      eye.position.copy(towards).multiplyScalar(distance).add(at);
+      eye.lookAt(at);
+      this.reach(eye, at);
+      const { all, seen } = this.visible(place, eye);
+      if (towards === TOWARDS_EYE && seen > 0.5 * all) return towards;
+      if (seen > 1.2 * most) [best, most] = [towards, seen];
+    }
+    return best;
+  }
+
+  /** How many pixels of a small picture the hits of a place have, and how many of them nothing hides. */
+  visible(place, eye) {
+    this.small ??= new WebGLRenderTarget(SIZE, SIZE);
+    const [low, high] = [place.lower, place.upper].map((corner) => new Vector3(...corner));
+    const planes = ['x', 'y', 'z'].flatMap((axis) => {
+      const normal = new Vector3();
+      normal[axis] = 1;
+      const room = 1e-4 + 1e-3 * (high[axis] - low[axis]);
+      return [new Plane(normal, room - low[axis]), new Plane(normal.clone().negate(), high[axis] + room)];
+    });
+    const others = [this.made, this.notMade, this.outline].filter((object) => object.visible);
+    others.forEach((object) => (object.visible = false));
+    const count = (withBodies) => {
+      this.bodies.forEach(({ mesh, hits }, number) => {
+        mesh.visible = withBodies && this.isShown(number);
+        Object.assign(mesh.material, { transparent: false, opacity: 1, depthWrite: true, colorWrite: false, wireframe: false });
+        hits.material.clippingPlanes = planes;
+      });
+      this.renderer.localClippingEnabled = true;
+      this.renderer.setRenderTarget(this.small);
+      this.renderer.render(this.scene, eye);
+      const pixels = new Uint8Array(4 * SIZE * SIZE);
+      this.renderer.readRenderTargetPixels(this.small, 0, 0, SIZE, SIZE, pixels);
+      this.renderer.setRenderTarget(null);
+      let met = 0;
+      for (let i = 3; i < pixels.length; i += 4) met += pixels[i] > 0;
+      return met;
+    };
+    const [all, seen] = [count(false), count(true)];
+    this.renderer.localClippingEnabled = false;
+    this.bodies.forEach(({ mesh, hits }, number) => {
+      mesh.visible = this.isShown(number);
+      mesh.material.colorWrite = true;
+      hits.material.clippingPlanes = null;
+    });
+    others.forEach((object) => (object.visible = true));
+    this.applySeeThrough();
+    return { all, seen };
+  }
+
+  /** Bodies turn to glass where they hide the place that is looked at. */
+  seeWhatHides() {
+    if (!this.frame) return;
+    const place = this.place(this.focus);
+    const before = this.autoGlass;
+    if (place && !this.flight) {
+      this.reach(this.camera, this.controls.target);
+      this.autoGlass = areHidden(this.visible(place, this.camera));
+    } else if (this.focus === null) this.autoGlass = false;
+    if (before !== this.autoGlass) this.applySeeThrough();
+    this.told();
+    this.draw();
+  }
+
+  /** Brings the eye somewhere, by and by unless somebody wants less motion. */
+  moveTo({ target, position }, animated = true) {
+    cancelAnimationFrame(this.flight);
+    this.flight = null;
+    const [from, at] = [this.camera.position.clone().sub(this.controls.target), this.controls.target.clone()];
+    const to = position.clone().sub(target);
+    const arrive = (part) => {
+      const distance = from.length() ** (1 - part) * to.length() ** part;
+      const towards = from.clone().normalize().lerp(to.clone().normalize(), part);
+      if (towards.lengthSq() < 1e-6) towards.copy(to);
+      this.controls.target.copy(at).lerp(target, part);
+      this.camera.position.copy(towards.setLength(distance)).add(this.controls.target);
+      this.reach(this.camera, this.controls.target);
+      this.controls.update();
+      this.draw();
+    };
+    if (!animated || from.lengthSq() === 0 || matchMedia('(prefers-reduced-motion: reduce)').matches) {
+      arrive(1);
+      return;
+    }
+    const begun = performance.now();
+    const go = () => {
+      const part = Math.min(1, (performance.now() - begun) / 450);
+      arrive(part * part * (3 - 2 * part));
+      this.flight = part < 1 ? requestAnimationFrame(go) : null;
+      if (part === 1) this.seeWhatHides();
+    };
+    this.flight = requestAnimationFrame(go);
+  }
+
+  /** What is near and far enough to be drawn. */
+  reach(eye, target) {
+    const distance = eye.position.distanceTo(target);
+    const whole = this.bounds();
+    const far = whole.getCenter(new Vector3()).distanceTo(eye.position) + whole.getSize(new Vector3()).length();
+    Object.assign(eye, { near: Math.max(distance / 40, far / 20000), far: Math.max(2 * distance, far) });
+    eye.updateProjectionMatrix();
+    eye.updateMatrixWorld();
   }
 
   /** Shows the boxes of a level, or none; says how many there are and how many were made. */
@@ -134,9 +331,9 @@ export class Stage {
     const [made, notMade] = [[], []];
     if (level !== null && level !== undefined && this.frame) {
       let bit = 0;
-      for (const { body, position } of this.bodies) {
+      this.bodies.forEach(({ body, position }, number) => {
         body.starts.forEach((starts, of) => {
-          const shown = of === Math.min(level, body.starts.length - 1);
+          const shown = this.isShown(number) && of === Math.min(level, body.starts.length - 1);
           for (let part = 0; part < starts.length; part++, bit++) {
             if (!shown) continue;
             const isMade = (this.frame.made[bit >> 3] >> (bit & 7)) & 1;
@@ -144,7 +341,7 @@ export class Stage {
             (isMade ? made : notMade).push(boxAround(body, position.array, starts[part], end));
           }
         });
-      }
+      });
     }
     setBoxes(this.made, made);
     setBoxes(this.notMade, notMade);
@@ -168,53 +365,51 @@ export class Stage {
   }
 
   toggleSeeThrough() {
-    this.seeThrough = !this.seeThrough;
+    this.chosenGlass = !this.seeThrough;
     this.applySeeThrough();
     this.draw();
-    return this.seeThrough;
+    this.told();
+  }
+
+  toggleWireframe() {
+    this.wireframe = !this.wireframe;
+    this.applySeeThrough();
+    this.draw();
+    return this.wireframe;
   }
 
   applySeeThrough() {
     for (const { mesh } of this.bodies) {
-      Object.assign(mesh.material, { transparent: this.seeThrough, opacity: this.seeThrough ? 0.22 : 1, depthWrite: !this.seeThrough });
+      const glass = this.seeThrough;
+      Object.assign(mesh.material, { transparent: glass, opacity: glass ? 0.22 : 1, depthWrite: !glass, wireframe: this.wireframe });
       mesh.material.needsUpdate = true;
     }
   }
 
-  /** Looks at all of this frame, or of a box, from where a picture does. */
-  look(box = this.bounds()) {
-    this.view = box;
+  /** Looks at all of this frame that is shown, from where a picture does. */
+  look() {
+    this.view = this.bounds();
     this.follows = true;
-    const radius = Math.max(box.getSize(new Vector3()).length() / 2, 1e-6);
-    box.getCenter(this.controls.target);
-    // As near as the corners of the box allow.
-    const up = Math.tan((this.camera.fov * Math.PI) / 360);
-    const across = up * this.camera.aspect;
-    const right = new Vector3(0, 1, 0).cross(TOWARDS_EYE).normalize();
-    const above = TOWARDS_EYE.clone().cross(right);
-    let distance = 0;
-    for (let corner = 0; corner < 8; corner++) {
-      const at = new Vector3(...[0, 1, 2].map((axis) => ((corner >> axis) & 1 ? box.max : box.min).getComponent(axis))).sub(this.controls.target);
-      const aside = Math.max(Math.abs(at.dot(right)) / across, Math.abs(at.dot(above)) / up);
-      distance = Math.max(distance, at.dot(TOWARDS_EYE) + aside);
-    }
-    this.camera.position.copy(TOWARDS_EYE).multiplyScalar(Math.max(distance, 1e-6)).add(this.controls.target);
-    Object.assign(this.camera, { near: radius / 50, far: radius * 60 });
-    this.camera.updateProjectionMatrix();
-    this.controls.update();
-    this.draw();
+    this.focus = null;
+    this.autoGlass = false;
+    this.applySeeThrough();
+    this.moveTo(fit(this.shownPositions(), TOWARDS_EYE, this.camera), false);
+    this.told();
   }
 
   /** Turns round the middle, by angles; comes nearer by a factor. */
   turn(around, up, nearer = 1) {
-    this.follows = false;
+    this.takenOver();
     const from = this.camera.position.clone().sub(this.controls.target);
     const distance = from.length() / nearer;
     const azimuth = Math.atan2(from.x, from.z) + around;
     const height = Math.max(-1.5, Math.min(1.5, Math.asin(from.y / from.length()) + up));
     from.set(Math.sin(azimuth) * Math.cos(height), Math.sin(height), Math.cos(azimuth) * Math.cos(height));
     this.camera.position.copy(from.multiplyScalar(distance).add(this.controls.target));
+    this.reach(this.camera, this.controls.target);
     this.controls.update();
+    clearTimeout(this.soon);
+    this.soon = setTimeout(() => this.seeWhatHides(), 150);
   }
 
   recolour() {
@@ -231,7 +426,7 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    if (this.follows && this.view) this.look(this.view);
+    if (this.follows && this.view && this.focus === null) this.moveTo(fit(this.shownPositions(), TOWARDS_EYE, this.camera), false);
     this.render();
   }
 
@@ -245,6 +440,8 @@ export class Stage {
 
   render() {
     this.renderer.render(this.scene, this.camera);
+    this.placeMarkers();
+    this.renderOverview();
     // A ring where the chosen triangle is: it may be too small to be seen, or behind others.
     const points = this.outline.geometry.getAttribute('position');
     this.ring.hidden = !this.outline.visible;
@@ -256,7 +453,71 @@ export class Stage {
     this.ring.style.top = `${50 - 50 * middle.y}%`;
   }
 
+  /** Everything, small in a corner, with the place that is looked at; nothing where everything is in the picture anyway. */
+  renderOverview() {
+    const place = this.place(this.focus);
+    this.overview.hidden = !place;
+    if (!place) return;
+    const { offsetLeft: left, clientWidth: width, clientHeight: height } = this.overview;
+    const bottom = this.canvas.clientHeight - this.overview.offsetTop - height - 1;
+    // From the side that the place is seen from, a little from above.
+    const towards = this.camera.position.clone().sub(this.controls.target).setY(0).normalize().add(new Vector3(0, 0.3, 0)).normalize();
+    this.far.aspect = width / height;
+    const { target, position } = fit(this.shownPositions(), towards, this.far);
+    this.far.position.copy(position);
+    this.far.lookAt(target);
+    this.reach(this.far, target);
+    const lines = [this.made, this.notMade, this.outline].filter((object) => object.visible);
+    lines.forEach((object) => (object.visible = false));
+    this.renderer.setScissorTest(true);
+    this.renderer.setScissor(left + 1, bottom, width, height);
+    this.renderer.setViewport(left + 1, bottom, width, height);
+    this.renderer.render(this.scene, this.far);
+    this.renderer.setScissorTest(false);
+    this.renderer.setViewport(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
+    lines.forEach((object) => (object.visible = true));
+    const seen = middle(place).project(this.far);
+    this.spot.style.transform = `translate(${(0.5 + 0.5 * seen.x) * width}px, ${(0.5 - 0.5 * seen.y) * height}px)`;
+  }
+
+  /** A marker for each place of the frame. */
+  showMarkers() {
+    this.markers.replaceChildren(...this.frame.places.map(() => element('i')));
+  }
+
+  /** Markers have the same size on the screen, and are there for places that are too small to be seen at once. */
+  placeMarkers() {
+    if (!this.frame) return;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    this.marks = this.frame.places.map((place, i) => {
+      const at = middle(place);
+      const radius = new Vector3(...place.upper).distanceTo(at);
+      const seen = at.clone().project(this.camera);
+      const depth = at.distanceTo(this.camera.position);
+      const size = (radius / depth / Math.tan((this.camera.fov * Math.PI) / 360)) * height;
+      const marker = this.markers.children[i];
+      marker.hidden = size > 44 || Math.abs(seen.z) > 1 || Math.abs(seen.x) > 1 || Math.abs(seen.y) > 1;
+      const [x, y] = [(0.5 + 0.5 * seen.x) * width, (0.5 - 0.5 * seen.y) * height];
+      marker.style.transform = `translate(${x}px, ${y}px)`;
+      marker.classList.toggle('focus', place.number === this.focus);
+      return marker.hidden ? null : { x, y, number: place.number };
+    });
+  }
+
+  /** The place whose marker is there. */
+  markerAt(x, y) {
+    const near = (this.marks ?? []).filter((mark) => mark && Math.hypot(mark.x - x, mark.y - y) < 12);
+    return near.length > 0 ? near[0].number : null;
+  }
+
   listen(picked) {
+    this.canvas.addEventListener('dblclick', (event) => {
+      const nearest = this.nearest(this.pointed(event));
+      if (!nearest) return;
+      const from = this.camera.position.clone().sub(this.controls.target);
+      this.takenOver();
+      this.moveTo({ target: nearest.point, position: from.add(nearest.point) });
+    });
     let down = null;
     this.canvas.addEventListener('pointerdown', (event) => {
       down = [event.clientX, event.clientY];
@@ -265,22 +526,30 @@ export class Stage {
     this.canvas.addEventListener('pointerup', (event) => {
       // A click, not the end of a turn.
       if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
+      picked(this.at(this.pointed(event)));
       const box = this.canvas.getBoundingClientRect();
-      const at = new Vector2(
-        (2 * (event.clientX - box.left)) / box.width - 1,
-        1 - (2 * (event.clientY - box.top)) / box.height,
-      );
-      picked(this.at(at));
+      const number = this.markerAt(event.clientX - box.left, event.clientY - box.top);
+      if (number !== null) this.flyTo(number);
     });
   }
 
-  at(point) {
+  /** Where the pointer is, from -1 to 1. */
+  pointed(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return new Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
+  }
+
+  nearest(point) {
     const ray = new Raycaster();
     ray.setFromCamera(point, this.camera);
     // Through what one sees through, only red triangles are met.
     const meshes = this.bodies.map(({ mesh, hits }) => (this.seeThrough ? hits : mesh)).filter((mesh) => mesh.visible);
     for (const mesh of meshes) mesh.geometry.boundingSphere = null;
-    const [nearest] = ray.intersectObjects(meshes, false);
+    return ray.intersectObjects(meshes, false)[0];
+  }
+
+  at(point) {
+    const nearest = this.nearest(point);
     if (!nearest) return null;
     const body = this.bodies.findIndex(({ mesh, hits }) => nearest.object === mesh || nearest.object === hits);
     if (!this.seeThrough) return { body, triangle: nearest.faceIndex };
@@ -288,6 +557,19 @@ export class Stage {
     const own = this.frame.red.filter((triangle) => triangle >= first && triangle < first + triangles);
     return { body, triangle: own[nearest.faceIndex] - first };
   }
+}
+
+function middle({ lower, upper }) {
+  return new Vector3(...lower).add(new Vector3(...upper)).multiplyScalar(0.5);
+}
+
+/** The corners of a box, as positions. */
+function corners({ min, max }) {
+  const all = [];
+  for (let corner = 0; corner < 8; corner++) {
+    for (let axis = 0; axis < 3; axis++) all.push(((corner >> axis) & 1 ? max : min).getComponent(axis));
+  }
+  return all;
 }
 
 function lines(opacity) {

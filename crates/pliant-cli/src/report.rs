@@ -6,10 +6,11 @@ use crate::output::{self, MARK, Overwrite};
 use crate::table::grouped;
 use anyhow::bail;
 use clap::Args;
-use pliant::{Scalar, World};
+use pliant::{BodyId, Scalar, World};
+use pliant_check::{Meshes, Place, Places};
 use pliant_io::shown_within;
-use pliant_report::picture::{self, Picture};
-use pliant_report::{BodyLabel, Chart, Motion, Play, Recorder, Report, Series};
+use pliant_report::picture::{self, Picture, Shot, View};
+use pliant_report::{BodyLabel, Chart, Motion, Play, Recorder, Report, Series, Spot};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -19,12 +20,18 @@ pub(crate) struct PictureOptions {
     /// Write a page about what was found, one file that needs no network: the bodies in motion, what intersects in red
     #[arg(long, value_name = "FILE.html", value_parser = page_name)]
     report: Option<PathBuf>,
-    /// Draw one frame as an image, what intersects in red, faintly so where it is hidden
+    /// Draw one frame as an image: the place with the most pairs, and everything in an inset; what intersects in red, faintly so where it is hidden
     #[arg(long, value_name = "FILE.png", value_parser = image_name)]
     png: Option<PathBuf>,
     /// The frame, or the step, that --png draws; needed unless there is only one
     #[arg(long, value_name = "N", requires = "png", allow_negative_numbers = true, value_parser = frame::<u32>)]
     frame: Option<u32>,
+    /// From where --png looks, y up: corner (from the right, above and in front), front, back, left, right, top, bottom
+    #[arg(long, value_name = "SIDE", requires = "png")]
+    view: Option<View>,
+    /// How large --png is, in pixels: 1280x960
+    #[arg(long, value_name = "WxH", requires = "png", value_parser = size)]
+    size: Option<[usize; 2]>,
     #[command(flatten)]
     pub(crate) over: Overwrite,
 }
@@ -40,6 +47,16 @@ impl PictureOptions {
 pub(crate) fn frame<N: FromStr>(text: &str) -> Result<N, String> {
     text.parse()
         .map_err(|_| "write the number of a frame, from 0".to_owned())
+}
+
+/// Pixels across and down.
+fn size(text: &str) -> Result<[usize; 2], String> {
+    let parts = text.split_once(['x', 'X']);
+    let parsed =
+        parts.and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+    parsed
+        .filter(|size: &[usize; 2]| size.iter().all(|length| (16..=8192).contains(length)))
+        .ok_or_else(|| "write WIDTHxHEIGHT in pixels, each from 16 to 8192: 1280x960".to_owned())
 }
 
 /// A name that is a page's: a mistyped argument must not cost somebody a mesh.
@@ -76,6 +93,48 @@ pub(crate) fn write_page(path: &Path, report: &Report, over: Overwrite) -> anyho
 pub(crate) struct Watcher {
     options: PictureOptions,
     recorder: Option<Recorder>,
+    /// What frames are called.
+    along: String,
+    /// Of a play whose places nobody else finds.
+    places: Places,
+}
+
+/// A world in the frame that it is in.
+struct Shown<'a, S: Scalar> {
+    world: &'a World<S>,
+    positions: Vec<Vec<[S; 3]>>,
+}
+
+impl<'a, S: Scalar> Shown<'a, S> {
+    /// Positions are looked up of bodies that are hit only.
+    fn of(world: &'a World<S>, pairs: &[[u32; 4]]) -> Self {
+        let mut hit: Vec<u32> = pairs.iter().flat_map(|&[a, _, b, _]| [a, b]).collect();
+        hit.sort_unstable();
+        hit.dedup();
+        let mut positions = Vec::new();
+        for body in hit {
+            positions.resize(body as usize, Vec::new());
+            positions.push(world.positions(BodyId(body)).unwrap_or_default());
+        }
+        Self { world, positions }
+    }
+}
+
+impl<S: Scalar> Meshes for Shown<'_, S> {
+    fn sizes(&self, body: u32) -> [usize; 2] {
+        let triangles = self.world.triangle_count(BodyId(body)).unwrap_or_default();
+        let vertices = self.positions.get(body as usize).map_or(0, Vec::len);
+        [vertices, triangles]
+    }
+
+    fn corners(&self, body: u32, triangle: u32) -> [u32; 3] {
+        let triangles = self.world.triangles(BodyId(body)).unwrap_or_default();
+        triangles[triangle as usize]
+    }
+
+    fn position(&self, body: u32, vertex: u32) -> [f64; 3] {
+        self.positions[body as usize][vertex as usize].map(S::to_f64)
+    }
 }
 
 impl Watcher {
@@ -107,6 +166,8 @@ impl Watcher {
         Ok(Self {
             recorder: options.report.is_some().then(|| Recorder::new(labels())),
             options,
+            along: along.to_owned(),
+            places: Places::new(),
         })
     }
 
@@ -122,8 +183,37 @@ impl Watcher {
         world: &World<S>,
         pairs: &[[u32; 4]],
     ) -> anyhow::Result<()> {
+        if !self.looks_at(number) {
+            return Ok(());
+        }
+        let shown = Shown::of(world, pairs);
+        self.places.begin();
+        for &pair in pairs {
+            self.places.take(&shown, pair, pair);
+        }
+        let places = self.places.end(&shown);
+        self.frame_with(number, world, pairs, &places, |body| format!("body {body}"))
+    }
+
+    /// The same where places are known; `name` says what a body is called in them.
+    pub(crate) fn frame_with<S: Scalar>(
+        &mut self,
+        number: u32,
+        world: &World<S>,
+        pairs: &[[u32; 4]],
+        places: &[Place],
+        name: impl Fn(u32) -> String,
+    ) -> anyhow::Result<()> {
+        let spot = |place: &Place| Spot {
+            number: place.number,
+            count: place.count,
+            lower: place.lower,
+            upper: place.upper,
+            label: whose(place, &name),
+        };
+        let spots: Vec<Spot> = places.iter().map(spot).collect();
         if let Some(recorder) = &mut self.recorder {
-            recorder.frame(number, world, pairs);
+            recorder.frame_with(number, world, pairs, &spots);
         }
         if let Some(path) = self
             .options
@@ -131,7 +221,13 @@ impl Watcher {
             .as_ref()
             .filter(|_| self.options.frame == Some(number))
         {
-            let picture = Picture::of(world, pairs, picture::SIZE);
+            let shot = Shot {
+                size: self.options.size.unwrap_or(picture::SIZE),
+                view: self.options.view.unwrap_or_default(),
+                spot: spots.first(),
+                caption: caption(&self.along, number, pairs.len(), &spots),
+            };
+            let picture = Picture::shot(world, pairs, &shot);
             output::write(path, MARK, self.options.over, |out| picture.write_png(out))?;
         }
         Ok(())
@@ -156,6 +252,33 @@ impl Watcher {
         play.charts.push(pairs_chart(&motion, along));
         report.add(play, motion);
         write_page(path, &report, self.options.over)
+    }
+}
+
+/// What stands in a picture.
+fn caption(along: &str, number: u32, pairs: usize, spots: &[Spot]) -> String {
+    let pairs = match pairs {
+        0 => "nothing intersects".to_owned(),
+        pairs => counted(pairs as u64, "pair", "pairs"),
+    };
+    let places = match spots {
+        [] | [_] => String::new(),
+        [first, ..] => format!(
+            " in {} places; here the largest, {}",
+            grouped(spots.len() as u64),
+            counted(first.count as u64, "pair", "pairs")
+        ),
+    };
+    format!("{along} {number}: {pairs}{places}")
+}
+
+/// The bodies of a place, by name; of many the first two.
+fn whose(place: &Place, name: impl Fn(u32) -> String) -> String {
+    let named = place.bodies.iter().take(2).map(|it| name(it.body));
+    let named = named.collect::<Vec<_>>().join(", ");
+    match place.bodies.len().saturating_sub(2) {
+        0 => named,
+        more => format!("{named} and {more} more"),
     }
 }
 

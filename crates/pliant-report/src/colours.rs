@@ -25,11 +25,8 @@ pub(crate) fn of_body(number: usize) -> Colour {
     BODIES[number % BODIES.len()]
 }
 
-/// The colour of a chart's line by its number, and how it is dashed once the colours are used up.
+/// The colour of a chart's line by its number, and how it is dashed: neighbours differ in both, and no two of 24 are alike in both.
 pub(crate) fn of_line(number: usize) -> (&'static str, &'static [u8]) {
     const DASHES: [&[u8]; 3] = [&[], &[6, 3], &[2, 3]];
-    (
-        LINES[number % LINES.len()],
-        DASHES[(number / LINES.len()) % DASHES.len()],
-    )
+    (LINES[number % LINES.len()], DASHES[number % DASHES.len()])
 }

@@ -19,7 +19,7 @@ pub struct Motion {
     pub(crate) too_large: bool,
 }
 
-/// What does not change.
+/// What does not change while a body has one mesh. Of a body that gets another there is another record, with the same number.
 #[derive(Clone, Debug)]
 pub(crate) struct BodyRecord {
     pub(crate) id: BodyId,
@@ -37,11 +37,30 @@ pub(crate) struct BodyRecord {
 pub(crate) struct Frame {
     /// Among all frames, from 0.
     pub(crate) place: usize,
-    /// Of each body.
-    pub(crate) shapes: Vec<Shape>,
+    /// Of each record of a body; none of those whose mesh the body has not, or not yet, in this frame.
+    pub(crate) shapes: Vec<Option<Shape>>,
     pub(crate) hits: Hits,
     /// Body by body, level by level, part by part: was the box made for this shape?
     pub(crate) made: Vec<bool>,
+    /// Where hits hang together, most pairs first; of very many the first.
+    pub(crate) spots: Vec<Spot>,
+    /// How many there are.
+    pub(crate) all_spots: usize,
+}
+
+/// Where hits hang together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spot {
+    /// The same from frame to frame while it is the same place.
+    pub number: usize,
+    /// How many pairs.
+    pub count: usize,
+    /// The smallest coordinates of its triangles.
+    pub lower: [f64; 3],
+    /// The largest.
+    pub upper: [f64; 3],
+    /// Whose they are. Anything may be in it.
+    pub label: String,
 }
 
 /// Which triangles intersect; all bodies' triangles are numbered in one row.
@@ -140,12 +159,18 @@ impl BodyRecord {
 impl Frame {
     /// Bytes of a page, before it is compressed.
     pub(crate) fn cost(&self) -> usize {
-        let vertices: usize = self.shapes.iter().map(|shape| shape.inside.len()).sum();
+        let vertices: usize = self
+            .shapes
+            .iter()
+            .flatten()
+            .map(|shape| shape.inside.len())
+            .sum();
         let hits = match &self.hits {
             Hits::Pairs(pairs) => 8 * pairs.len(),
             Hits::Triangles(triangles) => 4 * triangles.len(),
         };
-        6 * vertices + hits + self.made.len() / 8
+        let spots = self.spots.iter().map(|spot| 100 + spot.label.len());
+        6 * vertices + hits + self.made.len() / 8 + spots.sum::<usize>()
     }
 }
 

@@ -5,7 +5,7 @@
 //! three predictions says, whichever leaves least: the vertex before, the frame before, or the last two frames in a straight line.
 //! `web/src/data.js` reads it back.
 
-use crate::frames::{BodyRecord, Frame, Hits, Motion};
+use crate::frames::{BodyRecord, Frame, Hits, Motion, Shape};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use std::io::Write;
@@ -24,7 +24,7 @@ impl Motion {
     /// The box of all frames that are shown.
     pub(crate) fn view(&self) -> View {
         let (mut lower, mut upper) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for shape in self.frames.iter().flat_map(|frame| &frame.shapes) {
+        for shape in self.shapes() {
             for axis in 0..3 {
                 let highest = shape
                     .inside
@@ -49,11 +49,17 @@ impl Motion {
         }
     }
 
+    /// The shapes of all bodies in all frames that are shown.
+    fn shapes(&self) -> impl Iterator<Item = &Shape> {
+        self.frames.iter().flat_map(|frame| &frame.shapes).flatten()
+    }
+
     /// The longest side that a body ever has.
     pub(crate) fn side(&self, body: usize) -> f64 {
         self.frames
             .iter()
-            .map(|frame| frame.shapes[body].side)
+            .filter_map(|frame| frame.shapes.get(body)?.as_ref())
+            .map(|shape| shape.side)
             .fold(0.0, f64::max)
     }
 
@@ -66,8 +72,16 @@ impl Motion {
         }
         let sides: Vec<f64> = (0..self.bodies.len()).map(|body| self.side(body)).collect();
         let mut before: Vec<[Vec<u16>; 2]> = vec![Default::default(); self.bodies.len()];
+        let levels = self.bodies.iter().flat_map(|body| &body.starts);
+        let bits: usize = levels.map(Vec::len).sum();
         for frame in &self.frames {
-            for (body, shape) in frame.shapes.iter().enumerate() {
+            for body in 0..self.bodies.len() {
+                // A byte says whether the body has this mesh.
+                let shape = frame.shapes.get(body).and_then(Option::as_ref);
+                out.bytes(&[u8::from(shape.is_some())]);
+                let Some(shape) = shape else {
+                    continue;
+                };
                 for axis in 0..3 {
                     out.float((shape.lower[axis] - view.centre[axis]) / view.radius);
                 }
@@ -86,7 +100,9 @@ impl Motion {
                 before[body] = [rounded, last];
             }
             out.hits(frame);
-            out.bits(&frame.made);
+            let mut made = frame.made.clone();
+            made.resize(bits.max(made.len()), false);
+            out.bits(&made);
         }
         out.finish()
     }
@@ -301,7 +317,12 @@ mod tests {
         };
         let frame = |frame: u32| Frame {
             place: frame as usize,
-            shapes: vec![Shape::of(&heap(frame)), Shape::of(&grown(frame))],
+            shapes: [heap(frame), grown(frame)]
+                .iter()
+                .map(|positions| Some(Shape::of(positions)))
+                .collect(),
+            spots: Vec::new(),
+            all_spots: 0,
             hits: match frame % 3 {
                 0 => Hits::Pairs(vec![[0, 3], [0, 70_000], [1, 2], [258, 259]]),
                 1 => Hits::Triangles(vec![0, 2, 3]),
@@ -357,6 +378,12 @@ mod tests {
         let mut modes = Vec::new();
         for frame in &motion.frames {
             for (number, shape) in frame.shapes.iter().enumerate() {
+                let [is_there] = packed.array();
+                let Some(shape) = shape else {
+                    assert_eq!(is_there, 0);
+                    continue;
+                };
+                assert_eq!(is_there, 1);
                 for axis in 0..3 {
                     let lower =
                         f64::from_le_bytes(packed.array()) * view.radius + view.centre[axis];

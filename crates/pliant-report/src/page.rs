@@ -6,8 +6,8 @@
 use crate::MARK;
 use crate::chart::Chart;
 use crate::colours::{HIT, of_body, of_line};
-use crate::frames::Motion;
-use crate::pack::STEPS;
+use crate::frames::{Frame, Motion};
+use crate::pack::{STEPS, View};
 use crate::report::{Play, Report};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -113,9 +113,29 @@ fn motion(motion: &Motion) -> Value {
     json!({
         "numbers": motion.numbers,
         "pairs": motion.pairs,
+        "places": motion.frames.iter().map(|frame| spots(frame, view)).collect::<Value>(),
+        "placeCounts": motion.frames.iter().map(|frame| frame.all_spots).collect::<Value>(),
         "frames": motion.frames.iter().map(|frame| frame.place).collect::<Value>(),
         "bodies": bodies.collect::<Value>(),
     })
+}
+
+/// Places of a frame, as the page puts its motion: number, pairs, smallest and largest coordinates, whose.
+fn spots(frame: &Frame, view: View) -> Value {
+    let inside = |corner: [f64; 3]| -> [f64; 3] {
+        std::array::from_fn(|axis| (corner[axis] - view.centre[axis]) / view.radius)
+    };
+    let spots = frame.spots.iter();
+    let spots = spots.map(|it| {
+        json!([
+            it.number,
+            it.count,
+            inside(it.lower),
+            inside(it.upper),
+            it.label
+        ])
+    });
+    spots.collect()
 }
 
 fn chart(chart: &Chart) -> Value {

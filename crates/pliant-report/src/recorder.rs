@@ -3,8 +3,11 @@
 //! However many frames come, and however many triangles meet, what is kept stays within [`BUDGET`]: when it is full, every
 //! second frame that is kept is let go, again and again. The first frame with a contact, the one with the most pairs and the
 //! last are kept whatever happens. Numbers (pairs in each frame) are kept for all frames.
+//!
+//! A body that gets another mesh has a record more from that frame on, and each frame says which record it shows. Once the meshes
+//! alone take half of what a page can hold, frames with further ones are counted and not drawn.
 
-use crate::frames::{BodyRecord, Frame, Hits, Motion, Shape};
+use crate::frames::{BodyRecord, Frame, Hits, Motion, Shape, Spot};
 use pliant::{BodyId, Scalar, World};
 
 /// The most bytes of frames that go into a page, before they are compressed: positions rounded to two bytes, pairs as eight.
@@ -13,6 +16,9 @@ const BUDGET: usize = 30 << 20;
 
 /// Above this number of pairs in a frame, only which triangles are red is kept, not with whom each meets.
 const MOST_PAIRS: usize = 100_000;
+
+/// Places of a frame that are kept.
+const MOST_SPOTS: usize = 40;
 
 /// Levels of a tree that can be shown.
 const MOST_LEVELS: u32 = 16;
@@ -29,6 +35,8 @@ pub struct BodyLabel {
 /// Keeps the frames of one motion for a report.
 pub struct Recorder {
     labels: Vec<BodyLabel>,
+    /// The bodies of the first frame, and the record of each that is its mesh now.
+    known: Vec<(BodyId, usize)>,
     /// Bodies, vertices and triangles in all.
     sizes: [usize; 3],
     bodies: Vec<BodyRecord>,
@@ -63,6 +71,7 @@ impl Recorder {
     fn within(labels: Vec<BodyLabel>, budget: usize) -> Self {
         Self {
             labels,
+            known: Vec::new(),
             sizes: [0; 3],
             bodies: Vec::new(),
             fixed: 0,
@@ -82,16 +91,29 @@ impl Recorder {
     /// Takes a frame: its number, the world in it, and the pairs found: body, triangle, body, triangle. The bodies are those of
     /// the first frame; pairs of others are counted and not drawn. The world's boxes are as the queries left them.
     pub fn frame<S: Scalar>(&mut self, number: u32, world: &World<S>, pairs: &[[u32; 4]]) {
+        self.frame_with(number, world, pairs, &[]);
+    }
+
+    /// The same, with the places where the pairs hang together, most pairs first.
+    pub fn frame_with<S: Scalar>(
+        &mut self,
+        number: u32,
+        world: &World<S>,
+        pairs: &[[u32; 4]],
+        spots: &[Spot],
+    ) {
         let place = self.numbers.len();
         self.numbers.push(number);
         self.pairs.push(pairs.len() as u64);
         if place == 0 {
             self.meet_bodies(world);
         }
-        if self.too_large {
+        if self.too_large || !self.meet_meshes(world) {
             return;
         }
-        let frame = self.look(place, world, pairs);
+        let mut frame = self.look(place, world, pairs);
+        frame.spots = spots.iter().take(MOST_SPOTS).cloned().collect();
+        frame.all_spots = spots.len();
         let count = pairs.len();
         if count > 0 && self.first_contact.is_none() {
             self.first_contact = Some(frame.clone());
@@ -149,21 +171,64 @@ impl Recorder {
         if self.too_large {
             return;
         }
-        let mut labels = std::mem::take(&mut self.labels).into_iter();
-        for (number, id) in ids.into_iter().enumerate() {
-            let label = labels.next().unwrap_or_else(|| BodyLabel {
-                name: format!("body {number}"),
-                faces: None,
-            });
-            let vertices = world.vertex_count(id).unwrap_or_default();
-            let triangles = world.triangles(id).unwrap_or_default().to_vec();
-            let depth = world.tree_shape(id).map_or(0, |shape| shape.depth);
-            let levels: Vec<Vec<u32>> = (0..=depth.min(MOST_LEVELS - 1))
-                .map(|level| world.tree_cut(id, level).unwrap_or_default())
-                .collect();
-            self.bodies
-                .push(BodyRecord::new(id, label, vertices, triangles, &levels));
+        self.fixed = 0;
+        let labels = std::mem::take(&mut self.labels).into_iter();
+        let unnamed = (0..).map(|number| BodyLabel {
+            name: format!("body {number}"),
+            faces: None,
+        });
+        let named = labels.map(Some).chain(std::iter::repeat(None)).zip(unnamed);
+        for (id, (label, unnamed)) in ids.into_iter().zip(named) {
+            self.known.push((id, self.bodies.len()));
+            self.record(world, id, label.unwrap_or(unnamed));
         }
+    }
+
+    /// Another mesh, or the first, of a body.
+    fn record<S: Scalar>(&mut self, world: &World<S>, id: BodyId, label: BodyLabel) {
+        let vertices = world.vertex_count(id).unwrap_or_default();
+        let triangles = world.triangles(id).unwrap_or_default().to_vec();
+        let depth = world.tree_shape(id).map_or(0, |shape| shape.depth);
+        let levels: Vec<Vec<u32>> = (0..=depth.min(MOST_LEVELS - 1))
+            .map(|level| world.tree_cut(id, level).unwrap_or_default())
+            .collect();
+        self.fixed += 20 * triangles.len();
+        self.bodies
+            .push(BodyRecord::new(id, label, vertices, triangles, &levels));
+    }
+
+    /// Takes the meshes that bodies have now and had not in the frame before; says whether there is room for them.
+    fn meet_meshes<S: Scalar>(&mut self, world: &World<S>) -> bool {
+        for place in 0..self.known.len() {
+            let (id, record) = self.known[place];
+            let (Ok(triangles), Ok(vertices)) = (world.triangles(id), world.vertex_count(id))
+            else {
+                // It was removed.
+                continue;
+            };
+            let is_mesh = |record: &BodyRecord| {
+                record.id == id && record.vertices == vertices && record.triangles == triangles
+            };
+            if is_mesh(&self.bodies[record]) {
+                continue;
+            }
+            // Meshes may come back.
+            if let Some(earlier) = self.bodies.iter().position(is_mesh) {
+                self.known[place].1 = earlier;
+                continue;
+            }
+            if self.fixed + 20 * triangles.len() > self.budget / 2 {
+                return false;
+            }
+            // What is known of faces is known of the first mesh.
+            let label = BodyLabel {
+                name: self.bodies[record].label.name.clone(),
+                faces: None,
+            };
+            self.known[place].1 = self.bodies.len();
+            self.record(world, id, label);
+        }
+        true
     }
 
     fn look<S: Scalar>(&self, place: usize, world: &World<S>, pairs: &[[u32; 4]]) -> Frame {
@@ -174,10 +239,8 @@ impl Recorder {
             first += body.triangles.len() as u32;
         }
         let global = |body: u32, triangle: u32| {
-            let place = self
-                .bodies
-                .binary_search_by_key(&body, |known| known.id.0)
-                .ok()?;
+            let known = self.known.binary_search_by_key(&body, |(id, _)| id.0);
+            let (_, place) = self.known[known.ok()?];
             let is_there = (triangle as usize) < self.bodies[place].triangles.len();
             is_there.then(|| firsts[place] + triangle)
         };
@@ -199,11 +262,19 @@ impl Recorder {
             )
         };
         let (mut shapes, mut made) = (Vec::with_capacity(self.bodies.len()), Vec::new());
-        for body in &self.bodies {
-            let mut shape = Shape::of(&world.positions(body.id).unwrap_or_default());
-            // Whatever became of the body: as many as there were.
-            shape.inside.resize(body.vertices, [0.0; 3]);
-            shapes.push(shape);
+        for (number, body) in self.bodies.iter().enumerate() {
+            let is_now = self.known.contains(&(body.id, number));
+            let positions = world.positions(body.id).ok().filter(|_| is_now);
+            let positions = positions.filter(|positions| positions.len() == body.vertices);
+            let is_shown = positions.is_some();
+            shapes.push(positions.map(|positions| Shape::of(&positions)));
+            if !is_shown {
+                made.resize(
+                    made.len() + body.starts.iter().map(Vec::len).sum::<usize>(),
+                    false,
+                );
+                continue;
+            }
             for (level, starts) in body.starts.iter().enumerate() {
                 let boxes = world.tree_boxes(body.id, level as u32).unwrap_or_default();
                 let end = made.len() + starts.len();
@@ -216,6 +287,8 @@ impl Recorder {
             shapes,
             hits,
             made,
+            spots: Vec::new(),
+            all_spots: 0,
         }
     }
 }
@@ -307,13 +380,78 @@ mod tests {
                 .iter()
                 .all(|frame| frame.made.len() == motion.frames[0].made.len())
         );
-        // As many vertices as there were, whatever became of the bodies.
-        assert_eq!(motion.frames.len(), 4);
-        for frame in &motion.frames {
-            let vertices: Vec<usize> = frame.shapes.iter().map(|it| it.inside.len()).collect();
-            assert_eq!(vertices, [3, 3]);
-        }
+        // Bodies that are gone are not drawn.
+        let shown = |frame: &Frame| frame.shapes.iter().map(Option::is_some).collect();
+        let shown: Vec<Vec<bool>> = motion.frames.iter().map(shown).collect();
+        assert_eq!(
+            shown,
+            [[true, true], [false, true], [false, false], [false, false]]
+        );
         assert!(!motion.pack().is_empty() && motion.view().radius > 0.0);
+    }
+
+    #[test]
+    fn every_frame_has_its_own_mesh() {
+        let mut world = World::<f32>::new();
+        let flat = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let square = [flat[0], flat[1], flat[2], [1.0, 1.0, 0.0]];
+        let [still, body] = [(); 2].map(|()| world.add(&[[0, 1, 2]], &flat).unwrap());
+        let mut recorder = Recorder::new(Vec::new());
+        recorder.frame(0, &world, &[[0, 0, 1, 0]]);
+        world
+            .set_mesh(body, &[[0, 1, 2], [2, 1, 3]], &square)
+            .unwrap();
+        recorder.frame(1, &world, &[[0, 0, 1, 1]]);
+        // Back to the first, then as many triangles as the second has, but others.
+        world.set_mesh(body, &[[0, 1, 2]], &flat).unwrap();
+        recorder.frame(2, &world, &[[0, 0, 1, 0], [0, 0, 1, 1]]);
+        world
+            .set_mesh(body, &[[0, 1, 2], [0, 1, 3]], &square)
+            .unwrap();
+        recorder.frame(3, &world, &[[0, 0, 1, 1]]);
+        let motion = recorder.finish();
+        let ids: Vec<_> = motion.bodies.iter().map(|it| it.id).collect();
+        assert_eq!(ids, [still, body, body, body]);
+        let vertices = |frame: &Frame| -> Vec<Option<usize>> {
+            let shapes = frame.shapes.iter();
+            shapes.map(|it| Some(it.as_ref()?.inside.len())).collect()
+        };
+        let shown: Vec<_> = motion.frames.iter().map(vertices).collect();
+        let (first, third, fourth) = (Some(3), Some(4), Some(4));
+        assert_eq!(
+            shown,
+            [
+                vec![first, first],
+                vec![first, None, third],
+                vec![first, first, None],
+                vec![first, None, None, fourth]
+            ]
+        );
+        let pairs = |frame: &Frame| match &frame.hits {
+            Hits::Pairs(pairs) => pairs.clone(),
+            Hits::Triangles(_) => Vec::new(),
+        };
+        let pairs: Vec<_> = motion.frames.iter().map(pairs).collect();
+        // Triangle 1 of the first mesh there is not.
+        assert_eq!(pairs, [[[0, 1]], [[0, 3]], [[0, 1]], [[0, 5]]]);
+        assert!(!motion.pack().is_empty());
+    }
+
+    #[test]
+    fn meshes_without_end_find_no_room() {
+        let mut world = World::<f32>::new();
+        let flat = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let body = world.add(&[[0, 1, 2]], &flat).unwrap();
+        let mut recorder = Recorder::within(Vec::new(), 4000);
+        for frame in 0..50 {
+            world
+                .set_mesh(body, &vec![[0, 1, 2]; frame + 1], &flat)
+                .unwrap();
+            recorder.frame(frame as u32, &world, &[]);
+            assert!(recorder.fixed <= 2000);
+        }
+        let motion = recorder.finish();
+        assert_eq!((motion.pairs().len(), motion.shown().len()), (50, 13));
     }
 
     #[test]

@@ -105,12 +105,13 @@ Examples:
   pliant check new.ply --baseline old.json           what an older check had not
   pliant check part.stl --weld 1e-6                  corners nearly coincide
   pliant check walk.npz --report walk.html           a page: in motion, hits red
-  pliant check walk.npz --png worst.png --frame 50   one frame as an image
+  pliant check walk.npz --png worst.png --frame 50   its largest place
+  pliant check a.ply --png a.png --view top --size 800x600
   pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
   pliant check walk.npz --quiet && echo clean
 
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are, and 7.5 times two frames where the mesh changes from file to file; beside it the pairs of one frame, where they are listed, left out or written, and of glTF bodies that move the rest positions, joints, deltas and keys.
+Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are, and 7.5 times two frames where the mesh changes from file to file; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), and of glTF bodies that move the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
 
 /// `A,B`.

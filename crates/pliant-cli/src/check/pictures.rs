@@ -35,7 +35,20 @@ impl Pictures {
             .iter()
             .map(|&row| of_sources(check, row))
             .collect();
-        with_world!(check.world(), world => self.0.frame(number, world, &pairs))
+        let places = found.places.as_deref().unwrap_or_default();
+        // Of one body nobody needs to be told whose it is.
+        let name = |body| match check.body(body) {
+            Some(body) if check.body_count() > 1 => shown(body.name),
+            _ => String::new(),
+        };
+        let watcher = &mut self.0;
+        // Of a first pair nobody has found a place.
+        match &found.places {
+            Some(_) => {
+                with_world!(check.world(), world => watcher.frame_with(number, world, &pairs, places, name))
+            }
+            None => with_world!(check.world(), world => watcher.frame(number, world, &pairs)),
+        }
     }
 
     /// Writes the page, also of a check that ended early.

@@ -1,24 +1,106 @@
 //! One frame as an image, without a browser and without a GPU: flat triangles, those that intersect in red, and faintly
 //! so where others hide them.
 //!
+//! A picture of a place shows it and what is round it, and everything in an inset, where a frame marks the place.
+//!
 //! Looks along one direction, without perspective, so that parallel edges stay so; the bodies fill the image. Four samples a
 //! pixel. Sums, products, quotients and square roots in double precision only, in a fixed order: the same bytes on every machine.
 
+mod letters;
 mod raster;
 
 use crate::MARK;
 use crate::colours::{Colour, HIT, of_body};
+use crate::frames::Spot;
 use pliant::{Scalar, World};
 use raster::Canvas;
 use std::io::{self, Write};
+use std::str::FromStr;
 
 /// Pixels across and down.
 pub const SIZE: [usize; 2] = [1280, 960];
 
 const PAPER: Colour = [255, 255, 255];
 
-/// From where one looks: from the right, from above, from the front. The page's camera begins there too.
-const TOWARDS_EYE: [f64; 3] = [0.55, 0.45, 1.0];
+const INK: Colour = [0x1e, 0x20, 0x24];
+const LINE: Colour = [0xe5, 0xe3, 0xde];
+
+/// Part of the picture that the inset takes, each way.
+const INSET: f64 = 0.28;
+
+/// From where one looks; y is up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// From the right, from above, from the front. The page's camera begins there too.
+    #[default]
+    Corner,
+    /// Against z.
+    Front,
+    /// Along z.
+    Back,
+    /// Along x.
+    Left,
+    /// Against x.
+    Right,
+    /// Down along y.
+    Top,
+    /// Up along y.
+    Bottom,
+}
+
+impl View {
+    /// All of them, by the names that people type.
+    pub const NAMES: [(&str, Self); 7] = [
+        ("corner", Self::Corner),
+        ("front", Self::Front),
+        ("back", Self::Back),
+        ("left", Self::Left),
+        ("right", Self::Right),
+        ("top", Self::Top),
+        ("bottom", Self::Bottom),
+    ];
+
+    /// Towards the eye, to its right, and up.
+    fn directions(self) -> [[f64; 3]; 3] {
+        let (eye, up) = match self {
+            Self::Corner => ([0.55, 0.45, 1.0], [0.0, 1.0, 0.0]),
+            Self::Front => ([0.0, 0.0, 1.0], [0.0, 1.0, 0.0]),
+            Self::Back => ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]),
+            Self::Left => ([-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+            Self::Right => ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]),
+            Self::Top => ([0.0, 1.0, 0.0], [0.0, 0.0, -1.0]),
+            Self::Bottom => ([0.0, -1.0, 0.0], [0.0, 0.0, 1.0]),
+        };
+        let eye = unit(eye);
+        let right = unit(cross(up, eye));
+        [eye, right, cross(eye, right)]
+    }
+}
+
+impl FromStr for View {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let known = Self::NAMES.into_iter().find(|(known, _)| *known == name);
+        known.map(|(_, view)| view).ok_or_else(|| {
+            let names = Self::NAMES.map(|(known, _)| known);
+            format!("write one of {}", names.join(", "))
+        })
+    }
+}
+
+/// What a picture shows.
+#[derive(Clone, Debug, Default)]
+pub struct Shot<'a> {
+    /// Pixels across and down; [`SIZE`] if either is 0.
+    pub size: [usize; 2],
+    /// From where.
+    pub view: View,
+    /// The place that fills the picture; everything does if there is none.
+    pub spot: Option<&'a Spot>,
+    /// A line below.
+    pub caption: String,
+}
 
 /// Red, green and blue of each pixel, row by row from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,37 +115,90 @@ impl Picture {
     /// The bodies of a world as they are now; red are the triangles in `pairs`: body, triangle, body, triangle. Behind others they
     /// shine through.
     pub fn of<S: Scalar>(world: &World<S>, pairs: &[[u32; 4]], size: [usize; 2]) -> Self {
-        let (eye, right, up) = directions();
-        let seen = |position: &[S; 3]| {
-            let position = position.map(S::to_f64);
-            [dot(position, right), dot(position, up), dot(position, eye)]
+        let directions = View::Corner.directions();
+        let triangles = seen_of(world, pairs, directions);
+        draw(&triangles, size, frame_of(corners_of(&triangles)))
+    }
+
+    /// The same as somebody wants it.
+    pub fn shot<S: Scalar>(world: &World<S>, pairs: &[[u32; 4]], shot: &Shot) -> Self {
+        let size = if shot.size.contains(&0) {
+            SIZE
+        } else {
+            shot.size
         };
-        let mut triangles = Vec::new();
-        for (number, body) in world.bodies().enumerate() {
-            // Bodies of this world; neither fails.
-            let (Ok(corners), Ok(positions)) = (world.triangles(body), world.positions(body))
-            else {
-                continue;
-            };
-            let places: Vec<[f64; 3]> = positions.iter().map(seen).collect();
-            let mut is_red = vec![false; corners.len()];
-            for &[body_a, a, body_b, b] in pairs {
-                for (of, triangle) in [(body_a, a), (body_b, b)] {
-                    if of == body.0 && (triangle as usize) < is_red.len() {
-                        is_red[triangle as usize] = true;
-                    }
+        let directions = shot.view.directions();
+        let triangles = seen_of(world, pairs, directions);
+        let whole = frame_of(corners_of(&triangles));
+        let mut picture = match shot.spot {
+            None => draw(&triangles, size, whole),
+            Some(spot) => {
+                let there = frame_of(box_seen(spot, directions).into_iter());
+                let mut picture = draw(&triangles, size, near(there, whole));
+                let inset = size.map(|length| (INSET * length as f64) as usize);
+                if inset.iter().all(|&length| length > 16) {
+                    let small = draw(&triangles, inset, whole);
+                    let marked = mark(there, whole, inset);
+                    picture.inlay(&small, marked);
                 }
+                picture
             }
-            triangles.extend(corners.iter().enumerate().map(|(triangle, corners)| {
-                let is_hit = is_red[triangle];
-                Seen {
-                    corners: corners.map(|vertex| places[vertex as usize]),
-                    colour: if is_hit { HIT } else { of_body(number) },
-                    is_hit,
-                }
-            }));
+        };
+        picture.write(&shot.caption);
+        picture
+    }
+
+    /// Another picture in the lower right corner, framed, with a part of it marked: left, top, right, bottom.
+    fn inlay(&mut self, small: &Self, marked: [usize; 4]) {
+        let [width, height] = small.size;
+        let from = [self.size[0] - width - 8, self.size[1] - height - 8];
+        for row in 0..height {
+            for column in 0..width {
+                let at = 3 * (row * width + column);
+                let colour = [small.pixels[at], small.pixels[at + 1], small.pixels[at + 2]];
+                let is_edge = row == 0 || column == 0 || row + 1 == height || column + 1 == width;
+                self.dot(
+                    [from[0] + column, from[1] + row],
+                    if is_edge { LINE } else { colour },
+                );
+            }
         }
-        draw(&triangles, size)
+        let [left, top, right, bottom] = marked;
+        for thick in 0..2 {
+            for column in left..=right {
+                self.dot([from[0] + column, from[1] + top + thick], HIT);
+                self.dot([from[0] + column, from[1] + bottom - thick], HIT);
+            }
+            for row in top..=bottom {
+                self.dot([from[0] + left + thick, from[1] + row], HIT);
+                self.dot([from[0] + right - thick, from[1] + row], HIT);
+            }
+        }
+    }
+
+    /// A line of text in the upper left corner, as long as there is room.
+    fn write(&mut self, text: &str) {
+        const SCALE: usize = 2;
+        const MARGIN: usize = 12;
+        let room = self.size[0].saturating_sub(2 * MARGIN) / (SCALE * letters::ADVANCE);
+        if self.size[1] < 2 * MARGIN + SCALE * letters::LINE {
+            return;
+        }
+        let text: String = text.chars().take(room).collect();
+        for [x, y] in letters::dots(&text) {
+            for part in 0..SCALE * SCALE {
+                let at = [SCALE * x + part % SCALE, SCALE * y + part / SCALE];
+                self.dot(at.map(|x| x + MARGIN), INK);
+            }
+        }
+    }
+
+    /// Colours a pixel; nothing where there is none.
+    fn dot(&mut self, [x, y]: [usize; 2], colour: Colour) {
+        if x < self.size[0] && y < self.size[1] {
+            let at = 3 * (y * self.size[0] + x);
+            self.pixels[at..at + 3].copy_from_slice(&colour);
+        }
     }
 
     /// Writes a PNG.
@@ -93,20 +228,110 @@ struct Seen {
     is_hit: bool,
 }
 
-fn draw(triangles: &[Seen], size: [usize; 2]) -> Picture {
+/// What is seen of the bodies.
+fn seen_of<S: Scalar>(
+    world: &World<S>,
+    pairs: &[[u32; 4]],
+    [eye, right, up]: [[f64; 3]; 3],
+) -> Vec<Seen> {
+    let seen = |position: &[S; 3]| {
+        let position = position.map(S::to_f64);
+        [dot(position, right), dot(position, up), dot(position, eye)]
+    };
+    let mut triangles = Vec::new();
+    for (number, body) in world.bodies().enumerate() {
+        // Bodies of this world; neither fails.
+        let (Ok(corners), Ok(positions)) = (world.triangles(body), world.positions(body)) else {
+            continue;
+        };
+        let places: Vec<[f64; 3]> = positions.iter().map(seen).collect();
+        let mut is_red = vec![false; corners.len()];
+        for &[body_a, a, body_b, b] in pairs {
+            for (of, triangle) in [(body_a, a), (body_b, b)] {
+                if of == body.0 && (triangle as usize) < is_red.len() {
+                    is_red[triangle as usize] = true;
+                }
+            }
+        }
+        triangles.extend(corners.iter().enumerate().map(|(triangle, corners)| {
+            let is_hit = is_red[triangle];
+            Seen {
+                corners: corners.map(|vertex| places[vertex as usize]),
+                colour: if is_hit { HIT } else { of_body(number) },
+                is_hit,
+            }
+        }));
+    }
+    triangles
+}
+
+/// A rectangle that is seen: its lower and its upper corner.
+type Frame = [[f64; 2]; 2];
+
+fn corners_of(triangles: &[Seen]) -> impl Iterator<Item = [f64; 3]> {
+    triangles.iter().flat_map(|triangle| triangle.corners)
+}
+
+fn frame_of(corners: impl Iterator<Item = [f64; 3]>) -> Frame {
     let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for corner in triangles.iter().flat_map(|triangle| &triangle.corners) {
+    for corner in corners {
         for axis in 0..2 {
             (lower[axis], upper[axis]) =
                 (lower[axis].min(corner[axis]), upper[axis].max(corner[axis]));
         }
     }
-    // A margin of a twentieth on every side; two samples a pixel each way.
-    let samples = size.map(|length| 2.0 * length as f64);
+    [lower, upper]
+}
+
+/// The corners of a place's box, as they are seen.
+fn box_seen(spot: &Spot, [eye, right, up]: [[f64; 3]; 3]) -> [[f64; 3]; 8] {
+    std::array::from_fn(|corner| {
+        let at: [f64; 3] =
+            std::array::from_fn(|axis| [spot.lower, spot.upper][corner >> axis & 1][axis]);
+        [dot(at, right), dot(at, up), dot(at, eye)]
+    })
+}
+
+/// A place and what is round it, not smaller than a twentieth of everything.
+fn near([lower, upper]: Frame, [all_lower, all_upper]: Frame) -> Frame {
+    let side = |lower: [f64; 2], upper: [f64; 2]| (upper[0] - lower[0]).max(upper[1] - lower[1]);
+    let half = (1.1 * side(lower, upper)).max(0.025 * side(all_lower, all_upper));
+    let middle: [f64; 2] = std::array::from_fn(|axis| f64::midpoint(lower[axis], upper[axis]));
+    [middle.map(|x| x - half), middle.map(|x| x + half)]
+}
+
+/// Samples a unit, where a frame fills a picture but for a margin of a twentieth on every side; two samples a pixel each way.
+fn scale_of([lower, upper]: Frame, size: [usize; 2]) -> f64 {
     let scale = (0..2)
-        .map(|axis| 0.9 * samples[axis] / (upper[axis] - lower[axis]))
+        .map(|axis| 0.9 * 2.0 * size[axis] as f64 / (upper[axis] - lower[axis]))
         .fold(f64::INFINITY, f64::min);
-    let scale = if scale.is_finite() { scale } else { 1.0 };
+    if scale.is_finite() { scale } else { 1.0 }
+}
+
+/// Where a place is in a picture of everything, in pixels: left, top, right, bottom; large enough to be seen.
+fn mark(there: Frame, whole: Frame, size: [usize; 2]) -> [usize; 4] {
+    let scale = scale_of(whole, size) / 2.0;
+    let pixel = |axis: usize, x: f64, room: f64| {
+        let from_middle = (x - f64::midpoint(whole[0][axis], whole[1][axis])) * scale;
+        let towards = if axis == 0 { from_middle } else { -from_middle };
+        let last = size[axis] as f64 - 3.0;
+        (size[axis] as f64 / 2.0 + towards + room)
+            .round()
+            .clamp(2.0, last) as usize
+    };
+    let [lower, upper] = there;
+    [
+        pixel(0, lower[0], -6.0),
+        pixel(1, upper[1], -6.0),
+        pixel(0, upper[0], 6.0),
+        pixel(1, lower[1], 6.0),
+    ]
+}
+
+fn draw(triangles: &[Seen], size: [usize; 2], frame: Frame) -> Picture {
+    let scale = scale_of(frame, size);
+    let [lower, upper] = frame;
+    let samples = size.map(|length| 2.0 * length as f64);
     let middle: [f64; 2] = std::array::from_fn(|axis| f64::midpoint(lower[axis], upper[axis]));
     let mut canvas = Canvas::new(size.map(|length| 2 * length), PAPER);
     for triangle in triangles {
@@ -117,7 +342,11 @@ fn draw(triangles: &[Seen], size: [usize; 2]) -> Picture {
                 z * scale,
             ]
         });
-        canvas.triangle(corners, lit(triangle.colour, corners), triangle.is_hit);
+        let colour = lit(triangle.colour, corners);
+        canvas.triangle(corners, colour, triangle.is_hit);
+        if triangle.is_hit {
+            canvas.edges_of_small(corners, colour);
+        }
     }
     Picture {
         size,
@@ -131,13 +360,6 @@ fn lit(colour: Colour, [a, b, c]: [[f64; 3]; 3]) -> Colour {
     let normal = unit(cross(minus(b, a), minus(c, a)));
     let bright = 0.45 + 0.6 * dot(normal, light).abs();
     colour.map(|part| (f64::from(part) * bright).round().clamp(0.0, 255.0) as u8)
-}
-
-/// Towards the eye, to its right, and up: y is up in the image.
-fn directions() -> ([f64; 3], [f64; 3], [f64; 3]) {
-    let eye = unit(TOWARDS_EYE);
-    let right = unit(cross([0.0, 1.0, 0.0], eye));
-    (eye, right, cross(eye, right))
 }
 
 fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

@@ -74,6 +74,47 @@ impl Canvas {
         }
     }
 
+    /// Draws the edges of a triangle that intersects where it covers less than a pixel each way and might be on no sample at all.
+    pub(super) fn edges_of_small(&mut self, [a, b, c]: [[f64; 3]; 3], colour: Colour) {
+        const PIXEL: f64 = 2.0;
+        let size = side(a, b, [c[0], c[1]]).abs();
+        let long = |p: [f64; 3], q: [f64; 3]| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
+        let longest = long(a, b).max(long(b, c)).max(long(c, a));
+        // Narrow triangles too: their height is twice the area by their longest side.
+        let is_small = size < PIXEL * longest.max(PIXEL);
+        let is_near = longest < 4.0 * (self.size[0] + self.size[1]) as f64;
+        if !is_small || !is_near {
+            return;
+        }
+        for (p, q) in [(a, b), (b, c), (c, a)] {
+            let steps = long(p, q).ceil().max(1.0) as usize;
+            for step in 0..=steps {
+                let part = step as f64 / steps as f64;
+                let at: [f64; 3] = std::array::from_fn(|axis| p[axis] + part * (q[axis] - p[axis]));
+                self.red_at(at, colour);
+            }
+        }
+    }
+
+    /// A whole pixel of something that intersects: a sample alone would be a quarter as red.
+    fn red_at(&mut self, [x, y, near]: [f64; 3], colour: Colour) {
+        let is_inside = x >= 0.0 && y >= 0.0 && x < self.size[0] as f64 && y < self.size[1] as f64;
+        if !is_inside {
+            return;
+        }
+        let [column, row] = [x as usize / 2 * 2, y as usize / 2 * 2];
+        for [across, down] in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+            let sample = (row + down) * self.size[0] + column + across;
+            if near >= self.nearness[sample] {
+                self.nearness[sample] = near;
+                self.colours[sample] = colour;
+                self.red[sample] = Red::InFront;
+            } else if self.red[sample] == Red::Nowhere {
+                self.red[sample] = Red::Behind;
+            }
+        }
+    }
+
     /// An image of half the size: each pixel the mean of its four samples.
     pub(super) fn halved(&self) -> Vec<u8> {
         let [width, height] = self.size;

@@ -1,7 +1,8 @@
 //! A frame as an image: the same bytes everywhere, the nearest in front, what intersects in red, also behind others.
 
 use pliant::{Selection, World};
-use pliant_report::picture::Picture;
+use pliant_report::Spot;
+use pliant_report::picture::{Picture, Shot, View};
 
 /// A folded sheet, and a thorn through it.
 fn world() -> (World<f32>, Vec<[u32; 4]>) {
@@ -177,4 +178,135 @@ fn any_shape_gives_a_picture() {
     }
     let empty = Picture::of(&World::<f32>::new(), &[], [4, 2]);
     assert_eq!(empty.pixels, [255; 24]);
+}
+
+/// How many pixels of a part of a picture are reddish: columns, rows.
+fn red_in(
+    picture: &Picture,
+    columns: std::ops::Range<usize>,
+    rows: std::ops::Range<usize>,
+) -> usize {
+    let at = |x: usize, y: usize| 3 * (y * picture.size[0] + x);
+    let all = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+    all.filter(|&(x, y)| is_reddish(&picture.pixels[at(x, y)..][..3]))
+        .count()
+}
+
+#[test]
+fn a_place_fills_the_picture_and_is_marked_in_an_inset() {
+    // A wide sheet, and far in a corner of it a thorn.
+    let mut world = World::<f32>::new();
+    let wide = [[0.0, 0.0, 0.0], [1000.0, 0.0, 0.0], [0.0, 1000.0, 0.0]];
+    world.add(&[[0, 1, 2]], &wide).unwrap();
+    let thorn = [[10.0, 10.0, -5.0], [12.0, 10.0, 5.0], [10.0, 12.0, 5.0]];
+    world.add(&[[0, 1, 2]], &thorn).unwrap();
+    let spot = Spot {
+        number: 3,
+        count: 1,
+        lower: [10.0, 10.0, -5.0],
+        upper: [12.0, 12.0, 5.0],
+        label: String::new(),
+    };
+    // Only the thorn is red, so that red is where the place is.
+    let pairs = [[1, 0, 1, 0]];
+    let shot = Shot {
+        size: [320, 240],
+        spot: Some(&spot),
+        caption: "frame 7: 1 pair".to_owned(),
+        ..Shot::default()
+    };
+    for (_, view) in View::NAMES {
+        let picture = Picture::shot(
+            &world,
+            &pairs,
+            &Shot {
+                view,
+                ..shot.clone()
+            },
+        );
+        assert_eq!(
+            picture,
+            Picture::shot(
+                &world,
+                &pairs,
+                &Shot {
+                    view,
+                    ..shot.clone()
+                }
+            )
+        );
+        let marked = red_in(&picture, 225..320, 170..240);
+        assert!(marked > 20, "{view:?}: {marked} red pixels in the inset");
+    }
+    let front = Picture::shot(
+        &world,
+        &pairs,
+        &Shot {
+            view: View::Front,
+            ..shot.clone()
+        },
+    );
+    let place = red_in(&front, 100..220, 60..170);
+    assert!(place > 20, "{place} red pixels in the middle");
+    // Without a place everything, as it always was, but for the caption.
+    let whole = Shot {
+        spot: None,
+        caption: String::new(),
+        ..shot
+    };
+    assert_eq!(
+        Picture::shot(&world, &pairs, &whole),
+        Picture::of(&world, &pairs, [320, 240])
+    );
+    assert_eq!("left".parse(), Ok(View::Left));
+    assert!("above".parse::<View>().unwrap_err().contains("top"));
+    // Nothing is too small to be drawn, or too strange.
+    for size in [[1, 1], [17, 3], [3, 40]] {
+        let empty = Picture::shot(
+            &World::<f64>::new(),
+            &[],
+            &Shot {
+                size,
+                spot: Some(&spot),
+                caption: "x".to_owned(),
+                ..Shot::default()
+            },
+        );
+        assert_eq!(empty.pixels.len(), 3 * size[0] * size[1]);
+    }
+}
+
+#[test]
+fn hits_smaller_than_a_pixel_are_seen() {
+    let mut world = World::<f32>::new();
+    let wide = [
+        [0.0, 0.0, 0.0],
+        [1000.0, 0.0, 0.0],
+        [0.0, 1000.0, 0.0],
+        [1000.0, 1000.0, 0.0],
+    ];
+    world.add(&[[0, 1, 2], [1, 3, 2]], &wide).unwrap();
+    // Between samples, in front of the sheet; and a needle as long as the sheet and thinner than a pixel.
+    let dust = [
+        [500.1, 500.1, 1.0],
+        [500.2, 500.1, 1.0],
+        [500.1, 500.2, 1.0],
+    ];
+    let needle = [
+        [100.0, 300.01, 1.0],
+        [900.0, 300.01, 1.0],
+        [100.0, 300.02, 1.0],
+    ];
+    for corners in [dust, needle] {
+        world.add(&[[0, 1, 2]], &corners).unwrap();
+    }
+    let shot = Shot {
+        size: [100, 100],
+        view: View::Front,
+        ..Shot::default()
+    };
+    let red = |pairs: &[[u32; 4]]| red_in(&Picture::shot(&world, pairs, &shot), 0..100, 0..100);
+    let [dust, needle] = [red(&[[1, 0, 1, 0]]), red(&[[2, 0, 2, 0]])];
+    assert!(needle > 50, "{needle}");
+    assert!((1..=4).contains(&dust), "{dust}");
 }

@@ -38,10 +38,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::io::{self, Write};
 
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "what was asked for, flag by flag"
-)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 pub(super) struct Json {
     count_only: bool,
     split: Option<Split>,

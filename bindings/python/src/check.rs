@@ -94,7 +94,7 @@ impl Name {
 /// Checks files as the program `pliant check` does: each path is a body, a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with
 /// its positions ("mesh.obj+walk.pc2", .mdd), or a pattern such as "cloth_*.obj" whose files are its frames; of a glTF file (.glb,
 /// .gltf) each body, or one ("scene.glb#arm"); a group of an OBJ file or of a pattern ("scan.obj#arm"); of a USD file (.usd, .usda, .usdc, .usdz; pip install 'pliant[usd]') each mesh that is
-/// seen, or those at or below a prim ("walk.usdc#/root/shirt"). Returns an iterator of frames, each read and checked when it is asked for.
+/// seen, or those at or below a prim ("walk.usdc#/scene/shirt"). Returns an iterator of frames, each read and checked when it is asked for.
 ///
 ///   itself    check each body against itself too; one body alone always is
 ///   first     stop at the first pair of each frame

@@ -53,7 +53,7 @@ def test_a_sequence_has_the_pairs_of_its_shapes(tmp_path: Path, ending: str) -> 
     path = str(tmp_path / f"walk.{ending if ending != 'usdz' else 'usdc'}")
     stage = Usd.Stage.CreateNew(path)
     shapes = {time: fold(FLAT, 0.3 * time).astype(np.float32) for time in (1.0, 2.5, 4.0)}
-    sheet = mesh(stage, "/root/sheet")
+    sheet = mesh(stage, "/scene/sheet")
     for time, shape in shapes.items():
         sheet.GetPointsAttr().Set(Vt.Vec3fArray.FromNumpy(shape), time)
     stage.Save()
@@ -61,7 +61,7 @@ def test_a_sequence_has_the_pairs_of_its_shapes(tmp_path: Path, ending: str) -> 
         assert UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(path), str(tmp_path / "walk.usdz"))
         path = str(tmp_path / "walk.usdz")
     checked = silent(path)
-    assert [(body.name, body.vertices, body.triangles) for body in checked.bodies] == [(f"{path}#/root/sheet", 81, 128)]
+    assert [(body.name, body.vertices, body.triangles) for body in checked.bodies] == [(f"{path}#/scene/sheet", 81, 128)]
     frames = list(checked)
     for frame, shape in zip(frames, shapes.values(), strict=True):
         np.testing.assert_array_equal(frame.pairs[:, [1, 3]], pliant.reference.self_intersection_pairs(shape.astype(float), FACES))
@@ -73,9 +73,9 @@ def test_a_sequence_has_the_pairs_of_its_shapes(tmp_path: Path, ending: str) -> 
 
 def test_transforms_are_evaluated_and_what_stands_still_has_one_frame(stage: Any) -> None:
     mesh(stage, "/still")
-    moved = mesh(stage, "/root/group/moved", *CROSS)
-    UsdGeom.Xform.Define(stage, "/root").AddScaleOp().Set(Gf.Vec3f(2, 2, 2))
-    group = UsdGeom.Xform.Define(stage, "/root/group")
+    moved = mesh(stage, "/scene/group/moved", *CROSS)
+    UsdGeom.Xform.Define(stage, "/scene").AddScaleOp().Set(Gf.Vec3f(2, 2, 2))
+    group = UsdGeom.Xform.Define(stage, "/scene/group")
     lift = group.AddTranslateOp()
     group.AddRotateZOp().Set(90.0)
     for time, height in ((0.0, 3.0), (10.0, 0.0)):
@@ -166,22 +166,22 @@ def test_what_is_not_evaluated_is_said(stage: Any) -> None:
 
 
 def test_what_cannot_be_read_names_the_prim(stage: Any, tmp_path: Path) -> None:
-    sheet = mesh(stage, "/root/sheet")
+    sheet = mesh(stage, "/scene/sheet")
     for time, count in ((0.0, 81), (1.0, 80)):
         sheet.GetPointsAttr().Set(Vt.Vec3fArray.FromNumpy(FLAT[:count].astype(np.float32)), time)
     checked = pliant.check(saved(stage))
     next(checked)
-    with pytest.raises(pliant.Error, match=r"prim /root/sheet, time code 1: 80 points, 81 at first") as refused:
+    with pytest.raises(pliant.Error, match=r"prim /scene/sheet, time code 1: 80 points, 81 at first") as refused:
         next(checked)
     assert refused.value.kind == "CannotRead"
     sheet.GetPointsAttr().Clear()
     sheet.GetPointsAttr().Set(Vt.Vec3fArray.FromNumpy(FLAT.astype(np.float32)))
     for time, faces in ((0.0, FACES), (1.0, FACES[::-1])):
         sheet.GetFaceVertexIndicesAttr().Set(Vt.IntArray(faces.ravel().tolist()), time)
-    with pytest.raises(pliant.Error, match="/root/sheet, time code 1: other faces"):
+    with pytest.raises(pliant.Error, match="/scene/sheet, time code 1: other faces"):
         list(pliant.check(saved(stage)))
-    with pytest.raises(pliant.Error, match="no prim /root/shirt"):
-        pliant.check(saved(stage) + "#/root/shirt")
+    with pytest.raises(pliant.Error, match="no prim /scene/shirt"):
+        pliant.check(saved(stage) + "#/scene/shirt")
     for corners in ([0, 1, 99], [0, 1], [0, 1, 2, 3], [0, 1, -1]):
         wrong = Usd.Stage.CreateInMemory()
         mesh(wrong, "/wrong", FLAT, [3], corners)

@@ -111,7 +111,7 @@ def opened(argument: str) -> tuple[str, list[Mesh]]:
         raise _refused(file, "USD is read by usd-core, which is not installed; pip install 'pliant[usd]'") from None
     stage = _stage(file, Usd, Tf)
     if part and not (Sdf.Path.IsValidPathString(part) and stage.GetPrimAtPath(part)):
-        raise _refused(file, f"there is no prim {part}; prims have paths as /root/shirt")
+        raise _refused(file, f"there is no prim {part}; prims have paths as /scene/shirt")
 
     everything = list(stage.Traverse(Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)))
     seen: list[Any] = []

@@ -329,7 +329,7 @@ impl World {
 
     /// Ends all motions on the way: every body that has one gets the shape in which it is at time t, from 0 (where it is) to 1 (the end).
     /// Each coordinate is x0 + t (x1 - x0), computed in float64, each operation rounded, kept between x0 and x1, and rounded to the
-    /// world's type.
+    /// world's type; at 1 it is x1.
     fn advance_motion(&self, py: Python<'_>, t: f64) -> Result<(), Refused> {
         self.with(
             py,

@@ -99,7 +99,8 @@ fn sort_by_buckets<T: Hit>(
     let width = bits.min(DIGIT);
     let rest = bits - width;
     let bucket = |key: u64| (key.checked_shr(rest).unwrap_or(0)) as usize;
-    let mut ends = vec![0_u32; 1 << width];
+    let mut ends = [0_u32; 1 << DIGIT];
+    let ends = &mut ends[..1 << width];
     for (items, keys) in items
         .chunks(UNINTERRUPTED)
         .zip(keys.chunks_mut(UNINTERRUPTED))
@@ -117,7 +118,7 @@ fn sort_by_buckets<T: Hit>(
         return false;
     }
     let mut before = 0;
-    for end in &mut ends {
+    for end in &mut *ends {
         before += std::mem::replace(end, before);
     }
     for keys in keys.chunks(UNINTERRUPTED) {
@@ -131,7 +132,7 @@ fn sort_by_buckets<T: Hit>(
         }
     }
     let mut start = 0;
-    for end in ends {
+    for &mut end in ends {
         let of_bucket = start..end as usize;
         start = of_bucket.end;
         let (from, to) = (&mut spare[of_bucket.clone()], &mut keys[of_bucket.clone()]);

@@ -125,8 +125,7 @@ impl Coordinate for f64 {
         origin: &[f64; 4],
     ) -> (f32x4<I>, f32x4<I>) {
         let i = lo.token();
-        let origin = f64x4::load_array_ref(i, origin);
-        let (lo, hi) = (lo - origin).narrow(hi - origin).split();
+        let (lo, hi) = relative(lo, hi, origin);
         // As `Real::round_down` and `round_up` of f64 say, lane by lane.
         let lo = lo.min(f32x4::splat(i, f32::MAX));
         let hi = hi.max(f32x4::splat(i, -f32::MAX));
@@ -143,8 +142,7 @@ impl Coordinate for f64 {
         origin: &[f64; 4],
     ) -> (f32x4<I>, f32x4<I>) {
         let i = lo.token();
-        let origin = f64x4::load_array_ref(i, origin);
-        let (lo, hi) = (lo - origin).narrow(hi - origin).split();
+        let (lo, hi) = relative(lo, hi, origin);
         let [least, most] = [-f32::MAX, f32::MAX].map(|x| f32x4::splat(i, x));
         (lo.max(least).min(most), hi.max(least).min(most))
     }
@@ -173,6 +171,13 @@ impl Coordinate for f64 {
         }
         rows
     }
+}
+
+/// Two corners relative to the origin, each coordinate rounded to the nearest f64 and then to the nearest f32.
+#[inline(always)]
+fn relative<I: Simd>(lo: f64x4<I>, hi: f64x4<I>, origin: &[f64; 4]) -> (f32x4<I>, f32x4<I>) {
+    let origin = f64x4::load_array_ref(lo.token(), origin);
+    (lo - origin).narrow(hi - origin).split()
 }
 
 /// Eight points as lanes: their x, their y, their z.

@@ -132,8 +132,12 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
         self.common.bodies.get(id)
     }
 
-    /// Validates a new shape of a body and takes it over.
-    fn move_body(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
+    /// Changes a body, with the threads that there are; or leaves it as it is and says which body it is about.
+    fn change(
+        &mut self,
+        id: BodyId,
+        change: impl FnOnce(&mut Body<N, S>, Instructions, Executor) -> Result<(), ErrorKind>,
+    ) -> Result<(), Error> {
         let Common {
             instructions,
             threads,
@@ -144,10 +148,15 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             threads: threads.here(),
             interrupt: &Interrupt::default(),
         };
-        bodies
-            .get_mut(id)?
-            .set_positions(*instructions, executor, positions)
-            .map_err(about(id))?;
+        let body = bodies.get_mut(id)?;
+        change(body, *instructions, executor).map_err(about(id))
+    }
+
+    /// Validates a new shape of a body and takes it over.
+    fn move_body(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
+        self.change(id, |body, instructions, executor| {
+            body.set_positions(instructions, executor, positions)
+        })?;
         self.common.note_movement();
         Ok(())
     }
@@ -264,22 +273,10 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
     }
 
     fn set_motion(&mut self, id: BodyId, end: &[[S; 3]]) -> Result<(), Error> {
-        let Common {
-            instructions,
-            threads,
-            bodies,
-            body_pairs,
-            ..
-        } = &mut self.common;
-        let executor = Executor {
-            threads: threads.here(),
-            interrupt: &Interrupt::default(),
-        };
-        bodies
-            .get_mut(id)?
-            .set_motion(*instructions, executor, end)
-            .map_err(about(id))?;
-        body_pairs.forget();
+        self.change(id, |body, instructions, executor| {
+            body.set_motion(instructions, executor, end)
+        })?;
+        self.common.body_pairs.forget();
         Ok(())
     }
 
@@ -293,19 +290,10 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         if !(0.0..=1.0).contains(&t) {
             return Err(ErrorKind::BadTime { time: t }.of_query());
         }
-        let Common {
-            instructions,
-            threads,
-            bodies,
-            ..
-        } = &mut self.common;
-        let executor = Executor {
-            threads: threads.here(),
-            interrupt: &Interrupt::default(),
-        };
-        for body in &mut bodies.list {
-            body.advance_motion(*instructions, executor, t)
-                .map_err(about(body.id))?;
+        for id in self.common.bodies.ids.clone() {
+            self.change(id, |body, instructions, executor| {
+                body.advance_motion(instructions, executor, t)
+            })?;
         }
         self.common.note_movement();
         Ok(())

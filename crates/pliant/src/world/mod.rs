@@ -267,7 +267,8 @@ impl<S: Scalar> World<S> {
     }
 
     /// Ends all motions on the way: every body that has one gets the shape in which it is at time `t`, from 0 (where it is) to 1 (the end).
-    /// Each coordinate is x0 + t (x1 - x0), computed in `f64`, each operation rounded, kept between x0 and x1, and rounded to `S`.
+    /// Each coordinate is x0 + t (x1 - x0), computed in `f64`, each operation rounded, kept between x0 and x1, and rounded to `S`; at 1 it
+    /// is x1, as after [`finish_motion`](Self::finish_motion).
     ///
     /// ```
     /// # use pliant::World;

@@ -1,6 +1,6 @@
 //! Edges near edges.
 
-use super::{Margin, Which, groups};
+use super::{Margin, Which, groups, keep};
 use crate::geometry::{Aabb, Shape, larger};
 use crate::hits::EdgeEdge;
 use crate::ids::TreeEdge;
@@ -68,7 +68,7 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
             .margin
             .limits::<S>(larger(runs_a.most(), runs_b.most()));
         let groups = of_a.groups.zip(of_b.groups);
-        let is_candidate = |[a, b]: [u32; 2]| {
+        let is_left_out = |[a, b]: [u32; 2]| {
             let (edge_a, edge_b) = (ends_a[a as usize], ends_b[b as usize]);
             let is_shared = (edge_a[0] == edge_b[0])
                 | (edge_a[0] == edge_b[1])
@@ -77,7 +77,11 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
             let meet = groups.is_none_or(|(of_a, of_b)| {
                 groups::meet(of_a.edges[a as usize], of_b.edges[b as usize])
             });
-            !(leaves.itself & is_shared) & meet
+            leaves.itself & is_shared | !meet
+        };
+        let holds = |[a, b]: [u32; 2]| {
+            let (a, b) = (&ends_a[a as usize], &ends_b[b as usize]);
+            self.margin.holds(leaves, [0, 1], a, b)
         };
         let before = hits.len();
         dispatch!(leaves.instructions, i => {
@@ -86,21 +90,7 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
                 let (a, b) = (runs_a.run(a), runs_b.run(b));
                 a.compare(i, &b, itself, limits, |[first_a, first_b], sure, possible| {
                     let pair = |bit: u32| [first_a + bit / 8, first_b + bit % 8];
-                    let mut near = possible;
-                    let mut rest = possible & !sure;
-                    while rest != 0 {
-                        let [a, b] = pair(rest.trailing_zeros());
-                        if is_candidate([a, b]) {
-                            let corners = [ends_a[a as usize], ends_b[b as usize]];
-                            statistics.exact_decisions += 1;
-                            if !self.margin.holds(leaves, [0, 1], &corners[0], &corners[1]) {
-                                near &= !(rest & rest.wrapping_neg());
-                            }
-                        }
-                        rest &= rest - 1;
-                    }
-                    statistics.candidate_pairs += u64::from(near.count_ones());
-                    hits.room().push_bits_if(near, pair, is_candidate);
+                    keep([sure, possible], pair, is_left_out, holds, hits, statistics);
                 });
             }
         });

@@ -18,14 +18,43 @@ mod vertex_triangle;
 use super::LeafTest;
 use crate::geometry::{Aabb, Bounds, Real, Shape};
 use crate::ids::TreeVertex;
-use crate::kernels::Coordinate;
 use crate::kernels::gaps::Limits;
+use crate::kernels::{Buffer, Coordinate};
 use crate::predicates::are_within;
+use crate::statistics::Statistics;
 use crate::tree::{Grown, Swept};
 pub(crate) use edge_edge::EdgeEdgeCandidates;
 pub(crate) use groups::Groups;
 pub(crate) use near_boxes::{NearBoxes, NearElements, Which};
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
+
+/// Keeps those of some pairs of elements that are candidates, and counts them. Bits of two masks say which are surely near and which
+/// possibly; `holds` decides the latter exactly, and is asked only about pairs that are not left out.
+#[inline(always)]
+fn keep(
+    [sure, possible]: [u64; 2],
+    pair: impl Fn(u32) -> [u32; 2],
+    is_left_out: impl Fn([u32; 2]) -> bool,
+    holds: impl Fn([u32; 2]) -> bool,
+    hits: &mut Buffer<[u32; 2]>,
+    statistics: &mut Statistics,
+) {
+    let mut near = possible;
+    let mut undecided = possible & !sure;
+    while undecided != 0 {
+        let bit = undecided.trailing_zeros();
+        if !is_left_out(pair(bit)) {
+            statistics.exact_decisions += 1;
+            if !holds(pair(bit)) {
+                near &= !(1 << bit);
+            }
+        }
+        undecided &= undecided - 1;
+    }
+    statistics.candidate_pairs += u64::from(near.count_ones());
+    hits.room()
+        .push_bits_if(near, pair, |pair| !is_left_out(pair));
+}
 
 /// How near is near.
 #[derive(Clone, Copy, Debug)]

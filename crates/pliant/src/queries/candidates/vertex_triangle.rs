@@ -1,6 +1,6 @@
 //! Vertices near triangles.
 
-use super::{Margin, Which, groups};
+use super::{Margin, Which, groups, keep};
 use crate::geometry::{Aabb, Shape, larger};
 use crate::hits::VertexTriangle;
 use crate::ids::{TreeTriangle, TreeVertex};
@@ -104,7 +104,7 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
             .limits::<S>(larger(vertices.most(), triangles.most()));
         let corners = leaves.shapes[1 - side].triangles;
         let groups = of_vertices.groups.zip(of_triangles.groups);
-        let is_candidate = |[vertex, triangle]: [u32; 2]| {
+        let is_left_out = |[vertex, triangle]: [u32; 2]| {
             let triangle = (triangle & !OF_SECOND) as usize;
             let [a, b, c] = corners[triangle];
             let is_shared = (a.0 == vertex) | (b.0 == vertex) | (c.0 == vertex);
@@ -112,7 +112,12 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
                 let vertex = of_vertices.vertices[vertex as usize];
                 groups::meet(vertex, of_triangles.triangles[triangle])
             });
-            !(leaves.itself & is_shared) & meet
+            leaves.itself & is_shared | !meet
+        };
+        let holds = |[vertex, triangle]: [u32; 2]| {
+            let corners = &corners[(triangle & !OF_SECOND) as usize];
+            self.margin
+                .holds(leaves, sides, &[TreeVertex(vertex)], corners)
         };
         let tag = if side == 1 { OF_SECOND } else { 0 };
         dispatch!(leaves.instructions, i => {
@@ -125,21 +130,7 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
                 let of_triangles = triangles.run(pair[1 - side]);
                 of_vertices.compare(i, &of_triangles, false, limits, |[first, second], sure, possible| {
                     let pair = |bit: u32| [first + bit / 8, (second + bit % 8) | tag];
-                    let mut near = possible;
-                    let mut rest = possible & !sure;
-                    while rest != 0 {
-                        let [vertex, triangle] = pair(rest.trailing_zeros());
-                        if is_candidate([vertex, triangle]) {
-                            let corners = corners[(triangle & !OF_SECOND) as usize];
-                            statistics.exact_decisions += 1;
-                            if !self.margin.holds(leaves, sides, &[TreeVertex(vertex)], &corners) {
-                                near &= !(rest & rest.wrapping_neg());
-                            }
-                        }
-                        rest &= rest - 1;
-                    }
-                    statistics.candidate_pairs += u64::from(near.count_ones());
-                    hits.room().push_bits_if(near, pair, is_candidate);
+                    keep([sure, possible], pair, is_left_out, holds, hits, statistics);
                 });
             }
         });

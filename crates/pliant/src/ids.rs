@@ -30,8 +30,6 @@ numbers! {
     CallerVertex;
     /// A vertex, in the order of the tree.
     TreeVertex;
-    /// An edge, in the order of the tree.
-    TreeEdge;
     /// Where a body stands in the list of its world.
     Place;
     /// Where a body stands among those of its world in the order of their ids.

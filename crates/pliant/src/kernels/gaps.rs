@@ -19,10 +19,13 @@ use super::coordinate::lanes_of;
 use crate::geometry::{Aabb, Points, Real, Shape};
 use crate::ids::TreeVertex;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x4, f32x8};
+use fearless_simd::{Simd, f32x4, f32x8, mask32x8, u32x8};
 
 /// Boxes side by side.
 pub(crate) type Eight = BoxLanes<8>;
+
+/// The corners of eight elements that have `C` each, the same corner of all side by side.
+pub(crate) type EightCorners<const C: usize> = [[u32; 8]; C];
 
 /// A gap below the one is surely at most the distance asked for, above the other surely not.
 #[derive(Clone, Copy, Debug)]
@@ -53,31 +56,41 @@ impl Limits {
             possible: ((distance + error) as f32).next_up(),
         }
     }
+
+    /// Whether two boxes are possibly near each other.
+    #[inline(always)]
+    pub(crate) fn are_possibly_near(self, a: &Aabb, b: &Aabb) -> bool {
+        let mut are_near = true;
+        for axis in 0..3 {
+            are_near &= a.lo[axis] - b.hi[axis] <= self.possible;
+            are_near &= b.lo[axis] - a.hi[axis] <= self.possible;
+        }
+        are_near
+    }
 }
 
-/// The boxes of up to eight elements, each of which has `C` corners; those that are missing are the first again. `end` is where the
-/// vertices are at the end of a motion.
+/// The boxes of eight elements, each of which has `C` corners. `end` is where the vertices are at the end of a motion.
 #[inline(always)]
 pub(crate) fn of_elements<I: Simd, S: Coordinate, const C: usize>(
     i: I,
     shape: &Shape<S>,
     end: Option<&Points<S>>,
-    elements: &[[TreeVertex; C]; 8],
+    corners: &EightCorners<C>,
     lanes: &mut Eight,
 ) {
     let zero = f32x4::splat(i, 0.0);
     let (mut lo, mut hi) = ([zero; 8], [zero; 8]);
     for lane in 0..8 {
-        let corners = &elements[lane];
-        let first = S::load(i, shape.positions.padded(corners[0]));
+        let corner = |which: usize| TreeVertex(corners[which][lane]);
+        let first = S::load(i, shape.positions.padded(corner(0)));
         let (mut least, mut most) = (first, first);
         for which in 1..C {
-            let corner = S::load(i, shape.positions.padded(corners[which]));
+            let corner = S::load(i, shape.positions.padded(corner(which)));
             (least, most) = (least.min(corner), most.max(corner));
         }
         if let Some(end) = end {
             for which in 0..C {
-                let corner = S::load(i, end.padded(corners[which]));
+                let corner = S::load(i, end.padded(corner(which)));
                 (least, most) = (least.min(corner), most.max(corner));
             }
         }
@@ -90,69 +103,91 @@ pub(crate) fn of_elements<I: Simd, S: Coordinate, const C: usize>(
     }
 }
 
-/// Which lanes are surely near a box, and which possibly: bit i for lane i.
-#[inline(always)]
-fn near_one<I: Simd>(
-    lo: &[f32x8<I>; 3],
-    hi: &[f32x8<I>; 3],
-    one: ([f32; 3], [f32; 3]),
-    limits: Limits,
-) -> (u64, u64) {
-    let (one_lo, one_hi) = one;
-    let i = lo[0].token();
-    let mut gap = (lo[0] - one_hi[0]).max(f32x8::splat(i, one_lo[0]) - hi[0]);
-    for axis in 1..3 {
-        let below = lo[axis] - one_hi[axis];
-        let above = f32x8::splat(i, one_lo[axis]) - hi[axis];
-        gap = gap.max(below.max(above));
+/// Eight boxes in registers.
+struct Registers<I: Simd> {
+    lo: [f32x8<I>; 3],
+    hi: [f32x8<I>; 3],
+}
+
+impl<I: Simd> Registers<I> {
+    #[inline(always)]
+    fn new(i: I, lanes: &Eight) -> Self {
+        let empty = f32x8::splat(i, 0.0);
+        let (mut lo, mut hi) = ([empty; 3], [empty; 3]);
+        for axis in 0..3 {
+            lo[axis] = eight(i, &lanes.lo[axis]);
+            hi[axis] = eight(i, &lanes.hi[axis]);
+        }
+        Self { lo, hi }
     }
-    let sure = gap.simd_lt(f32x8::splat(i, limits.sure));
-    let possible = gap.simd_le(f32x8::splat(i, limits.possible));
-    (sure.to_bitmask(), possible.to_bitmask())
+
+    /// The gap of each to one box.
+    #[inline(always)]
+    fn gaps(&self, one_lo: [f32; 3], one_hi: [f32; 3]) -> f32x8<I> {
+        let i = self.lo[0].token();
+        let on = |axis: usize| {
+            let below = self.lo[axis] - one_hi[axis];
+            let above = f32x8::splat(i, one_lo[axis]) - self.hi[axis];
+            below.max(above)
+        };
+        on(0).max(on(1)).max(on(2))
+    }
 }
 
 /// Which lanes are possibly near a box.
 #[inline(always)]
 pub(crate) fn near_box<I: Simd>(i: I, lanes: &Eight, all: &Aabb, limits: Limits) -> u64 {
-    let (lo, hi) = registers(i, lanes);
-    near_one(&lo, &hi, (all.lo, all.hi), limits).1
+    let gaps = Registers::new(i, lanes).gaps(all.lo, all.hi);
+    gaps.simd_le(f32x8::splat(i, limits.possible)).to_bitmask()
 }
 
-/// Which pairs of lanes (i, j) are surely near each other, and which possibly: bit 8 i + j. Of the first only the lanes of a mask.
+/// Which pairs of lanes (i, j) are possibly near each other, bit 8 i + j, of the first only the lanes of a mask; and whether any of
+/// these pairs is not surely so. If the elements are of one body, those that have a corner in common are left out.
 #[inline(always)]
-pub(crate) fn near_pairs<I: Simd>(
+pub(crate) fn near_pairs<I: Simd, const A: usize, const B: usize>(
     i: I,
-    a: &Eight,
-    rows: u64,
-    b: &Eight,
+    (a, corners_a): (&Eight, &EightCorners<A>),
+    rows: u32,
+    (b, corners_b): (&Eight, &EightCorners<B>),
+    is_one_body: bool,
     limits: Limits,
-) -> (u64, u64) {
-    let (lo, hi) = registers(i, b);
-    let (mut sure, mut possible) = (0, 0);
+) -> (u64, bool) {
+    let registers = Registers::new(i, b);
+    let corners_b = corners_b.map(|corners| u32x8::load_array(i, corners));
+    let [least_unsure, possible] = [limits.sure, limits.possible].map(|it| f32x8::splat(i, it));
+    let mut all = 0;
+    let mut unsure = mask32x8::splat(i, false);
     let mut rest = rows;
     while rest != 0 {
         let lane = rest.trailing_zeros() as usize % 8;
         rest &= rest - 1;
-        let one = (
+        let gaps = registers.gaps(
             [a.lo[0][lane], a.lo[1][lane], a.lo[2][lane]],
             [a.hi[0][lane], a.hi[1][lane], a.hi[2][lane]],
         );
-        let (row_sure, row_possible) = near_one(&lo, &hi, one, limits);
-        sure |= row_sure << (8 * lane);
-        possible |= row_possible << (8 * lane);
+        let mut near = gaps.simd_le(possible);
+        if is_one_body {
+            for corners in corners_a {
+                let corner = u32x8::splat(i, corners[lane]);
+                for corners in corners_b {
+                    near &= !corners.simd_eq(corner);
+                }
+            }
+        }
+        unsure |= near & gaps.simd_ge(least_unsure);
+        all |= near.to_bitmask() << (8 * lane);
     }
-    (sure, possible)
+    (all, unsure.any_true())
 }
 
-#[inline(always)]
-fn registers<I: Simd>(i: I, lanes: &Eight) -> ([f32x8<I>; 3], [f32x8<I>; 3]) {
-    let empty = f32x8::splat(i, 0.0);
-    let (mut lo, mut hi) = ([empty; 3], [empty; 3]);
-    for axis in 0..3 {
-        lo[axis] = eight(i, &lanes.lo[axis]);
-        hi[axis] = eight(i, &lanes.hi[axis]);
-    }
-    (lo, hi)
+/// Which pairs of lanes (i, j) are surely near each other: bit 8 i + j.
+pub(crate) fn sure_pairs<I: Simd>(i: I, a: &Eight, b: &Eight, limits: Limits) -> u64 {
+    let registers = Registers::new(i, b);
+    (0..8).fold(0, |sure, lane| {
+        let one = a.get(lane);
+        let gaps = registers.gaps(one.lo, one.hi);
+        sure | gaps.simd_lt(f32x8::splat(i, limits.sure)).to_bitmask() << (8 * lane)
+    })
 }
 
 #[cfg(test)]
@@ -184,6 +219,7 @@ mod tests {
                 epoch: 1,
             };
             let triangles = [[0, 1, 2], [3, 4, 5]].map(|it| it.map(TreeVertex));
+            let lanes = triangles.map(|corners| corners.map(|corner| [corner.0; 8]));
             let exact = triangles.map(|corners| {
                 let mut bounds = Bounds::EMPTY;
                 for corner in corners {
@@ -214,20 +250,27 @@ mod tests {
                 for instructions in Instructions::all() {
                     dispatch!(instructions, i => {
                         let [mut a, mut b] = [Eight::EMPTY; 2];
-                        of_elements(i, &shape, None, &[triangles[0]; 8], &mut a);
-                        of_elements(i, &shape, None, &[triangles[1]; 8], &mut b);
+                        of_elements(i, &shape, None, &lanes[0], &mut a);
+                        of_elements(i, &shape, None, &lanes[1], &mut b);
                         let all = [a, b].map(|lanes| lanes.get(0));
                         let most = all.iter().flat_map(|it| [it.lo, it.hi]).flatten();
                         let most = most.fold(0.0, |most: f32, x| most.max(x.abs()));
                         let limits = Limits::new::<S>(distance, most.into());
-                        let (sure, possible) = near_pairs(i, &a, 1, &b, limits);
-                        let (sure, possible) = (sure & 1 == 1, possible & 1 == 1);
+                        let decide = |limits| {
+                            let [a, b] = [(&a, &lanes[0]), (&b, &lanes[1])];
+                            let (possible, is_unsure) = near_pairs(i, a, 1, b, true, limits);
+                            let sure = sure_pairs(i, a.0, b.0, limits) & 1 == 1;
+                            let possible = possible & 1 == 1;
+                            assert_eq!(is_unsure, possible && !sure);
+                            (sure, possible)
+                        };
+                        let (sure, possible) = decide(limits);
                         assert!(!sure || expected, "{corners:?} {origin:?} {distance}");
                         assert!(possible || !expected, "{corners:?} {origin:?} {distance}");
                         uncertain += usize::from(possible && !sure);
                         let narrow = Limits::new::<S>(distance, f64::from(most) / 64.0);
-                        let (sure, possible) = near_pairs(i, &a, 1, &b, narrow);
-                        wrong += usize::from(sure & 1 == 1 && !expected || possible & 1 == 0 && expected);
+                        let (sure, possible) = decide(narrow);
+                        wrong += usize::from(sure && !expected || !possible && expected);
                     });
                 }
             }

@@ -6,7 +6,7 @@
 
 use super::{Order, Topology};
 use crate::held::{self, Held};
-use crate::ids::{CallerVertex, TreeEdge, TreeTriangle, TreeVertex};
+use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
 use std::ops::Range;
 
 /// The edges of a mesh, as the caller numbers them and in tree order.
@@ -149,10 +149,10 @@ impl Elements {
         &self.ends
     }
 
-    /// The caller's number of an edge.
+    /// The caller's numbers of all edges in tree order.
     #[inline]
-    pub(crate) fn caller_edge(&self, edge: TreeEdge) -> u32 {
-        self.numbers[edge.index()]
+    pub(crate) fn caller_edges(&self) -> &[u32] {
+        &self.numbers
     }
 }
 
@@ -213,10 +213,10 @@ mod tests {
         let elements = Elements::new(&topology, &order, &|| false).unwrap();
         let expected: BTreeSet<[u32; 2]> = triangles.iter().flat_map(edges_of).collect();
         assert!(expected.into_iter().eq(elements.callers().iter().copied()));
-        for (edge, ends) in (0..).zip(elements.ends()) {
+        for (edge, ends) in elements.ends().iter().enumerate() {
             let mut named = ends.map(|end| order.caller_vertex(end).0);
             named.sort_unstable();
-            let number = elements.caller_edge(TreeEdge(edge));
+            let number = elements.caller_edges()[edge];
             assert_eq!(elements.callers()[number as usize], named);
         }
         // What belongs to triangles one after the other is everything that is used, once.

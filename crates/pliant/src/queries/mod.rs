@@ -133,5 +133,6 @@ impl Leaves {
 pub(crate) struct CallerIds<'q> {
     pub(crate) bodies: [BodyId; 2],
     pub(crate) orders: [&'q Order; 2],
-    pub(crate) elements: [Option<NearElements<'q>>; 2],
+    /// Of edges, for kinds that look at them; else none.
+    pub(crate) edges: [&'q [u32]; 2],
 }

@@ -46,7 +46,7 @@ pub(crate) trait TreePair<const N: usize>: Sync {
         CallerIds {
             bodies: sides.map(|side| side.body),
             orders: sides.map(|side| side.order),
-            elements: sides.map(|side| side.elements),
+            edges: sides.map(|side| side.elements.map_or(&[][..], |it| it.edges.caller_edges())),
         }
     }
 }

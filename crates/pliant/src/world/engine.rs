@@ -565,7 +565,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
 fn pair_of<const N: usize, S: Coordinate>(both: [&Body<N, S>; 2], found: Candidate) -> Pair {
     use crate::queries::{CallerIds, Kind};
     let ids = CallerIds {
-        elements: [None; 2],
+        edges: [&[]; 2],
         bodies: both.map(|body| body.id),
         orders: both.map(|body| &body.order),
     };

@@ -1,9 +1,9 @@
 //! Edges near edges.
 
+use super::runs::{RUNS_AT_ONCE, near_runs};
 use super::{Margin, Which, groups, keep};
 use crate::geometry::{Aabb, Shape, larger};
 use crate::hits::EdgeEdge;
-use crate::ids::TreeEdge;
 use crate::kernels::{Buffer, Coordinate, dispatch};
 use crate::queries::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves};
 use crate::statistics::Statistics;
@@ -68,43 +68,41 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
             .margin
             .limits::<S>(larger(runs_a.most(), runs_b.most()));
         let groups = of_a.groups.zip(of_b.groups);
-        let is_left_out = |[a, b]: [u32; 2]| {
-            let (edge_a, edge_b) = (ends_a[a as usize], ends_b[b as usize]);
-            let is_shared = (edge_a[0] == edge_b[0])
-                | (edge_a[0] == edge_b[1])
-                | (edge_a[1] == edge_b[0])
-                | (edge_a[1] == edge_b[1]);
-            let meet = groups.is_none_or(|(of_a, of_b)| {
-                groups::meet(of_a.edges[a as usize], of_b.edges[b as usize])
-            });
-            leaves.itself & is_shared | !meet
-        };
+        let meet = groups.map(|(of_a, of_b)| {
+            |[a, b]: [u32; 2]| groups::meet(of_a.edges[a as usize], of_b.edges[b as usize])
+        });
         let holds = |[a, b]: [u32; 2]| {
             let (a, b) = (&ends_a[a as usize], &ends_b[b as usize]);
             self.margin.holds(leaves, [0, 1], a, b)
         };
         let before = hits.len();
         dispatch!(leaves.instructions, i => {
-            for &[a, b] in pairs {
-                let itself = leaves.itself && a == b;
-                let (a, b) = (runs_a.run(a), runs_b.run(b));
-                a.compare(i, &b, itself, limits, |[first_a, first_b], sure, possible| {
-                    let pair = |bit: u32| [first_a + bit / 8, first_b + bit % 8];
-                    keep([sure, possible], pair, is_left_out, holds, hits, statistics);
-                });
+            for pairs in pairs.chunks(RUNS_AT_ONCE) {
+                let mut kept = [[0; 2]; RUNS_AT_ONCE];
+                for &[a, b] in near_runs(runs_a, runs_b, pairs, limits, &mut kept) {
+                    let itself = leaves.itself && a == b;
+                    let (a, b) = (runs_a.run(a), runs_b.run(b));
+                    a.compare(i, &b, (leaves.itself, itself), limits, |[first_a, first_b], near, sure| {
+                        let pair = |bit: u32| [first_a + bit / 8, first_b + bit % 8];
+                        keep([near, sure], pair, meet, holds, hits, statistics);
+                    });
+                }
             }
         });
         statistics.pairs += (hits.len() - before) as u64;
     }
 
+    #[inline]
     fn to_caller(&self, ids: &CallerIds, [a, b]: [u32; 2]) -> EdgeEdge {
-        let number = |side: usize, edge: u32| {
-            let elements = ids.elements[side].as_ref();
-            elements.map_or(edge, |it| it.edges.caller_edge(TreeEdge(edge)))
+        let [body_a, body_b] = ids.bodies;
+        let a = ids.edges[0][a as usize];
+        let b = ids.edges[1][b as usize];
+        let (a, b) = if body_a == body_b {
+            ((body_a, a.min(b)), (body_b, a.max(b)))
+        } else {
+            ((body_a, a), (body_b, b))
         };
-        let a = (ids.bodies[0], number(0, a));
-        let b = (ids.bodies[1], number(1, b));
-        let ((body_a, edge_a), (body_b, edge_b)) = (a.min(b), a.max(b));
+        let ((body_a, edge_a), (body_b, edge_b)) = if body_a <= body_b { (a, b) } else { (b, a) };
         EdgeEdge {
             body_a,
             edge_a,

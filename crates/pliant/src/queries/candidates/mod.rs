@@ -28,32 +28,39 @@ pub(crate) use groups::Groups;
 pub(crate) use near_boxes::{NearBoxes, NearElements, Which};
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
 
-/// Keeps those of some pairs of elements that are candidates, and counts them. Bits of two masks say which are surely near and which
-/// possibly; `holds` decides the latter exactly, and is asked only about pairs that are not left out.
+/// Keeps those of some pairs of elements that are candidates, and counts them. Bits of two masks say which are possibly near each other
+/// and which surely. `meet`, if there are groups, says whether theirs let them; `holds` decides exactly, and is asked only about others.
 #[inline(always)]
 fn keep(
-    [sure, possible]: [u64; 2],
+    [mut near, sure]: [u64; 2],
     pair: impl Fn(u32) -> [u32; 2],
-    is_left_out: impl Fn([u32; 2]) -> bool,
+    meet: Option<impl Fn([u32; 2]) -> bool>,
     holds: impl Fn([u32; 2]) -> bool,
     hits: &mut Buffer<[u32; 2]>,
     statistics: &mut Statistics,
 ) {
-    let mut near = possible;
-    let mut undecided = possible & !sure;
-    while undecided != 0 {
-        let bit = undecided.trailing_zeros();
-        if !is_left_out(pair(bit)) {
-            statistics.exact_decisions += 1;
-            if !holds(pair(bit)) {
-                near &= !(1 << bit);
-            }
-        }
-        undecided &= undecided - 1;
-    }
     statistics.candidate_pairs += u64::from(near.count_ones());
-    hits.room()
-        .push_bits_if(near, pair, |pair| !is_left_out(pair));
+    if let Some(meet) = meet {
+        near = only(near, near, |bit| meet(pair(bit)));
+    }
+    let undecided = near & !sure;
+    if undecided != 0 {
+        statistics.exact_decisions += u64::from(undecided.count_ones());
+        near = only(near, undecided, |bit| holds(pair(bit)));
+    }
+    hits.room().push_bits(near, pair);
+}
+
+/// A mask without those bits of a part of it of which `keeps` does not say so.
+fn only(mut mask: u64, mut part: u64, keeps: impl Fn(u32) -> bool) -> u64 {
+    while part != 0 {
+        let bit = part.trailing_zeros();
+        if !keeps(bit) {
+            mask &= !(1 << bit);
+        }
+        part &= part - 1;
+    }
+    mask
 }
 
 /// How near is near.

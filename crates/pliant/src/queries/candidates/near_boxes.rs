@@ -19,9 +19,9 @@ pub(crate) enum Which {
 /// The boxes of a body's elements.
 #[derive(Debug, Default)]
 pub(crate) struct NearBoxes {
-    pub(super) vertices: Option<RunBoxes>,
-    pub(super) triangles: Option<RunBoxes>,
-    pub(super) edges: Option<RunBoxes>,
+    pub(super) vertices: Option<RunBoxes<1>>,
+    pub(super) triangles: Option<RunBoxes<3>>,
+    pub(super) edges: Option<RunBoxes<2>>,
 }
 
 /// The vertices and edges of a body, and their boxes.
@@ -54,21 +54,22 @@ impl NearBoxes {
         match which {
             Which::VerticesAndTriangles => {
                 let vertices = self.vertices.get_or_insert_with(|| {
-                    RunBoxes::new(runs().map(|it| elements.vertices_of(it)))
+                    let of_runs = runs().map(|it| elements.vertices_of(it));
+                    RunBoxes::new(of_runs, |vertex| [TreeVertex(vertex)])
                 });
-                let triangles = self
-                    .triangles
-                    .get_or_insert_with(|| RunBoxes::new(runs().map(TriangleRun::range)));
-                let corners = positions.0.triangles;
-                vertices.make(version, threads, positions, |vertex| [TreeVertex(vertex)])
-                    && triangles.make(version, threads, positions, |it| corners[it as usize])
+                let triangles = self.triangles.get_or_insert_with(|| {
+                    let corners = positions.0.triangles;
+                    RunBoxes::new(runs().map(TriangleRun::range), |it| corners[it as usize])
+                });
+                vertices.make(version, threads, positions)
+                    && triangles.make(version, threads, positions)
             }
             Which::Edges => {
-                let edges = self
-                    .edges
-                    .get_or_insert_with(|| RunBoxes::new(runs().map(|it| elements.edges_of(it))));
-                let ends = elements.ends();
-                edges.make(version, threads, positions, |edge| ends[edge as usize])
+                let edges = self.edges.get_or_insert_with(|| {
+                    let of_runs = runs().map(|it| elements.edges_of(it));
+                    RunBoxes::new(of_runs, |edge| elements.ends()[edge as usize])
+                });
+                edges.make(version, threads, positions)
             }
         }
     }
@@ -88,7 +89,9 @@ fn run(leaves: &Leaves, number: u32) -> TriangleRun {
 
 impl Held for NearBoxes {
     fn held(&self) -> usize {
-        let all = [&self.vertices, &self.triangles, &self.edges];
-        all.into_iter().flatten().map(Held::held).sum()
+        let vertices = self.vertices.as_ref().map_or(0, Held::held);
+        let triangles = self.triangles.as_ref().map_or(0, Held::held);
+        let edges = self.edges.as_ref().map_or(0, Held::held);
+        vertices + triangles + edges
     }
 }

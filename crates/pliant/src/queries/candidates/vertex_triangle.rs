@@ -1,5 +1,6 @@
 //! Vertices near triangles.
 
+use super::runs::{RUNS_AT_ONCE, near_runs};
 use super::{Margin, Which, groups, keep};
 use crate::geometry::{Aabb, Shape, larger};
 use crate::hits::VertexTriangle;
@@ -67,6 +68,7 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
         statistics.pairs += (hits.len() - before) as u64;
     }
 
+    #[inline]
     fn to_caller(&self, ids: &CallerIds, [vertex, triangle]: [u32; 2]) -> VertexTriangle {
         let side = usize::from(triangle & OF_SECOND != 0);
         let triangle = TreeTriangle(triangle & !OF_SECOND);
@@ -104,16 +106,13 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
             .limits::<S>(larger(vertices.most(), triangles.most()));
         let corners = leaves.shapes[1 - side].triangles;
         let groups = of_vertices.groups.zip(of_triangles.groups);
-        let is_left_out = |[vertex, triangle]: [u32; 2]| {
-            let triangle = (triangle & !OF_SECOND) as usize;
-            let [a, b, c] = corners[triangle];
-            let is_shared = (a.0 == vertex) | (b.0 == vertex) | (c.0 == vertex);
-            let meet = groups.is_none_or(|(of_vertices, of_triangles)| {
+        let meet = groups.map(|(of_vertices, of_triangles)| {
+            |[vertex, triangle]: [u32; 2]| {
+                let triangle = (triangle & !OF_SECOND) as usize;
                 let vertex = of_vertices.vertices[vertex as usize];
                 groups::meet(vertex, of_triangles.triangles[triangle])
-            });
-            leaves.itself & is_shared | !meet
-        };
+            }
+        });
         let holds = |[vertex, triangle]: [u32; 2]| {
             let corners = &corners[(triangle & !OF_SECOND) as usize];
             self.margin
@@ -121,17 +120,22 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
         };
         let tag = if side == 1 { OF_SECOND } else { 0 };
         dispatch!(leaves.instructions, i => {
-            for pair in pairs {
-                // Within one run, all of its vertices meet all of its triangles.
-                if side == 1 && leaves.itself && pair[0] == pair[1] {
-                    continue;
+            for pairs in pairs.chunks(RUNS_AT_ONCE) {
+                let mut sided = [[0; 2]; RUNS_AT_ONCE];
+                let mut count = 0;
+                for pair in pairs {
+                    sided[count] = [pair[side], pair[1 - side]];
+                    // Within one run, all of its vertices meet all of its triangles.
+                    count += usize::from(!(side == 1 && leaves.itself && pair[0] == pair[1]));
                 }
-                let of_vertices = vertices.run(pair[side]);
-                let of_triangles = triangles.run(pair[1 - side]);
-                of_vertices.compare(i, &of_triangles, false, limits, |[first, second], sure, possible| {
-                    let pair = |bit: u32| [first + bit / 8, (second + bit % 8) | tag];
-                    keep([sure, possible], pair, is_left_out, holds, hits, statistics);
-                });
+                let mut kept = [[0; 2]; RUNS_AT_ONCE];
+                for &[a, b] in near_runs(vertices, triangles, &sided[..count], limits, &mut kept) {
+                    let (a, b) = (vertices.run(a), triangles.run(b));
+                    a.compare(i, &b, (leaves.itself, false), limits, |[first, second], near, sure| {
+                        let pair = |bit: u32| [first + bit / 8, (second + bit % 8) | tag];
+                        keep([near, sure], pair, meet, holds, hits, statistics);
+                    });
+                }
             }
         });
     }

@@ -26,6 +26,8 @@ pub enum Query {
     First,
     /// All pairs of each body with itself.
     Itself,
+    /// Vertices near triangles and edges near edges, of all bodies and of each with itself.
+    Near,
 }
 
 impl Query {
@@ -35,6 +37,7 @@ impl Query {
             Self::All => "all",
             Self::First => "first",
             Self::Itself => "self",
+            Self::Near => "near",
         }
     }
 }
@@ -124,6 +127,7 @@ impl Contest {
         for (&step, frame) in self.motion.steps.iter().zip(&self.motion.frames) {
             let all = |method: &mut Box<dyn Method>| match self.query {
                 Query::Itself => method.self_pairs().map(<[Pair]>::to_vec),
+                Query::Near => method.candidates().map(<[Pair]>::to_vec),
                 _ => Some(method.all_pairs().to_vec()),
             };
             write(&mut shapes, frame);
@@ -188,6 +192,7 @@ impl Contest {
                 Query::All => _ = std::hint::black_box(method.all_pairs()),
                 Query::First => _ = std::hint::black_box(method.first_pair()),
                 Query::Itself => _ = std::hint::black_box(method.self_pairs()),
+                Query::Near => _ = std::hint::black_box(method.candidates()),
             }
             let end = Instant::now();
             times.push((milliseconds(start, updated), milliseconds(updated, end)));

@@ -41,6 +41,12 @@ pub trait Method {
         None
     }
 
+    /// Vertices near triangles, then edges near edges, all bodies and each with itself: rows as the library's, either kind sorted.
+    /// `None` for a method that has no such mode; how near is near it was told when it was made.
+    fn candidates(&mut self) -> Option<&[Pair]> {
+        None
+    }
+
     /// The work since the last call; the counters begin at zero again.
     fn take_counters(&mut self) -> Counters;
 }

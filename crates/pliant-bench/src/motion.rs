@@ -18,6 +18,8 @@ pub struct Shape<'a> {
     pub world: &'a [[f32; 3]],
     /// The same shape in a frame of its own, for methods that work there.
     pub rigid: Option<Rigid<'a>>,
+    /// Where its vertices are going during the step, if it is asked what is near on the way.
+    pub end: Option<&'a [[f32; 3]]>,
 }
 
 /// A shape in a local frame and where that frame is.
@@ -83,6 +85,8 @@ pub struct Placed {
     pub world: Vec<[f32; 3]>,
     /// Pose and local positions, where the scene has them.
     pub rigid: Option<(Pose, Vec<[f32; 3]>)>,
+    /// Positions at the end of the step's motion, if it has one.
+    pub end: Option<Vec<[f32; 3]>>,
 }
 
 impl Placed {
@@ -95,12 +99,14 @@ impl Placed {
         Shape {
             world: &self.world,
             rigid,
+            end: self.end.as_deref(),
         }
     }
 
     /// Makes this a copy of another, in the memory it has.
     pub fn copy_from(&mut self, other: &Self) {
         self.world.clone_from(&other.world);
+        self.end.clone_from(&other.end);
         match (&mut self.rigid, &other.rigid) {
             (Some((pose, local)), Some((new_pose, new_local))) => {
                 *pose = *new_pose;
@@ -135,7 +141,11 @@ impl Motion {
                 scene.local_positions(body, step, &mut local);
                 (Pose::from(pose), local)
             });
-            Placed { world, rigid }
+            Placed {
+                world,
+                rigid,
+                end: None,
+            }
         };
         let bodies = 0..scene.body_count();
         let steps: Vec<u32> = steps.into_iter().collect();
@@ -156,6 +166,38 @@ impl Motion {
         }
     }
 
+    /// The same motion, with bodies at every step on a part of their way to where the scene has them at the next.
+    #[must_use]
+    pub fn on_the_way(mut self, scene: &Scene, part: f32) -> Self {
+        for (&step, frame) in self.steps.iter().zip(&mut self.frames) {
+            for (body, placed) in frame.iter_mut().enumerate() {
+                let mut end = Vec::new();
+                scene.positions(body, step + 1, &mut end);
+                for (end, from) in end.iter_mut().zip(&placed.world) {
+                    *end = std::array::from_fn(|axis| from[axis] + part * (end[axis] - from[axis]));
+                }
+                placed.end = Some(end);
+            }
+        }
+        self
+    }
+
+    /// The mean length of the sides of all triangles in their first shape.
+    pub fn mean_side(&self) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for body in &self.bodies {
+            for &[a, b, c] in &body.triangles {
+                for [i, j] in [[a, b], [b, c], [c, a]] {
+                    let [p, q] = [i, j].map(|vertex| body.first.world[vertex as usize]);
+                    let squares = (0..3).map(|axis| f64::from(q[axis] - p[axis]).powi(2));
+                    sum += squares.sum::<f64>().sqrt();
+                    count += 1.0;
+                }
+            }
+        }
+        sum / count
+    }
+
     /// The same motion with the vertices of every body numbered anew: vertex i of body b is what was vertex `orders[b][i]`.
     #[must_use]
     pub fn renumbered(mut self, orders: &[Vec<u32>]) -> Self {
@@ -163,6 +205,7 @@ impl Motion {
             let in_order =
                 |points: &[[f32; 3]]| order.iter().map(|&old| points[old as usize]).collect();
             placed.world = in_order(&placed.world);
+            placed.end = placed.end.as_deref().map(in_order);
             if let Some((_, local)) = &mut placed.rigid {
                 *local = in_order(local);
             }

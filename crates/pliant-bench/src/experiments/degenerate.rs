@@ -52,7 +52,7 @@ fn sliding_grids(side: u32, steps: u32) -> Motion {
         .collect();
     let placed = |shift| Placed {
         world: grid(shift),
-        rigid: None,
+        ..Placed::default()
     };
     let at = |step: u32| side as f32 * 0.75 - step as f32 * 0.25;
     Motion {

@@ -10,6 +10,7 @@ mod degrees;
 mod experiment_1;
 mod experiment_3;
 mod levels;
+mod near;
 mod peers;
 mod response;
 mod splits;
@@ -63,7 +64,7 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order in which `all` runs them.
-pub const EXPERIMENTS: [Experiment; 10] = [
+pub const EXPERIMENTS: [Experiment; 11] = [
     experiment_1::EXPERIMENT,
     table_1::EXPERIMENT,
     experiment_3::EXPERIMENT,
@@ -74,6 +75,7 @@ pub const EXPERIMENTS: [Experiment; 10] = [
     cloth::EXPERIMENT,
     degenerate::EXPERIMENT,
     peers::EXPERIMENT,
+    near::EXPERIMENT,
 ];
 
 impl Experiment {

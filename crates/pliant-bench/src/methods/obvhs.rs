@@ -16,8 +16,9 @@
 
 use super::answer::{Answer, Proposer, self_pair};
 use super::bodies::share_a_vertex;
+use super::near::{Elements, swept_box};
 use crate::decision::{Decision, Triangle};
-
+use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
@@ -53,6 +54,95 @@ impl Obvhs {
             scratch: Scratch::default(),
             answer: Answer::new(decision),
         }
+    }
+}
+
+/// obvhs, refitted with boxes of motions that are grown by a margin, and asked what is near.
+pub struct NearObvhs {
+    triangles_a_leaf: u32,
+    bodies: Vec<Body>,
+    scratch: Scratch,
+    elements: Elements,
+}
+
+impl NearObvhs {
+    /// The library's trees with at most so many triangles a leaf, and this margin round each vertex, edge and triangle.
+    pub fn new(triangles_a_leaf: u32, radius: f64) -> Self {
+        Self {
+            triangles_a_leaf,
+            bodies: Vec::new(),
+            scratch: Scratch::default(),
+            elements: Elements::within(radius),
+        }
+    }
+}
+
+impl Method for NearObvhs {
+    fn name(&self) -> String {
+        format!("obvhs 0.4 ({} a leaf), grown boxes", self.triangles_a_leaf)
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        self.elements.build(bodies);
+        let grown_by = self.elements.grown_by();
+        self.bodies = bodies
+            .iter()
+            .map(|body| Body {
+                grown_by,
+                ..Body::build(body, self.triangles_a_leaf)
+            })
+            .collect();
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        self.elements.take_over(shapes);
+        for (body, shape) in self.bodies.iter_mut().zip(shapes) {
+            body.positions.copy_from_slice(shape.world);
+            body.ends.clear();
+            body.ends.extend_from_slice(shape.end.unwrap_or_default());
+            body.refit();
+            self.elements.counters.boxes += body.tree.nodes.len() as u64;
+        }
+    }
+
+    fn all_pairs(&mut self) -> &[Pair] {
+        &[]
+    }
+
+    fn first_pair(&mut self) -> Option<Pair> {
+        None
+    }
+
+    fn candidates(&mut self) -> Option<&[Pair]> {
+        let Self {
+            bodies,
+            scratch,
+            elements,
+            ..
+        } = self;
+        elements.begin();
+        for (a, body_a) in bodies.iter().enumerate() {
+            let mut box_tests = 0;
+            let _ = self_candidates(body_a, scratch, &mut box_tests, |i, j| {
+                elements.meet([a, a], [body_a.numbers[i], body_a.numbers[j]]);
+                ControlFlow::Continue(())
+            });
+            for (b, body_b) in bodies.iter().enumerate().skip(a + 1) {
+                if !body_a.bounds().intersect_aabb(body_b.bounds()) {
+                    continue;
+                }
+                let _ = candidates(body_a, body_b, scratch, &mut box_tests, |i, j| {
+                    elements.meet([a, b], [body_a.numbers[i], body_b.numbers[j]]);
+                    ControlFlow::Continue(())
+                });
+            }
+            elements.counters.box_tests += box_tests;
+        }
+        Some(elements.sorted())
+    }
+
+    fn take_counters(&mut self) -> Counters {
+        std::mem::take(&mut self.elements.counters)
     }
 }
 
@@ -134,6 +224,10 @@ struct Body {
     numbers: Vec<u32>,
     /// In the caller's order.
     positions: Vec<[f32; 3]>,
+    /// At the end of a motion; empty if there is none.
+    ends: Vec<[f32; 3]>,
+    /// By how much boxes are larger on every side.
+    grown_by: f32,
     tree: Bvh2,
 }
 
@@ -167,18 +261,22 @@ impl Body {
                 .collect(),
             numbers,
             positions,
+            ends: Vec::new(),
+            grown_by: 0.0,
             tree,
         }
     }
 
     /// The boxes of the leaves, then the library's refit.
     fn refit(&mut self) {
-        for node in self.tree.nodes.iter_mut().filter(|node| node.is_leaf()) {
-            let mut boxes = self.triangles[places(node)]
-                .iter()
-                .map(|&corners| triangle_box(&self.positions, corners));
-            let first = boxes.next().expect("a leaf has triangles");
-            node.set_aabb(boxes.fold(first, |hull, own_box| hull.union(&own_box)));
+        let nodes = self.tree.nodes.len();
+        for node in 0..nodes {
+            if self.tree.nodes[node].is_leaf() {
+                let mut boxes = places(&self.tree.nodes[node]).map(|it| self.triangle_box(it));
+                let first = boxes.next().expect("a leaf has triangles");
+                let hull = boxes.fold(first, |hull, own_box| hull.union(&own_box));
+                self.tree.nodes[node].set_aabb(hull);
+            }
         }
         self.tree.refit_all();
     }
@@ -194,7 +292,16 @@ impl Body {
 
     #[inline]
     fn triangle_box(&self, place: usize) -> Aabb {
-        triangle_box(&self.positions, self.triangles[place])
+        let corners = self.triangles[place];
+        if self.grown_by == 0.0 && self.ends.is_empty() {
+            return triangle_box(&self.positions, corners);
+        }
+        let own_box = swept_box(&self.positions, &self.ends, &corners);
+        let grown_by = self.grown_by;
+        Aabb::new(
+            own_box.lo.map(|x| x - grown_by).into(),
+            own_box.hi.map(|x| x + grown_by).into(),
+        )
     }
 }
 

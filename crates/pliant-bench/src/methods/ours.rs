@@ -15,6 +15,8 @@ pub struct Ours<S: Scalar = f32> {
     positions: Vec<[S; 3]>,
     pairs: Vec<Pair>,
     counters: Counters,
+    /// The margin round each element, of those who are asked what is near.
+    radius: f64,
 }
 
 /// How shapes come into a world of this precision.
@@ -48,7 +50,14 @@ impl<S: Scalar> Ours<S> {
             positions: Vec::new(),
             pairs: Vec::new(),
             counters: Counters::default(),
+            radius: 0.0,
         }
+    }
+
+    /// With a margin round each vertex, edge and triangle.
+    #[must_use]
+    pub fn within(self, radius: f64) -> Self {
+        Self { radius, ..self }
     }
 
     /// Does at every step what the options say is done ahead of a query, whether or not a body meets another.
@@ -88,6 +97,11 @@ impl<S: Precision> Method for Ours<S> {
             self.world
                 .set_positions(body, S::of(shape.world, &mut self.positions))
                 .expect("a scene's shapes are good");
+            if let Some(end) = shape.end {
+                self.world
+                    .set_motion(body, S::of(end, &mut self.positions))
+                    .expect("a scene's shapes are good");
+            }
             if self.always {
                 let within = self.world.intersections(Selection::Within(body));
                 within.prepare().expect("the body is there");
@@ -120,6 +134,20 @@ impl<S: Precision> Method for Ours<S> {
             self.pairs.extend(pairs.copied().map(Pair::from));
             self.count();
         }
+        Some(&self.pairs)
+    }
+
+    fn candidates(&mut self) -> Option<&[Pair]> {
+        self.pairs.clear();
+        let (of, radius) = (Selection::Everything, self.radius);
+        let found = self.world.vertex_triangle_candidates(of, radius).all();
+        let found = found.expect("the whole world is there").iter();
+        self.pairs.extend(found.copied().map(Pair::from));
+        self.count();
+        let found = self.world.edge_edge_candidates(of, radius).all();
+        let found = found.expect("the whole world is there").iter();
+        self.pairs.extend(found.copied().map(Pair::from));
+        self.count();
         Some(&self.pairs)
     }
 

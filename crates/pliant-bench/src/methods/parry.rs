@@ -17,11 +17,13 @@
 
 use super::answer::{Answer, Proposer, self_pair};
 use super::bodies::share_a_vertex;
+use super::near::{Elements, swept_box};
 use crate::decision::{Decision, Triangle};
+use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
 use parry3d::bounding_volume::{Aabb, BoundingVolume};
 use parry3d::math::Vector;
-use parry3d::partitioning::BvhWorkspace;
+use parry3d::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 use parry3d::shape::{TriMesh, TriMeshFlags};
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -43,6 +45,107 @@ impl Parry {
             workspace: BvhWorkspace::default(),
             answer: Answer::new(decision),
         }
+    }
+}
+
+/// parry3d's tree, refitted with boxes of motions that are grown by a margin, and asked what is near. The boxes go into the tree as
+/// `TriMesh` puts them there.
+pub struct NearParry {
+    bodies: Vec<(Vec<[u32; 3]>, Bvh)>,
+    workspace: BvhWorkspace,
+    elements: Elements,
+}
+
+impl NearParry {
+    /// With this margin round each vertex, edge and triangle.
+    pub fn new(radius: f64) -> Self {
+        Self {
+            bodies: Vec::new(),
+            workspace: BvhWorkspace::default(),
+            elements: Elements::within(radius),
+        }
+    }
+
+    fn box_of(&self, shape: &Shape<'_>, corners: &[u32; 3]) -> Aabb {
+        let own_box = swept_box(shape.world, shape.end.unwrap_or_default(), corners);
+        let grown_by = self.elements.grown_by();
+        Aabb {
+            mins: Vector::from(own_box.lo.map(|x| x - grown_by)),
+            maxs: Vector::from(own_box.hi.map(|x| x + grown_by)),
+        }
+    }
+}
+
+impl Method for NearParry {
+    fn name(&self) -> String {
+        "parry3d 0.31, grown boxes".to_owned()
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        self.elements.build(bodies);
+        for body in bodies {
+            let boxes = body.triangles.iter();
+            let boxes: Vec<_> = boxes
+                .map(|corners| self.box_of(&body.shape, corners))
+                .collect();
+            // As `TriMesh` builds its own.
+            let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+            self.bodies.push((body.triangles.to_vec(), tree));
+        }
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        self.elements.take_over(shapes);
+        let mut bodies = std::mem::take(&mut self.bodies);
+        for ((triangles, tree), shape) in bodies.iter_mut().zip(shapes) {
+            for (number, corners) in (0..).zip(&*triangles) {
+                let own_box = self.box_of(shape, corners);
+                let _ = tree.insert_or_update_partially(own_box, number, 0.0);
+            }
+            tree.refit_without_opt();
+            let leaves = triangles.len() as u64;
+            self.elements.counters.boxes += leaves + leaves.saturating_sub(2);
+        }
+        self.bodies = bodies;
+    }
+
+    fn all_pairs(&mut self) -> &[Pair] {
+        &[]
+    }
+
+    fn first_pair(&mut self) -> Option<Pair> {
+        None
+    }
+
+    fn candidates(&mut self) -> Option<&[Pair]> {
+        let Self {
+            bodies,
+            workspace,
+            elements,
+        } = self;
+        elements.begin();
+        for (a, (_, tree_a)) in bodies.iter().enumerate() {
+            tree_a.traverse_bvtt_single_tree::<false>(workspace, &mut |i, j| {
+                elements.meet([a, a], [i, j]);
+            });
+            for (b, (_, tree_b)) in bodies.iter().enumerate().skip(a + 1) {
+                if !tree_a.root_aabb().intersects(&tree_b.root_aabb()) {
+                    continue;
+                }
+                let box_tests = Cell::new(0);
+                let leaves = tree_a.leaf_pairs(tree_b, |node_a, node_b| {
+                    box_tests.set(box_tests.get() + 1);
+                    node_a.intersects(node_b)
+                });
+                leaves.for_each(|(i, j)| elements.meet([a, b], [i, j]));
+                elements.counters.box_tests += box_tests.get();
+            }
+        }
+        Some(elements.sorted())
+    }
+
+    fn take_counters(&mut self) -> Counters {
+        std::mem::take(&mut self.elements.counters)
     }
 }
 

@@ -233,6 +233,7 @@ fn placed(pose: Pose, points: &[[f64; 3]]) -> Placed {
             .map(|&point| rounded(pose.place(point)))
             .collect(),
         rigid: Some((pose, points.iter().map(|&point| rounded(point)).collect())),
+        end: None,
     }
 }
 
@@ -291,7 +292,7 @@ fn of_bodies(name: &str, bodies: Vec<(Vec<[u32; 3]>, Placed)>) -> Motion {
 fn bodies_that_are_hardly_any() {
     let world = |positions: &[[f32; 3]]| Placed {
         world: positions.to_vec(),
-        rigid: None,
+        ..Placed::default()
     };
     let corner = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let one = (vec![[0, 1, 2]], world(&corner));

@@ -114,7 +114,11 @@ impl Play {
 }
 
 fn shapes(frame: &Frame) -> Vec<Shape<'_>> {
-    let shape = |world| Shape { world, rigid: None };
+    let shape = |world| Shape {
+        world,
+        rigid: None,
+        end: None,
+    };
     frame.iter().map(|positions| shape(positions)).collect()
 }
 

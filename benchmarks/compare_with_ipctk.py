@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+"""Candidates within a margin beside ipc-toolkit's: the same lists, and how long each takes, in one process, turn by turn.
+
+    cargo build --release -p pliant-scenes --example write_obj
+    python3 -m venv target/ipctk && target/ipctk/bin/pip install ipctk==1.6.1 libigl==2.6.3 ./bindings/python
+    target/ipctk/bin/python benchmarks/compare_with_ipctk.py
+
+Both are asked for vertex-triangle and edge-edge candidates of all bodies, each with itself too, with one thread and positions of
+64 bits. ipctk's way is `Candidates.build` with its LBVH, the fastest of its broad phases on a processor, which makes its trees anew in
+every call; ours is what a step of a simulator calls: positions, the end of the motion if there is one, both lists. Making the meshes
+known is timed for neither.
+
+    margin m      found within m mean lengths of an edge: r is half of that; shapes are those of two steps, in turn
+    swept f       r = 0, from a step to the part f of the way to the next, and then from that one back
+    whole         swept 1
+
+First the lists are compared. ipctk rounds boxes outward to 32 bits, so it may have more: each that it has alone must have a gap of
+at most 2 r + 2^-21 of the largest coordinate; whatever we have alone is an error, and the exit code is 1. Then rounds are
+played in turn, and the figure is the median, over rounds, of its time over ours; its list is in no order, ours is sorted.
+"""
+
+import argparse
+import dataclasses
+import importlib.metadata
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+import igl
+import ipctk
+import numpy
+import pliant
+
+CHECKOUT = pathlib.Path(__file__).resolve().parent.parent
+# Of a scene of ours: its name, triangles a body, a step, the one after it.
+SCENES = [("spheres", 20480, 180), ("crowd", 5120, 175), ("cloth", 79202, 45)]
+REAL = [("armadillo-rollers", 326), ("cloth-funnel", 227)]
+CASES = [("margin", 0.1), ("margin", 0.5), ("swept", 0.1), ("swept", 1.0)]
+# Each box may be rounded outward by one step of 32 bits on either side, twice; a step is at most 2^-23 of a number.
+ROUNDING = 2.0**-21
+
+
+@dataclasses.dataclass
+class Bodies:
+    """Bodies at two steps, and all of them as one mesh, which is what ipctk takes."""
+
+    name: str
+    faces: list
+    steps: list  # of two steps, the vertices of each body
+
+    def __post_init__(self):
+        counts = [len(vertices) for vertices in self.steps[0]]
+        self.first_vertex = numpy.cumsum([0] + counts)
+        self.first_face = numpy.cumsum([0] + [len(faces) for faces in self.faces])
+        together = [faces + first for faces, first in zip(self.faces, self.first_vertex)]
+        self.all_faces = numpy.asfortranarray(numpy.vstack(together), dtype=numpy.int32)
+        self.all_edges = ipctk.edges(self.all_faces)
+        ends = self.together(0)[self.all_edges]
+        self.mean_edge = float(numpy.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).mean())
+
+    def together(self, step):
+        return numpy.asfortranarray(numpy.vstack(self.steps[step]))
+
+
+def read(path):
+    vertices, faces = igl.read_triangle_mesh(str(path))
+    return numpy.ascontiguousarray(vertices, dtype=numpy.float64), numpy.ascontiguousarray(faces, dtype=numpy.int64)
+
+
+def scene(exporter, folder, name, triangles, first):
+    steps = []
+    for step in (first, first + 1):
+        place = folder / f"{name}-{triangles}-{step}"
+        place.mkdir()
+        subprocess.run([str(exporter), name, str(triangles), str(step), str(place)], check=True)
+        paths = sorted(place.glob("*.obj"), key=lambda path: int(path.stem.rsplit("-", 1)[1]))
+        steps.append([read(path) for path in paths])
+    faces = [mesh[1] for mesh in steps[0]]
+    return Bodies(f"{name} {triangles:,}", faces, [[mesh[0] for mesh in step] for step in steps])
+
+
+def real(data, name, frame):
+    meshes = [read(data / name / f"{number}.ply") for number in (frame, frame + 1)]
+    return Bodies(f"{name} {frame}", [meshes[0][1]], [[mesh[0]] for mesh in meshes])
+
+
+class Ours:
+    def __init__(self, bodies):
+        self.world = pliant.World()
+        self.ids = [self.world.add(faces, vertices) for faces, vertices in zip(bodies.faces, bodies.steps[0])]
+
+    def ask(self, starts, ends, radius):
+        for body, start in zip(self.ids, starts):
+            self.world.set_positions(body, start)
+        if ends is not None:
+            for body, end in zip(self.ids, ends):
+                self.world.set_motion(body, end)
+        every = pliant.Selection.EVERYTHING
+        return (
+            self.world.vertex_triangle_candidates(every, radius).all(),
+            self.world.edge_edge_candidates(every, radius).all(),
+        )
+
+    def pairs(self, bodies, found):
+        """As numbers in the mesh of all bodies: vertex and face; edge and edge, of the vertices of an edge in order."""
+        places = {int(body): place for place, body in enumerate(self.ids)}
+        place = numpy.zeros(max(places) + 1, dtype=numpy.int64)
+        for body, at in places.items():
+            place[body] = at
+        edge_of = {tuple(sorted(ends)): number for number, ends in enumerate(bodies.all_edges.tolist())}
+        numbers = []
+        for body, at in places.items():
+            ends = self.world.edges(body).astype(numpy.int64) + bodies.first_vertex[at]
+            numbers.append(numpy.array([edge_of[tuple(sorted(pair))] for pair in ends.tolist()], dtype=numpy.int64))
+        first = numpy.cumsum([0] + [len(of_body) for of_body in numbers])
+        number = numpy.concatenate(numbers)
+        vertex_face, edge_edge = (rows.astype(numpy.int64) for rows in found)
+        vertices = bodies.first_vertex[place[vertex_face[:, 0]]] + vertex_face[:, 1]
+        faces = bodies.first_face[place[vertex_face[:, 2]]] + vertex_face[:, 3]
+        a = number[first[place[edge_edge[:, 0]]] + edge_edge[:, 1]]
+        b = number[first[place[edge_edge[:, 2]]] + edge_edge[:, 3]]
+        return keys(vertices, faces), keys(numpy.minimum(a, b), numpy.maximum(a, b))
+
+
+class Theirs:
+    def __init__(self, bodies):
+        self.mesh = ipctk.CollisionMesh(bodies.together(0), bodies.all_edges, bodies.all_faces)
+        self.candidates = None
+
+    def ask(self, start, end, radius):
+        self.candidates = ipctk.Candidates()
+        self.candidates.build(self.mesh, start, start if end is None else end, radius, ipctk.LBVH())
+
+    def pairs(self):
+        vertex_face = numbers((row.vertex_id, row.face_id) for row in self.candidates.fv_candidates)
+        edge_edge = numbers((row.edge0_id, row.edge1_id) for row in self.candidates.ee_candidates)
+        return keys(vertex_face[:, 0], vertex_face[:, 1]), keys(edge_edge.min(axis=1), edge_edge.max(axis=1))
+
+
+def numbers(rows):
+    flat = numpy.fromiter((number for row in rows for number in row), dtype=numpy.int64)
+    return flat.reshape(-1, 2)
+
+
+def keys(first, second):
+    return numpy.unique(first << 32 | second)
+
+
+def gaps(bodies, start, end, keys, are_edges):
+    """The gaps of the boxes of pairs of elements."""
+    shapes = [start] if end is None else [start, end]
+
+    def boxes(corners):
+        points = numpy.concatenate([shape[corners] for shape in shapes], axis=1)
+        return points.min(axis=1), points.max(axis=1)
+
+    first, second = keys >> 32, keys & 0xFFFFFFFF
+    low_a, high_a = boxes(bodies.all_edges[first] if are_edges else first[:, None])
+    low_b, high_b = boxes((bodies.all_edges if are_edges else bodies.all_faces)[second])
+    return numpy.maximum(low_a - high_b, low_b - high_a).max(axis=1)
+
+
+def shapes_of(bodies, kind, amount, turn):
+    """Where bodies are, and where at the end of the motion: body by body, and together."""
+    here, there = bodies.steps[turn % 2], bodies.steps[1 - turn % 2]
+    ends = None
+    if kind == "swept":
+        ends = there if amount == 1 else [a + amount * (b - a) for a, b in zip(here, there)]
+    together = [None if shape is None else numpy.asfortranarray(numpy.vstack(shape)) for shape in (here, ends)]
+    return (here, ends), together
+
+
+def compare(bodies, kind, amount, rounds):
+    radius = amount / 2 * bodies.mean_edge if kind == "margin" else 0.0
+    turns = [shapes_of(bodies, kind, amount, turn) for turn in (0, 1)]
+    ours, theirs = Ours(bodies), Theirs(bodies)
+    errors, more, counts = 0, 0, []
+    for separate, together in turns:
+        found = ours.ask(*separate, radius)
+        theirs.ask(*together, radius)
+        counts.append(sum(map(len, found)))
+        for are_edges, (mine, other) in enumerate(zip(ours.pairs(bodies, found), theirs.pairs())):
+            errors += len(numpy.setdiff1d(mine, other, assume_unique=True))
+            alone = numpy.setdiff1d(other, mine, assume_unique=True)
+            largest = max(numpy.abs(shape).max() for shape in together if shape is not None)
+            allowed = 2 * radius + ROUNDING * largest
+            errors += int((gaps(bodies, *together, alone, are_edges) > allowed).sum()) if len(alone) else 0
+            more += len(alone)
+    times = []
+    for _ in range(rounds):
+        pair = [0.0, 0.0]
+        for separate, together in turns:
+            for which, ask in enumerate([lambda: ours.ask(*separate, radius), lambda: theirs.ask(*together, radius)]):
+                begin = time.perf_counter()
+                found = ask()
+                pair[which] += (time.perf_counter() - begin) / 2
+                del found
+        times.append(pair)
+    own, other = (statistics.median(pair[which] for pair in times) * 1e3 for which in (0, 1))
+    ratios = [b / a for a, b in times]
+    what = f"{kind} {amount:g}"
+    factor = f"{statistics.median(ratios):5.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
+    count = sum(counts) // 2
+    line = f"{bodies.name:<24} {what:<11} {count:>10,} {more:>7,} {errors:>7} {own:>9.2f} {other:>9.2f}   {factor}"
+    print(line, flush=True)
+    return errors
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj")
+    parser.add_argument("--data", type=pathlib.Path, default=CHECKOUT.parent / "shared" / "data")
+    parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--only", default="", help="of what is compared, what has this in its name")
+    arguments = parser.parse_args()
+
+    ipctk.set_num_threads(1)
+    print(f"pliant {pliant.__version__} and ipctk {importlib.metadata.version('ipctk')}, one thread, {arguments.rounds} rounds\n")
+    print(f"{'':<24} {'':<11} {'candidates':>10} {'more':>7} {'errors':>7} {'ours, ms':>9} {'its, ms':>9}   times faster")
+    errors = 0
+    with tempfile.TemporaryDirectory() as folder:
+        makers = [
+            (f"{name} {triangles:,}", lambda of=(name, triangles, step): scene(arguments.exporter, pathlib.Path(folder), *of))
+            for name, triangles, step in SCENES
+        ]
+        if arguments.data.is_dir():
+            makers += [(name, lambda of=(name, frame): real(arguments.data, *of)) for name, frame in REAL]
+        else:
+            print("no ../shared/data beside the checkout: real meshes skipped")
+        for name, make in makers:
+            if arguments.only in name:
+                bodies = make()
+                errors += sum(compare(bodies, kind, amount, arguments.rounds) for kind, amount in CASES)
+    print(f"\nmore: candidates that ipctk has alone, within its rounding; errors, of any kind: {errors}")
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

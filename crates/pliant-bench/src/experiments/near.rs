@@ -1,0 +1,182 @@
+//! What is near: vertices near triangles and edges near edges, of a simulation's step, beside the libraries of today with grown boxes.
+//!
+//! Everything is asked of all bodies and of each with itself, as a solver does. *Margin m* is m mean lengths of an edge: two elements are
+//! found that are within it, each has a margin of half of it. *Swept*: margin 0, from each step the stated part of the way to the next one.
+
+use super::{
+    DEFAULT, Experiment, Form, OBVHS_1, OBVHS_4, PARRY, Planned, every, factor_claim, scene, window,
+};
+use crate::contest::{Contender, Contest, Query};
+use crate::methods::{NearObvhs, NearParry, NearSweep, Ours};
+use crate::motion::Motion;
+use crate::record::{Claim, ContestRecord, Verdict, Window};
+use pliant::{Options, Update};
+
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "near",
+    about: "vertices near triangles, edges near edges; with parry3d and obvhs",
+    plan,
+    claims,
+};
+
+const F64: &str = "pliant, f64";
+const TWO_THREADS: &str = "pliant, two threads";
+const COMPLETE: &str = "pliant, every box every step";
+const METHODS: [&str; 7] = [DEFAULT, F64, TWO_THREADS, COMPLETE, PARRY, OBVHS_1, OBVHS_4];
+const PEERS: [&str; 3] = [PARRY, OBVHS_1, OBVHS_4];
+
+/// What is near, or on the way.
+#[derive(Clone, Copy, Debug)]
+enum Asked {
+    /// So many mean lengths of an edge apart.
+    Margin(f64),
+    /// On this part of the way to the next step.
+    Swept(f32),
+}
+
+struct Line {
+    name: &'static str,
+    scene: &'static str,
+    /// Triangles a body, in full and in small form.
+    triangles: [usize; 2],
+    steps: Vec<u32>,
+    asked: Asked,
+}
+
+const SPHERES: &str = "two spheres, margin 0.1";
+const SPHERES_WIDE: &str = "two spheres, margin 0.5";
+const SPHERES_SWEPT: &str = "two spheres, swept tenth";
+const CROWD: &str = "27 spheres, margin 0.1";
+const CLOTH: &str = "cloth, margin 0.1";
+const CLOTH_WIDE: &str = "cloth, margin 0.5";
+const CLOTH_SWEPT: &str = "cloth, swept tenth";
+
+const STEPS: &str = "all";
+
+fn lines() -> Vec<Line> {
+    let spheres = |name, asked| Line {
+        name,
+        scene: "spheres",
+        triangles: [20_480, 320],
+        steps: every(20, 180),
+        asked,
+    };
+    let cloth = |name, asked| Line {
+        name,
+        scene: "cloth",
+        triangles: [79_202, 648],
+        steps: (35..=49).step_by(2).collect(),
+        asked,
+    };
+    vec![
+        spheres(SPHERES, Asked::Margin(0.1)),
+        spheres(SPHERES_WIDE, Asked::Margin(0.5)),
+        spheres(SPHERES_SWEPT, Asked::Swept(0.1)),
+        Line {
+            scene: "crowd",
+            triangles: [5_120, 320],
+            steps: every(40, 160),
+            ..spheres(CROWD, Asked::Margin(0.1))
+        },
+        cloth(CLOTH, Asked::Margin(0.1)),
+        cloth(CLOTH_WIDE, Asked::Margin(0.5)),
+        cloth(CLOTH_SWEPT, Asked::Swept(0.1)),
+    ]
+}
+
+fn plan(form: Form) -> Vec<Planned> {
+    lines()
+        .into_iter()
+        .map(|mut line| {
+            if form == Form::Small {
+                line.steps.drain(..line.steps.len() - 2);
+            }
+            Planned::new(METHODS.len(), line.steps.len(), move || line.contest(form))
+        })
+        .collect()
+}
+
+impl Line {
+    fn contest(self, form: Form) -> Contest {
+        let scene = scene(self.scene, self.triangles[usize::from(form == Form::Small)]);
+        let motion = Motion::of_scene(&scene, self.steps.iter().copied());
+        let (motion, radius) = match self.asked {
+            Asked::Margin(lengths) => {
+                let radius = lengths / 2.0 * motion.mean_side();
+                (motion, radius)
+            }
+            Asked::Swept(part) => (motion.on_the_way(&scene, part), 0.0),
+        };
+        let [first, last] = [self.steps.first(), self.steps.last()];
+        let windows: Vec<Window> = first
+            .zip(last)
+            .map(|(&first, &last)| window(STEPS, first, last))
+            .into_iter()
+            .collect();
+        Contest {
+            name: self.name.to_owned(),
+            motion,
+            query: Query::Near,
+            truth: Box::new(NearSweep::new(radius)),
+            methods: METHODS.map(|label| method(label, radius)).into(),
+            windows,
+            cold: false,
+        }
+    }
+}
+
+fn method(label: &'static str, radius: f64) -> Contender {
+    let mut options = Options::default();
+    match label {
+        F64 => Contender::new(label, Ours::<f64>::new(label, options).within(radius)),
+        PARRY => Contender::new(label, NearParry::new(radius)),
+        OBVHS_1 => Contender::new(label, NearObvhs::new(1, radius)),
+        OBVHS_4 => Contender::new(label, NearObvhs::new(4, radius)),
+        TWO_THREADS => {
+            options.threads = std::num::NonZeroUsize::MIN.saturating_add(1);
+            Contender::new(label, Ours::<f32>::new(label, options).within(radius))
+        }
+        COMPLETE => {
+            options.update = Update::BottomUp;
+            Contender::new(label, Ours::<f32>::new(label, options).within(radius))
+        }
+        _ => Contender::new(label, Ours::<f32>::new(label, options).within(radius)),
+    }
+}
+
+fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
+    let mut claims = Vec::new();
+    for contest in contests {
+        let name = &contest.name;
+        let fastest = PEERS
+            .into_iter()
+            .map(|peer| (contest.times_faster(DEFAULT, peer, STEPS), peer))
+            .filter(|(factor, _)| factor.is_finite())
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((factor, peer)) = fastest {
+            let claim = format!("{name}: 4 times faster than the fastest peer with grown boxes");
+            let figure = format!("{factor:.2} times, the fastest is {peer}");
+            claims.push(factor_claim(&claim, factor, 4.0, 4.0, figure));
+        }
+        let threads = contest.times_faster(TWO_THREADS, DEFAULT, STEPS);
+        if threads.is_finite() {
+            let claim = format!("{name}: two threads 1.6 times faster than one");
+            claims.push(factor_claim(
+                &claim,
+                threads,
+                1.6,
+                1.6,
+                format!("{threads:.2}"),
+            ));
+        }
+        let complete = contest.times_faster(DEFAULT, COMPLETE, STEPS);
+        if complete.is_finite() {
+            claims.push(Claim {
+                claim: format!("{name}: time of {COMPLETE} over the default"),
+                verdict: Verdict::Measured,
+                figure: format!("{complete:.2}"),
+            });
+        }
+    }
+    claims
+}

@@ -1,0 +1,343 @@
+//! Vertices near triangles and edges near edges, for methods that find pairs of triangles; and by a sweep alone, which is the truth.
+//!
+//! Every vertex and every edge belongs to one of its triangles, the first that has it. A pair of triangles whose grown boxes overlap is
+//! asked for its vertices against triangles and edges against edges, those that belong to them: each pair of elements comes up once.
+//! Rows and numbers of edges are the library's. Gaps are compared in `f64`, in which differences of `f32` that are not very
+//! unlike are exact.
+
+use super::bodies::Aabb;
+use crate::method::{Counters, Method, Pair};
+use crate::motion::{BodyMesh, Shape};
+use std::collections::BTreeMap;
+
+/// The hull of some vertices, at both ends of a motion if there is one.
+#[inline]
+pub(super) fn swept_box(positions: &[[f32; 3]], ends: &[[f32; 3]], corners: &[u32]) -> Aabb {
+    let mut hull = Aabb::EMPTY;
+    for &corner in corners {
+        let at = |point: [f32; 3]| Aabb {
+            lo: point,
+            hi: point,
+        };
+        hull = hull.merge(&at(positions[corner as usize]));
+        if let Some(&end) = ends.get(corner as usize) {
+            hull = hull.merge(&at(end));
+        }
+    }
+    hull
+}
+
+/// The vertices, edges and triangles of all bodies, and what is found near what.
+pub(super) struct Elements {
+    radius: f64,
+    bodies: Vec<Body>,
+    /// Vertices near triangles, then edges near edges.
+    found: [Vec<Pair>; 2],
+    keys: Vec<u64>,
+    all: Vec<Pair>,
+    pub(super) counters: Counters,
+}
+
+struct Body {
+    triangles: Vec<[u32; 3]>,
+    edges: Vec<[u32; 2]>,
+    /// Which of its vertices belong to a triangle, and the numbers of the edges that do.
+    owned: Vec<([bool; 3], [Option<u32>; 3])>,
+    vertex_boxes: Vec<Aabb>,
+    edge_boxes: Vec<Aabb>,
+    triangle_boxes: Vec<Aabb>,
+}
+
+impl Body {
+    fn new(triangles: &[[u32; 3]], vertices: usize) -> Self {
+        let sides =
+            |[a, b, c]: [u32; 3]| [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]);
+        let mut numbers: BTreeMap<[u32; 2], (u32, bool)> = BTreeMap::new();
+        for side in triangles.iter().flat_map(|&corners| sides(corners)) {
+            if side[0] != side[1] {
+                numbers.insert(side, (0, true));
+            }
+        }
+        for (number, (_, (of_edge, _))) in (0..).zip(&mut numbers) {
+            *of_edge = number;
+        }
+        let mut is_free = vec![true; vertices];
+        let owned = triangles.iter().map(|&corners| {
+            let own_vertices = corners.map(|corner| std::mem::take(&mut is_free[corner as usize]));
+            let own_edges = sides(corners).map(|side| {
+                let (number, is_free) = numbers.get_mut(&side)?;
+                std::mem::take(is_free).then_some(*number)
+            });
+            (own_vertices, own_edges)
+        });
+        let owned = owned.collect();
+        Self {
+            triangles: triangles.to_vec(),
+            edges: numbers.into_keys().collect(),
+            owned,
+            vertex_boxes: Vec::new(),
+            edge_boxes: Vec::new(),
+            triangle_boxes: Vec::new(),
+        }
+    }
+}
+
+impl Elements {
+    /// With this margin round each.
+    pub(super) fn within(radius: f64) -> Self {
+        Self {
+            radius,
+            bodies: Vec::new(),
+            found: Default::default(),
+            keys: Vec::new(),
+            all: Vec::new(),
+            counters: Counters::default(),
+        }
+    }
+
+    /// By how much boxes of triangles are to be larger on every side so that no candidate is missed: a little more than the margin, as
+    /// they are rounded.
+    pub(super) fn grown_by(&self) -> f32 {
+        (self.radius * 1.001) as f32
+    }
+
+    pub(super) fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        let bodies = bodies.iter();
+        self.bodies = bodies
+            .map(|body| Body::new(body.triangles, body.shape.world.len()))
+            .collect();
+    }
+
+    /// Makes the boxes of all elements.
+    pub(super) fn take_over(&mut self, shapes: &[Shape<'_>]) {
+        for (body, shape) in self.bodies.iter_mut().zip(shapes) {
+            let ends = shape.end.unwrap_or_default();
+            let hull = |corners: &[u32]| swept_box(shape.world, ends, corners);
+            let vertices = 0..shape.world.len() as u32;
+            body.vertex_boxes.clear();
+            body.vertex_boxes.extend(vertices.map(|it| hull(&[it])));
+            body.edge_boxes.clear();
+            body.edge_boxes.extend(body.edges.iter().map(|it| hull(it)));
+            body.triangle_boxes.clear();
+            let triangles = body.triangles.iter();
+            body.triangle_boxes.extend(triangles.map(|it| hull(it)));
+        }
+    }
+
+    pub(super) fn begin(&mut self) {
+        self.found.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Finds what is near among the elements that belong to two triangles, of two bodies in order or of one.
+    #[inline]
+    pub(super) fn meet(&mut self, bodies: [usize; 2], triangles: [u32; 2]) {
+        for side in 0..2 {
+            let [a, b] = [bodies[side], bodies[1 - side]];
+            let [i, j] = [triangles[side], triangles[1 - side]];
+            let corners = self.bodies[a].triangles[i as usize];
+            let (is_own, _) = self.bodies[a].owned[i as usize];
+            for (vertex, is_own) in corners.into_iter().zip(is_own) {
+                if is_own {
+                    self.vertex_triangle([a, b], vertex, j);
+                }
+            }
+        }
+        let [a, b] = bodies;
+        let edges_of = |body: usize, triangle: u32| self.bodies[body].owned[triangle as usize].1;
+        let [of_a, of_b] = [edges_of(a, triangles[0]), edges_of(b, triangles[1])];
+        for i in of_a.into_iter().flatten() {
+            for j in of_b.into_iter().flatten() {
+                self.edge_edge([a, b], i, j);
+            }
+        }
+    }
+
+    #[inline]
+    fn vertex_triangle(&mut self, [a, b]: [usize; 2], vertex: u32, triangle: u32) {
+        let (body_a, body_b) = (&self.bodies[a], &self.bodies[b]);
+        self.counters.decisions += 1;
+        if a == b && body_b.triangles[triangle as usize].contains(&vertex) {
+            return;
+        }
+        let box_a = &body_a.vertex_boxes[vertex as usize];
+        let box_b = &body_b.triangle_boxes[triangle as usize];
+        if are_within(box_a, box_b, 2.0 * self.radius) {
+            self.found[0].push([a as u32, vertex, b as u32, triangle]);
+        }
+    }
+
+    #[inline]
+    fn edge_edge(&mut self, [a, b]: [usize; 2], i: u32, j: u32) {
+        let (body_a, body_b) = (&self.bodies[a], &self.bodies[b]);
+        self.counters.decisions += 1;
+        let others = body_b.edges[j as usize];
+        if a == b
+            && body_a.edges[i as usize]
+                .iter()
+                .any(|it| others.contains(it))
+        {
+            return;
+        }
+        let (box_a, box_b) = (
+            &body_a.edge_boxes[i as usize],
+            &body_b.edge_boxes[j as usize],
+        );
+        if are_within(box_a, box_b, 2.0 * self.radius) {
+            let (first, second) = ([a as u32, i], [b as u32, j]);
+            let ([a, i], [b, j]) = (first.min(second), first.max(second));
+            self.found[1].push([a, i, b, j]);
+        }
+    }
+
+    /// Everything that was found, either kind sorted: as keys of 64 bits, if there are not too many elements for that.
+    pub(super) fn sorted(&mut self) -> &[Pair] {
+        let elements = self.bodies.iter();
+        let elements = elements.map(|it| it.edges.len().max(it.triangles.len()));
+        let bits = |count: usize| usize::BITS - count.leading_zeros();
+        let (of_body, of_element) = (bits(self.bodies.len()), bits(elements.max().unwrap_or(0)));
+        self.all.clear();
+        for found in &mut self.found {
+            if 2 * (of_body + of_element) > u64::BITS {
+                found.sort_unstable();
+                self.all.extend_from_slice(found);
+                continue;
+            }
+            self.keys.clear();
+            self.keys.extend(found.iter().map(|&[a, i, b, j]| {
+                let [a, i, b, j] = [a, i, b, j].map(u64::from);
+                ((a << of_element | i) << of_body | b) << of_element | j
+            }));
+            self.keys.sort_unstable();
+            let part = |key: u64, width: u32| (key & ((1 << width) - 1)) as u32;
+            self.all.extend(self.keys.iter().map(|&key| {
+                let rest = key >> of_element;
+                let first = rest >> of_body;
+                [
+                    (first >> of_element) as u32,
+                    part(first, of_element),
+                    part(rest, of_body),
+                    part(key, of_element),
+                ]
+            }));
+        }
+        &self.all
+    }
+}
+
+/// Whether the gap of two boxes is at most so much on every axis.
+#[inline]
+fn are_within(a: &Aabb, b: &Aabb, gap: f64) -> bool {
+    let is_near = |low: f32, high: f32| f64::from(low) - f64::from(high) <= gap;
+    (0..3).all(|axis| is_near(a.lo[axis], b.hi[axis]) & is_near(b.lo[axis], a.hi[axis]))
+}
+
+/// Everything near everything by a sweep along one axis: no tree, and no pair of triangles.
+pub struct NearSweep {
+    elements: Elements,
+    /// Where each begins on the axis, its body and its number: vertices, edges, triangles.
+    begins: [Vec<(f32, usize, u32)>; 3],
+}
+
+impl NearSweep {
+    /// With this margin round each vertex, edge and triangle.
+    pub fn new(radius: f64) -> Self {
+        Self {
+            elements: Elements::within(radius),
+            begins: Default::default(),
+        }
+    }
+}
+
+impl Method for NearSweep {
+    fn name(&self) -> String {
+        "sweep of all elements".to_owned()
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        self.elements.build(bodies);
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        self.elements.take_over(shapes);
+    }
+
+    fn all_pairs(&mut self) -> &[Pair] {
+        &[]
+    }
+
+    fn first_pair(&mut self) -> Option<Pair> {
+        None
+    }
+
+    fn candidates(&mut self) -> Option<&[Pair]> {
+        let Self { elements, begins } = self;
+        elements.begin();
+        for (kind, list) in begins.iter_mut().enumerate() {
+            list.clear();
+            for (place, body) in elements.bodies.iter().enumerate() {
+                let boxes = [&body.vertex_boxes, &body.edge_boxes, &body.triangle_boxes][kind];
+                // Vertices that no triangle uses make none.
+                let is_used =
+                    |number: u32| kind > 0 || body.edges.iter().flatten().any(|&end| end == number);
+                let all_used = body
+                    .edges
+                    .iter()
+                    .flatten()
+                    .collect::<std::collections::BTreeSet<_>>();
+                let all_used = all_used.len() == body.vertex_boxes.len();
+                let items = (0..).zip(boxes);
+                let items = items.filter(|&(number, _)| all_used || is_used(number));
+                list.extend(items.map(|(number, it)| (it.lo[0], place, number)));
+            }
+            list.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        let reach = 2.0 * elements.radius;
+        let [vertices, edges, triangles] = &*begins;
+        let end = |elements: &Elements, kind: usize, body: usize, number: u32| {
+            let body = &elements.bodies[body];
+            let boxes = [&body.vertex_boxes, &body.edge_boxes, &body.triangle_boxes][kind];
+            f64::from(boxes[number as usize].hi[0]) + reach
+        };
+        // Of two that are near each other on the axis, one begins first: from there the other begins before that one ends.
+        let mut next = 0;
+        for &(from, a, vertex) in vertices {
+            while next < triangles.len() && triangles[next].0 < from {
+                next += 1;
+            }
+            let last = end(elements, 0, a, vertex);
+            for &(begin, b, triangle) in &triangles[next..] {
+                if f64::from(begin) > last {
+                    break;
+                }
+                elements.vertex_triangle([a, b], vertex, triangle);
+            }
+        }
+        let mut next = 0;
+        for &(from, b, triangle) in triangles {
+            while next < vertices.len() && vertices[next].0 <= from {
+                next += 1;
+            }
+            let last = end(elements, 2, b, triangle);
+            for &(begin, a, vertex) in &vertices[next..] {
+                if f64::from(begin) > last {
+                    break;
+                }
+                elements.vertex_triangle([a, b], vertex, triangle);
+            }
+        }
+        for (place, &(_, a, i)) in edges.iter().enumerate() {
+            let last = end(elements, 1, a, i);
+            for &(begin, b, j) in &edges[place + 1..] {
+                if f64::from(begin) > last {
+                    break;
+                }
+                elements.edge_edge([a, b], i, j);
+            }
+        }
+        Some(elements.sorted())
+    }
+
+    fn take_counters(&mut self) -> Counters {
+        std::mem::take(&mut self.elements.counters)
+    }
+}

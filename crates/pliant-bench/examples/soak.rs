@@ -75,7 +75,7 @@ struct Memory {
 
 fn play<S: Scalar>(name: &str, mut soak: Soak<S>, steps: u64, until: Instant) -> Result<(), Wrong> {
     println!(
-        "{name:<4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12}   {:>11} {:>7} {:>9}",
+        "{name:<4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12} {:>12}   {:>11} {:>7} {:>9}",
         "steps",
         "added",
         "removed",
@@ -83,6 +83,7 @@ fn play<S: Scalar>(name: &str, mut soak: Soak<S>, steps: u64, until: Instant) ->
         "refused",
         "compared",
         "equal pairs",
+        "equal near",
         "heap, bytes",
         "blocks",
         "resident"
@@ -148,7 +149,7 @@ fn line(tally: &Tally, memory: &Memory) {
         |bytes| format!("{:.1} MB", bytes as f64 / 1e6),
     );
     println!(
-        "{:>13} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12}   {:>11} {:>7} {:>9}",
+        "{:>13} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12} {:>12}   {:>11} {:>7} {:>9}",
         tally.steps,
         tally.added,
         tally.removed,
@@ -156,6 +157,7 @@ fn line(tally: &Tally, memory: &Memory) {
         tally.refused,
         tally.compared,
         tally.pairs,
+        tally.near,
         memory.heap,
         memory.blocks,
         resident

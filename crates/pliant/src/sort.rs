@@ -1,8 +1,8 @@
 //! Hits in the order of their numbers, by counting digits.
 //!
 //! Triangle numbers are dense, so pairs of triangles differ in few bits: the numbers, less the smallest of each, side by side
-//! make one key, and two or three passes over digits of up to eleven bits put thousands of pairs in order without a
-//! comparison, for a tenth of the work of a comparison sort. The keys of few items are compared.
+//! make one key, and two or three passes over digits put thousands of pairs in order without a comparison, for a tenth of the work of a
+//! comparison sort. The keys of few items are compared.
 //!
 //! Very many items are put into buckets by their first digit, by one thread, and each bucket is then sorted in cache. Several threads sort a
 //! run each; so does one thread, several runs, where most items are in one bucket, because it can be interrupted between runs. Then some
@@ -18,6 +18,9 @@ use crate::threads::Executor;
 const FEW: usize = 192;
 /// Digits of at most so many bits: counts of all its values stay in the nearest cache.
 const DIGIT: u32 = 11;
+/// The same where there are [`MANY`] items: a pass less is worth counts that are further away.
+const LONG_DIGIT: u32 = 16;
+const MANY: usize = 1 << 15;
 /// Items of a run, at least; fewer than two runs are not worth waking a thread.
 const SHORTEST_RUN: usize = 1024;
 /// Items of a run, at most: some milliseconds of work.
@@ -27,13 +30,20 @@ const UNINTERRUPTED: usize = 1 << 16;
 
 /// Scratch.
 #[derive(Debug, Default)]
-pub(crate) struct Keys {
+pub(crate) struct Sorter {
     keys: Vec<u64>,
     spare: Vec<u64>,
+    /// Where items with a digit go, for every run that is sorted at one time.
+    places: Vec<u32>,
 }
 
 /// Sorts hits that have one first number, by the others. Interrupted, it leaves them in any state.
-pub(crate) fn sort<T: Hit>(executor: Executor, items: &mut [T], Keys { keys, spare }: &mut Keys) {
+pub(crate) fn sort<T: Hit>(executor: Executor, items: &mut [T], scratch: &mut Sorter) {
+    let Sorter {
+        keys,
+        spare,
+        places,
+    } = scratch;
     if items.len() < 2 {
         return;
     }
@@ -51,7 +61,7 @@ pub(crate) fn sort<T: Hit>(executor: Executor, items: &mut [T], Keys { keys, spa
     }
     let sort_run = |run: &mut Run<T>| {
         let keys = run.items.iter().map(|item| packing.key(item.numbers()));
-        sort_keys(keys, run.keys, run.spare, packing.bits());
+        sort_keys(keys, run.keys, run.spare, run.places, packing.bits());
     };
     let unpack = |keys: &[u64], items: &mut [T]| {
         for (place, &key) in items.iter_mut().zip(keys) {
@@ -59,16 +69,28 @@ pub(crate) fn sort<T: Hit>(executor: Executor, items: &mut [T], Keys { keys, spa
         }
     };
 
-    if !executor.are_many()
-        && items.len() > LONGEST_RUN
-        && sort_by_buckets(executor, items, packing, [keys, spare])
-    {
-        return;
-    }
     let most = executor.count().min(items.len() / SHORTEST_RUN);
     let runs = most.max(items.len().div_ceil(LONGEST_RUN));
+    // Runs that are sorted one after the other are many, and their places few.
+    let digit = if runs <= executor.count() {
+        digit_of(items.len() / runs.max(1))
+    } else {
+        DIGIT
+    };
+    if !executor.are_many() && items.len() > LONGEST_RUN {
+        places.resize(places.len().max(1 << LONG_DIGIT), 0);
+        if sort_by_buckets(executor, items, packing, [keys, spare], places) {
+            return;
+        }
+    }
+    places.resize(places.len().max(runs.max(1) << digit), 0);
     if runs < 2 {
-        sort_run(&mut Run { items, keys, spare });
+        sort_run(&mut Run {
+            items,
+            keys,
+            spare,
+            places,
+        });
         unpack(keys, items);
         return;
     }
@@ -77,7 +99,13 @@ pub(crate) fn sort<T: Hit>(executor: Executor, items: &mut [T], Keys { keys, spa
     let scratch = keys.chunks_mut(size).zip(spare.chunks_mut(size));
     let mut sorts: Vec<_> = each
         .zip(scratch)
-        .map(|(items, (keys, spare))| Run { items, keys, spare })
+        .zip(places.chunks_mut(1 << digit))
+        .map(|((items, (keys, spare)), places)| Run {
+            items,
+            keys,
+            spare,
+            places,
+        })
         .collect();
     executor.run(&mut sorts, |_, run| sort_run(run));
     let mut merges = cut(keys.chunks(size).collect(), spare, items);
@@ -94,6 +122,7 @@ fn sort_by_buckets<T: Hit>(
     items: &mut [T],
     packing: Packing,
     [keys, spare]: [&mut [u64]; 2],
+    places: &mut [u32],
 ) -> bool {
     let bits = packing.bits();
     let width = bits.min(DIGIT);
@@ -136,7 +165,7 @@ fn sort_by_buckets<T: Hit>(
         let of_bucket = start..end as usize;
         start = of_bucket.end;
         let (from, to) = (&mut spare[of_bucket.clone()], &mut keys[of_bucket.clone()]);
-        let sorted = sort_digits(from, to, rest);
+        let sorted = sort_digits(from, to, places, rest);
         for (place, &key) in items[of_bucket].iter_mut().zip(&*sorted) {
             *place = T::of_numbers(packing.numbers(key));
         }
@@ -152,6 +181,7 @@ struct Run<'k, T> {
     items: &'k [T],
     keys: &'k mut [u64],
     spare: &'k mut [u64],
+    places: &'k mut [u32],
 }
 
 /// The same range of keys of all runs, where they will be in order, and the items that they will be.
@@ -260,10 +290,17 @@ impl Packing {
     }
 }
 
-/// Puts keys of some bits into `sorted`, in order; the slices are as long as there are keys.
-fn sort_keys(keys: impl Iterator<Item = u64>, sorted: &mut [u64], spare: &mut [u64], bits: u32) {
+/// Puts keys of some bits into `sorted`, in order; the slices are as long as there are keys, and a digit has at most as many values as
+/// there are places.
+fn sort_keys(
+    keys: impl Iterator<Item = u64>,
+    sorted: &mut [u64],
+    spare: &mut [u64],
+    places: &mut [u32],
+    bits: u32,
+) {
     // Every pass goes from one to the other, the last to `sorted`.
-    let (from, to) = if passes(sorted.len(), bits).is_multiple_of(2) {
+    let (from, to) = if passes(sorted.len(), places.len(), bits).is_multiple_of(2) {
         (sorted, spare)
     } else {
         (spare, sorted)
@@ -271,33 +308,46 @@ fn sort_keys(keys: impl Iterator<Item = u64>, sorted: &mut [u64], spare: &mut [u
     for (place, key) in from.iter_mut().zip(keys) {
         *place = key;
     }
-    sort_digits(from, to, bits);
+    sort_digits(from, to, places, bits);
 }
 
-/// How many passes so many keys need; none where they are compared.
-fn passes(count: usize, bits: u32) -> u32 {
-    if count < FEW { 0 } else { bits.div_ceil(DIGIT) }
+/// The bits of a digit at most, where so many are sorted.
+fn digit_of(count: usize) -> u32 {
+    if count < MANY { DIGIT } else { LONG_DIGIT }
+}
+
+/// How many passes so many keys need, if there are so many places; none where they are compared.
+fn passes(count: usize, places: usize, bits: u32) -> u32 {
+    if count < FEW {
+        0
+    } else {
+        bits.div_ceil(digit_of(count).min(places.ilog2()))
+    }
 }
 
 /// Puts keys in the order of some low bits, the others being equal; returns where they are then.
-fn sort_digits<'k>(mut from: &'k mut [u64], mut to: &'k mut [u64], bits: u32) -> &'k mut [u64] {
-    let passes = passes(from.len(), bits);
+fn sort_digits<'k>(
+    mut from: &'k mut [u64],
+    mut to: &'k mut [u64],
+    places: &mut [u32],
+    bits: u32,
+) -> &'k mut [u64] {
+    let passes = passes(from.len(), places.len(), bits);
     if passes == 0 {
         from.sort_unstable();
     }
     for pass in 0..passes {
         // Equal digits, or nearly, rather than full ones and a rest.
         let (low, high) = (bits * pass / passes, bits * (pass + 1) / passes);
-        distribute(from, to, low, high - low);
+        distribute(from, to, &mut places[..1 << (high - low)], low);
         std::mem::swap(&mut from, &mut to);
     }
     from
 }
 
-/// Puts keys in the order of a digit, equal ones in the order in which they are.
-fn distribute(from: &[u64], to: &mut [u64], low: u32, width: u32) {
-    let mut places = [0_u32; 1 << DIGIT];
-    let places = &mut places[..1 << width];
+/// Puts keys in the order of a digit, of which there are as many as places, equal ones in the order in which they are.
+fn distribute(from: &[u64], to: &mut [u64], places: &mut [u32], low: u32) {
+    places.fill(0);
     let mask = places.len() - 1;
     let digit = |key: u64| (key >> (low % u64::BITS)) as usize & mask;
     for &key in from {
@@ -314,9 +364,9 @@ fn distribute(from: &[u64], to: &mut [u64], low: u32, width: u32) {
     }
 }
 
-impl Held for Keys {
+impl Held for Sorter {
     fn held(&self) -> usize {
-        held::list(&self.keys) + held::list(&self.spare)
+        held::list(&self.keys) + held::list(&self.spare) + held::list(&self.places)
     }
 }
 
@@ -336,7 +386,7 @@ mod tests {
                 .wrapping_add(1_442_695_040_888_963_407);
             ((state >> 32) as u32).checked_shr(32 - bits).unwrap_or(0)
         };
-        let mut keys = Keys::default();
+        let mut sorter = Sorter::default();
         for (count, first_bits, second_bits) in [
             (0, 9, 9),
             (1, 9, 9),
@@ -370,7 +420,7 @@ mod tests {
                     interrupt,
                 };
                 let mut items = items.clone();
-                sort(executor, &mut items, &mut keys);
+                sort(executor, &mut items, &mut sorter);
                 assert!(
                     items == expected,
                     "{count} {first_bits} {second_bits} {threads}"

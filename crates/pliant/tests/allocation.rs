@@ -2,6 +2,7 @@
 
 use pliant::{BroadPhase, Degree, Options, Partition, Selection, World};
 use pliant_scenes::Scene;
+use std::ops::ControlFlow;
 
 fn replay(scene: &Scene, options: Options, steps: &[u32]) {
     // All shapes in advance: what is counted is the library's.
@@ -41,6 +42,20 @@ fn replay(scene: &Scene, options: Options, steps: &[u32]) {
             let within = world.intersections(Selection::Within(ids[0]));
             pairs += within.all().unwrap().len();
             let everything = world.intersections(Selection::Everything);
+            pairs += everything.all().unwrap().len();
+            world.set_motion(ids[0], &shapes[0]).unwrap();
+            let everything = world.vertex_triangle_candidates(Selection::Everything, 0.01);
+            pairs += everything.all().unwrap().len();
+            let everything = world.edge_edge_candidates(Selection::Everything, 0.01);
+            pairs += everything.all().unwrap().len();
+            let shown = world.edge_edge_candidates(Selection::Within(ids[0]), 0.02);
+            let flow = shown.visit_some(|some| {
+                pairs += some.len();
+                ControlFlow::<()>::Continue(())
+            });
+            assert!(flow.unwrap().is_continue());
+            world.advance_motion(0.5).unwrap();
+            let everything = world.edge_edge_candidates(Selection::Everything, 0.01);
             pairs += everything.all().unwrap().len();
             if let [a, b, ..] = ids[..] {
                 let between = world.intersections(Selection::Between(a, b));

@@ -1,4 +1,5 @@
-//! One committed hash of the sorted pairs per scene, the same for every choice that must not change an answer.
+//! One committed hash of the sorted pairs per scene, and one of the candidates near each other and on the way, the same for every choice
+//! that must not change an answer.
 //!
 //! Whatever changes a pair, on purpose, in another configuration or on another machine, is noticed. A new choice (a number of
 //! threads, an instruction set) is one more line in `axes`.
@@ -7,7 +8,7 @@ mod common;
 
 use common::TrianglesOf;
 use pliant::{
-    BroadPhase, Degree, Instructions, Options, Partition, Scalar, Selection, Update, World,
+    BodyId, BroadPhase, Degree, Instructions, Options, Partition, Scalar, Selection, Update, World,
     reference,
 };
 use pliant_oracle::subnormals_flushed;
@@ -22,6 +23,19 @@ const COMMITTED: [(&str, usize, &[u32], u64, usize); 5] = [
     ("gather", 80, &[1, 135, 200], 0x417e_9085_24c3_a036, 3455),
     ("cloth", 648, &[10, 35, 50], 0x6717_87db_787a_24d6, 675),
 ];
+
+/// Of the same scenes and steps, the hash over what is near at a step, and on the way towards the next, and how much that is.
+const NEAR: [(&str, u64, usize); 5] = [
+    ("spheres", 0x1ed0_a3e5_438d_9473, 4340),
+    ("crowd", 0xdb8d_f352_4d2f_c04d, 2351),
+    ("arms", 0x55c0_e0ca_74e4_f0b8, 7739),
+    ("gather", 0xba1b_8cf6_a022_31eb, 35_378),
+    ("cloth", 0xbdca_73b3_a372_aebc, 14_851),
+];
+
+/// The margin round each element, and the part of the way to the next of the steps.
+const RADIUS: f64 = 1.0 / 128.0;
+const PART: f32 = 1.0 / 64.0;
 
 /// One way to ask.
 #[derive(Clone, Default)]
@@ -179,6 +193,77 @@ fn shapes(scene: &Scene, step: u32) -> Shapes {
         .collect()
 }
 
+fn widened<S>(positions: &[[f32; 3]], widen: fn(f32) -> S) -> Vec<[S; 3]> {
+    positions.iter().map(|p| p.map(widen)).collect()
+}
+
+/// The bodies of a scene in their first shape: trees are built on it and meet the others.
+fn world_of<S: Scalar>(
+    case: &Case,
+    scene: &Scene,
+    first: &Shapes,
+    widen: fn(f32) -> S,
+) -> (World<S>, Vec<BodyId>) {
+    let mut world = World::with_options(case.options);
+    if let Some(instructions) = case.instructions {
+        world.use_instructions(instructions);
+    }
+    let add = |(body, positions): (usize, &Vec<[f32; 3]>)| {
+        let positions = widened(positions, widen);
+        world.add(scene.triangles(body), &positions).unwrap()
+    };
+    let bodies = first.iter().enumerate().map(add).collect();
+    (world, bodies)
+}
+
+/// A part of the way from one step to another.
+fn toward(from: &Shapes, to: &Shapes) -> Shapes {
+    let point = |(from, to): (&[f32; 3], &[f32; 3])| {
+        std::array::from_fn(|axis| from[axis] + PART * (to[axis] - from[axis]))
+    };
+    let body = |(from, to): (&Vec<_>, &Vec<_>)| from.iter().zip(to).map(point).collect();
+    from.iter().zip(to).map(body).collect()
+}
+
+/// What is near at all steps and on the way from each towards the next, and how much. `widen` is exact.
+fn near_hash<S: Scalar>(
+    case: &Case,
+    scene: &Scene,
+    steps: &[Shapes],
+    widen: fn(f32) -> S,
+) -> (u64, usize) {
+    let (mut world, bodies) = world_of(case, scene, &steps[0], widen);
+    let (mut fnv, mut count) = (Fnv::default(), 0);
+    for (step, shapes) in steps.iter().enumerate() {
+        for (&body, positions) in bodies.iter().zip(shapes) {
+            world
+                .set_positions(body, &widened(positions, widen))
+                .unwrap();
+        }
+        let next = &steps[(step + 1) % steps.len()];
+        for on_the_way in [false, true] {
+            if on_the_way {
+                for (&body, end) in bodies.iter().zip(&toward(shapes, next)) {
+                    world.set_motion(body, &widened(end, widen)).unwrap();
+                }
+            }
+            let radius = if on_the_way { 0.0 } else { RADIUS };
+            let everything = Selection::Everything;
+            let near = world.vertex_triangle_candidates(everything, radius);
+            for row in near.all().unwrap() {
+                fnv.add(&<[u32; 4]>::from(*row));
+                count += 1;
+            }
+            let near = world.edge_edge_candidates(everything, radius);
+            for row in near.all().unwrap() {
+                fnv.add(&<[u32; 4]>::from(*row));
+                count += 1;
+            }
+        }
+    }
+    (fnv.0, count)
+}
+
 /// The hash of all steps, and the number of pairs. `widen` is exact.
 fn hash<S: Scalar>(
     case: &Case,
@@ -186,26 +271,13 @@ fn hash<S: Scalar>(
     steps: &[Shapes],
     widen: fn(f32) -> S,
 ) -> (u64, usize) {
-    let widened = |positions: &[[f32; 3]]| -> Vec<[S; 3]> {
-        positions.iter().map(|p| p.map(widen)).collect()
-    };
-    let mut world = World::with_options(case.options);
-    if let Some(instructions) = case.instructions {
-        world.use_instructions(instructions);
-    }
-    // Trees are built on the first shape and meet the others.
-    let mut bodies = Vec::new();
-    for (body, positions) in steps[0].iter().enumerate() {
-        bodies.push(
-            world
-                .add(scene.triangles(body), &widened(positions))
-                .unwrap(),
-        );
-    }
+    let (mut world, bodies) = world_of(case, scene, &steps[0], widen);
     let (mut fnv, mut count) = (Fnv::default(), 0);
     for (step, shapes) in steps.iter().enumerate() {
         for (&body, positions) in bodies.iter().zip(shapes) {
-            world.set_positions(body, &widened(positions)).unwrap();
+            world
+                .set_positions(body, &widened(positions, widen))
+                .unwrap();
         }
         fnv.add(&[step as u32]);
         match scene.asks() {
@@ -231,34 +303,60 @@ fn hash<S: Scalar>(
     (fnv.0, count)
 }
 
-#[test]
-fn pairs_are_the_committed_ones_in_every_case() {
-    for (name, triangles, steps, hash_committed, count_committed) in COMMITTED {
-        let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
-        let steps: Vec<Shapes> = steps.iter().map(|&step| shapes(&scene, step)).collect();
-        for case in cases() {
-            let ask = || {
-                if case.doubles {
-                    hash(&case, &scene, &steps, f64::from)
-                } else {
-                    hash(&case, &scene, &steps, |x| x)
-                }
-            };
-            let found = if case.flushed {
-                // Where a thread cannot be made to flush, an ordinary one will do.
-                subnormals_flushed(ask).unwrap_or_else(ask)
+/// Asks in every case, and compares with what is committed.
+fn are_the_committed_ones(
+    committed: (&str, u64, usize),
+    narrow: impl Fn(&Case, &Scene, &[Shapes]) -> (u64, usize),
+    wide: impl Fn(&Case, &Scene, &[Shapes]) -> (u64, usize),
+) -> Result<(), String> {
+    let (name, hash_committed, count_committed) = committed;
+    let of_scene = COMMITTED.iter().find(|scene| scene.0 == name);
+    let &(_, triangles, steps, ..) = of_scene.unwrap();
+    let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
+    let steps: Vec<Shapes> = steps.iter().map(|&step| shapes(&scene, step)).collect();
+    for case in cases() {
+        let ask = || {
+            if case.doubles {
+                wide(&case, &scene, &steps)
             } else {
-                ask()
-            };
-            assert!(
-                found == (hash_committed, count_committed),
-                "{name},{}: the hash is {:#018x} over {} pairs",
-                case.name,
-                found.0,
-                found.1
-            );
+                narrow(&case, &scene, &steps)
+            }
+        };
+        let found = if case.flushed {
+            // Where a thread cannot be made to flush, an ordinary one will do.
+            subnormals_flushed(ask).unwrap_or_else(ask)
+        } else {
+            ask()
+        };
+        if found != (hash_committed, count_committed) {
+            let (hash, count) = found;
+            return Err(format!("{name},{}: {hash:#018x} over {count}", case.name));
         }
     }
+    Ok(())
+}
+
+#[test]
+fn pairs_are_the_committed_ones_in_every_case() {
+    let wrong = COMMITTED.map(|(name, _, _, hash_committed, count)| {
+        let narrow = |case: &Case, scene: &Scene, steps: &[Shapes]| hash(case, scene, steps, |x| x);
+        let wide =
+            |case: &Case, scene: &Scene, steps: &[Shapes]| hash(case, scene, steps, f64::from);
+        are_the_committed_ones((name, hash_committed, count), narrow, wide)
+    });
+    assert_eq!(wrong, COMMITTED.map(|_| Ok(())));
+}
+
+#[test]
+fn what_is_near_is_the_committed_in_every_case() {
+    let wrong = NEAR.map(|committed| {
+        let narrow =
+            |case: &Case, scene: &Scene, steps: &[Shapes]| near_hash(case, scene, steps, |x| x);
+        let wide =
+            |case: &Case, scene: &Scene, steps: &[Shapes]| near_hash(case, scene, steps, f64::from);
+        are_the_committed_ones(committed, narrow, wide)
+    });
+    assert_eq!(wrong, NEAR.map(|_| Ok(())));
 }
 
 /// What no tree has touched; the scenes of many bodies take too long for it.
@@ -284,6 +382,57 @@ fn the_committed_pairs_are_those_of_the_reference() {
                 for pair in reference::self_intersection_pairs(triangles, &shapes[0]).unwrap() {
                     fnv.add(&pair);
                     count += 1;
+                }
+            }
+        }
+        assert_eq!((fnv.0, count), (hash_committed, count_committed), "{name}");
+    }
+}
+
+#[test]
+fn the_committed_candidates_are_those_of_the_reference() {
+    for (name, hash_committed, count_committed) in NEAR {
+        let of_scene = COMMITTED.iter().find(|scene| scene.0 == name);
+        let &(_, triangles, steps, ..) = of_scene.unwrap();
+        let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
+        if scene.body_count() > 2 {
+            continue;
+        }
+        let steps: Vec<Shapes> = steps.iter().map(|&step| shapes(&scene, step)).collect();
+        let (mut fnv, mut count) = (Fnv::default(), 0);
+        for (step, shapes) in steps.iter().enumerate() {
+            let ends = toward(shapes, &steps[(step + 1) % steps.len()]);
+            for (ends, radius) in [(None, RADIUS), (Some(&ends), 0.0)] {
+                let bodies: Vec<_> = (0..shapes.len())
+                    .map(|body| reference::Moving {
+                        triangles: scene.triangles(body),
+                        positions: &shapes[body],
+                        end: ends.map(|ends| &ends[body][..]),
+                        groups: None,
+                    })
+                    .collect();
+                let mut rows: [Vec<[u32; 4]>; 2] = Default::default();
+                for (a, body) in (0..).zip(&bodies) {
+                    let near = [
+                        reference::self_vertex_triangle_pairs(body, radius),
+                        reference::self_edge_edge_pairs(body, radius),
+                    ];
+                    for (rows, near) in rows.iter_mut().zip(near) {
+                        rows.extend(near.unwrap().into_iter().map(|[i, j]| [a, i, a, j]));
+                    }
+                    for (b, other) in (0..).zip(&bodies).filter(|&(b, _)| a != b) {
+                        let near = reference::vertex_triangle_pairs(body, other, radius);
+                        rows[0].extend(near.unwrap().into_iter().map(|[i, j]| [a, i, b, j]));
+                        if a < b {
+                            let near = reference::edge_edge_pairs(body, other, radius);
+                            rows[1].extend(near.unwrap().into_iter().map(|[i, j]| [a, i, b, j]));
+                        }
+                    }
+                }
+                for mut rows in rows {
+                    rows.sort_unstable();
+                    count += rows.len();
+                    rows.iter().for_each(|row| fnv.add(row));
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! The comparison: every answer of the world that lives against that of a world that was never anything else, and a few of
 //! them against the reference, which has no tree.
 
-use super::{Soak, Wrong};
+use super::{FAR_APART, Soak, Wrong, rows};
 use pliant::{
     BodyId, Degree, Options, Pair, Partition, Scalar, Selection, Update, World, reference,
 };
@@ -19,6 +19,10 @@ impl<S: Scalar> Soak<S> {
             let id = self.good("add to a fresh world", added)?;
             let set = fresh.set_filter(id, body.membership, body.mask);
             self.good("set_filter of a fresh world", set)?;
+            if let Some(end) = &body.end {
+                let set = fresh.set_motion(id, end);
+                self.good("set_motion of a fresh world", set)?;
+            }
         }
         for &(a, b) in &self.ignored {
             let ignored = fresh.ignore(self.fresh_id(a), self.fresh_id(b));
@@ -27,6 +31,7 @@ impl<S: Scalar> Soak<S> {
         self.compare_between(&mut fresh)?;
         self.compare_within(&mut fresh)?;
         self.compare_two_bodies(&mut fresh)?;
+        self.compare_near(&mut fresh)?;
         self.tally.compared += 1;
         Ok(())
     }
@@ -116,6 +121,25 @@ impl<S: Scalar> Soak<S> {
                 ));
             }
             self.tally.pairs += expected.len() as u64;
+        }
+        Ok(())
+    }
+
+    /// What is near, on the way too.
+    fn compare_near(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
+        let radius = [0.0, 0.01, FAR_APART][self.random.index(3)];
+        let expected = self.good("what is near in a fresh world", rows(fresh, radius))?;
+        let found = rows(&mut self.world, radius);
+        let found = self.good("what is near", found)?;
+        for (found, mut expected) in found.into_iter().zip(expected) {
+            for [a, _, b, _] in &mut expected {
+                (*a, *b) = (self.known[*a as usize].id.0, self.known[*b as usize].id.0);
+            }
+            if found != expected {
+                let counts = [found.len(), expected.len()];
+                return self.wrong(format!("found and expected within {radius}: {counts:?}"));
+            }
+            self.tally.near += found.len() as u64;
         }
         Ok(())
     }

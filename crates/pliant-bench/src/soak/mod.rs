@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! a step     bodies move: none, one, a few, all; some twice; some far away, some out of their loose boxes
-//!            one other call: add, remove, rebuild, filter, ignore, loose box, or something that must be refused
+//!            one other call: add, remove, rebuild, filter, ignore, loose box, motions, or something that must be refused
 //!            perhaps a query before it, and one after
 //!            one step in eight: the comparison   (`fresh`)
 //! a parade   every body goes, always the same ones come and meet in one heap, all queries are asked
@@ -30,6 +30,8 @@ const MOST: usize = 250;
 const PARADE: usize = 200;
 /// Bodies live in a cube of this side, in which each meets a few others.
 const SIDE: f64 = 12.0;
+/// The widest margin that is asked for.
+const FAR_APART: f64 = 0.05;
 
 /// What went wrong: the step, and what was expected.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,6 +62,8 @@ pub struct Tally {
     pub compared: u64,
     /// Pairs that were the same in both, between bodies and within them.
     pub pairs: u64,
+    /// Candidates that were the same in both.
+    pub near: u64,
 }
 
 /// What is known of a body: enough to build it anew.
@@ -68,6 +72,8 @@ struct Known<S> {
     surface: usize,
     place: [f64; 3],
     positions: Vec<[S; 3]>,
+    /// The shape at the end of its motion, if it has one.
+    end: Option<Vec<[S; 3]>>,
     membership: u32,
     mask: u32,
     loose: Option<([S; 3], [S; 3])>,
@@ -205,6 +211,9 @@ impl<S: Scalar> Soak<S> {
         if self.good("a query", every)? != triangles * triangles {
             return self.wrong("in one point every pair of triangles meets");
         }
+        // And of what is near: no step asks for a wider margin.
+        let near = rows(&mut self.world, FAR_APART);
+        self.good("what is near", near)?;
         self.compare_with_a_fresh_world()?;
         for (place, positions) in large.into_iter().zip(shapes) {
             self.take_over(place, &positions, false)?;
@@ -248,6 +257,7 @@ impl<S: Scalar> Soak<S> {
             surface,
             place,
             positions,
+            end: None,
             membership: u32::MAX,
             mask: u32::MAX,
             loose: None,
@@ -340,6 +350,7 @@ impl<S: Scalar> Soak<S> {
             };
         }
         self.good("take over", answer)?;
+        self.known[place].end = None;
         self.tally.moved += 1;
         Ok(true)
     }
@@ -348,8 +359,10 @@ impl<S: Scalar> Soak<S> {
     fn call_something(&mut self) -> Result<(), Wrong> {
         let some = self.random.index(self.known.len());
         let id = self.known[some].id;
-        match self.random.below(18) {
+        match self.random.below(22) {
             15..17 => self.cut(some),
+            17..20 => self.begin_motions(),
+            20 => self.end_motions(),
             0..3 if self.known.len() < MOST => self.add(),
             0..6 => self.remove(some),
             6 => {
@@ -378,6 +391,65 @@ impl<S: Scalar> Soak<S> {
                 Ok(())
             }
         }
+    }
+
+    /// Sends some bodies on their way; those that would leave their loose box stay as they are.
+    fn begin_motions(&mut self) -> Result<(), Wrong> {
+        let count = [1, 3, self.known.len()][self.random.index(3)];
+        for _ in 0..count {
+            let some = self.random.index(self.known.len());
+            let Known { id, place, .. } = self.known[some];
+            let place = place.map(|x| x + (self.random.unit() - 0.5) / 8.0);
+            let end = self.shape(self.known[some].surface, place);
+            let answer = self.world.set_motion(id, &end);
+            let Known { loose, .. } = self.known[some];
+            if loose.is_some_and(|corners| end.iter().any(|&p| !inside(corners, p))) {
+                self.tally.refused += 1;
+                if answer.is_ok() {
+                    return self.wrong(format!("{id} goes out of its loose box"));
+                }
+                continue;
+            }
+            self.good("set_motion", answer)?;
+            self.known[some].end = Some(end);
+        }
+        Ok(())
+    }
+
+    /// Bodies arrive, or stop on the way.
+    fn end_motions(&mut self) -> Result<(), Wrong> {
+        let part = self.random.unit();
+        if self.random.one_in(2) {
+            self.world.finish_motion();
+            for known in &mut self.known {
+                known.positions = known
+                    .end
+                    .take()
+                    .unwrap_or(std::mem::take(&mut known.positions));
+            }
+            return Ok(());
+        }
+        let advanced = self.world.advance_motion(part);
+        self.good("advance_motion", advanced)?;
+        for place in 0..self.known.len() {
+            let Some(end) = self.known[place].end.take() else {
+                continue;
+            };
+            let id = self.known[place].id;
+            let now = self.world.positions(id);
+            let now = self.good("positions", now)?;
+            let from = &self.known[place].positions;
+            for ((now, from), end) in now.iter().zip(from).zip(&end) {
+                for axis in 0..3 {
+                    let [now, from, end] = [now, from, end].map(|it| it[axis].to_f64());
+                    if !(from.min(end)..=from.max(end)).contains(&now) {
+                        return self.wrong(format!("{id} is not on the way"));
+                    }
+                }
+            }
+            self.known[place].positions = now;
+        }
+        Ok(())
     }
 
     /// Gives a body another mesh: another surface, at the same place; refused if it sticks out of the loose box.
@@ -429,10 +501,9 @@ impl<S: Scalar> Soak<S> {
             )
         });
         let fits = corners.is_none_or(|corners| {
-            self.known[some]
-                .positions
-                .iter()
-                .all(|&p| inside(corners, p))
+            let Known { positions, end, .. } = &self.known[some];
+            let mut all = positions.iter().chain(end.iter().flatten());
+            all.all(|&p| inside(corners, p))
         });
         let answer = self.world.set_loose_box(id, corners);
         if fits {
@@ -553,4 +624,16 @@ impl<S: Scalar> Soak<S> {
 
 fn inside<S: Scalar>((lo, hi): ([S; 3], [S; 3]), point: [S; 3]) -> bool {
     (0..3).all(|axis| lo[axis] <= point[axis] && point[axis] <= hi[axis])
+}
+
+/// Vertices near triangles, and edges near edges, as rows of numbers.
+fn rows<S: Scalar>(world: &mut World<S>, radius: f64) -> Result<[Vec<[u32; 4]>; 2], Error> {
+    let of = Selection::Everything;
+    let near = world.vertex_triangle_candidates(of, radius).all()?;
+    let vertex_triangle = near.iter().map(|&hit| hit.into()).collect();
+    let near = world.edge_edge_candidates(of, radius).all()?;
+    Ok([
+        vertex_triangle,
+        near.iter().map(|&hit| hit.into()).collect(),
+    ])
 }

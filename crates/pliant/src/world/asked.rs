@@ -13,7 +13,7 @@ use crate::hits::Hit;
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
 use crate::queries::Kind;
-use crate::sort::{Keys, sort};
+use crate::sort::{Sorter, sort};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Threads};
 use crate::traversal::{Scratch, Sink, Wanted};
@@ -40,7 +40,7 @@ pub(super) struct Asked<K: Kind> {
     pub(super) scratch: Scratch<K>,
     scheduler: Scheduler<K>,
     hits: Vec<K::Hit>,
-    keys: Keys,
+    sorter: Sorter,
 }
 
 impl<K: Kind> Default for Asked<K> {
@@ -49,7 +49,7 @@ impl<K: Kind> Default for Asked<K> {
             scratch: Scratch::default(),
             scheduler: Scheduler::default(),
             hits: Vec::new(),
-            keys: Keys::default(),
+            sorter: Sorter::default(),
         }
     }
 }
@@ -97,7 +97,7 @@ where
             hits.sort_unstable_by_key(first);
         }
         for of_one_body in hits.chunk_by_mut(|a, b| a.numbers()[0] == b.numbers()[0]) {
-            sort(executor, of_one_body, &mut self.keys);
+            sort(executor, of_one_body, &mut self.sorter);
         }
         common.end(&interrupt)
     }
@@ -274,6 +274,6 @@ impl<const N: usize, S: Coordinate> Common<N, S> {
 
 impl<K: Kind> Held for Asked<K> {
     fn held(&self) -> usize {
-        self.scratch.held() + self.scheduler.held() + held::list(&self.hits) + self.keys.held()
+        self.scratch.held() + self.scheduler.held() + held::list(&self.hits) + self.sorter.held()
     }
 }

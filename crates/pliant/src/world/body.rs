@@ -506,27 +506,30 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         }
     }
 
-    /// Of the way of a motion the part `t`, from 0 to 1, is gone: the shape is there, and the motion has ended.
+    /// Of the way of a motion the part `t`, from 0 to 1, is gone: the shape is there, and the motion has ended. It is made in a list that
+    /// is kept from call to call.
     pub(super) fn advance_motion(
         &mut self,
         instructions: Instructions,
         executor: Executor,
         t: f64,
+        shape: &mut Vec<[S; 3]>,
     ) -> Result<(), ErrorKind> {
-        if self.motion().is_none() {
+        let Some(motion) = self.motion() else {
             return Ok(());
-        }
+        };
         if t == 1.0 {
             self.finish_motion();
             return Ok(());
         }
-        let mut shape = self.positions().into_owned();
-        if let Some(end) = self.end_positions() {
-            for (from, to) in shape.as_flattened_mut().iter_mut().zip(end.as_flattened()) {
-                *from = from.toward(*to, t);
-            }
+        let order = self.order.vertex_order();
+        shape.resize(order.len(), [S::default(); 3]);
+        for (vertex, &place) in (0..).zip(order) {
+            let of = |positions: &Positions<S>| positions.get(TreeVertex(vertex), order);
+            let [from, to] = [of(&self.positions), of(&motion.end)];
+            shape[place as usize] = std::array::from_fn(|axis| from[axis].toward(to[axis], t));
         }
-        self.set_positions(instructions, executor, &shape)
+        self.set_positions(instructions, executor, shape)
     }
 
     /// The shape at the end of a motion as the caller orders vertices, if there is a motion.

@@ -82,7 +82,7 @@ pub(super) struct Engine<const N: usize, S: Coordinate> {
     vertex_triangle: Asked<VertexTriangleCandidates<S>>,
     edge_edge: Asked<EdgeEdgeCandidates<S>>,
     witnesses: Witnesses,
-    /// What `write_positions` lends.
+    /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
     lent: Vec<[S; 3]>,
     #[cfg(test)]
     pub(super) grown: Asked<crate::queries::grown::Near<S>>,
@@ -290,13 +290,17 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         if !(0.0..=1.0).contains(&t) {
             return Err(ErrorKind::BadTime { time: t }.of_query());
         }
-        for id in self.common.bodies.ids.clone() {
-            self.change(id, |body, instructions, executor| {
-                body.advance_motion(instructions, executor, t)
-            })?;
+        let mut shape = std::mem::take(&mut self.lent);
+        let mut advanced = Ok(());
+        for rank in 0..self.common.bodies.ids.len() {
+            let id = self.common.bodies.ids[rank];
+            advanced = advanced.and(self.change(id, |body, instructions, executor| {
+                body.advance_motion(instructions, executor, t, &mut shape)
+            }));
         }
+        self.lent = shape;
         self.common.note_movement();
-        Ok(())
+        advanced
     }
 
     fn end_positions(&self, id: BodyId) -> Result<Option<Vec<[S; 3]>>, Error> {

@@ -104,26 +104,20 @@ impl<const C: usize> RunBoxes<C> {
             hulls,
             ..
         } = self;
-        let mut jobs = Vec::with_capacity(hulls.len().div_ceil(JOB));
         let (mut rest, mut start) = (&mut eights[..], 0);
-        for hulls in hulls.chunks_mut(JOB) {
+        let jobs = hulls.chunks_mut(JOB).map(|hulls| {
             let runs = start..start + hulls.len();
             start = runs.end;
-            let count = (firsts[runs.end] - firsts[runs.start]) as usize;
-            let (own, others) = rest.split_at_mut(count);
-            rest = others;
-            jobs.push(Job {
-                first: firsts[runs.start] as usize,
+            let [first, end] = [runs.start, runs.end].map(|run| firsts[run] as usize);
+            Job {
+                first,
                 runs,
-                eights: own,
+                eights: rest.split_off_mut(..end - first).unwrap_or_default(),
                 hulls,
                 most: 0.0,
-            });
-        }
-        executor.run(&mut jobs, |_, job| {
-            if executor.is_interrupted() {
-                return;
             }
+        });
+        let make = |_, job: &mut Job| {
             dispatch!(instructions, i => {
                 for run in job.runs.clone() {
                     let [first, end] = [firsts[run], firsts[run + 1]].map(|at| at as usize);
@@ -138,8 +132,18 @@ impl<const C: usize> RunBoxes<C> {
                     }
                 }
             });
-        });
-        self.most = jobs.iter().fold(0.0, |most, job| larger(most, job.most));
+        };
+        self.most = if executor.are_many() {
+            let mut jobs: Vec<Job> = jobs.collect();
+            executor.run(&mut jobs, make);
+            jobs.iter().fold(0.0, |most, job| larger(most, job.most))
+        } else {
+            // Without a list of them, which a step would allocate.
+            jobs.fold(0.0, |most, mut job| {
+                executor.run(std::slice::from_mut(&mut job), make);
+                larger(most, job.most)
+            })
+        };
         if executor.is_interrupted() {
             return false;
         }
@@ -245,7 +249,12 @@ impl<const C: usize> ElementRun<'_, C> {
         mut found: impl FnMut([u32; 2], u64, u64),
     ) {
         let rows = self.near(i, other.all, limits);
-        let columns = other.near(i, self.all, limits);
+        // Where all are side by side, asking which are near is as much work as a row.
+        let columns = if other.boxes.len() == 1 {
+            (1 << other.elements.len()) - 1
+        } else {
+            other.near(i, self.all, limits)
+        };
         for (a, boxes_a) in self.boxes.iter().enumerate() {
             let rows = rows >> (8 * a) & 0xFF;
             if rows == 0 {

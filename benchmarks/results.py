@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""Writes RESULTS.md, and the table of the README, from a record of `pliant bench all`: no figure in them is written by hand.
+"""Writes RESULTS.md, and the table of the README, from a record of `pliant bench all`: no figure in them is written by hand. What is
+near has records of its own, of which the newest are taken: `near-DATE.json` and what the comparison with ipctk printed, `ipctk-DATE.txt`.
 
 cargo run --release -- bench all --json benchmarks/records/DATE.json > benchmarks/records/DATE.txt
+cargo run --release -- bench near --json benchmarks/records/near-DATE.json > benchmarks/records/near-DATE.txt
+target/ipctk/bin/python benchmarks/compare_with_ipctk.py > benchmarks/records/ipctk-DATE.txt
 python3 benchmarks/results.py DATE
 """
 
 import json
 import pathlib
+import re
 import sys
 
 HERE = pathlib.Path(__file__).parent
@@ -203,6 +207,13 @@ def page(record, date):
         f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |"
         for claim in record.experiments["peers"]["claims"]
     )
+    near = newest("near-*.json")
+    near_record = Record(near)
+    near_aims = "\n".join(
+        f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |"
+        for claim in near_record.experiments["near"]["claims"]
+    )
+    ipctk, header, beside = beside_ipctk()
     processor = record.machine["processor"]
     cores = record.machine["cores"]
     return f"""# What the paper claims, what we aim at, and what we find
@@ -239,11 +250,46 @@ pairs are asked for, the decision of the true pairs as it stood when the project
 |---|---|---|
 {aims}
 
+## What is near
+
+Vertices near triangles and edges near edges (`pliant bench near --rounds {near_record.rounds}`, [text](records/{near.stem}.txt),
+[JSON](records/{near.name}); one thread, and two where it says so, of an {near_record.machine['processor']}):
+
+| aim | | our figure |
+|---|---|---|
+{near_aims}
+
+Beside ipc-toolkit's `Candidates.build` with its LBVH ([record](records/{ipctk}), the same machine; {header}). *More* are
+candidates that it has alone, all within its rounding; none is ours alone. Milliseconds; times faster are medians of rounds, with the
+least and the most. The aims were 8 at margin 0.1 and swept 0.1, and 4 where output dominates (margin 0.5, and armadillo-rollers swept 1).
+
+| | | candidates | more | ours | its | times faster |
+|---|---|---|---|---|---|---|
+{beside}
+
 ## Exact contact
 
 A candidate of coplanar grids: {figure('degenerate', 'coplanar grids', 'the cost')}. Of two spheres:
 {figure('degenerate', 'two spheres, at the origin', 'the cost')}. That is {figure('degenerate', 'at most ten times')} as much.
 """
+
+
+def newest(pattern):
+    return sorted((HERE / "records").glob(pattern))[-1]
+
+
+def beside_ipctk():
+    """The name of the newest comparison, what was compared, and the rows of its table."""
+    file = newest("ipctk-*.txt")
+    lines = file.read_text().splitlines()
+    rows = []
+    for line in lines:
+        words = re.split(r"\s{2,}", line.strip())
+        if len(words) == 8 and words[4] == "0":
+            name, what, count, more, _, own, other, factor = words
+            rows.append(f"| {name} | {what} | {count} | {more} | {own} | {other} | {factor} |")
+    assert rows and lines[-1].endswith("errors, of any kind: 0"), file
+    return file.name, lines[0], "\n".join(rows)
 
 
 def table_of_the_readme(record, date):

@@ -30,6 +30,8 @@ const MOST: usize = 250;
 const PARADE: usize = 200;
 /// Bodies live in a cube of this side, in which each meets a few others.
 const SIDE: f64 = 12.0;
+/// How far many bodies go at once, on each axis.
+const SHIFT: f64 = 1.0 / 8.0;
 /// The widest margin that is asked for.
 const FAR_APART: f64 = 0.05;
 
@@ -211,7 +213,17 @@ impl<S: Scalar> Soak<S> {
         if self.good("a query", every)? != triangles * triangles {
             return self.wrong("in one point every pair of triangles meets");
         }
-        // And of what is near: no step asks for a wider margin.
+        // And with all others, each with itself too: single bodies of random steps are in one point when they are very far away.
+        let every = self.world.intersections(Selection::Everything).all();
+        let every = every.map(<[_]>::len);
+        self.good("a query", every)?;
+        // And of what is near, on the longest way: no step asks for a wider margin.
+        for number in 0..PARADE {
+            let end = self.shifted(number, [SHIFT / 2.0; 3]);
+            let set = self.world.set_motion(self.known[number].id, &end);
+            self.good("set_motion", set)?;
+            self.known[number].end = Some(end);
+        }
         let near = rows(&mut self.world, FAR_APART);
         self.good("what is near", near)?;
         self.compare_with_a_fresh_world()?;
@@ -399,8 +411,13 @@ impl<S: Scalar> Soak<S> {
         for _ in 0..count {
             let some = self.random.index(self.known.len());
             let Known { id, place, .. } = self.known[some];
-            let place = place.map(|x| x + (self.random.unit() - 0.5) / 8.0);
-            let end = self.shape(self.known[some].surface, place);
+            // One goes anywhere on its way; many a little, or there were more to find than at any parade.
+            let end = if count == 1 {
+                self.shape(self.known[some].surface, place)
+            } else {
+                let by = [(); 3].map(|()| (self.random.unit() - 0.5) * SHIFT);
+                self.shifted(some, by)
+            };
             let answer = self.world.set_motion(id, &end);
             let Known { loose, .. } = self.known[some];
             if loose.is_some_and(|corners| end.iter().any(|&p| !inside(corners, p))) {
@@ -414,6 +431,13 @@ impl<S: Scalar> Soak<S> {
             self.known[some].end = Some(end);
         }
         Ok(())
+    }
+
+    /// The shape of a body carried away.
+    fn shifted(&self, some: usize, by: [f64; 3]) -> Vec<[S; 3]> {
+        let carried =
+            |p: &[S; 3]| std::array::from_fn(|axis| (self.convert)(p[axis].to_f64() + by[axis]));
+        self.known[some].positions.iter().map(carried).collect()
     }
 
     /// Bodies arrive, or stop on the way.

@@ -15,6 +15,8 @@ use std::ops::Range;
 
 /// Pairs of blocks that are tested before a task looks at what it has found.
 const BLOCK_PAIRS_BEFORE_LOOK: usize = 128;
+/// The same of runs: two may have nine times as many elements near each other as two blocks have triangles.
+const RUN_PAIRS_BEFORE_LOOK: usize = 32;
 /// With this many hits a task stops until they are shown, so that what all tasks have found takes little memory.
 const MOST_HITS: usize = 2048;
 
@@ -72,6 +74,15 @@ pub(super) fn left_out<const N: usize, K: Kind, P: TreePair<N>>(pair: &P) -> Opt
     sides[0].tree.neighbours().filter(|_| are_left_out)
 }
 
+/// How many pairs are tested before a task looks at what it has found.
+const fn before_look<K: Kind>() -> usize {
+    if K::LEAVES.elements().is_some() {
+        RUN_PAIRS_BEFORE_LOOK
+    } else {
+        BLOCK_PAIRS_BEFORE_LOOK
+    }
+}
+
 impl<K: Kind> Task<K> {
     /// Forgets what it was about.
     pub(super) fn clear(&mut self) {
@@ -116,7 +127,7 @@ impl<K: Kind> Task<K> {
                 self.forget_leaves();
                 self.descend(context);
             }
-            let blocks = budget.leaf_pairs.min(BLOCK_PAIRS_BEFORE_LOOK);
+            let blocks = budget.leaf_pairs.min(before_look::<K>());
             self.test(context, blocks);
             tested += blocks;
             let stack = self.found.nodes.len();
@@ -184,7 +195,7 @@ impl<K: Kind> Task<K> {
     {
         self.tests.clear();
         let budget = context.budget;
-        let blocks = budget.leaf_pairs.min(BLOCK_PAIRS_BEFORE_LOOK);
+        let blocks = budget.leaf_pairs.min(before_look::<K>());
         let mut tested = 0;
         while tested < budget.block_pairs
             && self.tests.hits.len() < MOST_HITS

@@ -192,7 +192,7 @@ fn make_run<I: Simd, S: Coordinate, const C: usize>(
 }
 
 /// So many pairs of runs are looked at in a row.
-pub(super) const RUNS_AT_ONCE: usize = 64;
+pub(super) const RUNS_AT_ONCE: usize = 32;
 
 /// Keeps pairs of runs the boxes of whose elements are possibly near each other; there are no more than [`RUNS_AT_ONCE`].
 #[inline(always)]

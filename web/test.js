@@ -400,6 +400,97 @@ test('a click in a chart moves the picture; charts are saved as SVG', { skip }, 
   await page.close();
 });
 
+test('a step far above all others is marked and named; the height can be chosen', { skip }, async () => {
+  pliant('run', '--triangles', '320', '--stride', '10', '--report', 'usual.html');
+  const html = readFileSync(join(folder, 'usual.html'), 'utf8');
+  const begin = html.indexOf('>', html.indexOf('id="report"')) + 1;
+  const end = html.indexOf('</script>', begin);
+  const report = JSON.parse(html.slice(begin, end));
+  const [slow, usual] = report.plays[0].charts;
+  slow.lines.forEach((line) => line.values.fill(1));
+  slow.lines[0].values[4] = 80.25;
+  Object.assign(slow, { ceiling: 1, logarithmic: false });
+  usual.lines.forEach((line) => line.values.fill(1));
+  Object.assign(usual, { ceiling: null, logarithmic: false });
+  writeFileSync(join(folder, 'slow.html'), html.slice(0, begin) + JSON.stringify(report).replaceAll('<', '\\u003c') + html.slice(end));
+  const { page, close } = await open('slow.html');
+  const figure = page.locator('figure').first();
+  assert.equal(await page.locator('figure').nth(1).locator('.heights').isVisible(), false, 'nothing to choose where all is usual');
+  const pressed = () => figure.locator('.heights button[aria-pressed=true]').innerText();
+  assert.equal(await pressed(), 'Clipped');
+  const mark = figure.locator('.outliers i');
+  assert.equal(await mark.count(), 1);
+  assert.equal(await mark.innerText(), 'step 50: 80.25 ms');
+  assert.match(await mark.getAttribute('title'), /^step 50: .*80\.25 ms$/);
+  const [at, over] = [await mark.boundingBox(), await figure.locator('.u-over').boundingBox()];
+  assert.ok(Math.abs(at.x - (over.x + over.width * 4 / 19)) < 3, 'the mark stands at its step');
+  await page.screenshot({ path: join(shots, 'outlier.png'), fullPage: true });
+  for (const height of ['Linear', 'Logarithmic', 'Clipped']) {
+    await figure.getByRole('button', { name: height }).click();
+    assert.equal(await pressed(), height);
+    assert.equal(await mark.count(), height === 'Clipped' ? 1 : 0);
+  }
+  // Whoever points at the step is told what it was, however high the chart is.
+  await figure.scrollIntoViewIfNeeded();
+  const now = await figure.locator('.u-over').boundingBox();
+  await page.mouse.move(now.x + now.width * 4 / 19, now.y + now.height / 2);
+  assert.match(await figure.locator('.u-legend').innerText(), /80\.25/);
+  await close();
+});
+
+test('words are explained to whoever points, tabs or taps', { skip }, async () => {
+  pliant('run', '--triangles', '320', '--stride', '50', '--report', 'words.html');
+  for (const options of [{}, { viewport: { width: 375, height: 812 }, hasTouch: true }]) {
+    const { page, close } = await open('words.html', options);
+    const shown = page.locator('.explanation:visible');
+    const words = page.locator('button.word');
+    assert.ok(await page.locator('.facts button.word').count() > 2);
+    assert.ok(await page.locator('figure button.word').count() > 0, 'in charts too');
+    for (const word of await words.all()) {
+      await word.focus();
+      assert.equal(await shown.count(), 1);
+      assert.equal(await shown.getAttribute('id'), await word.getAttribute('aria-describedby'));
+      const { x, width } = await shown.boundingBox();
+      assert.ok(x >= 0 && x + width <= page.viewportSize().width, 'never beyond a side of the screen');
+      await page.keyboard.press('Escape');
+      assert.equal(await shown.count(), 0);
+    }
+    await words.first().blur();
+    const second = words.nth(1);
+    if (options.hasTouch) {
+      await second.tap();
+      assert.equal(await shown.count(), 1);
+      await page.screenshot({ path: join(shots, 'word-phone.png') });
+      await page.touchscreen.tap(370, 5);
+    } else {
+      await second.hover();
+      assert.equal(await shown.count(), 1);
+      await page.mouse.move(1199, 1);
+    }
+    assert.equal(await shown.count(), 0);
+    await close();
+  }
+});
+
+test('what is double clicked comes into the middle', { skip }, async () => {
+  pliant('run', '--triangles', '320', '--stride', '100', '--report', 'double.html');
+  const { page, pixels, close } = await open('double.html');
+  await page.keyboard.press('End');
+  await page.keyboard.press('r');
+  const seen = await pixels();
+  const box = await page.locator('canvas').first().boundingBox();
+  const middle = [box.width / 2, box.height / 2];
+  assert.ok(Math.hypot(seen.red.x - middle[0], seen.red.y - middle[1]) > 30, 'it was not there before');
+  await page.mouse.dblclick(box.x + seen.red.x, box.y + seen.red.y);
+  await page.waitForTimeout(100);
+  await page.waitForFunction(() => document.querySelector('.stage').dataset.flies === 'no');
+  await pixels();
+  const clip = { x: box.x + middle[0] - 15, y: box.y + middle[1] - 15, width: 30, height: 30 };
+  const { count } = await lookAt(await page.screenshot({ clip }));
+  assert.ok(count.red > 0, 'the red triangle is in the middle');
+  await close();
+});
+
 test('experiments: a page with several contests', { skip }, async () => {
   pliant('bench', 'experiment-1', '--small', '--rounds', '1', '--report', 'bench.html', '--svg', 'charts');
   const { page, state, close } = await open('bench.html');

@@ -1,9 +1,14 @@
-// Figures over steps, with the step that the picture shows marked in each.
+// Figures over steps, with the step that the picture shows marked in each. Where a few steps are far above all others the chart
+// ends below them, so that the others are seen too: these steps are marked at its top, and the highest is named.
 
 import uPlot from 'uplot';
 import { colour, element } from './dom.js';
+import { explained } from './words.js';
 
 const HEIGHT = 260;
+/** Lines whose figures differ by so much are offered on a logarithmic axis. */
+const DECADES = 100;
+const HEIGHTS = { cut: 'Clipped', all: 'Linear', logarithmic: 'Logarithmic' };
 
 /** A figure with its chart; `chosen` is told the number of a step that is clicked or dragged to. */
 export class Chart {
@@ -11,22 +16,44 @@ export class Chart {
     this.facts = facts;
     this.chosen = chosen;
     this.marker = element('div', { className: 'marker', hidden: true });
+    this.outliers = element('div', { className: 'outliers' });
     this.box = element('div', { className: 'chart' });
+    this.offerHeights();
     const save = element('button', { type: 'button', className: 'quiet', onclick: () => this.save() }, 'Save as SVG');
-    this.figure = element('figure', {}, element('figcaption', {}, element('h3', {}, facts.title), save), this.box);
+    this.figure = element('figure', {}, element('figcaption', {}, element('h3', {}, ...explained(facts.title)), this.heights, save), this.box);
     this.resized = new ResizeObserver(() => this.plot?.setSize({ width: this.box.clientWidth, height: HEIGHT }));
   }
 
-  /** Draws the chart, anew where colours have changed; the figure must be on the page. */
+  /** Decides how high the chart is, and offers what else makes sense. */
+  offerHeights() {
+    const { lines, ceiling, logarithmic } = this.facts;
+    const positive = lines.flatMap(({ values }) => values.filter((value) => value > 0));
+    const [least, most] = positive.reduce(([least, most], value) => [Math.min(least, value), Math.max(most, value)], [Infinity, 0]);
+    const offered = Object.keys(HEIGHTS).filter((height) => height === 'all'
+      || (height === 'cut' ? ceiling !== null : logarithmic || ceiling !== null || most > DECADES * least));
+    this.height = logarithmic ? 'logarithmic' : offered[0];
+    const buttons = offered.map((height) => element('button', {
+      type: 'button', 'aria-pressed': String(height === this.height), onclick: ({ target }) => {
+        this.height = height;
+        buttons.forEach((button) => button.setAttribute('aria-pressed', String(button === target)));
+        this.draw();
+      },
+    }, HEIGHTS[height]));
+    this.heights = element('div', { className: 'heights', role: 'group', 'aria-label': 'Height', hidden: offered.length === 1 }, ...buttons);
+  }
+
+  /** Draws the chart, anew where colours or the height have changed; the figure must be on the page. */
   draw() {
     this.plot?.destroy();
-    const { x, lines, unit, along, logarithmic } = this.facts;
+    const { x, lines, unit, along, ceiling } = this.facts;
+    const logarithmic = this.height === 'logarithmic';
+    const top = (most) => 1.05 * (this.height === 'cut' ? ceiling : most > 0 ? most : 1);
     const axis = { stroke: colour('muted'), grid: { stroke: colour('line'), width: 1 }, ticks: { stroke: colour('line'), width: 1 }, font: '12px system-ui, sans-serif' };
     const single = lines.length === 1;
     const options = {
       width: this.box.clientWidth,
       height: HEIGHT,
-      scales: { x: { time: false }, y: logarithmic ? { distr: 3 } : { range: (_, __, most) => [0, most > 0 ? most * 1.05 : 1] } },
+      scales: { x: { time: false }, y: logarithmic ? { distr: 3 } : { range: (_, __, most) => [0, top(most)] } },
       axes: [axis, { ...axis, size: 64, label: unit, labelSize: 18, labelFont: axis.font }],
       // Dragging moves the picture; it does not zoom.
       cursor: { drag: { x: false, y: false }, points: { size: 6 } },
@@ -35,13 +62,13 @@ export class Chart {
       series: [
         { label: along },
         ...lines.map((line) => ({
-          label: line.name,
+          label: element('span', {}, ...explained(line.name)),
           stroke: single ? colour('red') : line.colour,
           fill: single ? colour('red-wash') : undefined,
           width: 1.5,
           dash: line.dash,
           points: { show: x.length === 1 },
-          value: (_, value) => (value == null ? '' : `${Number(value.toPrecision(4)).toLocaleString('en-GB', { maximumFractionDigits: 6 })} ${unit}`),
+          value: (_, value) => (value == null ? '' : this.said(value)),
         })),
       ],
       // Where nobody points at a step, the legend is about the one that the picture shows.
@@ -49,11 +76,33 @@ export class Chart {
     };
     const values = lines.map((line) => line.values.map((value) => (logarithmic && !(value > 0) ? null : value)));
     this.plot = new uPlot(options, [x, ...values], this.box);
-    this.plot.over.append(this.marker);
+    this.showOutliers(top());
+    this.plot.over.append(this.marker, this.outliers);
     this.plot.over.addEventListener('pointerdown', (event) => this.choose(event));
     this.plot.over.addEventListener('pointermove', (event) => event.buttons & 1 && this.choose(event));
     this.resized.observe(this.box);
     this.place();
+  }
+
+  said(value) {
+    return `${Number(value.toPrecision(4)).toLocaleString('en-GB', { maximumFractionDigits: 6 })} ${this.facts.unit}`;
+  }
+
+  /** A mark for each step that is above a clipped chart, with the highest line there; the highest of all is named. */
+  showOutliers(top) {
+    const { x, lines, along } = this.facts;
+    const steps = this.height === 'cut' ? [...x.keys()] : [];
+    const highest = steps.map((step) => lines.reduce((most, line) => (line.values[step] > most.values[step] ? line : most)).values[step]);
+    const most = Math.max(...highest);
+    this.outliers.replaceChildren(...steps.filter((step) => highest[step] > top).map((step) => {
+      const line = lines.find(({ values }) => values[step] === highest[step]);
+      const said = this.said(highest[step]);
+      const mark = element('i', { title: `${along} ${x[step]}: ${lines.length > 1 ? `${line.name}, ` : ''}${said}` });
+      mark.style.color = lines.length > 1 ? line.colour : colour('red');
+      mark.dataset.number = x[step];
+      if (highest[step] === most) mark.append(element('b', {}, `${along} ${x[step]}: ${said}`));
+      return mark;
+    }));
   }
 
   choose(event) {
@@ -68,6 +117,11 @@ export class Chart {
   }
 
   place() {
+    for (const mark of this.plot ? this.outliers.children : []) {
+      const left = this.plot.valToPos(+mark.dataset.number, 'x');
+      mark.style.left = `${left}px`;
+      mark.classList.toggle('late', 2 * left > this.plot.over.clientWidth);
+    }
     this.marker.hidden = this.number === undefined || !this.plot;
     if (this.marker.hidden) return;
     this.marker.style.left = `${this.plot.valToPos(this.number, 'x')}px`;

@@ -21,15 +21,72 @@ const WORDS = {
   'welded': 'Vertices at the same place on boundary edges count as one, so that a seam is no intersection.',
 };
 const PATTERN = new RegExp(`(?<![\\p{L}\\p{N}])(${Object.keys(WORDS).join('|')})(?![\\p{L}\\p{N}])`, 'giu');
+/** Between an explanation and the side of the screen. */
+const ROOM = 8;
+
+/** The word whose explanation is shown, and the explanation. */
+let shown = null;
 
 /** Text in which words are explained; each once. */
 export function explained(text) {
   const parts = text.split(PATTERN);
   const told = new Set();
   return parts.map((part, i) => {
-    const word = part.toLowerCase();
-    if (i % 2 === 0 || told.has(word)) return part;
-    told.add(word);
-    return element('span', { className: 'word', tabIndex: 0, 'data-says': WORDS[word], 'aria-label': `${part}: ${WORDS[word]}`, role: 'note' }, part);
+    const name = part.toLowerCase();
+    if (i % 2 === 0 || told.has(name)) return part;
+    told.add(name);
+    return element('button', {
+      type: 'button', className: 'word', 'aria-describedby': explanation(name).id,
+      onfocus: ({ target }) => show(target),
+      onblur: hide,
+      onpointerenter: ({ target }) => show(target),
+      onpointerleave: (event) => leave(event),
+      // A tap does not give the focus everywhere. Nor is it a click on what the word stands in.
+      onclick: (event) => {
+        event.stopPropagation();
+        show(event.currentTarget);
+      },
+    }, part);
   });
 }
+
+/** What is said of a word: one element, which is hidden until it is asked for. What reads the page aloud finds it there too. */
+function explanation(name) {
+  const id = `word-${name.replace(' ', '-')}`;
+  const there = document.getElementById(id);
+  if (there) return there;
+  const made = element('div', { id, className: 'explanation', role: 'tooltip', hidden: true, onpointerleave: leave }, WORDS[name]);
+  document.body.append(made);
+  return made;
+}
+
+/** Below the word, or above where there is no room; never beyond a side of the screen. */
+function show(word) {
+  hide();
+  const says = document.getElementById(word.getAttribute('aria-describedby'));
+  says.hidden = false;
+  const [at, size, width] = [word.getBoundingClientRect(), says.getBoundingClientRect(), document.documentElement.clientWidth];
+  const left = Math.max(ROOM, Math.min(at.left, width - ROOM - size.width));
+  const top = at.bottom + size.height <= innerHeight ? at.bottom : at.top - size.height;
+  Object.assign(says.style, { left: `${left + scrollX}px`, top: `${top + scrollY}px` });
+  shown = { word, says };
+}
+
+function hide() {
+  if (shown) shown.says.hidden = true;
+  shown = null;
+}
+
+/** The pointer may go from the word to what is said of it. A word that has the focus keeps what is said. */
+function leave({ relatedTarget }) {
+  if (!shown || shown.word === document.activeElement || [shown.word, shown.says].includes(relatedTarget)) return;
+  hide();
+}
+
+document.addEventListener('pointerdown', ({ target }) => shown && ![shown.word, shown.says].includes(target) && hide());
+// Escape is for what is in front of everything else.
+document.addEventListener('keydown', (event) => {
+  if (event.key !== 'Escape' || !shown) return;
+  hide();
+  event.stopPropagation();
+}, true);

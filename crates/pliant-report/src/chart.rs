@@ -6,6 +6,11 @@ use crate::page::escape;
 use serde::Serialize;
 use std::fmt::Write;
 
+/// A step is far above all others if it is so many times as high as nineteen of twenty are.
+const FAR: f64 = 3.0;
+/// Of fewer steps none is usual.
+const FEWEST: usize = 5;
+
 /// Some figures at each step.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chart {
@@ -64,11 +69,41 @@ impl Chart {
         medians.iter().any(|&median| median > 50.0 * least)
     }
 
+    /// Where the chart ends if it leaves out the steps that are far above all others, so that these are seen: the highest of the
+    /// others. `None` where no step is, or leaving it out would gain little.
+    pub fn ceiling(&self) -> Option<f64> {
+        let steps = 0..self.x.len();
+        let heights = steps.map(|step| self.highest(step).map_or(0.0, |(_, y)| y));
+        let mut heights: Vec<f64> = heights.filter(|&height| height > 0.0).collect();
+        heights.sort_by(f64::total_cmp);
+        let most = *heights.last()?;
+        let usual = heights[(heights.len() - 1) * 19 / 20];
+        let within = heights.partition_point(|&height| height <= FAR * usual);
+        let ceiling = heights[within - 1];
+        (heights.len() >= FEWEST && most > 1.5 * ceiling).then_some(ceiling)
+    }
+
+    /// The highest line at a step, and how high it is.
+    fn highest(&self, step: usize) -> Option<(&Series, f64)> {
+        let values = self
+            .series
+            .iter()
+            .filter_map(|series| Some((series, *series.values.get(step)?)));
+        let values = values.filter(|(_, y)| y.is_finite());
+        values.max_by(|(_, one), (_, other)| one.total_cmp(other))
+    }
+
     /// A picture for a paper: black on nothing, with a legend below.
     pub fn svg(&self) -> String {
         let rows = self.series.len().div_ceil(2) as f64;
         let height = LEGEND + rows * LEGEND_LINE;
         let axes = Axes::of(self);
+        // Only what is clipped says so.
+        let clip = if axes.is_cut {
+            r#" clip-path="url(#plot)""#
+        } else {
+            ""
+        };
         let mut svg = format!(
             r#"<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" font-family="Helvetica, Arial, sans-serif" font-size="12" fill="black">
 <!-- {MARK} -->
@@ -78,6 +113,14 @@ impl Chart {
             title = escape(&self.title),
         );
         axes.draw(&mut svg, self);
+        if axes.is_cut {
+            let [width, height] = [WIDTH - LEFT - RIGHT, HEIGHT - BOTTOM - TOP];
+            let _ = writeln!(
+                svg,
+                r#"<clipPath id="plot"><rect x="{LEFT}" y="{TOP}" width="{width}" height="{height}"/></clipPath>"#
+            );
+            axes.mark_outliers(&mut svg, self);
+        }
         for (number, series) in self.series.iter().enumerate() {
             let (colour, dashes) = of_line(number);
             let dashes = dash_attribute(dashes);
@@ -91,7 +134,7 @@ impl Chart {
                 .collect();
             let _ = writeln!(
                 svg,
-                r#"<polyline fill="none" stroke="{colour}" stroke-width="1.5" stroke-linejoin="round"{dashes} points="{}"/>"#,
+                r#"<polyline fill="none" stroke="{colour}" stroke-width="1.5" stroke-linejoin="round"{dashes}{clip} points="{}"/>"#,
                 points.join(" ")
             );
             let x = LEFT + (number % 2) as f64 * (WIDTH - LEFT - RIGHT) / 2.0;
@@ -115,11 +158,14 @@ struct Axes {
     x: [f64; 2],
     y: [f64; 2],
     logarithmic: bool,
+    /// Whether some steps are above the picture.
+    is_cut: bool,
 }
 
 impl Axes {
     fn of(chart: &Chart) -> Self {
         let logarithmic = chart.is_logarithmic();
+        let ceiling = chart.ceiling().filter(|_| !logarithmic);
         let values = chart
             .series
             .iter()
@@ -135,7 +181,7 @@ impl Axes {
                 10_f64.powf(most.log10().ceil()),
             ]
         } else {
-            let most = if most > 0.0 { most } else { 1.0 };
+            let most = ceiling.unwrap_or(if most > 0.0 { most } else { 1.0 });
             let tick = tick_size(most);
             [0.0, (most / tick).ceil() * tick]
         };
@@ -148,6 +194,7 @@ impl Axes {
             ],
             y,
             logarithmic,
+            is_cut: ceiling.is_some(),
         }
     }
 
@@ -199,6 +246,38 @@ impl Axes {
             LEFT - 8.0,
             escape(&chart.unit),
         );
+    }
+
+    /// A triangle at the top for each step that is above the picture, with the highest line there; the highest of all is named.
+    fn mark_outliers(&self, svg: &mut String, chart: &Chart) {
+        let steps = chart.x.iter().enumerate();
+        let above = steps.filter_map(|(step, &x)| Some((x, chart.highest(step)?)));
+        let above: Vec<_> = above.filter(|&(_, (_, y))| y > self.y[1]).collect();
+        let most = above.iter().map(|&(_, (_, y))| y).fold(0.0, f64::max);
+        for (x, (series, y)) in above {
+            let at = self.x(f64::from(x));
+            let said = format!("{} {x}: {} {}", chart.along, short(y), chart.unit);
+            let _ = writeln!(
+                svg,
+                r#"<path d="M{at:.2} {TOP} l6 10 h-12 z"><title>{}</title></path>"#,
+                escape(&format!("{said}, {}", series.name))
+            );
+            if y < most {
+                continue;
+            }
+            let (side, anchor) = if at < WIDTH / 2.0 {
+                (10.0, "start")
+            } else {
+                (-10.0, "end")
+            };
+            let _ = writeln!(
+                svg,
+                r#"<text x="{:.2}" y="{}" text-anchor="{anchor}">{}</text>"#,
+                at + side,
+                TOP + 10.0,
+                escape(&said)
+            );
+        }
     }
 
     fn ticks_up(&self) -> Vec<f64> {
@@ -310,6 +389,62 @@ mod tests {
         );
         assert!(svg.contains("a &amp; b") && svg.contains("time &lt;per&gt; step"));
         assert_eq!(svg.matches("</svg>").count(), 1);
+    }
+
+    /// Twenty steps, the first of two lines with these figures at its beginning, else 1; the second at 0.5.
+    fn beginning(values: &[f64]) -> Chart {
+        let mut first = vec![1.0; 20];
+        first[..values.len()].copy_from_slice(values);
+        let mut chart = chart(&[("a & b", &first), ("c", &[0.5; 20])]);
+        chart.x = (0..20).collect();
+        chart
+    }
+
+    #[test]
+    fn a_step_far_above_all_others_is_cut_off_marked_and_named() {
+        let chart = beginning(&[2.0, 40.25]);
+        assert_eq!(chart.ceiling(), Some(2.0));
+        let svg = chart.svg();
+        // The axis ends at 2; the line goes on beyond, and is clipped.
+        let points = r#"clip-path="url(#plot)" points="64.00,40.00 97.47,-5928.00 130.95,196.00 "#;
+        assert!(svg.contains(points), "{svg}");
+        assert!(svg.contains(
+            r#"<path d="M97.47 40 l6 10 h-12 z"><title>step 1: 40.25 ms, a &amp; b</title>"#
+        ));
+        assert!(svg.contains(r#"text-anchor="start">step 1: 40.25 ms</text>"#));
+        assert_eq!(svg.matches("<title>step").count(), 1);
+    }
+
+    #[test]
+    fn what_is_usual_is_not_cut_off() {
+        // Nothing far above; two of twenty, which are not few.
+        for usual in [&[1.0, 2.9][..], &[2.5, 7.4], &[9.0, 9.0]] {
+            let chart = beginning(usual);
+            assert_eq!(chart.ceiling(), None, "{usual:?}");
+            assert!(!chart.svg().contains("clip"));
+        }
+        // One that is hardly above the next.
+        let mut steps = [1.0; 60];
+        steps[..2].copy_from_slice(&[2.9, 3.2]);
+        let mut near = chart(&[("a", &steps)]);
+        near.x = (0..60).collect();
+        assert_eq!(near.ceiling(), None);
+        near.series[0].values[1] = 4.4;
+        assert_eq!(near.ceiling(), Some(2.9));
+        // A line that is above others at every step; steps at which nothing is; few steps.
+        let mut slow = beginning(&[]);
+        slow.series[1].values = vec![30.0; 20];
+        let mut rare = beginning(&[]);
+        rare.series.pop();
+        rare.series[0].values = vec![0.0; 20];
+        rare.series[0].values[3..6].copy_from_slice(&[1.0, 1.0, 9.0]);
+        let few = chart(&[("a", &[1.0, 1.0, 9.0])]);
+        assert_eq!([slow, rare, few].map(|chart| chart.ceiling()), [None; 3]);
+        // On a logarithmic axis all is seen.
+        let mut far = beginning(&[400.0]);
+        far.series[1].values = vec![0.01; 20];
+        assert!(far.ceiling().is_some() && far.is_logarithmic());
+        assert!(!far.svg().contains("clip"));
     }
 
     #[test]

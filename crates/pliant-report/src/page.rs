@@ -148,6 +148,7 @@ fn chart(chart: &Chart) -> Value {
         "unit": chart.unit,
         "along": chart.along,
         "logarithmic": chart.is_logarithmic(),
+        "ceiling": chart.ceiling(),
         "x": chart.x,
         "lines": lines.collect::<Value>(),
         "svg": chart.svg(),

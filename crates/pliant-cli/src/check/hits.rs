@@ -66,6 +66,13 @@ impl Hits {
             written: Vec::new(),
         };
         if frames > 1 {
+            let name = path.file_name().unwrap_or_default();
+            if !name.to_string_lossy().chars().all(is_xml) {
+                bail!(
+                    "--hits {}: of several frames a file of XML names all others, and cannot hold this name; give another",
+                    shown(path)
+                );
+            }
             output::prepare(&hits.collection(), MARK, over)?;
         }
         for frame in 0..frames {
@@ -257,9 +264,19 @@ fn array<const N: usize>(
     )
 }
 
-/// A name as the value of an attribute.
+/// A name as the value of an attribute. Readers of XML make spaces of what breaks a line, unless it is written as a number.
 fn attribute(name: &str) -> String {
-    name.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('"', "&quot;")
+    let escaped = name.chars().map(|c| match c {
+        '&' => "&amp;".to_owned(),
+        '<' => "&lt;".to_owned(),
+        '"' => "&quot;".to_owned(),
+        '\t' | '\n' | '\r' => format!("&#{};", u32::from(c)),
+        c => c.to_string(),
+    });
+    escaped.collect()
+}
+
+/// Whether XML has a way to write a character.
+fn is_xml(c: char) -> bool {
+    !matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}')
 }

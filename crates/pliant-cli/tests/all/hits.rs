@@ -46,7 +46,12 @@ struct Vtk {
 
 fn unescaped(value: &str) -> String {
     assert!(!value.contains(['<', '"']), "{value}");
+    // A reader makes spaces of these where they stand as they are.
+    assert!(!value.contains(['\t', '\n', '\r']), "{value:?}");
     let text = value.replace("&lt;", "<").replace("&quot;", "\"");
+    let text = [("&#9;", "\t"), ("&#10;", "\n"), ("&#13;", "\r")]
+        .iter()
+        .fold(text, |text, (number, c)| text.replace(number, c));
     assert_eq!(
         text.matches('&').count(),
         text.matches("&amp;").count(),
@@ -303,6 +308,30 @@ fn several_frames_are_a_collection() {
         counts[0] == 0 && counts[1] > 0,
         "a frame without hits is a file without cells: {counts:?}"
     );
+}
+
+/// Names that Windows does not have.
+#[test]
+#[cfg(unix)]
+fn a_collection_names_its_files_whatever_is_in_their_names() {
+    let folder = folder();
+    let path = folder.path();
+    let sequence = ["falls*.obj", "still.obj", "--hits"];
+    let name = "a\r\n\t<\"&#10;b";
+    let file = format!("{name}.vtp");
+    assert_eq!(check(path, &[&sequence[..], &[&file]].concat()).code, 1);
+    let collection = read(&path.join(format!("{name}.pvd")));
+    for (frame, entry) in collection.data_sets.iter().enumerate() {
+        assert_eq!(entry["file"], format!("{name}_{frame}.vtp"));
+        assert!(path.join(&entry["file"]).exists());
+    }
+    // XML has no way to write these; one frame is named nowhere.
+    for control in ["\u{1b}.vtp", "\u{ffff}.vtp"] {
+        check(path, &[&sequence[..], &[control]].concat())
+            .assert_refused(&["cannot hold this name; give another"]);
+        let one = ["falls1.obj", "still.obj", "--hits", control];
+        assert_eq!(check(path, &one).code, 1);
+    }
 }
 
 #[test]

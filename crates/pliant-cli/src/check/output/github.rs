@@ -129,16 +129,28 @@ fn file_of(check: &Check, frame: usize, [body, ..]: Row) -> Option<String> {
     Some(shown_within(file, usize::MAX))
 }
 
-/// What a message, which is a line already, may hold: `%` begins an escape.
+/// What a message may hold: `%` begins an escape, and the end of a line ends it. Messages are lines already; if one were not, the rest
+/// of it could be a command.
 fn data(text: &str) -> String {
-    let escaped = text.chars().map(|c| match c {
-        '%' => "%25".to_owned(),
-        c => c.to_string(),
-    });
-    escaped.collect()
+    let text = text.replace('%', "%25");
+    text.replace('\r', "%0D").replace('\n', "%0A")
 }
 
 /// What a property may hold: colons and commas end it.
 fn property(text: &str) -> String {
     data(text).replace(':', "%3A").replace(',', "%2C")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_ends_a_message_or_a_property() {
+        assert_eq!(data("a%0A:,\r\n::error::b"), "a%250A:,%0D%0A::error::b");
+        assert_eq!(
+            property("C:\\a,b%\r\n::x.obj"),
+            "C%3A\\a%2Cb%25%0D%0A%3A%3Ax.obj"
+        );
+    }
 }

@@ -226,11 +226,21 @@ test('a body round everything that holds no hit starts hidden, and is found by t
   assert.equal(await page.locator('.eye').count(), 1);
   await page.locator('.eye').click();
   assert.equal((await state()).hidden, 2);
-  await page.getByText('Show all').click();
+  await page.getByText('Show all', { exact: true }).click();
   assert.equal((await state()).hidden, 0);
   await page.locator('input[type=search]').fill('');
   assert.equal(await page.locator('.eye').count(), 12);
+  assert.equal(await page.getByText('Show all of it').isVisible(), false, 'the command is two lines');
   await close();
+  const narrow = await open('sky.html', { viewport: { width: 375, height: 812 } });
+  const command = narrow.page.locator('.asked code');
+  const height = async () => (await command.boundingBox()).height;
+  const two = await height();
+  await narrow.page.getByText('Show all of it').click();
+  assert.ok(two < 60 && await height() > 1.4 * two, 'of a long command two lines are shown, and all on demand');
+  await narrow.page.getByText('Show less of it').click();
+  assert.equal(await height(), two);
+  await narrow.close();
 });
 
 test('each frame shows its own mesh', { skip }, async () => {

@@ -36,6 +36,24 @@ let charts = [];
 let stage = null;
 let current = null;
 
+/** The command. It may name a hundred files: two lines of it are shown, and all if that is wanted. */
+function asked() {
+  const code = element('code', {}, report.asked);
+  const box = element('p', { className: 'asked' }, code);
+  const more = element('button', {
+    type: 'button', className: 'quiet', hidden: true, 'aria-expanded': 'false', onclick: () => {
+      const whole = box.classList.toggle('whole');
+      more.setAttribute('aria-expanded', String(whole));
+      more.textContent = whole ? 'Show less of it' : 'Show all of it';
+    },
+  }, 'Show all of it');
+  new ResizeObserver(() => {
+    if (!box.classList.contains('whole')) more.hidden = code.scrollHeight <= code.clientHeight + 1;
+  }).observe(code);
+  box.append(more);
+  return box;
+}
+
 const player = new Player('step', shown);
 const selection = new Selection((triangles) => stage?.mark(triangles));
 const canvas = element('canvas', { tabIndex: 0, 'aria-label': 'The bodies. Drag to turn, click a triangle; then scroll to come nearer.' });
@@ -76,7 +94,7 @@ function build() {
     element('header', {},
       element('p', { className: 'brand' }, 'pliant ', element('span', {}, report.version)),
       element('h1', {}, report.found),
-      element('p', { className: 'asked' }, element('code', {}, report.asked))),
+      asked()),
     ...(report.plays.length > 1 ? [element('p', { className: 'choice' }, element('label', { for: 'plays' }, 'Show'), choice)] : []),
     stageBox,
     notes,

@@ -14,7 +14,7 @@ use pliant::{Options, Update};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "near",
-    about: "vertices near triangles, edges near edges; with parry3d and obvhs",
+    about: "what is near, with parry3d and obvhs with grown boxes",
     plan,
     claims,
 };

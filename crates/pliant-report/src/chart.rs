@@ -406,7 +406,7 @@ mod tests {
         assert_eq!(chart.ceiling(), Some(2.0));
         let svg = chart.svg();
         // The axis ends at 2; the line goes on beyond, and is clipped.
-        let points = r#"clip-path="url(#plot)" points="64.00,40.00 97.47,-5928.00 130.95,196.00 "#;
+        let points = r#"clip-path="url(#plot)" points="64.00,40.00 97.47,-5927.00 130.95,196.00 "#;
         assert!(svg.contains(points), "{svg}");
         assert!(svg.contains(
             r#"<path d="M97.47 40 l6 10 h-12 z"><title>step 1: 40.25 ms, a &amp; b</title>"#

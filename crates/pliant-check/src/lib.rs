@@ -17,13 +17,21 @@
 //! use pliant_io::OpenOptions;
 //!
 //! // "wing_*.obj", whose files are frames, and "ground.obj", which stands still.
-//! let mut check = Check::open(&arguments, &OpenOptions::default(), &Settings::default())?;
+//! let mut settings = Settings::default();
+//! settings.places = true;
+//! let mut check = Check::open(&arguments, &OpenOptions::default(), &settings)?;
 //! let mut pairs = Vec::new();
 //! while let Some(found) = check.next_frame()? {
 //!     pairs.push(found.pairs);
+//!     // What hangs together, the most pairs first; a place keeps its number from frame to frame while it lives.
+//!     for place in found.places.into_iter().flatten() {
+//!         assert_eq!((place.number, place.count, place.first_pair), (0, 1, [0, 0, 1, 0]));
+//!     }
 //! }
 //! // In the second frame triangle 0 of body 0 and triangle 0 of body 1.
 //! assert_eq!(pairs, [vec![], vec![[0, 0, 1, 0]]]);
+//! // Of the whole check: how many places there were, and the lives of the largest.
+//! assert_eq!(check.places().0, 1);
 //! # std::fs::remove_dir_all(&folder)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -6,6 +6,7 @@
 //! | `copies.rs` | copies of them, to which nobody else can write: what is checked is what is kept |
 //! | `state.rs` | a world whose precision the first body fixes |
 //! | `world.rs`, `query.rs` | `World`, `Selection` and `Query`, as Python sees them |
+//! | `close.rs` | `CloseQuery`: close pairs, with distance, direction and closest points |
 //! | `pickled.rs` | a world as pickle writes it down |
 //! | `signals.rs` | Ctrl-C while a query computes |
 //! | `options.rs` | its keyword arguments |
@@ -22,6 +23,7 @@
 
 mod arrays;
 mod check;
+mod close;
 mod copies;
 mod error;
 mod one_liners;
@@ -41,6 +43,8 @@ mod _pliant {
 
     #[pymodule_export]
     use crate::check::{Check, check};
+    #[pymodule_export]
+    use crate::close::CloseQuery;
     #[pymodule_export]
     use crate::one_liners::{
         intersection_pairs, reference_intersection_pairs, reference_self_intersection_pairs,

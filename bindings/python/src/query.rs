@@ -42,7 +42,7 @@ impl Selection {
         Self(pliant::Selection::Within(body.0))
     }
 
-    fn __repr__(&self) -> String {
+    pub(crate) fn __repr__(&self) -> String {
         match self.0 {
             pliant::Selection::World => "Selection.WORLD".to_owned(),
             pliant::Selection::Everything => "Selection.EVERYTHING".to_owned(),
@@ -103,35 +103,35 @@ impl Kind {
 /// A hit of any kind.
 type Row = [u32; 4];
 
-/// How much is wanted of a query, whatever its kind.
-trait Want<T> {
-    fn of<H: Copy + Into<Row>>(self, query: pliant::Query<'_, H>) -> Result<T, Error>;
+/// How much is wanted of a query, whatever its kind, where hits are shown as `R`.
+pub(crate) trait Want<R, T> {
+    fn of<H: Copy + Into<R>>(self, query: pliant::Query<'_, H>) -> Result<T, Error>;
 }
 
-struct All(usize);
+pub(crate) struct All(pub(crate) usize);
 
-impl Want<Vec<Row>> for All {
-    fn of<H: Copy + Into<Row>>(self, query: pliant::Query<'_, H>) -> Result<Vec<Row>, Error> {
+impl<R> Want<R, Vec<R>> for All {
+    fn of<H: Copy + Into<R>>(self, query: pliant::Query<'_, H>) -> Result<Vec<R>, Error> {
         let hits = query.at_most(self.0).all()?;
         Ok(hits.iter().map(|&hit| hit.into()).collect())
     }
 }
 
-struct First;
+pub(crate) struct First;
 
-impl Want<Option<Row>> for First {
-    fn of<H: Copy + Into<Row>>(self, query: pliant::Query<'_, H>) -> Result<Option<Row>, Error> {
+impl<R> Want<R, Option<R>> for First {
+    fn of<H: Copy + Into<R>>(self, query: pliant::Query<'_, H>) -> Result<Option<R>, Error> {
         Ok(query.first()?.map(Into::into))
     }
 }
 
-/// Shows some rows at a time to a function.
-struct SomeAtATime<F>(F);
+/// Shows some hits at a time to a function.
+pub(crate) struct SomeAtATime<F>(pub(crate) F);
 
-type Stopped = ControlFlow<PyResult<()>>;
+pub(crate) type Stopped = ControlFlow<PyResult<()>>;
 
-impl<F: FnMut(Vec<Row>) -> Stopped> Want<Stopped> for SomeAtATime<F> {
-    fn of<H: Copy + Into<Row>>(mut self, query: pliant::Query<'_, H>) -> Result<Stopped, Error> {
+impl<R, F: FnMut(Vec<R>) -> Stopped> Want<R, Stopped> for SomeAtATime<F> {
+    fn of<H: Copy + Into<R>>(mut self, query: pliant::Query<'_, H>) -> Result<Stopped, Error> {
         query.visit_some(|hits| self.0(hits.iter().map(|&hit| hit.into()).collect()))
     }
 }
@@ -139,16 +139,16 @@ impl<F: FnMut(Vec<Row>) -> Stopped> Want<Stopped> for SomeAtATime<F> {
 /// Shows one row after the other to a function.
 struct Each<F>(F);
 
-impl<F: FnMut(Row) -> Stopped> Want<Stopped> for Each<F> {
+impl<F: FnMut(Row) -> Stopped> Want<Row, Stopped> for Each<F> {
     fn of<H: Copy + Into<Row>>(mut self, query: pliant::Query<'_, H>) -> Result<Stopped, Error> {
         query.visit(|hit| self.0(hit.into()))
     }
 }
 
-struct Prepare;
+pub(crate) struct Prepare;
 
-impl Want<()> for Prepare {
-    fn of<H: Copy + Into<Row>>(self, query: pliant::Query<'_, H>) -> Result<(), Error> {
+impl<R> Want<R, ()> for Prepare {
+    fn of<H: Copy + Into<R>>(self, query: pliant::Query<'_, H>) -> Result<(), Error> {
         query.prepare()
     }
 }
@@ -172,7 +172,7 @@ impl Query {
     }
 
     /// Asks the world, without the interpreter lock, for what is wanted.
-    fn ask<T: Send>(&self, py: Python<'_>, want: impl Want<T> + Send) -> Result<T, Refused> {
+    fn ask<T: Send>(&self, py: Python<'_>, want: impl Want<Row, T> + Send) -> Result<T, Refused> {
         let (kind, of) = (self.kind, self.of.0);
         self.world.get().with(py, |state| {
             interruptible(|question| {
@@ -195,7 +195,7 @@ impl Query {
 }
 
 /// Whether a visitor stopped, or what it raised.
-fn stopped(visited: Stopped) -> PyResult<bool> {
+pub(crate) fn stopped(visited: Stopped) -> PyResult<bool> {
     match visited {
         ControlFlow::Continue(()) => Ok(false),
         ControlFlow::Break(stopped) => stopped.map(|()| true),
@@ -203,7 +203,7 @@ fn stopped(visited: Stopped) -> PyResult<bool> {
 }
 
 /// What a visitor's answer means.
-fn go_on(answer: PyResult<bool>) -> Stopped {
+pub(crate) fn go_on(answer: PyResult<bool>) -> Stopped {
     match answer {
         Ok(false) => ControlFlow::Continue(()),
         Ok(true) => ControlFlow::Break(Ok(())),

@@ -1,6 +1,7 @@
 //! `World` as Python sees it: the Rust library's, method by method.
 
 use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedFaces};
+use crate::close::{CloseKind, CloseQuery};
 use crate::error::{Refused, alone, alone_with, named_tuple};
 use crate::options::Keywords;
 use crate::pickled::{self, Written};
@@ -598,6 +599,22 @@ impl World {
     #[pyo3(signature = (of, radius))]
     fn edge_edge_candidates(slf: Py<Self>, of: Selection, radius: f64) -> Query {
         Query::new(slf, Kind::EdgeEdgeCandidates(radius), of)
+    }
+
+    /// Asks which vertices are close to which triangles, in the shape of now: those at most distance apart, with their closest points.
+    ///
+    /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given. Which pairs are looked at is said at
+    /// vertex_triangle_candidates: no corner of a triangle is close to it, vertex groups and filters count. A motion is not looked at.
+    #[pyo3(signature = (of, distance))]
+    fn close_vertex_triangle_pairs(slf: Py<Self>, of: Selection, distance: f64) -> CloseQuery {
+        CloseQuery::new(slf, CloseKind::VertexTriangle, of, distance)
+    }
+
+    /// Asks which edges are close to which edges, as close_vertex_triangle_pairs asks it of vertices and triangles. Two that have an end in
+    /// common are not looked at.
+    #[pyo3(signature = (of, distance))]
+    fn close_edge_edge_pairs(slf: Py<Self>, of: Selection, distance: f64) -> CloseQuery {
+        CloseQuery::new(slf, CloseKind::EdgeEdge, of, distance)
     }
 
     /// What the last query did, with what Query.prepare did before it.

@@ -5,7 +5,7 @@
 //! so on from pair to pair. A place is then a set of vertices, those of its triangles, no two places of a frame share one, and a place
 //! shares a triangle or a neighbour with one of another frame exactly if it shares a vertex with it. So pairs are joined by union-find
 //! over vertices, as they are found and in any order: three vertices of a triangle that is new, and one step a pair. It takes four
-//! bytes a vertex and a bit a triangle of sources that are hit, and about 60 bytes a vertex that is.
+//! bytes a vertex and a triangle of sources that are hit, and about 60 bytes a vertex that is.
 //!
 //! **Numbers.** Places of a frame are ordered by their pairs, most first; of equally many, the one with the smaller first pair. In this
 //! order each takes the lowest number, not yet taken in this frame, of the places that it shares a vertex with in the frame before. So
@@ -17,7 +17,7 @@
 use crate::found::Row;
 use crate::pieces::{NONE, find, join};
 use std::cmp::Reverse;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 /// Hits that hang together.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,8 +95,8 @@ pub struct Places {
 struct Marks {
     /// For each vertex its slot, or none.
     slots: Vec<u32>,
-    /// A bit a triangle: whether it was seen.
-    seen: Vec<u64>,
+    /// For each triangle that of its first corner, once it was seen.
+    of_triangles: Vec<u32>,
 }
 
 impl Places {
@@ -111,7 +111,7 @@ impl Places {
             self.sources[source as usize].slots[vertex as usize] = NONE;
         }
         for [source, triangle] in self.triangles.drain(..) {
-            self.sources[source as usize].seen[triangle as usize / 64] = 0;
+            self.sources[source as usize].of_triangles[triangle as usize] = NONE;
         }
         self.leaders.clear();
         self.pairs.clear();
@@ -140,41 +140,40 @@ impl Places {
             self.sources.resize_with(place + 1, Marks::default);
         }
         let marks = &mut self.sources[place];
-        let (word, bit) = (triangle as usize / 64, 1 << (triangle % 64));
-        if marks.seen.get(word).is_none_or(|word| word & bit == 0) {
-            let [vertices, triangles] = meshes.sizes(source);
-            if triangle as usize >= triangles {
-                return None;
-            }
-            let corners = meshes.corners(source, triangle);
-            if corners.iter().any(|&vertex| vertex as usize >= vertices) {
-                return None;
-            }
-            // Everything in them was taken back at the end of the frame before, whatever mesh that had.
-            if marks.seen.len() < triangles.div_ceil(64) {
-                marks.seen.resize(triangles.div_ceil(64), 0);
-            }
-            if marks.slots.len() < vertices {
-                marks.slots.resize(vertices, NONE);
-            }
-            marks.seen[word] |= bit;
-            self.triangles.push([source, triangle]);
-            for vertex in corners {
-                let slot = &mut marks.slots[vertex as usize];
-                if *slot == NONE {
-                    *slot = self.leaders.len() as u32;
-                    self.leaders.push(*slot);
-                    self.pairs.push((0, [NONE; 4]));
-                    self.vertices.push([source, vertex]);
-                }
-            }
-            let [a, b, c] = corners.map(|vertex| marks.slots[vertex as usize]);
-            join(&mut self.leaders, a, b);
-            join(&mut self.leaders, b, c);
-            return Some(a);
+        let known = marks.of_triangles.get(triangle as usize);
+        if let Some(&slot) = known.filter(|&&slot| slot != NONE) {
+            return Some(slot);
         }
-        let [first, ..] = meshes.corners(source, triangle);
-        Some(marks.slots[first as usize])
+        let [vertices, triangles] = meshes.sizes(source);
+        if triangle as usize >= triangles {
+            return None;
+        }
+        let corners = meshes.corners(source, triangle);
+        if corners.iter().any(|&vertex| vertex as usize >= vertices) {
+            return None;
+        }
+        // Everything in them was taken back at the end of the frame before, whatever mesh that had.
+        if marks.of_triangles.len() < triangles {
+            marks.of_triangles.resize(triangles, NONE);
+        }
+        if marks.slots.len() < vertices {
+            marks.slots.resize(vertices, NONE);
+        }
+        let slots = corners.map(|vertex| {
+            let slot = &mut marks.slots[vertex as usize];
+            if *slot == NONE {
+                *slot = self.leaders.len() as u32;
+                self.leaders.push(*slot);
+                self.pairs.push((0, [NONE; 4]));
+                self.vertices.push([source, vertex]);
+            }
+            *slot
+        });
+        marks.of_triangles[triangle as usize] = slots[0];
+        self.triangles.push([source, triangle]);
+        join(&mut self.leaders, slots[0], slots[1]);
+        join(&mut self.leaders, slots[1], slots[2]);
+        Some(slots[0])
     }
 
     /// The sources that have another mesh than in the frame before: what is known of their vertices is forgotten.
@@ -234,24 +233,31 @@ impl Places {
 
     /// Whose triangles are where.
     fn say_bodies(&self, meshes: &impl Meshes, place_of: &[u32], found: &mut [Place]) {
-        let mut there: Vec<[u32; 3]> = self
-            .triangles
-            .iter()
-            .map(|&[source, triangle]| {
-                let [first, ..] = meshes.corners(source, triangle);
-                let slot = self.sources[source as usize].slots[first as usize];
-                let body = meshes.body(source, triangle);
-                [place_of[slot as usize], body, triangle]
-            })
-            .collect();
-        there.sort_unstable();
-        for same in there.chunk_by(|one, other| one[..2] == other[..2]) {
-            let [place, body, first_triangle] = same[0];
-            found[place as usize].bodies.push(BodyThere {
-                body,
-                triangles: same.len(),
-                first_triangle,
-            });
+        // Which of its place's bodies the one of each is. Mostly they are few, but a hundred thousand pieces may meet in a place.
+        let mut known: HashMap<[u32; 2], usize> = HashMap::new();
+        let mut last = ([NONE; 2], 0);
+        for &[source, triangle] in &self.triangles {
+            let slot = self.sources[source as usize].of_triangles[triangle as usize];
+            let key = [place_of[slot as usize], meshes.body(source, triangle)];
+            let bodies = &mut found[key[0] as usize].bodies;
+            if key != last.0 {
+                let which = known.entry(key).or_insert(bodies.len());
+                last = (key, *which);
+            }
+            match bodies.get_mut(last.1) {
+                Some(body) => {
+                    body.triangles += 1;
+                    body.first_triangle = body.first_triangle.min(triangle);
+                }
+                None => bodies.push(BodyThere {
+                    body: key[1],
+                    triangles: 1,
+                    first_triangle: triangle,
+                }),
+            }
+        }
+        for place in found {
+            place.bodies.sort_unstable_by_key(|there| there.body);
         }
     }
 

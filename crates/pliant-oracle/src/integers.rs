@@ -82,6 +82,18 @@ fn big(point: [(i64, i32); 3], shift: impl Fn(i32) -> usize) -> Vector<IBig> {
     })
 }
 
+/// Numbers, all divided by one power of two.
+pub(crate) fn integers(numbers: &[f64]) -> Vec<IBig> {
+    let parts: Vec<(i64, i32)> = numbers.iter().map(|&x| split(x)).collect();
+    let nonzero = parts.iter().filter(|part| part.0 != 0);
+    let least = nonzero.map(|part| part.1).min().unwrap_or(0);
+    let whole = |&(mantissa, exponent): &(i64, i32)| match mantissa {
+        0 => IBig::ZERO,
+        _ => IBig::from(mantissa) << exponent.abs_diff(least) as usize,
+    };
+    parts.iter().map(whole).collect()
+}
+
 /// The odd integer, or zero, and the power of two that `x` is the product of.
 fn split(x: f64) -> (i64, i32) {
     assert!(x.is_finite(), "{x} is no coordinate");

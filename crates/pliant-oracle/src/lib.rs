@@ -1,6 +1,6 @@
 //! An independent judge of the library's decisions, for tests only.
 //!
-//! [`intersect`] and [`orientation`] compute in integers of any size, from a definition that the library does not use, and share no
+//! [`intersect`], [`orientation`] and [`compare_distance`] compute in integers of any size, from a definition that the library does not use, and share no
 //! code with it. [`Class`] makes pairs of triangles on which the answer is hard to get right: the same ones on every machine.
 //! [`subnormals_flushed`] runs code as a thread runs it in which the caller has switched subnormal numbers off.
 //!
@@ -12,11 +12,13 @@
 //! assert_eq!(intersect(&a, &b), intersect(&b, &a));
 //! ```
 
+mod distance;
 mod environment;
 mod hull;
 mod integers;
 mod pairs;
 
+pub use distance::{compare_distance, compare_dot, compare_length};
 pub use environment::subnormals_flushed;
 pub use pairs::{Class, Random, fits_f32};
 

@@ -88,6 +88,11 @@ pub enum ErrorKind {
         /// The margin.
         radius: f64,
     },
+    /// A distance that is asked about is negative, infinite or NaN.
+    BadDistance {
+        /// The distance.
+        distance: f64,
+    },
     /// A time within a step is not from 0 to 1.
     BadTime {
         /// The time.
@@ -177,6 +182,10 @@ impl fmt::Display for ErrorKind {
             Self::BadMargin { radius } => write!(
                 f,
                 "the margin is {radius}; give a finite number that is at least 0"
+            ),
+            Self::BadDistance { distance } => write!(
+                f,
+                "the distance is {distance}; give a finite number that is at least 0"
             ),
             Self::BadTime { time } => {
                 write!(f, "the time is {time}; within a step it is from 0 to 1")

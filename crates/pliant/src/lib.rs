@@ -93,6 +93,7 @@
 //! ```
 
 mod broad_phase;
+mod close_pairs;
 mod error;
 mod geometry;
 mod held;
@@ -112,6 +113,7 @@ mod tree;
 mod update;
 mod world;
 
+pub use close_pairs::{CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures};
 pub use error::{Error, ErrorKind};
 pub use hits::{EdgeEdge, Pair, VertexTriangle};
 pub use ids::BodyId;

@@ -6,6 +6,7 @@ use crate::Scalar;
 use crate::error::Error;
 use crate::geometry::Bounds;
 use crate::mesh::share_a_vertex;
+use crate::predicates::distance::{Primitives, are_within_distance};
 use crate::predicates::{Exact, Triangle, are_within, triangles_intersect};
 use std::collections::BTreeSet;
 
@@ -99,6 +100,12 @@ impl<S: Scalar> Moving<'_, S> {
         bounds
     }
 
+    /// The box of some vertices where they are.
+    fn box_now(&self, vertices: &[u32]) -> Bounds<f64> {
+        let still = Self { end: None, ..*self };
+        still.box_of(vertices)
+    }
+
     fn group(&self, vertex: u32) -> u32 {
         self.groups.map_or(0, |groups| groups[vertex as usize])
     }
@@ -126,7 +133,7 @@ pub fn vertex_triangle_pairs<S: Scalar>(
     b: &Moving<S>,
     radius: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    vertices_and_triangles(a, b, radius, false)
+    vertices_and_triangles(a, b, false, &near(radius))
 }
 
 /// The candidates (vertex, triangle) of one body with itself, sorted.
@@ -138,14 +145,71 @@ pub fn self_vertex_triangle_pairs<S: Scalar>(
     body: &Moving<S>,
     radius: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    vertices_and_triangles(body, body, radius, true)
+    vertices_and_triangles(body, body, true, &near(radius))
+}
+
+/// The pairs (vertex of a, triangle of b) that are at most so far apart, sorted, as
+/// [`World::close_vertex_triangle_pairs`](crate::World::close_vertex_triangle_pairs) means them. Where bodies are going does not count.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn close_vertex_triangle_pairs<S: Scalar>(
+    a: &Moving<S>,
+    b: &Moving<S>,
+    distance: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    vertices_and_triangles(a, b, false, &close(distance))
+}
+
+/// The pairs (vertex, triangle) of one body that are at most so far apart, sorted.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn self_close_vertex_triangle_pairs<S: Scalar>(
+    body: &Moving<S>,
+    distance: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    vertices_and_triangles(body, body, true, &close(distance))
+}
+
+/// Some vertices of a body.
+type Part<'p, 'm, S> = (&'p Moving<'m, S>, &'p [u32]);
+
+/// Whether the boxes of two elements are near each other, at both ends of their motions.
+fn near<S: Scalar>(radius: f64) -> impl Fn(Part<S>, Part<S>) -> bool {
+    move |(a, of_a), (b, of_b)| are_within(&a.box_of(of_a), &b.box_of(of_b), 2.0 * radius)
+}
+
+/// Whether two elements are at most so far apart, now.
+fn close<S: Scalar>(distance: f64) -> impl Fn(Part<S>, Part<S>) -> bool {
+    move |(a, of_a), (b, of_b)| {
+        // What is further apart on one axis is further apart.
+        if !are_within(&a.box_now(of_a), &b.box_now(of_b), distance) {
+            return false;
+        }
+        let corner =
+            |body: &Moving<S>, vertex: u32| body.positions[vertex as usize].map(Scalar::to_f64);
+        let elements = match (of_a, of_b) {
+            (&[vertex], &[i, j, k]) => {
+                let [i, j, k] = [i, j, k].map(|vertex| corner(b, vertex));
+                Primitives::VertexTriangle([corner(a, vertex), i, j, k])
+            }
+            (&[i, j], &[k, l]) => {
+                Primitives::EdgeEdge([corner(a, i), corner(a, j), corner(b, k), corner(b, l)])
+            }
+            _ => return false,
+        };
+        are_within_distance(&elements, distance)
+    }
 }
 
 fn vertices_and_triangles<S: Scalar>(
     a: &Moving<S>,
     b: &Moving<S>,
-    radius: f64,
     itself: bool,
+    are_near: &dyn Fn(Part<S>, Part<S>) -> bool,
 ) -> Result<Vec<[u32; 2]>, Error> {
     a.validate()?;
     b.validate()?;
@@ -153,7 +217,8 @@ fn vertices_and_triangles<S: Scalar>(
     let mut pairs = Vec::new();
     for vertex in used {
         for (triangle, corners) in (0..).zip(b.triangles) {
-            if are_candidate((a, &[vertex]), (b, corners), radius, itself) {
+            let (one, other) = ((a, &[vertex][..]), (b, &corners[..]));
+            if may_meet(one, other, itself) && are_near(one, other) {
                 pairs.push([vertex, triangle]);
             }
         }
@@ -171,7 +236,7 @@ pub fn edge_edge_pairs<S: Scalar>(
     b: &Moving<S>,
     radius: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    edges_and_edges(a, b, radius, false)
+    edges_and_edges(a, b, false, &near(radius))
 }
 
 /// The candidates (smaller edge, larger edge) of one body with itself, sorted.
@@ -183,14 +248,40 @@ pub fn self_edge_edge_pairs<S: Scalar>(
     body: &Moving<S>,
     radius: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    edges_and_edges(body, body, radius, true)
+    edges_and_edges(body, body, true, &near(radius))
+}
+
+/// The pairs (edge of a, edge of b) that are at most so far apart, sorted, as
+/// [`World::close_edge_edge_pairs`](crate::World::close_edge_edge_pairs) means them.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn close_edge_edge_pairs<S: Scalar>(
+    a: &Moving<S>,
+    b: &Moving<S>,
+    distance: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    edges_and_edges(a, b, false, &close(distance))
+}
+
+/// The pairs (smaller edge, larger edge) of one body that are at most so far apart, sorted.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn self_close_edge_edge_pairs<S: Scalar>(
+    body: &Moving<S>,
+    distance: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    edges_and_edges(body, body, true, &close(distance))
 }
 
 fn edges_and_edges<S: Scalar>(
     a: &Moving<S>,
     b: &Moving<S>,
-    radius: f64,
     itself: bool,
+    are_near: &dyn Fn(Part<S>, Part<S>) -> bool,
 ) -> Result<Vec<[u32; 2]>, Error> {
     a.validate()?;
     b.validate()?;
@@ -198,7 +289,8 @@ fn edges_and_edges<S: Scalar>(
     for (i, edge_a) in (0..).zip(edges(a.triangles)) {
         for (j, edge_b) in (0..).zip(edges(b.triangles)) {
             let is_new = !itself || i < j;
-            if is_new && are_candidate((a, &edge_a), (b, &edge_b), radius, itself) {
+            let (one, other) = ((a, &edge_a[..]), (b, &edge_b[..]));
+            if is_new && may_meet(one, other, itself) && are_near(one, other) {
                 pairs.push([i, j]);
             }
         }
@@ -206,17 +298,12 @@ fn edges_and_edges<S: Scalar>(
     Ok(pairs)
 }
 
-/// Whether two elements, by their vertices, are a candidate.
-fn are_candidate<S: Scalar>(
-    (a, of_a): (&Moving<S>, &[u32]),
-    (b, of_b): (&Moving<S>, &[u32]),
-    radius: f64,
-    itself: bool,
-) -> bool {
+/// Whether two elements, by their vertices, may be near each other: they have no vertex in common, and their groups let them.
+fn may_meet<S: Scalar>((a, of_a): Part<S>, (b, of_b): Part<S>, itself: bool) -> bool {
     let pairs = || of_a.iter().flat_map(|&i| of_b.iter().map(move |&j| (i, j)));
     let are_kept_apart = pairs().all(|(i, j)| a.group(i) != 0 && a.group(i) == b.group(j));
     let share = itself && pairs().any(|(i, j)| i == j);
-    !share && !are_kept_apart && are_within(&a.box_of(of_a), &b.box_of(of_b), 2.0 * radius)
+    !share && !are_kept_apart
 }
 
 fn corners<S: Scalar>(

@@ -1,12 +1,13 @@
-//! Candidates within a margin, still and in motion: every configuration gives the lists of the plain reference, at every step of lives in
-//! which bodies move, turn back, stop on the way, are pinned, kept apart and given other meshes.
+//! Candidates within a margin, still and in motion, and close pairs: every configuration gives the lists of the plain reference, at every
+//! step of lives in which bodies move, turn back, stop on the way, are pinned, kept apart and given other meshes.
 
 mod common;
 
 use common::{Lcg, every_configuration, sheet};
 use pliant::reference::{self, Moving};
 use pliant::{
-    BodyId, EdgeEdge, ErrorKind, Options, Pair, Scalar, Selection, VertexTriangle, World,
+    BodyId, CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures, EdgeEdge, ErrorKind, Options,
+    Pair, Scalar, Selection, VertexTriangle, World,
 };
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -32,6 +33,17 @@ impl<S> Known<S> {
     }
 }
 
+/// What is asked.
+#[derive(Clone, Copy, Debug)]
+enum Question {
+    /// Candidates of a margin.
+    Near(f64),
+    /// Pairs at most so far apart.
+    Close(f64),
+}
+
+use Question::{Close, Near};
+
 /// Both lists.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Lists {
@@ -40,9 +52,15 @@ struct Lists {
 }
 
 impl Lists {
-    fn two<S: Scalar>(&mut self, a: &Known<S>, b: &Known<S>, radius: f64) {
+    fn two<S: Scalar>(&mut self, a: &Known<S>, b: &Known<S>, asked: Question) {
         for (of, with) in [(a, b), (b, a)] {
-            let pairs = reference::vertex_triangle_pairs(&of.moving(), &with.moving(), radius);
+            let (of_them, with_them) = (of.moving(), with.moving());
+            let pairs = match asked {
+                Near(radius) => reference::vertex_triangle_pairs(&of_them, &with_them, radius),
+                Close(distance) => {
+                    reference::close_vertex_triangle_pairs(&of_them, &with_them, distance)
+                }
+            };
             let row = |[vertex, triangle]: [u32; 2]| VertexTriangle {
                 vertex_body: of.id,
                 vertex,
@@ -53,7 +71,10 @@ impl Lists {
                 .extend(pairs.unwrap().into_iter().map(row));
         }
         let (a, b) = if a.id < b.id { (a, b) } else { (b, a) };
-        let pairs = reference::edge_edge_pairs(&a.moving(), &b.moving(), radius);
+        let pairs = match asked {
+            Near(radius) => reference::edge_edge_pairs(&a.moving(), &b.moving(), radius),
+            Close(distance) => reference::close_edge_edge_pairs(&a.moving(), &b.moving(), distance),
+        };
         let row = |[edge_a, edge_b]: [u32; 2]| EdgeEdge {
             body_a: a.id,
             edge_a,
@@ -63,9 +84,14 @@ impl Lists {
         self.edge_edge.extend(pairs.unwrap().into_iter().map(row));
     }
 
-    fn one<S: Scalar>(&mut self, body: &Known<S>, radius: f64) {
+    fn one<S: Scalar>(&mut self, body: &Known<S>, asked: Question) {
         let id = body.id;
-        let pairs = reference::self_vertex_triangle_pairs(&body.moving(), radius);
+        let pairs = match asked {
+            Near(radius) => reference::self_vertex_triangle_pairs(&body.moving(), radius),
+            Close(distance) => {
+                reference::self_close_vertex_triangle_pairs(&body.moving(), distance)
+            }
+        };
         let row = |[vertex, triangle]: [u32; 2]| VertexTriangle {
             vertex_body: id,
             vertex,
@@ -74,7 +100,10 @@ impl Lists {
         };
         self.vertex_triangle
             .extend(pairs.unwrap().into_iter().map(row));
-        let pairs = reference::self_edge_edge_pairs(&body.moving(), radius);
+        let pairs = match asked {
+            Near(radius) => reference::self_edge_edge_pairs(&body.moving(), radius),
+            Close(distance) => reference::self_close_edge_edge_pairs(&body.moving(), distance),
+        };
         let row = |[edge_a, edge_b]: [u32; 2]| EdgeEdge {
             body_a: id,
             edge_a,
@@ -92,42 +121,125 @@ impl Lists {
 }
 
 /// What the world says; *first*, *visit_some* and *at_most* agree with *all*.
-fn ask<S: Scalar>(world: &mut World<S>, of: Selection, radius: f64) -> Lists {
+fn ask<S: Scalar>(
+    world: &mut World<S>,
+    known: &[Known<S>],
+    of: Selection,
+    asked: Question,
+) -> Lists {
     macro_rules! asked {
-        ($ask:ident) => {{
-            let all = world.$ask(of, radius).all().unwrap().to_vec();
-            let first = world.$ask(of, radius).first().unwrap();
+        ($ask:ident, $with:expr, $key:expr) => {{
+            let all = world.$ask(of, $with).all().unwrap().to_vec();
+            let first = world.$ask(of, $with).first().unwrap();
             assert_eq!(first.is_some(), !all.is_empty());
-            assert!(first.is_none_or(|first| all.binary_search(&first).is_ok()));
+            assert!(first.is_none_or(|first| all.contains(&first)));
             let mut shown = Vec::new();
-            let visited = world.$ask(of, radius).visit_some(|some| {
+            let visited = world.$ask(of, $with).visit_some(|some| {
                 assert!(!some.is_empty());
                 shown.extend_from_slice(some);
                 ControlFlow::<()>::Continue(())
             });
             assert!(visited.unwrap().is_continue());
-            shown.sort_unstable();
+            shown.sort_unstable_by_key($key);
             assert_eq!(shown, all);
             if let Some(fewer) = all.len().checked_sub(1) {
-                let refused = world.$ask(of, radius).at_most(fewer).all().unwrap_err();
+                let refused = world.$ask(of, $with).at_most(fewer).all().unwrap_err();
                 assert_eq!(refused.kind, ErrorKind::TooManyHits { limit: fewer });
-                assert_eq!(
-                    world.$ask(of, radius).at_most(all.len()).all().unwrap(),
-                    all
-                );
+                assert_eq!(world.$ask(of, $with).at_most(all.len()).all().unwrap(), all);
                 let stopped = || true;
-                let refused = world.$ask(of, radius).interrupt_if(&stopped).all();
+                let refused = world.$ask(of, $with).interrupt_if(&stopped).all();
                 assert_eq!(refused.unwrap_err().kind, ErrorKind::Interrupted);
             }
             all
         }};
     }
-    let lists = Lists {
-        vertex_triangle: asked!(vertex_triangle_candidates),
-        edge_edge: asked!(edge_edge_candidates),
+    let lists = match asked {
+        Near(radius) => Lists {
+            vertex_triangle: asked!(vertex_triangle_candidates, radius, |&hit| hit),
+            edge_edge: asked!(edge_edge_candidates, radius, |&hit| hit),
+        },
+        Close(distance) => {
+            let vertex_triangle = asked!(close_vertex_triangle_pairs, distance, |hit| hit.pair);
+            let edge_edge = asked!(close_edge_edge_pairs, distance, |hit| hit.pair);
+            for hit in &vertex_triangle {
+                check_vertex_triangle(known, hit, distance);
+            }
+            for hit in &edge_edge {
+                check_edge_edge(known, hit, distance);
+            }
+            Lists {
+                vertex_triangle: vertex_triangle.iter().map(|hit| hit.pair).collect(),
+                edge_edge: edge_edge.iter().map(|hit| hit.pair).collect(),
+            }
+        }
     };
     world.validate().unwrap();
     lists
+}
+
+fn of_body<S>(known: &[Known<S>], id: BodyId) -> &Known<S> {
+    known.iter().find(|body| body.id == id).unwrap()
+}
+
+fn check_vertex_triangle<S: Scalar>(known: &[Known<S>], hit: &CloseVertexTriangle, most: f64) {
+    let of_vertex = of_body(known, hit.pair.vertex_body);
+    let of_triangle = of_body(known, hit.pair.triangle_body);
+    let corners = of_triangle.triangles[hit.pair.triangle as usize];
+    let vertex = (1.0, of_vertex.positions[hit.pair.vertex as usize]);
+    let corner = |place: usize| {
+        let position = of_triangle.positions[corners[place] as usize];
+        (-hit.barycentric[place], position)
+    };
+    let sum = [vertex, corner(0), corner(1), corner(2)];
+    check_figures(&sum, hit.distance, hit.direction, most);
+}
+
+fn check_edge_edge<S: Scalar>(known: &[Known<S>], hit: &CloseEdgeEdge, most: f64) {
+    let end = |id: BodyId, edge: u32, place: usize| {
+        let body = of_body(known, id);
+        let edge = reference::edges(&body.triangles)[edge as usize];
+        body.positions[edge[place] as usize]
+    };
+    let [a, b] = [0, 1].map(|place| {
+        let a = end(hit.pair.body_a, hit.pair.edge_a, place);
+        let b = end(hit.pair.body_b, hit.pair.edge_b, place);
+        [
+            (hit.barycentric_a[place], a),
+            (-hit.barycentric_b[place], b),
+        ]
+    });
+    check_figures(&[a, b].concat(), hit.distance, hit.direction, most);
+}
+
+/// The way that is the sum of corners, each times what it counts, has the length and the direction that are said.
+fn check_figures<S: Scalar>(
+    sum: &[(f64, [S; 3])],
+    distance: f64,
+    direction: Option<[f64; 3]>,
+    most: f64,
+) {
+    assert!(distance <= most * (1.0 + 1e-9), "{distance} of {most}");
+    assert!(sum.iter().all(|(part, _)| part.abs() <= 1.0));
+    let at = |axis: usize| sum.iter().map(move |(part, at)| part * at[axis].to_f64());
+    let way = [0, 1, 2].map(|axis| at(axis).sum::<f64>());
+    let size = (0..3)
+        .flat_map(at)
+        .fold(0.0, |size: f64, x| size.max(x.abs()));
+    if !(1e-100..=1e100).contains(&size) {
+        return;
+    }
+    let slack = 1e-9 * distance + 1e-14 * size;
+    let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+    assert!((length - distance).abs() <= slack, "{way:?} {distance}");
+    match direction {
+        None => assert!(distance == 0.0),
+        Some(direction) => {
+            for axis in 0..3 {
+                let off = direction[axis] * distance - way[axis];
+                assert!(off.abs() <= slack, "{way:?} {direction:?} {distance}");
+            }
+        }
+    }
 }
 
 /// Asks of everybody.
@@ -135,7 +247,7 @@ fn check<S: Scalar>(
     world: &mut World<S>,
     known: &[Known<S>],
     apart: &[[BodyId; 2]],
-    radius: f64,
+    asked: Question,
     when: &str,
 ) {
     let options = *world.options();
@@ -143,40 +255,44 @@ fn check<S: Scalar>(
     let (mut all, mut between) = (Lists::default(), Lists::default());
     for (at, a) in known.iter().enumerate() {
         let mut own = Lists::default();
-        own.one(a, radius);
+        own.one(a, asked);
         let own = own.sorted();
         assert_eq!(
-            ask(world, Selection::Within(a.id), radius),
+            ask(world, known, Selection::Within(a.id), asked),
             own,
             "{when}, {options:?}"
         );
         assert_eq!(world.edges(a.id).unwrap(), reference::edges(&a.triangles));
         if meet(a.id, a.id) {
-            all.one(a, radius);
+            all.one(a, asked);
         }
         for b in &known[at + 1..] {
             let mut two = Lists::default();
-            two.two(a, b, radius);
+            two.two(a, b, asked);
             let two = two.sorted();
             for of in [
                 Selection::Between(a.id, b.id),
                 Selection::Between(b.id, a.id),
             ] {
-                assert_eq!(ask(world, of, radius), two, "{when}, {of:?}, {options:?}");
+                assert_eq!(
+                    ask(world, known, of, asked),
+                    two,
+                    "{when}, {of:?}, {options:?}"
+                );
             }
             if meet(a.id, b.id) {
-                between.two(a, b, radius);
-                all.two(a, b, radius);
+                between.two(a, b, asked);
+                all.two(a, b, asked);
             }
         }
     }
     assert_eq!(
-        ask(world, Selection::World, radius),
+        ask(world, known, Selection::World, asked),
         between.sorted(),
         "{when}, {options:?}"
     );
     assert_eq!(
-        ask(world, Selection::Everything, radius),
+        ask(world, known, Selection::Everything, asked),
         all.sorted(),
         "{when}, {options:?}"
     );
@@ -228,7 +344,7 @@ fn mesh(random: &mut Lcg) -> (Vec<[u32; 3]>, usize) {
 #[expect(clippy::too_many_lines, reason = "one arm a call of the library")]
 fn lives<S: Scalar>(
     seeds: std::ops::Range<u64>,
-    threads: usize,
+    (threads, close_every): (usize, u32),
     here: f64,
     of: fn(f64) -> S,
     cast: fn(f64) -> S,
@@ -366,6 +482,9 @@ fn lives<S: Scalar>(
                             .all()
                             .unwrap_err();
                         assert!(matches!(refused.kind, ErrorKind::BadMargin { .. }));
+                        let refused = world.close_edge_edge_pairs(Selection::World, radius).all();
+                        let kind = refused.unwrap_err().kind;
+                        assert!(matches!(kind, ErrorKind::BadDistance { .. }));
                     }
                 }
             }
@@ -391,13 +510,15 @@ fn lives<S: Scalar>(
                 4 => f64::from(random.unit()) * unit,
                 _ => [f64::MAX, 1e38, 5e-324, 1e-300][random.below(4) as usize],
             };
-            check(
-                &mut world,
-                &known,
-                &apart,
-                radius,
-                &format!("seed {seed}, step {step}, radius {radius:e}"),
-            );
+            let mut questions = vec![Near(radius)];
+            // What touches, and what is at the ends of the range, is measured in integers: much of it takes long.
+            if step % close_every == 0 && radius <= 4.0 * unit {
+                questions.push(Close(radius));
+            }
+            for asked in questions {
+                let when = format!("seed {seed}, step {step}, {asked:?}");
+                check(&mut world, &known, &apart, asked, &when);
+            }
             if let Some(body) = known.get(some) {
                 // Intersections know nothing of motions.
                 let before =
@@ -414,29 +535,123 @@ fn lives<S: Scalar>(
 
 #[test]
 fn every_list_is_that_of_the_reference() {
-    lives::<f32>(0..60, 1, 0.0, |x| x as f32, |x| x as f32);
-    lives::<f64>(60..120, 1, 0.0, |x| x, |x| x);
-    lives::<f32>(120..140, 3, 1000.0, |x| x as f32, |x| x as f32);
-    lives::<f64>(140..180, 3, 1e7, |x| x, |x| x);
+    lives::<f32>(0..60, (1, 3), 0.0, |x| x as f32, |x| x as f32);
+    lives::<f64>(60..120, (1, 3), 0.0, |x| x, |x| x);
+    lives::<f32>(120..140, (3, 3), 1000.0, |x| x as f32, |x| x as f32);
+    lives::<f64>(140..180, (3, 3), 1e7, |x| x, |x| x);
 }
 
 #[test]
 fn coordinates_as_large_and_as_small_as_there_are() {
-    lives::<f64>(200..215, 1, 3e38, |x| x.clamp(0.0, f32::MAX.into()), |x| x);
+    lives::<f64>(
+        200..215,
+        (1, 6),
+        3e38,
+        |x| x.clamp(0.0, f32::MAX.into()),
+        |x| x,
+    );
     lives::<f32>(
         215..230,
-        1,
+        (1, 6),
         0.0,
         |x| (x * 1e37).clamp(-3e38, 3e38) as f32,
         |x| x as f32,
     );
-    lives::<f64>(230..245, 1, 0.0, |x| x * 1e-300, |x| x);
-    lives::<f32>(245..260, 1, 0.0, |x| (x * 1e-41) as f32, |x| x as f32);
+    lives::<f64>(230..245, (1, 6), 0.0, |x| x * 1e-300, |x| x);
+    lives::<f32>(245..260, (1, 6), 0.0, |x| (x * 1e-41) as f32, |x| x as f32);
     lives::<f64>(
         260..275,
-        1,
+        (1, 6),
         0.0,
         |x| ((x - 4.0) * 4e37).clamp(-3e38, 3e38),
         |x| x,
     );
+}
+
+#[test]
+fn everything_is_close_within_the_largest_distances() {
+    let random = &mut Lcg(3);
+    for round in 0..6 {
+        let mut world = World::<f64>::new();
+        let scale = [1.0, 1e37][round % 2];
+        let known: Vec<Known<f64>> = (0..2)
+            .map(|_| {
+                let (triangles, vertices) = mesh(random);
+                let place = |_| [(); 3].map(|()| (f64::from(random.unit()) - 0.5) * 30.0 * scale);
+                let positions: Vec<_> = (0..vertices).map(place).collect();
+                let id = world.add(&triangles, &positions).unwrap();
+                Known {
+                    id,
+                    triangles,
+                    positions,
+                    end: None,
+                    groups: None,
+                }
+            })
+            .collect();
+        let mut counts = Vec::new();
+        for distance in [1e39, 2e39, f64::MAX] {
+            check(&mut world, &known, &[], Close(distance), "the largest");
+            let close = world.close_edge_edge_pairs(Selection::World, distance);
+            counts.push(close.all().unwrap().len());
+        }
+        let edges = known
+            .iter()
+            .map(|body| reference::edges(&body.triangles).len());
+        assert_eq!(counts, [edges.product::<usize>(); 3]);
+    }
+}
+
+/// A triangle, a place near each of its seven parts, and the same for edges: wherever that is, the part is named.
+#[test]
+fn the_closest_features_are_named() {
+    let random = &mut Lcg(5);
+    let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+    let mut world = World::<f64>::new();
+    let triangle = world.add(&[[0, 1, 2]], &corners).unwrap();
+    let other = world.add(&[[0, 1, 1]], &[[9.0; 3], [9.5; 3]]).unwrap();
+    for _ in 0..2_000 {
+        let mut unit = || 0.01 + 0.98 * f64::from(random.unit());
+        let (s, t) = (unit(), unit());
+        for (at, features) in [
+            ([-s, -t, 0.0], ClosestFeatures::VertexVertex),
+            ([4.0 + s, -t * s, 0.5], ClosestFeatures::VertexVertex),
+            ([4.0 * s, -t, 0.1], ClosestFeatures::VertexEdge),
+            ([-t, 4.0 * s, 0.2], ClosestFeatures::VertexEdge),
+            (
+                [4.0 * s + t, 4.0 - 4.0 * s + t, 0.3],
+                ClosestFeatures::VertexEdge,
+            ),
+            ([2.0 * s, 2.0 * t, t], ClosestFeatures::VertexFace),
+        ] {
+            let far = at.map(|x| 3.0 * x + 20.0);
+            world.set_positions(other, &[at, far]).unwrap();
+            let close = world.close_vertex_triangle_pairs(Selection::World, 3.0);
+            let found = close.all().unwrap();
+            let found = found
+                .iter()
+                .find(|hit| hit.pair.vertex_body == other && hit.pair.vertex == 0);
+            assert_eq!(found.unwrap().features(), features, "{at:?} {found:?}");
+        }
+        for (ends, features) in [
+            (
+                [[4.0 * s, t, 1.0], [4.0 * s, -t, 1.0]],
+                ClosestFeatures::EdgeEdge,
+            ),
+            (
+                [[4.0 * s, -t, 0.0], [4.0 * s, -9.0, t]],
+                ClosestFeatures::VertexEdge,
+            ),
+            (
+                [[-s, -t, 0.0], [-9.0, -9.0, s]],
+                ClosestFeatures::VertexVertex,
+            ),
+        ] {
+            world.set_positions(other, &ends).unwrap();
+            let close = world.close_edge_edge_pairs(Selection::Between(triangle, other), 3.0);
+            // Edge 0 is that of the corners 0 and 1.
+            let found = close.all().unwrap().iter().find(|hit| hit.pair.edge_a == 0);
+            assert_eq!(found.unwrap().features(), features, "{ends:?} {found:?}");
+        }
+    }
 }

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folder, or file of the crate's root, and what it may use.
-const LAYERS: [(&str, &[&str]); 20] = [
+const LAYERS: [(&str, &[&str]); 21] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -16,6 +16,7 @@ const LAYERS: [(&str, &[&str]); 20] = [
     ("threads", &[]),
     ("error", &["ids"]),
     ("hits", &["ids"]),
+    ("close_pairs", &["hits"]),
     ("geometry", &["held", "ids"]),
     ("kernels", &["held", "ids", "geometry"]),
     ("mesh", &["held", "ids", "error", "threads"]),
@@ -49,6 +50,7 @@ const LAYERS: [(&str, &[&str]); 20] = [
             "held",
             "ids",
             "hits",
+            "close_pairs",
             "statistics",
             "geometry",
             "kernels",
@@ -81,6 +83,7 @@ const LAYERS: [(&str, &[&str]); 20] = [
             "statistics",
             "error",
             "hits",
+            "close_pairs",
             "geometry",
             "kernels",
             "mesh",
@@ -102,9 +105,12 @@ const LAYERS: [(&str, &[&str]); 20] = [
 ];
 
 /// What the root exports under a name of its own, and where it is from.
-const EXPORTED: [(&str, &str); 20] = [
+const EXPORTED: [(&str, &str); 23] = [
     ("BodyId", "ids"),
     ("BroadPhase", "options"),
+    ("CloseEdgeEdge", "close_pairs"),
+    ("CloseVertexTriangle", "close_pairs"),
+    ("ClosestFeatures", "close_pairs"),
     ("Degree", "options"),
     ("EdgeEdge", "hits"),
     ("Error", "error"),

@@ -206,6 +206,50 @@ fn what_an_interrupted_visitor_was_shown_was_true() {
     }
 }
 
+/// Two flat sheets, one on the other: most of what is close there touches, and is measured exactly.
+fn sheets_that_touch(side: u32) -> World<f32> {
+    let (triangles, flat) = sheet(side);
+    let mut world = World::new();
+    for _ in 0..2 {
+        world.add(&triangles, &flat).unwrap();
+    }
+    world
+}
+
+/// What an interrupted visitor of close pairs was shown was measured, and a world that was interrupted answers as before.
+#[test]
+fn close_pairs_that_touch_can_be_interrupted() {
+    let of = Selection::World;
+    let mut world = sheets_that_touch(6);
+    let expected = world.close_edge_edge_pairs(of, 0.1).all().unwrap().to_vec();
+    assert!(expected.len() > 500 && expected.iter().all(|hit| hit.distance == 0.0));
+    let mut interrupted = 0;
+    for allowed in (0..4000).step_by(97) {
+        let looks = AtomicUsize::new(0);
+        let question = || looks.fetch_add(1, Ordering::Relaxed) >= allowed;
+        let mut shown = Vec::new();
+        let close = world.close_edge_edge_pairs(of, 0.1);
+        let visited = close.interrupt_if(&question).visit(|hit| {
+            shown.push(hit);
+            ControlFlow::<()>::Continue(())
+        });
+        interrupted += u32::from(visited.is_err());
+        assert!(visited.is_err() || shown.len() == expected.len());
+        assert!(shown.iter().all(|hit| expected.contains(hit)), "{allowed}");
+        looks.store(0, Ordering::Relaxed);
+        let listed = world
+            .close_edge_edge_pairs(of, 0.1)
+            .interrupt_if(&question)
+            .all();
+        assert!(listed.is_err_and(|error| error.kind == ErrorKind::Interrupted) || visited.is_ok());
+        assert_eq!(
+            world.close_edge_edge_pairs(of, 0.1).all().unwrap(),
+            expected
+        );
+    }
+    assert!(interrupted > 5, "{interrupted}");
+}
+
 /// The longest time between two looks of a query, of the shortest of some tries, because other work on the machine makes any of them
 /// long. `make` makes the world.
 fn longest_gap(
@@ -269,6 +313,14 @@ fn looks_are_never_far_apart() {
     let between = all(Selection::Between(BodyId(0), BodyId(1)));
     let gap = longest_gap(in_one_place, between);
     assert!(gap < most, "one place: {gap:?}");
+
+    let touching = |world: &mut World<f32>, look: &(dyn Fn() -> bool + Sync)| {
+        let close = world.close_edge_edge_pairs(Selection::World, 1e-6);
+        let found = close.interrupt_if(look).all().unwrap();
+        assert!(found.len() > 5_000 && found.iter().all(|hit| hit.distance == 0.0));
+    };
+    let gap = longest_gap(|| sheets_that_touch(30), touching);
+    assert!(gap < most, "close pairs that touch: {gap:?}");
 
     let many_bodies = || {
         let mut world = World::new();

@@ -14,13 +14,16 @@ share a vertex are left out. Surfaces only: a body wholly inside another meets n
 """
 
 from . import reference
-from ._pliant import Check, Query, Selection, World, __version__, check, intersection_pairs, self_intersection_pairs
-from ._types import Body, BodyThere, EdgeEdge, Error, Frame, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._pliant import Check, CloseQuery, Query, Selection, World, __version__, check, intersection_pairs, self_intersection_pairs
+from ._types import Body, BodyThere, ClosePair, ClosePairs, EdgeEdge, Error, Frame, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Body",
     "BodyThere",
     "Check",
+    "ClosePair",
+    "ClosePairs",
+    "CloseQuery",
     "EdgeEdge",
     "Error",
     "Frame",

@@ -13,7 +13,7 @@ class Error(ValueError):
     """A call that was refused; the world is as it was before. Facts that do not apply are None.
 
     kind is a name of the Rust library's ErrorKind (NoTriangles, TooLarge, TooManyBodies, VertexOutOfRange, WrongLength,
-    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody, TooManyHits, BadMargin, BadTime), or:
+    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody, TooManyHits, BadMargin, BadDistance, BadTime), or:
 
       BadArray     not an array of three columns, or not of a type that is taken
       BadOption    an option has no such value
@@ -87,6 +87,31 @@ class EdgeEdge(NamedTuple):
     edge_a: int
     body_b: int
     edge_b: int
+
+
+class ClosePairs(NamedTuple):
+    """Elements that are close, a row each.
+
+    The distance is off by at most 2**-30 of itself, and 0 if they touch.
+    """
+
+    pairs: NDArray[np.uint32]
+    """(k, 4): body, vertex, body, triangle; or body, edge, body, edge."""
+    distance: NDArray[np.float64]
+    """(k,)"""
+    direction: NDArray[np.float64]
+    """(k, 3): from the second element to the first, of length 1; zeros where they touch."""
+    barycentric: NDArray[np.float64]
+    """(k, 3): the point of the triangle, what each corner counts. Of edges (k, 4): what the ends of the first count, then of the second."""
+
+
+class ClosePair(NamedTuple):
+    """Two elements that are close, as a row of ClosePairs has them; direction is None if they touch."""
+
+    pair: VertexTriangle | EdgeEdge
+    distance: float
+    direction: tuple[float, float, float] | None
+    barycentric: tuple[float, ...]
 
 
 class TreeShape(NamedTuple):
@@ -236,5 +261,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, VertexTriangle, EdgeEdge, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

@@ -64,6 +64,12 @@ impl<T: Copy + Default> Buffer<T> {
         self.len
     }
 
+    /// The items from a place on.
+    #[inline]
+    pub(crate) fn tail_mut(&mut self, start: usize) -> &mut [T] {
+        &mut self.items[start..self.len]
+    }
+
     /// Keeps the first `len` items, or all there are.
     pub(crate) fn truncate(&mut self, len: usize) {
         self.len = self.len.min(len);

@@ -11,6 +11,7 @@
 //! gather        positions into tree order, and the bounds of every few
 //! extent        boxes of points and of triangles
 //! boxes         boxes side by side, and which of them overlap
+//! closest       where elements are closest, and between what their distance is
 //! gaps          boxes of vertices, edges and triangles, and which of them are near each other
 //! find          where a number is among eight
 //! buffer        the lanes set in a mask, written to a list without branches
@@ -21,6 +22,7 @@
 
 mod boxes;
 mod buffer;
+pub(crate) mod closest;
 mod coordinate;
 mod copy_checked;
 pub(crate) mod extent;

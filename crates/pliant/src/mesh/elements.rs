@@ -8,6 +8,7 @@ use super::{Order, Topology};
 use crate::held::{self, Held};
 use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// The edges of a mesh, as the caller numbers them and in tree order.
 #[derive(Debug)]
@@ -20,6 +21,8 @@ pub(crate) struct Elements {
     numbers: Vec<u32>,
     /// For each triangle the first vertex and the first edge that belong to it or to a later one; and how many there are.
     firsts: Vec<[u32; 2]>,
+    /// For each of the caller's vertices its number in tree order, once somebody asks.
+    tree_vertices: OnceLock<Box<[TreeVertex]>>,
 }
 
 /// So many triangles are gone through before it is asked whether somebody wants to stop.
@@ -121,6 +124,7 @@ impl Elements {
             ends,
             numbers,
             firsts,
+            tree_vertices: OnceLock::new(),
         })
     }
 
@@ -147,6 +151,20 @@ impl Elements {
     #[inline]
     pub(crate) fn ends(&self) -> &[[TreeVertex; 2]] {
         &self.ends
+    }
+
+    /// A vertex in the order of the tree, which is that of the mesh.
+    #[inline]
+    pub(crate) fn tree_vertex(&self, order: &Order, vertex: CallerVertex) -> TreeVertex {
+        let tree_vertices = self.tree_vertices.get_or_init(|| {
+            let of_tree = order.vertex_order();
+            let mut numbers = vec![TreeVertex(0); of_tree.len()];
+            for (number, &vertex) in (0..).zip(of_tree) {
+                numbers[vertex as usize] = TreeVertex(number);
+            }
+            numbers.into_boxed_slice()
+        });
+        tree_vertices[vertex.index()]
     }
 
     /// The caller's numbers of all edges in tree order.
@@ -190,6 +208,10 @@ impl Held for Elements {
             + held::list(&self.ends)
             + held::list(&self.numbers)
             + held::list(&self.firsts)
+            + self
+                .tree_vertices
+                .get()
+                .map_or(0, |all| size_of_val(&**all))
     }
 }
 
@@ -218,6 +240,10 @@ mod tests {
             named.sort_unstable();
             let number = elements.caller_edges()[edge];
             assert_eq!(elements.callers()[number as usize], named);
+        }
+        for vertex in (0..9).map(TreeVertex) {
+            let named = order.caller_vertex(vertex);
+            assert_eq!(elements.tree_vertex(&order, named), vertex);
         }
         // What belongs to triangles one after the other is everything that is used, once.
         let mut next = [0, 0];

@@ -9,6 +9,7 @@
 //! The paper uses the test of Möller (1997), which decides on rounded interval ends and a tolerance.
 
 mod accumulator;
+pub(crate) mod distance;
 mod gap;
 mod lattice;
 mod orientation;

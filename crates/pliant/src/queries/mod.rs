@@ -2,16 +2,16 @@
 //!
 //! The update, the traversal, the sorting and what users call are the same for every kind. A kind says what is different: what its boxes
 //! are made of and which set of them it uses, what two leaves do to each other, its rule for neighbours in the mesh, and what a hit is.
-//! `intersections` and `candidates` are kinds. Another, `grown`, is for tests only and shows that nothing else knows the first.
+//! `intersections`, `candidates` and `close` are kinds. Another, `grown`, is for tests only and shows that nothing else knows the first.
 
 mod candidates;
+mod close;
 #[cfg(test)]
 pub(crate) mod grown;
 mod intersections;
 
 use crate::geometry::{Aabb, Points, Shape};
 use crate::held::Held;
-use crate::hits::Hit;
 use crate::ids::BodyId;
 use crate::ids::TreeTriangle;
 use crate::kernels::{Buffer, Coordinate, Instructions};
@@ -22,6 +22,7 @@ use crate::tree::BoxSource;
 pub(crate) use candidates::{
     EdgeEdgeCandidates, Groups, Margin, NearBoxes, NearElements, VertexTriangleCandidates, Which,
 };
+pub(crate) use close::{Close, ElementCandidates, ElementPair, Measured, closest_of};
 pub(crate) use intersections::Intersections;
 
 /// Two triangles whose boxes overlap, of the first body and of the second.
@@ -34,7 +35,7 @@ pub(crate) type BoxSetNumber = usize;
 pub(crate) trait Kind: Sync {
     type Scalar: Coordinate;
     /// What it finds, as the caller numbers things.
-    type Hit: Hit;
+    type Hit: Copy + std::fmt::Debug + Send + Sync;
     /// What it finds, in tree order.
     type TreeHit: Copy + Default + std::fmt::Debug + Send + Sync;
     /// What a task keeps for the tests of leaves, from query to query.
@@ -89,6 +90,18 @@ pub(crate) trait Kind: Sync {
 
     /// A hit as the caller numbers things.
     fn to_caller(&self, ids: &CallerIds, hit: Self::TreeHit) -> Self::Hit;
+
+    /// Appends hits as the caller numbers things to a list.
+    #[inline]
+    fn to_callers(
+        &self,
+        _leaves: &LeafTest<Self::Scalar>,
+        ids: &CallerIds,
+        hits: &[Self::TreeHit],
+        of_caller: &mut Vec<Self::Hit>,
+    ) {
+        of_caller.extend(hits.iter().map(|&hit| self.to_caller(ids, hit)));
+    }
 }
 
 /// What a kind is shown of leaves that overlap.

@@ -232,11 +232,16 @@ impl<K: Kind> LeafTests<K> {
     }
 
     /// Gives what was found the caller's numbers.
-    fn number_new<const N: usize, P: TreePair<N>>(&mut self, context: &Context<K, P>) {
+    fn number_new<const N: usize, P>(&mut self, context: &Context<K, P>)
+    where
+        P: TreePair<N>,
+        P::Source: BoxSource<Scalar = K::Scalar>,
+    {
         let ids = context.pair.caller_ids();
         let new = &self.hits.as_slice()[self.of_caller.len()..];
-        let of_caller = new.iter().map(|&hit| context.kind.to_caller(&ids, hit));
-        self.of_caller.extend(of_caller);
+        let leaves = leaf_test(context);
+        let kind = context.kind;
+        kind.to_callers(&leaves, &ids, new, &mut self.of_caller);
     }
 
     fn decide(&mut self, kind: &K, leaf_test: &LeafTest<K::Scalar>) {

@@ -54,7 +54,7 @@ impl<K: Kind> Default for Asked<K> {
     }
 }
 
-impl<K: Kind> Asked<K>
+impl<K: Kind<Hit: Hit>> Asked<K>
 where
     K::Scalar: Coordinate,
 {
@@ -145,7 +145,12 @@ where
         common.end(interrupt)?;
         Ok(is_all)
     }
+}
 
+impl<K: Kind> Asked<K>
+where
+    K::Scalar: Coordinate,
+{
     /// Shows every hit once, until the sink breaks.
     pub(super) fn visit<const N: usize>(
         &mut self,

@@ -5,7 +5,7 @@ use super::positions::{Positions, SMALL};
 use crate::error::ErrorKind;
 use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape, denormals_are_kept};
 use crate::held::{self, Held};
-use crate::ids::{TreeTriangle, TreeVertex};
+use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{self, Elements, Order, Topology};
 use crate::options::{Options, Partition};
@@ -297,14 +297,29 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         true
     }
 
-    /// The edges, as the caller numbers them.
-    pub(super) fn edges(&self) -> &[[u32; 2]] {
+    /// The elements of the mesh; they are found out the first time.
+    fn known_elements(&self) -> Option<&Elements> {
         let known = self.elements.get();
-        let known = known.or_else(|| {
+        known.map(Box::as_ref).or_else(|| {
             let new = Elements::new(&self.topology, &self.order, &|| false)?;
             Some(self.elements.get_or_init(|| Box::new(new)))
-        });
-        known.map_or(&[], |known| known.callers())
+        })
+    }
+
+    /// The edges, as the caller numbers them.
+    pub(super) fn edges(&self) -> &[[u32; 2]] {
+        self.known_elements().map_or(&[], Elements::callers)
+    }
+
+    /// Where a vertex is, as the caller numbers it, with padding; of a body that was brought into tree order.
+    #[inline]
+    pub(super) fn corner(&self, vertex: u32) -> &[S; 4] {
+        let vertex = self
+            .known_elements()
+            .map_or(TreeVertex(vertex), |elements| {
+                elements.tree_vertex(&self.order, CallerVertex(vertex))
+            });
+        self.positions.in_tree_order().padded(vertex)
     }
 
     /// Gives every vertex a group; those of one group do not meet, unless it is 0.

@@ -7,17 +7,21 @@ use super::asked::{Asked, Common};
 use super::bodies::Bodies;
 use super::body::{self, Body};
 use super::body_pairs::BodyPairs;
+use super::close::AskedClose;
 use super::origin::FloatingOrigin;
 use super::query::{Ask, Request};
 use super::witness::{self, Witnesses};
 use super::{BodyId, NodeBox, Selection, TreeShape};
+use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
-use crate::queries::{Candidate, EdgeEdgeCandidates, Intersections, VertexTriangleCandidates};
+use crate::queries::{
+    Candidate, Close, EdgeEdgeCandidates, Intersections, Measured, VertexTriangleCandidates,
+};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Threads};
 use crate::traversal::Sink;
@@ -25,7 +29,13 @@ use std::ops::ControlFlow;
 
 /// An engine of any degree. What its methods do is said where [`World`](super::World) has them.
 pub(crate) trait AnyEngine<S>:
-    Ask<Pair> + Ask<VertexTriangle> + Ask<EdgeEdge> + Send + Sync
+    Ask<Pair>
+    + Ask<VertexTriangle>
+    + Ask<EdgeEdge>
+    + Ask<CloseVertexTriangle>
+    + Ask<CloseEdgeEdge>
+    + Send
+    + Sync
 {
     fn copy(&self) -> Box<dyn AnyEngine<S>>;
     fn options(&self) -> &Options;
@@ -81,6 +91,8 @@ pub(super) struct Engine<const N: usize, S: Coordinate> {
     intersections: Asked<Intersections<S>>,
     vertex_triangle: Asked<VertexTriangleCandidates<S>>,
     edge_edge: Asked<EdgeEdgeCandidates<S>>,
+    close_vertex_triangle: AskedClose<VertexTriangleCandidates<S>>,
+    close_edge_edge: AskedClose<EdgeEdgeCandidates<S>>,
     witnesses: Witnesses,
     /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
     lent: Vec<[S; 3]>,
@@ -121,6 +133,8 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             intersections: Asked::default(),
             vertex_triangle: Asked::default(),
             edge_edge: Asked::default(),
+            close_vertex_triangle: AskedClose::default(),
+            close_edge_edge: AskedClose::default(),
             witnesses: Witnesses::default(),
             lent: Vec::new(),
             #[cfg(test)]
@@ -417,6 +431,8 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             + self.intersections.held()
             + self.vertex_triangle.held()
             + self.edge_edge.held()
+            + self.close_vertex_triangle.held()
+            + self.close_edge_edge.held()
             + self.witnesses.held()
             + held::list(&self.lent)
     }
@@ -487,13 +503,13 @@ impl<const N: usize, S: Coordinate> Ask<Pair> for Engine<N, S> {
     }
 }
 
-/// Answers queries for candidates: those of one kind, with the margin of the request.
-macro_rules! ask_candidates {
-    ($hit:ty, $kind:ident, $asked:ident) => {
+/// Answers queries of a kind that is made of the request.
+macro_rules! ask {
+    ($hit:ty, $asked:ident, |$request:ident| $kind:expr) => {
         impl<const N: usize, S: Coordinate> Ask<$hit> for Engine<N, S> {
-            fn all(&mut self, request: &Request) -> Result<&[$hit], Error> {
-                let kind = &$kind::within(request.margin()?);
-                self.$asked.all(kind, &mut self.common, request)
+            fn all(&mut self, $request: &Request) -> Result<&[$hit], Error> {
+                let kind = &$kind;
+                self.$asked.all(kind, &mut self.common, $request)
             }
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
@@ -509,21 +525,33 @@ macro_rules! ask_candidates {
                 Ok(found)
             }
 
-            fn visit(&mut self, request: &Request, sink: Sink<$hit>) -> Result<(), Error> {
-                let kind = &$kind::within(request.margin()?);
-                self.$asked.visit(kind, &mut self.common, request, sink)
+            fn visit(&mut self, $request: &Request, sink: Sink<$hit>) -> Result<(), Error> {
+                let kind = &$kind;
+                self.$asked.visit(kind, &mut self.common, $request, sink)
             }
 
-            fn prepare(&mut self, request: &Request) -> Result<(), Error> {
-                let kind = &$kind::within(request.margin()?);
-                self.$asked.prepare(kind, &mut self.common, request)
+            fn prepare(&mut self, $request: &Request) -> Result<(), Error> {
+                let kind = &$kind;
+                self.$asked.prepare(kind, &mut self.common, $request)
             }
         }
     };
 }
 
-ask_candidates!(VertexTriangle, VertexTriangleCandidates, vertex_triangle);
-ask_candidates!(EdgeEdge, EdgeEdgeCandidates, edge_edge);
+ask!(VertexTriangle, vertex_triangle, |request| {
+    VertexTriangleCandidates::within(request.margin()?)
+});
+ask!(EdgeEdge, edge_edge, |request| {
+    EdgeEdgeCandidates::within(request.margin()?)
+});
+ask!(CloseVertexTriangle, close_vertex_triangle, |request| {
+    let candidates = VertexTriangleCandidates::within;
+    Measured(Close::within(request.distance()?, candidates))
+});
+ask!(CloseEdgeEdge, close_edge_edge, |request| {
+    let candidates = EdgeEdgeCandidates::within;
+    Measured(Close::within(request.distance()?, candidates))
+});
 
 /// The pair that answered the last question for a first pair.
 impl<const N: usize, S: Coordinate> Engine<N, S> {

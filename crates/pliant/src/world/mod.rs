@@ -9,6 +9,8 @@ mod asked;
 mod bodies;
 mod body;
 mod body_pairs;
+mod clearance;
+mod close;
 mod debug_view;
 mod engine;
 mod origin;
@@ -24,6 +26,7 @@ mod tree_cut;
 mod validate;
 mod witness;
 
+use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
 use crate::error::Error;
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::ids::BodyId;
@@ -37,6 +40,7 @@ use engine::AnyEngine;
 pub use query::Query;
 pub use scalar::Scalar;
 pub use selection::Selection;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
@@ -458,6 +462,92 @@ impl<S: Scalar> World<S> {
     #[doc(alias = "detect_edge_edge_candidates")]
     pub fn edge_edge_candidates(&mut self, of: Selection, radius: f64) -> Query<'_, EdgeEdge> {
         Query::<EdgeEdge>::new(&mut *self.engine, of).within(radius)
+    }
+
+    /// Asks which vertices are close to which triangles, in the shape of now: those at most `distance` apart, with their closest points. See
+    /// [`close_edge_edge_pairs`](Self::close_edge_edge_pairs) for the other half. It is what penalty, barrier and position-based solvers
+    /// push apart.
+    ///
+    /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given. Distance, direction and closest points are
+    /// as good as [`CloseVertexTriangle`] says. Which pairs are looked at is said at
+    /// [`vertex_triangle_candidates`](Self::vertex_triangle_candidates): no corner of a triangle is close to it, vertex groups and filters
+    /// count. A motion is not looked at; while there is one, more candidates are.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// let mut world = World::<f64>::new();
+    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.25], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// let thickness = 0.5;
+    /// for close in world.close_vertex_triangle_pairs(Selection::World, thickness).all()? {
+    ///     assert_eq!((close.pair.vertex_body, close.pair.vertex, close.distance), (leaf, 0, 0.25));
+    ///     assert_eq!(close.direction, Some([0.0, 0.0, 1.0]));
+    ///     // How far to push, shared by the vertex and the corners of the triangle.
+    ///     let push = thickness - close.distance;
+    ///     let weights = 1.0 + close.barycentric.iter().map(|b| b * b).sum::<f64>();
+    ///     assert!(push / weights < 0.25);
+    /// }
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    #[doc(alias = "NormalCollisions")]
+    #[doc(alias = "point_triangle_distance")]
+    pub fn close_vertex_triangle_pairs(
+        &mut self,
+        of: Selection,
+        distance: f64,
+    ) -> Query<'_, CloseVertexTriangle> {
+        Query::<CloseVertexTriangle>::new(&mut *self.engine, of).within(distance)
+    }
+
+    /// Asks which edges are close to which edges, as [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) asks it of vertices
+    /// and triangles. Edges have the numbers that [`edges`](Self::edges) gives them; two that have an end in common are not looked at.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    #[doc(alias = "edge_edge_distance")]
+    pub fn close_edge_edge_pairs(
+        &mut self,
+        of: Selection,
+        distance: f64,
+    ) -> Query<'_, CloseEdgeEdge> {
+        Query::<CloseEdgeEdge>::new(&mut *self.engine, of).within(distance)
+    }
+
+    /// How far each vertex may move before anything can touch: of the selection's bodies one number for each vertex, at most half of
+    /// `cut_off`.
+    ///
+    /// It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of and that have no
+    /// vertex in common, as [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) looks at them; rounded down by at most
+    /// 1e-6 of itself, and 0 where something touches. If every vertex moves less than that, in whatever direction, none of these pairs
+    /// touches, on the way or at the end. The pairs that filters or vertex groups keep apart do not count.
+    ///
+    /// Cost: that of both queries for close pairs within `cut_off`.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// let mut world = World::<f64>::new();
+    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.5], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// let clearance = world.clearance(Selection::World, 2.0)?;
+    /// assert!(clearance[&leaf][0] <= 0.25 && clearance[&leaf][0] > 0.249_999);
+    /// assert!(clearance[&leaf][1] > 0.999_999);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    pub fn clearance(
+        &mut self,
+        of: Selection,
+        cut_off: f64,
+    ) -> Result<BTreeMap<BodyId, Vec<f64>>, Error> {
+        clearance::clearance(self, of, cut_off)
     }
 
     /// What the last query did, with what [`Query::prepare`] did before it.

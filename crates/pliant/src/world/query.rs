@@ -15,18 +15,27 @@ pub(crate) struct Request<'q> {
     /// The most hits that a list may have.
     pub(super) most: usize,
     pub(super) question: Option<Question<'q>>,
-    /// Of candidates, the margin round each element; else 0.
-    pub(super) radius: f64,
+    /// Of candidates, the margin round each element; of close pairs, how far they may be apart; else 0.
+    pub(super) within: f64,
 }
 
 impl Request<'_> {
     /// The margin that is asked for.
     pub(super) fn margin(&self) -> Result<Margin, Error> {
-        let radius = self.radius;
+        let radius = self.within;
         if radius.is_finite() && radius >= 0.0 {
             return Ok(Margin::new(radius));
         }
         Err(ErrorKind::BadMargin { radius }.of_query())
+    }
+
+    /// The distance that is asked for.
+    pub(super) fn distance(&self) -> Result<f64, Error> {
+        let distance = self.within;
+        if distance.is_finite() && distance >= 0.0 {
+            return Ok(distance);
+        }
+        Err(ErrorKind::BadDistance { distance }.of_query())
     }
 }
 
@@ -49,7 +58,8 @@ pub(crate) trait Ask<H> {
 ///   [`SameBody`](crate::ErrorKind::SameBody) if it names one twice as two;
 /// - [`Interrupted`](crate::ErrorKind::Interrupted) if [`interrupt_if`](Self::interrupt_if) said so;
 /// - [`TooManyHits`](crate::ErrorKind::TooManyHits) if a list would be longer than [`at_most`](Self::at_most) allows;
-/// - of candidates, [`BadMargin`](crate::ErrorKind::BadMargin) if the margin is negative, infinite or NaN.
+/// - of candidates, [`BadMargin`](crate::ErrorKind::BadMargin) if the margin is negative, infinite or NaN; of close pairs,
+///   [`BadDistance`](crate::ErrorKind::BadDistance) if the distance is.
 #[must_use = "a query does nothing until it is asked for all, for the first, or to visit"]
 pub struct Query<'w, H> {
     engine: &'w mut dyn Ask<H>,
@@ -62,14 +72,14 @@ impl<'w, H: Copy> Query<'w, H> {
             of,
             most: usize::MAX,
             question: None,
-            radius: 0.0,
+            within: 0.0,
         };
         Self { engine, request }
     }
 
-    /// With a margin round each element.
-    pub(super) fn within(mut self, radius: f64) -> Self {
-        self.request.radius = radius;
+    /// With a margin round each element, or a distance.
+    pub(super) fn within(mut self, length: f64) -> Self {
+        self.request.within = length;
         self
     }
 

@@ -59,7 +59,7 @@ fn request(of: Selection) -> Request<'static> {
         of,
         most: usize::MAX,
         question: None,
-        radius: 0.0,
+        within: 0.0,
     }
 }
 

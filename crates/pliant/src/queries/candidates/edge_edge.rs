@@ -93,21 +93,27 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
     }
 
     #[inline]
-    fn to_caller(&self, ids: &CallerIds, [a, b]: [u32; 2]) -> EdgeEdge {
-        let [body_a, body_b] = ids.bodies;
-        let a = ids.edges[0][a as usize];
-        let b = ids.edges[1][b as usize];
-        let (a, b) = if body_a == body_b {
-            ((body_a, a.min(b)), (body_b, a.max(b)))
+    fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> EdgeEdge {
+        let of_caller = |side: usize| (ids.bodies[side], ids.edges[side][hit[side] as usize]);
+        let [(body_a, edge_a), (body_b, edge_b)] = if Self::is_swapped(ids, hit) {
+            [of_caller(1), of_caller(0)]
         } else {
-            ((body_a, a), (body_b, b))
+            [of_caller(0), of_caller(1)]
         };
-        let ((body_a, edge_a), (body_b, edge_b)) = if body_a <= body_b { (a, b) } else { (b, a) };
         EdgeEdge {
             body_a,
             edge_a,
             body_b,
             edge_b,
         }
+    }
+}
+
+impl<S> EdgeEdgeCandidates<S> {
+    /// Whether the second edge is the first of the two as the caller numbers bodies and edges.
+    #[inline]
+    pub(crate) fn is_swapped(ids: &CallerIds, [a, b]: [u32; 2]) -> bool {
+        let [body_a, body_b] = ids.bodies;
+        (body_b, ids.edges[1][b as usize]) < (body_a, ids.edges[0][a as usize])
     }
 }

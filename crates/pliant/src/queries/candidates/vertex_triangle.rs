@@ -69,13 +69,12 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
     }
 
     #[inline]
-    fn to_caller(&self, ids: &CallerIds, [vertex, triangle]: [u32; 2]) -> VertexTriangle {
-        let side = usize::from(triangle & OF_SECOND != 0);
-        let triangle = TreeTriangle(triangle & !OF_SECOND);
+    fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> VertexTriangle {
+        let (side, vertex, triangle) = Self::sides_of(hit);
         let orders = ids.orders;
         VertexTriangle {
             vertex_body: ids.bodies[side],
-            vertex: orders[side].caller_vertex(TreeVertex(vertex)).0,
+            vertex: orders[side].caller_vertex(vertex).0,
             triangle_body: ids.bodies[1 - side],
             triangle: orders[1 - side].caller_triangle(triangle).0,
         }
@@ -83,6 +82,17 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
 }
 
 impl<S: Coordinate> VertexTriangleCandidates<S> {
+    /// Of which side the vertex of a candidate is; the vertex, and the triangle, which is of the other.
+    #[inline]
+    pub(crate) fn sides_of([vertex, triangle]: [u32; 2]) -> (usize, TreeVertex, TreeTriangle) {
+        let side = usize::from(triangle & OF_SECOND != 0);
+        (
+            side,
+            TreeVertex(vertex),
+            TreeTriangle(triangle & !OF_SECOND),
+        )
+    }
+
     /// The vertices of runs of one side with the triangles of runs of the other.
     fn test_side(
         &self,

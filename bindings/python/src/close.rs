@@ -1,0 +1,193 @@
+//! `CloseQuery` as Python sees it: which elements are close, with numbers in arrays side by side.
+
+use crate::arrays;
+use crate::error::Refused;
+use crate::query::{All, First, Prepare, Selection, SomeAtATime, Want, go_on, stopped};
+use crate::signals::interruptible;
+use crate::world::World;
+use numpy::IntoPyArray;
+use pliant::{CloseEdgeEdge, CloseVertexTriangle};
+use pliant_check::with_world;
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyTuple, PyType};
+
+/// Which elements are close.
+#[derive(Clone, Copy)]
+pub(crate) enum CloseKind {
+    VertexTriangle,
+    EdgeEdge,
+}
+
+/// A close pair of either kind.
+#[derive(Clone, Copy)]
+struct Close {
+    row: [u32; 4],
+    distance: f64,
+    direction: Option<[f64; 3]>,
+    /// Of edges all four, of triangles the first three.
+    barycentric: [f64; 4],
+}
+
+impl From<CloseVertexTriangle> for Close {
+    fn from(close: CloseVertexTriangle) -> Self {
+        let [a, b, c] = close.barycentric;
+        Self {
+            row: close.pair.into(),
+            distance: close.distance,
+            direction: close.direction,
+            barycentric: [a, b, c, 0.0],
+        }
+    }
+}
+
+impl From<CloseEdgeEdge> for Close {
+    fn from(close: CloseEdgeEdge) -> Self {
+        let ([a, b], [c, d]) = (close.barycentric_a, close.barycentric_b);
+        Self {
+            row: close.pair.into(),
+            distance: close.distance,
+            direction: close.direction,
+            barycentric: [a, b, c, d],
+        }
+    }
+}
+
+/// A question which elements are close, that waits to be told how much is wanted: all(), the first(), or visit_some(...). Each call asks
+/// anew, about the shapes that the bodies have then.
+///
+/// A call raises pliant.Error as those of Query do; with kind "BadDistance" if the distance is negative, infinite or NaN.
+#[pyclass(frozen, module = "pliant")]
+pub(crate) struct CloseQuery {
+    world: Py<World>,
+    kind: CloseKind,
+    of: Selection,
+    distance: f64,
+}
+
+impl CloseQuery {
+    pub(crate) fn new(world: Py<World>, kind: CloseKind, of: Selection, distance: f64) -> Self {
+        Self {
+            world,
+            kind,
+            of,
+            distance,
+        }
+    }
+
+    /// Asks the world, without the interpreter lock, for what is wanted.
+    fn ask<T: Send>(&self, py: Python<'_>, want: impl Want<Close, T> + Send) -> Result<T, Refused> {
+        let (kind, of, distance) = (self.kind, self.of.0, self.distance);
+        self.world.get().with(py, |state| {
+            interruptible(|question| {
+                with_world!(&mut state.world, world => match kind {
+                    CloseKind::VertexTriangle => {
+                        let query = world.close_vertex_triangle_pairs(of, distance);
+                        want.of(query.interrupt_if(question))
+                    }
+                    CloseKind::EdgeEdge => {
+                        let query = world.close_edge_edge_pairs(of, distance);
+                        want.of(query.interrupt_if(question))
+                    }
+                })
+            })
+        })
+    }
+
+    /// The arrays of some.
+    fn arrays<'py>(
+        py: Python<'py>,
+        kind: CloseKind,
+        close: &[Close],
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let pairs = arrays::rows_of(py, close.iter().map(|it| it.row).collect())?;
+        let distance: Vec<f64> = close.iter().map(|it| it.distance).collect();
+        let direction = close.iter().map(|it| it.direction.unwrap_or_default());
+        let direction = arrays::rows_of(py, direction.collect())?;
+        let barycentric = match kind {
+            CloseKind::VertexTriangle => {
+                let three = close.iter().map(|it| {
+                    let [a, b, c, _] = it.barycentric;
+                    [a, b, c]
+                });
+                arrays::rows_of(py, three.collect())?
+            }
+            CloseKind::EdgeEdge => {
+                arrays::rows_of(py, close.iter().map(|it| it.barycentric).collect())?
+            }
+        };
+        let distance = distance.into_pyarray(py);
+        class(py, 0)?.call1((pairs, distance, direction, barycentric))
+    }
+}
+
+/// The named tuples of many and of one, and those of the elements.
+fn class(py: Python<'_>, place: usize) -> PyResult<&Bound<'_, PyType>> {
+    const NAMES: [&str; 4] = ["ClosePairs", "ClosePair", "VertexTriangle", "EdgeEdge"];
+    static CLASSES: [PyOnceLock<Py<PyType>>; 4] = [const { PyOnceLock::new() }; 4];
+    CLASSES[place].import(py, "pliant._types", NAMES[place])
+}
+
+#[pymethods]
+impl CloseQuery {
+    /// All close pairs, sorted, as a ClosePairs of arrays; the same for every option, history and number of threads.
+    ///
+    /// at_most refuses more than this with pliant.Error, kind "TooManyHits", instead of making arrays that may fill the memory.
+    #[pyo3(signature = (*, at_most=None))]
+    fn all<'py>(
+        &self,
+        py: Python<'py>,
+        at_most: Option<usize>,
+    ) -> Result<Bound<'py, PyAny>, Refused> {
+        let close = self.ask(py, All(at_most.unwrap_or(usize::MAX)))?;
+        Ok(Self::arrays(py, self.kind, &close)?)
+    }
+
+    /// Some close pair, a ClosePair, or None if there is none: much cheaper than all where there are many. Which one may depend on options
+    /// and history; whether there is one never does.
+    fn first<'py>(&self, py: Python<'py>) -> Result<Option<Bound<'py, PyAny>>, Refused> {
+        let Some(close) = self.ask(py, First)? else {
+            return Ok(None);
+        };
+        let (place, numbers) = match self.kind {
+            CloseKind::VertexTriangle => (2, &close.barycentric[..3]),
+            CloseKind::EdgeEdge => (3, &close.barycentric[..]),
+        };
+        let [body_a, a, body_b, b] = close.row;
+        let pair = class(py, place)?.call1((body_a, a, body_b, b))?;
+        let barycentric = PyTuple::new(py, numbers)?;
+        let direction = close.direction.map(|[x, y, z]| (x, y, z));
+        let one = class(py, 1)?.call1((pair, close.distance, direction, barycentric))?;
+        Ok(Some(one))
+    }
+
+    /// Calls visit(close) with some close pairs at a time, a ClosePairs, until it returns True (or anything true). Returns whether it did.
+    /// Each comes once; no list of all is made. The order, and how many come at a time, is deterministic; visit may not ask this world.
+    fn visit_some(&self, py: Python<'_>, visit: &Bound<'_, PyAny>) -> Result<bool, Refused> {
+        let (visit, kind) = (visit.as_unbound(), self.kind);
+        let visited = self.ask(
+            py,
+            SomeAtATime(|close: Vec<Close>| {
+                go_on(Python::attach(|py| {
+                    let close = Self::arrays(py, kind, &close)?;
+                    visit.bind(py).call1((close,))?.is_truthy()
+                }))
+            }),
+        )?;
+        Ok(stopped(visited)?)
+    }
+
+    /// Does early what the query would do first, and asks nothing; see Query.prepare.
+    fn prepare(&self, py: Python<'_>) -> Result<(), Refused> {
+        self.ask(py, Prepare)
+    }
+
+    fn __repr__(&self) -> String {
+        let elements = match self.kind {
+            CloseKind::VertexTriangle => "vertices and triangles",
+            CloseKind::EdgeEdge => "edges and edges",
+        };
+        let (of, distance) = (self.of.__repr__(), self.distance);
+        format!("<pliant.CloseQuery of {of}, {elements}, within {distance}>")
+    }
+}

@@ -1,0 +1,88 @@
+"""Close pairs: distances against the least of a grid of points, and figures that belong together."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pliant
+import pytest
+from pliant import Selection
+
+from test_candidates import sheet
+
+
+def bodies(dtype: Any) -> tuple[pliant.World, Any, list[Any]]:
+    random = np.random.default_rng(5)
+    faces, flat = sheet(4)
+    world = pliant.World(leaf_size=2)
+    shapes = [(flat + [0.3 * height, 0, height] + random.normal(0, 0.1, flat.shape)).astype(dtype) for height in (0.0, 0.4)]
+    for shape in shapes:
+        world.add(faces, shape)
+    return world, faces, shapes
+
+
+def points_of(rows: Any, place: int, shapes: list[Any], corners: Any, barycentric: Any) -> Any:
+    """The points that barycentric coordinates name, of the elements in two columns."""
+    chosen = np.array([[shapes[row[place]][v] for v in corners(row)] for row in rows.tolist()], dtype=np.float64)
+    return (chosen * barycentric[:, :, None]).sum(1)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_figures_belong_together(dtype: Any) -> None:
+    world, faces, shapes = bodies(dtype)
+    edges = world.edges(0)
+    near = 0.35
+    for are_edges in (False, True):
+        ask = world.close_edge_edge_pairs if are_edges else world.close_vertex_triangle_pairs
+        candidates = world.edge_edge_candidates if are_edges else world.vertex_triangle_candidates
+        close = ask(Selection.EVERYTHING, near).all()
+        assert close.pairs.dtype == np.uint32 and close.pairs.shape == (len(close.distance), 4)
+        assert 10 < len(close.distance) < len(candidates(Selection.EVERYTHING, near / 2).all())
+        if are_edges:
+            first = points_of(close.pairs, 0, shapes, lambda row: edges[row[1]], close.barycentric[:, :2])
+            second = points_of(close.pairs, 2, shapes, lambda row: edges[row[3]], close.barycentric[:, 2:])
+        else:
+            first = points_of(close.pairs, 0, shapes, lambda row: [row[1]], np.ones((len(close.pairs), 1)))
+            second = points_of(close.pairs, 2, shapes, lambda row: faces[row[3]], close.barycentric)
+        way = first - second
+        assert np.allclose(np.linalg.norm(way, axis=1), close.distance, rtol=1e-9, atol=1e-12)
+        assert np.allclose(close.direction * close.distance[:, None], way, rtol=0, atol=1e-12)
+        assert (close.distance <= near * (1 + 1e-9)).all() and (close.barycentric >= 0).all()
+        # All those of a larger distance that are no further than this are these.
+        larger = ask(Selection.EVERYTHING, 2 * near).all()
+        assert (larger.pairs[larger.distance <= near] == close.pairs).all()
+
+        one = ask(Selection.EVERYTHING, near).first()
+        assert isinstance(one, pliant.ClosePair) and type(one.pair) is (pliant.EdgeEdge if are_edges else pliant.VertexTriangle)
+        place = close.pairs.tolist().index(list(one.pair))
+        assert one.distance == close.distance[place] and one.direction == tuple(close.direction[place])
+        assert one.barycentric == tuple(close.barycentric[place])
+        shown: list[pliant.ClosePairs] = []
+        assert not ask(Selection.EVERYTHING, near).visit_some(shown.append)
+        pairs = np.concatenate([some.pairs for some in shown])
+        order = np.lexsort(pairs.T[::-1])
+        assert (pairs[order] == close.pairs).all()
+        assert (np.concatenate([some.distance for some in shown])[order] == close.distance).all()
+        assert ask(Selection.EVERYTHING, near).visit_some(lambda some: True)
+
+
+def test_touching_has_no_direction_and_refusals() -> None:
+    world = pliant.World()
+    floor = world.add([[0, 1, 2]], np.array([[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]))
+    leaf = world.add([[0, 1, 2]], np.array([[0.0, 0, 0], [1, 0, 3], [0, 1, 3]]))
+    query = world.close_vertex_triangle_pairs(Selection.between(floor, leaf), 0.0)
+    one = query.first()
+    assert one is not None and one.direction is None and one.distance == 0
+    assert tuple(one.pair) == (leaf, 0, floor, 0)
+    assert (query.all().direction == 0).all()
+    query.prepare()
+    assert repr(query).startswith("<pliant.CloseQuery of Selection.between(0, 1), vertices and triangles, within 0")
+    assert world.close_edge_edge_pairs(Selection.WORLD, 0.0).first() is None
+    with pytest.raises(pliant.Error) as refused:
+        world.close_vertex_triangle_pairs(Selection.WORLD, 9.0).all(at_most=1)
+    assert refused.value.kind == "TooManyHits"
+    for distance in (-1.0, float("inf"), float("nan")):
+        with pytest.raises(pliant.Error) as refused:
+            world.close_edge_edge_pairs(Selection.WORLD, distance).all()
+        assert refused.value.kind == "BadDistance"

@@ -1,0 +1,78 @@
+//! What queries for close pairs find: two elements, how far apart they are, and where they are closest.
+
+use crate::hits::{EdgeEdge, VertexTriangle};
+
+/// The smallest parts of two elements that hold the points in which they are closest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ClosestFeatures {
+    /// Two vertices.
+    VertexVertex,
+    /// A vertex and the inside of an edge.
+    VertexEdge,
+    /// A vertex and the inside of a triangle.
+    VertexFace,
+    /// The insides of two edges.
+    EdgeEdge,
+}
+
+/// A vertex close to a triangle that it is no corner of.
+///
+/// The distance is off by at most 2^-30 of itself; it is 0 exactly if they touch, or are closer than any number. Let s be the largest
+/// coordinate of any difference of the four vertices; then the vertex and the point that `barycentric` names are no further apart than the
+/// distance and 2^-30 of it and 2^-48 s, and along `direction` the elements are apart by the distance but for as much.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloseVertexTriangle {
+    /// Which they are.
+    pub pair: VertexTriangle,
+    /// How far apart they are.
+    pub distance: f64,
+    /// From the triangle to the vertex, of length 1; none if they touch.
+    pub direction: Option<[f64; 3]>,
+    /// The point of the triangle: what each corner counts, in their order; at least 0, together 1 but for rounding.
+    pub barycentric: [f64; 3],
+}
+
+/// Two edges close to each other that have no end in common.
+///
+/// Figures are as good as those of a [`CloseVertexTriangle`]. Of parallel edges there are many closest points; those here hold an end of
+/// one edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloseEdgeEdge {
+    /// Which they are.
+    pub pair: EdgeEdge,
+    /// How far apart they are.
+    pub distance: f64,
+    /// From the second edge to the first, of length 1; none if they touch.
+    pub direction: Option<[f64; 3]>,
+    /// The point of the first edge: what each end counts, as [`World::edges`](crate::World::edges) orders them.
+    pub barycentric_a: [f64; 2],
+    /// The point of the second.
+    pub barycentric_b: [f64; 2],
+}
+
+impl CloseVertexTriangle {
+    /// Between which parts they are as close as that.
+    pub fn features(&self) -> ClosestFeatures {
+        match count(&self.barycentric) {
+            1 => ClosestFeatures::VertexVertex,
+            2 => ClosestFeatures::VertexEdge,
+            _ => ClosestFeatures::VertexFace,
+        }
+    }
+}
+
+impl CloseEdgeEdge {
+    /// Between which parts they are as close as that.
+    pub fn features(&self) -> ClosestFeatures {
+        match count(&self.barycentric_a) + count(&self.barycentric_b) {
+            2 => ClosestFeatures::VertexVertex,
+            3 => ClosestFeatures::VertexEdge,
+            _ => ClosestFeatures::EdgeEdge,
+        }
+    }
+}
+
+/// How many corners count.
+fn count(barycentric: &[f64]) -> usize {
+    barycentric.iter().filter(|&&x| x > 0.0).count()
+}

@@ -1,0 +1,408 @@
+//! How far apart a vertex and a triangle are, or two edges: whether at most so far, exactly; and by which of their points.
+//!
+//! A squared distance is a quotient of integers. The least distance of two elements is that of a pair of *features* at which it is
+//! attained: an end and an edge, the inside of a face and a vertex, the insides of two edges. Each of these is some distance of the
+//! elements, and one of them is the least. So they are within d if and only if one of them is, and each comparison is of integers:
+//!
+//! ```text
+//! a point p and an edge a + s e, t = p - a       s = t.e / e.e      within (0, 1): |t x e|^2 / e.e, else that of an end
+//! a point and a face, n = e1 x e2                inside by three signs: (n.t)^2 / n.n
+//! two edges, n = e x f, t = a - b                s = -(t x f).n / n.n and the other within [0, 1]: (n.t)^2 / n.n
+//! ```
+//!
+//! Where n is zero, the face is an edge or a point, and two parallel edges are as near as an end of one is to the other.
+//!
+//! This is for what `kernels::closest` leaves undecided: some microseconds each, nothing allocated. It has the least distance as a
+//! quotient, and so each of its figures with an error of a few units in the last place, however small the distance is.
+
+mod integer;
+
+use integer::{ENOUGH, FEW, FEW_BITS, Integer, parts, powers};
+
+type Point = [f64; 3];
+type Vector<const L: usize> = [Integer<L>; 3];
+
+/// Two elements, by their corners.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Primitives {
+    /// A point, and the corners of a triangle.
+    VertexTriangle([Point; 4]),
+    /// The ends of one edge, and those of another.
+    EdgeEdge([Point; 4]),
+}
+
+/// Where two elements are closest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Closest {
+    pub(crate) distance: f64,
+    /// Of a triangle a, b, c the point is a + p (b - a) + q (c - a). Of two edges it is the part p of the way along the first, and the
+    /// part q along the second.
+    pub(crate) along: [f64; 2],
+    /// From the second to the first, of length 1 but for rounding; zero if the distance is.
+    pub(crate) direction: Point,
+}
+
+/// A pair of features: the square of their distance is `over / under`.
+struct Feet<const L: usize> {
+    over: Integer<L>,
+    under: Integer<L>,
+    along: [f64; 2],
+    /// The way from the second to the first, of any length; where they touch, any.
+    way: Vector<L>,
+}
+
+/// Distances that are larger are all the same: no two points are further apart.
+const FARTHEST: f64 = 2.0 * 2.0 * (f32::MAX as f64);
+
+/// Whether elements are at most so far apart. Exact; the distance is at least 0, coordinates at most `f32::MAX` in magnitude.
+#[cold]
+pub(crate) fn are_within_distance(elements: &Primitives, distance: f64) -> bool {
+    if distance >= FARTHEST {
+        return true;
+    }
+    let [unit, end] = elements.powers();
+    if end - unit <= FEW_BITS {
+        are_within::<FEW>(elements, unit, distance)
+    } else {
+        are_within::<ENOUGH>(elements, unit, distance)
+    }
+}
+
+fn are_within<const L: usize>(elements: &Primitives, unit: i32, distance: f64) -> bool {
+    let mut is_within = false;
+    feet::<L>(elements, unit, &mut |feet| {
+        is_within = is_within || is_at_most(&feet, distance, unit);
+    });
+    is_within
+}
+
+/// Whether the distance of a pair of features is at most this.
+fn is_at_most<const L: usize>(feet: &Feet<L>, distance: f64, unit: i32) -> bool {
+    if feet.over.is_zero() || distance == 0.0 {
+        return feet.over.is_zero();
+    }
+    // The integer and the power of two that it is, in units.
+    let (_, integer, exponent) = parts(distance);
+    let exponent = exponent - unit;
+    let zeros = integer.leading_zeros();
+    let m = (integer << zeros) as f64 * f64::powi(0.5, 63);
+    let e = exponent + 63 - zeros as i32;
+    // Both are off by less than 2^-49 of themselves.
+    let (n, f) = quotient(&feet.over, &feet.under);
+    let square = scaled(m * m, (2 * e - f).clamp(-8, 8));
+    if (square - n).abs() > n * f64::powi(0.5, 40) {
+        return n < square;
+    }
+    // So neither of these is much larger than the other.
+    let integer = Integer::<L>::new(integer as f64, 0);
+    let shift = 2 * exponent.unsigned_abs() as usize;
+    let [of_over, of_square] = if exponent < 0 { [shift, 0] } else { [0, shift] };
+    let over = feet.over.shifted(of_over);
+    let square = integer.times(&integer).times(&feet.under);
+    over.is_at_most(&square.shifted(of_square))
+}
+
+/// Where elements are closest: distance and direction with an error of less than 2^-48 of themselves, and what is `along` within 2^-48
+/// of the exact one. The distance is zero where they touch, or are closer than any number.
+#[cold]
+pub(crate) fn closest(elements: &Primitives) -> Closest {
+    let [unit, end] = elements.powers();
+    if end - unit <= FEW_BITS {
+        closest_feet::<FEW>(elements, unit)
+    } else {
+        closest_feet::<ENOUGH>(elements, unit)
+    }
+}
+
+fn closest_feet<const L: usize>(elements: &Primitives, unit: i32) -> Closest {
+    let mut least: Option<Feet<L>> = None;
+    feet(elements, unit, &mut |feet| {
+        let is_less = least.as_ref().is_none_or(|least| {
+            let [new, old] = [feet.over.times(&least.under), least.over.times(&feet.under)];
+            !old.is_at_most(&new)
+        });
+        if is_less {
+            least = Some(feet);
+        }
+    });
+    let Some(feet) = least else {
+        // There are feet of ends, whatever the elements are.
+        return Closest::default();
+    };
+    let (square, exponent) = quotient(&feet.over, &feet.under);
+    // An even exponent: its root is a power of two.
+    let (square, exponent) = if exponent % 2 == 0 {
+        (square, exponent)
+    } else {
+        (2.0 * square, exponent - 1)
+    };
+    let distance = scaled(square.sqrt(), exponent / 2 + unit);
+    Closest {
+        distance,
+        along: feet.along,
+        direction: if distance == 0.0 {
+            [0.0; 3]
+        } else {
+            unit_vector(&feet.way)
+        },
+    }
+}
+
+impl Primitives {
+    fn corners(&self) -> &[Point; 4] {
+        match self {
+            Self::VertexTriangle(corners) | Self::EdgeEdge(corners) => corners,
+        }
+    }
+
+    /// The largest power of two that all coordinates are multiples of, and the smallest that all are below.
+    fn powers(&self) -> [i32; 2] {
+        let coordinates = self.corners().as_flattened().iter();
+        let powers = coordinates.filter_map(|&x| powers(x));
+        let both = powers.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
+        both.unwrap_or([0; 2])
+    }
+}
+
+/// Shows `found` all feet of elements, in units of 2^unit: some distance each, the least among them.
+fn feet<const L: usize>(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet<L>)) {
+    let [p, q, r, s] = elements
+        .corners()
+        .map(|corner| corner.map(|x| Integer::<L>::new(x, unit)));
+    match elements {
+        Primitives::VertexTriangle(_) => {
+            let [a, b, c] = [q, r, s];
+            of_end(&p, &a, &b, |along| [along, 0.0], false, found);
+            of_end(&p, &a, &c, |along| [0.0, along], false, found);
+            // Of x and 1 - x the sum is 1 exactly: the first corner counts nothing.
+            let from_b = |along: f64| [1.0 - along, 1.0 - (1.0 - along)];
+            of_end(&p, &b, &c, from_b, false, found);
+            let (e1, e2, t) = (minus(&b, &a), minus(&c, &a), minus(&p, &a));
+            let n = cross(&e1, &e2);
+            of_insides(
+                &n,
+                &t,
+                [dot(&cross(&t, &e2), &n), dot(&cross(&e1, &t), &n)],
+                true,
+                found,
+            );
+        }
+        Primitives::EdgeEdge(_) => {
+            let [a0, a1, b0, b1] = [p, q, r, s];
+            of_end(&a0, &b0, &b1, |along| [0.0, along], false, found);
+            of_end(&a1, &b0, &b1, |along| [1.0, along], false, found);
+            of_end(&b0, &a0, &a1, |along| [along, 0.0], true, found);
+            of_end(&b1, &a0, &a1, |along| [along, 1.0], true, found);
+            let (e, f, t) = (minus(&a1, &a0), minus(&b1, &b0), minus(&a0, &b0));
+            let n = cross(&e, &f);
+            let along = [dot(&cross(&t, &f), &n), dot(&cross(&t, &e), &n)].map(Integer::negated);
+            of_insides(&n, &t, along, false, found);
+        }
+    }
+}
+
+/// A point and a segment from a to b, which may be a point. `is_second`: the point is of the second element.
+fn of_end<const L: usize>(
+    p: &Vector<L>,
+    a: &Vector<L>,
+    b: &Vector<L>,
+    along: impl Fn(f64) -> [f64; 2],
+    is_second: bool,
+    found: &mut dyn FnMut(Feet<L>),
+) {
+    let (e, t) = (minus(b, a), minus(p, a));
+    let (whole, part) = (dot(&e, &e), dot(&t, &e));
+    let one = Integer::new(1.0, 0);
+    let (over, under, way, at) = if part.sign() <= 0 {
+        (dot(&t, &t), one, t, 0.0)
+    } else if whole.is_at_most(&part) {
+        let t = minus(p, b);
+        (dot(&t, &t), one, t, 1.0)
+    } else {
+        let area = cross(&t, &e);
+        let way = std::array::from_fn(|i| t[i].times(&whole).minus(&e[i].times(&part)));
+        (dot(&area, &area), whole, way, fraction(&part, &whole))
+    };
+    found(Feet {
+        over,
+        under,
+        along: along(at),
+        way: if is_second {
+            way.map(Integer::negated)
+        } else {
+            way
+        },
+    });
+}
+
+/// The insides of a face and a point, or of two edges: with a common normal, and how far along times its square; if each is within 0
+/// and the whole, and of a triangle their sum too.
+fn of_insides<const L: usize>(
+    n: &Vector<L>,
+    t: &Vector<L>,
+    along: [Integer<L>; 2],
+    is_triangle: bool,
+    found: &mut dyn FnMut(Feet<L>),
+) {
+    let whole = dot(n, n);
+    let is_inside = |x: &Integer<L>| x.sign() >= 0 && x.is_at_most(&whole);
+    let [p, q] = &along;
+    if whole.is_zero()
+        || !is_inside(p)
+        || !is_inside(q)
+        || is_triangle && !p.plus(q).is_at_most(&whole)
+    {
+        return;
+    }
+    let height = dot(n, t);
+    found(Feet {
+        over: height.times(&height),
+        way: if height.sign() < 0 {
+            n.map(Integer::negated)
+        } else {
+            *n
+        },
+        along: [fraction(p, &whole), fraction(q, &whole)],
+        under: whole,
+    });
+}
+
+fn minus<const L: usize>(p: &Vector<L>, q: &Vector<L>) -> Vector<L> {
+    std::array::from_fn(|i| p[i].minus(&q[i]))
+}
+
+fn cross<const L: usize>(p: &Vector<L>, q: &Vector<L>) -> Vector<L> {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        p[j].times(&q[k]).minus(&p[k].times(&q[j]))
+    })
+}
+
+fn dot<const L: usize>(p: &Vector<L>, q: &Vector<L>) -> Integer<L> {
+    let [x, y, z] = std::array::from_fn(|i| p[i].times(&q[i]));
+    x.plus(&y).plus(&z)
+}
+
+/// A quotient of integers, of which the second is positive: a number from 1/2 to 2, or zero, and an exponent.
+fn quotient<const L: usize>(over: &Integer<L>, under: &Integer<L>) -> (f64, i32) {
+    let ((m, e), (n, f)) = (over.approximately(), under.approximately());
+    (m / n, e - f)
+}
+
+/// A quotient from 0 to 1.
+fn fraction<const L: usize>(over: &Integer<L>, under: &Integer<L>) -> f64 {
+    let (m, e) = quotient(over, under);
+    scaled(m, e).min(1.0)
+}
+
+/// m 2^e, rounded once; zero where it is too small for a normal number and the thread flushes others.
+fn scaled(m: f64, e: i32) -> f64 {
+    let power = |e: i32| f64::from_bits(u64::from((1023 + e).unsigned_abs()) << 52);
+    match e {
+        -1000..=1000 => m * power(e),
+        // Two steps: the first is exact.
+        ..-1000 => m * power(-1000) * power((e + 1000).max(-1000)),
+        _ => m * power(1000) * power((e - 1000).min(1000)),
+    }
+}
+
+/// The unit vector of a way, or zero.
+fn unit_vector<const L: usize>(way: &Vector<L>) -> Point {
+    let parts = way.map(|x| x.approximately());
+    let exponents = parts.iter().filter(|(m, _)| *m != 0.0).map(|&(_, e)| e);
+    let Some(largest) = exponents.max() else {
+        return [0.0; 3];
+    };
+    let [x, y, z] = parts.map(|(m, e)| {
+        if m == 0.0 {
+            0.0
+        } else {
+            scaled(m, e - largest)
+        }
+    });
+    let length = (x * x + y * y + z * z).sqrt();
+    [x / length, y / length, z / length]
+}
+
+#[cfg(test)]
+pub(crate) use tests::hard_pairs;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pliant_oracle::{Class, Random, compare_distance};
+    use std::cmp::Ordering;
+
+    /// Eight pairs of elements of a hard pair of triangles, and the corners of either.
+    pub(crate) fn hard_pairs(
+        [a, b]: &[[Point; 3]; 2],
+    ) -> Vec<(Primitives, Vec<Point>, Vec<Point>)> {
+        let mut all = Vec::new();
+        for corner in 0..2 {
+            for [a, b] in [[a, b], [b, a]] {
+                let four = [a[corner], b[0], b[1], b[2]];
+                all.push((
+                    Primitives::VertexTriangle(four),
+                    vec![a[corner]],
+                    b.to_vec(),
+                ));
+            }
+        }
+        for (i, j) in [(0, 0), (1, 0), (2, 1), (0, 2)] {
+            let edges = [[a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]]];
+            let [[a0, a1], [b0, b1]] = edges;
+            let four = [a0, a1, b0, b1];
+            all.push((
+                Primitives::EdgeEdge(four),
+                edges[0].to_vec(),
+                edges[1].to_vec(),
+            ));
+        }
+        all
+    }
+
+    #[test]
+    fn the_exact_distance_is_that_of_the_oracle() {
+        let mut random = Random::new(41);
+        let [mut inside, mut touching, mut total] = [0; 3];
+        for round in 0..6_000 {
+            let pair = Class::ALL[round % Class::ALL.len()].pair(&mut random);
+            for (elements, a, b) in hard_pairs(&pair) {
+                let found = closest(&elements);
+                let d = found.distance;
+                for x in [
+                    d,
+                    d.next_up(),
+                    d.next_down().max(0.0),
+                    d * (1.0 + 1e-9),
+                    d * (1.0 - 1e-9),
+                    0.0,
+                    0.3,
+                ] {
+                    let expected = compare_distance(&a, &b, x);
+                    assert_eq!(
+                        are_within_distance(&elements, x),
+                        expected != Ordering::Greater,
+                        "{elements:?} {x}"
+                    );
+                }
+                if d > f64::MIN_POSITIVE {
+                    let slack = 2f64.powi(-48);
+                    assert_ne!(
+                        compare_distance(&a, &b, d * (1.0 + slack)),
+                        Ordering::Greater
+                    );
+                    assert_ne!(compare_distance(&a, &b, d * (1.0 - slack)), Ordering::Less);
+                }
+                total += 1;
+                touching += u32::from(d == 0.0);
+                inside += u32::from(found.along.iter().all(|&x| x > 0.0 && x < 1.0));
+                assert_eq!(d == 0.0, found.direction == [0.0; 3], "{elements:?}");
+            }
+        }
+        assert!(
+            touching > total / 50 && inside > total / 20,
+            "{touching} {inside} {total}"
+        );
+    }
+}

@@ -1,0 +1,263 @@
+//! Close pairs: candidates whose elements are at most some distance apart, exactly.
+//!
+//! A candidate's boxes are as near as that on every axis; whether the elements are is decided four at a time between two proven bounds
+//! (`kernels::closest`), and the few that the distance lies between by integers (`predicates::distance`). They are of the shape of now;
+//! where a body has a motion, its boxes hold the way too, and only more candidates are looked at.
+
+mod measured;
+
+use super::{
+    BoxSetNumber, CallerIds, EdgeEdgeCandidates, Kind, LeafTest, Leaves, Margin,
+    VertexTriangleCandidates,
+};
+use crate::geometry::{Aabb, Real, Shape};
+use crate::ids::TreeVertex;
+use crate::kernels::closest::{Corners, FourClosest, of_edges, of_vertices_and_triangles};
+use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
+use crate::predicates::distance::{Closest, Primitives, are_within_distance, closest};
+use crate::statistics::Statistics;
+use crate::threads::Interrupt;
+pub(crate) use measured::{ElementPair, Measured};
+
+/// Candidates of a kind that are at most so far apart.
+#[derive(Debug)]
+pub(crate) struct Close<K> {
+    candidates: K,
+    distance: f64,
+}
+
+impl<K> Close<K> {
+    /// `candidates` makes those of a margin. The distance is finite and at least 0.
+    pub(crate) fn within(distance: f64, candidates: impl Fn(Margin) -> K) -> Self {
+        let half = distance / 2.0;
+        // Half of the smallest number there is has no number.
+        let radius = if 2.0 * half < distance {
+            half.next_up()
+        } else {
+            half
+        };
+        Self {
+            candidates: candidates(Margin::new(radius)),
+            distance,
+        }
+    }
+}
+
+/// A kind of candidates of two elements, which have four corners together.
+pub(crate) trait ElementCandidates:
+    Kind<TreeHit = [u32; 2], Buffers = (), Hit: ElementPair>
+{
+    /// The four corners of a candidate: vertex, triangle; or both ends of either edge.
+    fn corners<'q>(
+        leaves: &LeafTest<'q, Self::Scalar>,
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, Self::Scalar>>;
+
+    /// The same in the order in which the caller has them.
+    #[inline(always)]
+    fn callers_corners<'q>(
+        leaves: &LeafTest<'q, Self::Scalar>,
+        _ids: &CallerIds,
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, Self::Scalar>> {
+        Self::corners(leaves, hit)
+    }
+}
+
+/// Where four pairs are closest, and between what their distances are.
+#[inline(always)]
+fn four_closest<I: Simd, S: Real>(i: I, are_edges: bool, pairs: &[Corners<S>; 4]) -> FourClosest {
+    if are_edges {
+        of_edges(i, pairs)
+    } else {
+        of_vertices_and_triangles(i, pairs)
+    }
+}
+
+/// A pair as exact arithmetic takes it.
+fn primitives<S: Real>(are_edges: bool, corners: &Corners<S>) -> Primitives {
+    let corners = corners.map(|&[x, y, z, _]| [x, y, z].map(Real::to_f64));
+    if are_edges {
+        Primitives::EdgeEdge(corners)
+    } else {
+        Primitives::VertexTriangle(corners)
+    }
+}
+
+/// What is promised of distances: 2^-30 of themselves.
+const ACCURACY: f64 = f64::from_bits((1023 - 30) << 52);
+
+/// Where the first `count` of four pairs are closest. If both bounds are as near each other as is promised, it is what was computed; the
+/// few others, slivers and what touches, are measured in integers, which takes long enough to be asked before each whether to end. None if so.
+#[inline(always)]
+pub(crate) fn closest_of<I: Simd, S: Real>(
+    i: I,
+    are_edges: bool,
+    pairs: &[Corners<S>; 4],
+    count: usize,
+    interrupt: &Interrupt,
+) -> Option<[Closest; 4]> {
+    let found = four_closest(i, are_edges, pairs);
+    let mut all = [Closest::default(); 4];
+    for (lane, one) in all.iter_mut().enumerate().take(count) {
+        let distance = found.distance[lane];
+        *one = if found.most[lane] - found.least[lane] <= ACCURACY * distance {
+            Closest {
+                distance,
+                along: found.along.map(|lanes| lanes[lane]),
+                direction: found.way.map(|lanes| lanes[lane] / distance),
+            }
+        } else if interrupt.is_set() {
+            return None;
+        } else {
+            closest(&primitives(are_edges, &pairs[lane]))
+        };
+    }
+    Some(all)
+}
+
+impl<K: ElementCandidates> Kind for Close<K> {
+    type Scalar = K::Scalar;
+    type Hit = K::Hit;
+    type TreeHit = [u32; 2];
+    type Buffers = ();
+    type Source<'s> = K::Source<'s>;
+
+    const BOX_SET: BoxSetNumber = K::BOX_SET;
+    const LEAVES: Leaves = K::LEAVES;
+    const HOLDS_MOTIONS: bool = K::HOLDS_MOTIONS;
+
+    fn grows_by(&self) -> f32 {
+        self.candidates.grows_by()
+    }
+
+    fn body_box(&self, of_shape: Aabb) -> Aabb {
+        self.candidates.body_box(of_shape)
+    }
+
+    fn source<'s>(
+        &self,
+        shape: Shape<'s, K::Scalar>,
+        end: Option<Shape<'s, K::Scalar>>,
+    ) -> K::Source<'s> {
+        self.candidates.source(shape, end)
+    }
+
+    fn test_runs(
+        &self,
+        leaves: &LeafTest<K::Scalar>,
+        pairs: &[[u32; 2]],
+        hits: &mut Buffer<[u32; 2]>,
+        statistics: &mut Statistics,
+    ) {
+        let before = hits.len();
+        let pairs_before = statistics.pairs;
+        self.candidates.test_runs(leaves, pairs, hits, statistics);
+        let exact = &mut statistics.exact_decisions;
+        let new = hits.tail_mut(before);
+        let kept = dispatch!(leaves.instructions, i => self.keep(i, leaves, new, exact));
+        hits.truncate(before + kept);
+        statistics.pairs = pairs_before + kept as u64;
+    }
+
+    #[inline]
+    fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> K::Hit {
+        self.candidates.to_caller(ids, hit)
+    }
+}
+
+impl<K: ElementCandidates> Close<K> {
+    /// Moves those of some candidates that are close to the front, in their order; returns how many they are.
+    #[inline(always)]
+    fn keep<I: Simd>(
+        &self,
+        i: I,
+        leaves: &LeafTest<K::Scalar>,
+        candidates: &mut [[u32; 2]],
+        exact: &mut u64,
+    ) -> usize {
+        let mut kept = 0;
+        for start in (0..candidates.len()).step_by(4) {
+            let count = (candidates.len() - start).min(4);
+            let mut some = [candidates[start]; 4];
+            some[..count].copy_from_slice(&candidates[start..start + count]);
+            let [a, b, c, d] = some.map(|hit| K::corners(leaves, hit));
+            let (Some(a), Some(b), Some(c), Some(d)) = (a, b, c, d) else {
+                return kept;
+            };
+            let pairs = [a, b, c, d];
+            let closest = four_closest(i, <K::Hit as ElementPair>::ARE_EDGES, &pairs);
+            for (lane, &candidate) in some[..count].iter().enumerate() {
+                let mut is_close = closest.most[lane] <= self.distance;
+                // One branch, hardly ever taken.
+                if !is_close & (closest.least[lane] <= self.distance) {
+                    if leaves.interrupt.is_set() {
+                        return kept;
+                    }
+                    *exact += 1;
+                    let pair = primitives(<K::Hit as ElementPair>::ARE_EDGES, &pairs[lane]);
+                    is_close = are_within_distance(&pair, self.distance);
+                }
+                candidates[kept] = candidate;
+                kept += usize::from(is_close);
+            }
+        }
+        kept
+    }
+}
+
+impl<S: Coordinate> ElementCandidates for VertexTriangleCandidates<S> {
+    #[inline(always)]
+    fn corners<'q>(leaves: &LeafTest<'q, S>, hit: [u32; 2]) -> Option<Corners<'q, S>> {
+        let (side, vertex, triangle) = Self::sides_of(hit);
+        let [of_vertex, of_triangle] = [leaves.shapes[side], leaves.shapes[1 - side]];
+        let [a, b, c] = of_triangle.triangles[triangle.index()];
+        let positions = of_triangle.positions;
+        Some([
+            of_vertex.positions.padded(vertex),
+            positions.padded(a),
+            positions.padded(b),
+            positions.padded(c),
+        ])
+    }
+}
+
+impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
+    #[inline(always)]
+    fn corners<'q>(leaves: &LeafTest<'q, S>, [a, b]: [u32; 2]) -> Option<Corners<'q, S>> {
+        let [first, second] = Self::ends(leaves, [a, b])?;
+        let [of_a, of_b] = leaves.shapes.map(|shape| shape.positions);
+        let [a0, a1] = first.map(|end| of_a.padded(end));
+        let [b0, b1] = second.map(|end| of_b.padded(end));
+        Some([a0, a1, b0, b1])
+    }
+
+    fn callers_corners<'q>(
+        leaves: &LeafTest<'q, S>,
+        ids: &CallerIds,
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, S>> {
+        let mut ends = Self::ends(leaves, hit)?;
+        for (ends, order) in ends.iter_mut().zip(ids.orders) {
+            ends.sort_unstable_by_key(|&end| order.caller_vertex(end).0);
+        }
+        let [of_a, of_b] = leaves.shapes.map(|shape| shape.positions);
+        let [a0, a1] = ends[0].map(|end| of_a.padded(end));
+        let [b0, b1] = ends[1].map(|end| of_b.padded(end));
+        Some(if Self::is_swapped(ids, hit) {
+            [b0, b1, a0, a1]
+        } else {
+            [a0, a1, b0, b1]
+        })
+    }
+}
+
+impl<S: Coordinate> EdgeEdgeCandidates<S> {
+    /// The ends of either edge.
+    #[inline(always)]
+    fn ends(leaves: &LeafTest<S>, [a, b]: [u32; 2]) -> Option<[[TreeVertex; 2]; 2]> {
+        let [of_a, of_b] = leaves.elements;
+        let [of_a, of_b] = [of_a?.edges.ends(), of_b?.edges.ends()];
+        Some([of_a[a as usize], of_b[b as usize]])
+    }
+}

@@ -1,0 +1,206 @@
+//! Close pairs that were found, measured: distance, direction and closest points of each.
+//!
+//! A list is measured once it is sorted, so that what is sorted is small; visitors are shown what was measured on the way.
+
+use super::BodyId;
+use super::asked::{Asked, Common};
+use super::bodies::Bodies;
+use super::body::Body;
+use super::query::Request;
+use crate::error::Error;
+use crate::held::{self, Held};
+use crate::hits::{EdgeEdge, VertexTriangle};
+use crate::kernels::closest::Corners;
+use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
+use crate::predicates::distance::Closest;
+use crate::queries::{Close, ElementCandidates, ElementPair, Measured, closest_of};
+use crate::threads::{Executor, Interrupt};
+use crate::traversal::Sink;
+
+/// Pairs in a job: some tens of microseconds.
+const JOB: usize = 1024;
+
+/// Two elements whose corners are known to bodies.
+pub(super) trait InBodies: ElementPair {
+    /// Which bodies the first element and the second are of.
+    fn bodies(&self) -> [BodyId; 2];
+
+    /// The corners in these bodies, brought into tree order; in the caller's order.
+    fn corners<'b, const N: usize, S: Coordinate>(
+        &self,
+        bodies: [&'b Body<N, S>; 2],
+    ) -> Corners<'b, S>;
+}
+
+impl InBodies for VertexTriangle {
+    fn bodies(&self) -> [BodyId; 2] {
+        [self.vertex_body, self.triangle_body]
+    }
+
+    #[inline]
+    fn corners<'b, const N: usize, S: Coordinate>(
+        &self,
+        [of_vertex, of_triangle]: [&'b Body<N, S>; 2],
+    ) -> Corners<'b, S> {
+        let [a, b, c] = of_triangle.topology.triangles()[self.triangle as usize];
+        [
+            of_vertex.corner(self.vertex),
+            of_triangle.corner(a),
+            of_triangle.corner(b),
+            of_triangle.corner(c),
+        ]
+    }
+}
+
+impl InBodies for EdgeEdge {
+    fn bodies(&self) -> [BodyId; 2] {
+        [self.body_a, self.body_b]
+    }
+
+    #[inline]
+    fn corners<'b, const N: usize, S: Coordinate>(
+        &self,
+        [of_a, of_b]: [&'b Body<N, S>; 2],
+    ) -> Corners<'b, S> {
+        let [a0, a1] = of_a.edges()[self.edge_a as usize];
+        let [b0, b1] = of_b.edges()[self.edge_b as usize];
+        [
+            of_a.corner(a0),
+            of_a.corner(a1),
+            of_b.corner(b0),
+            of_b.corner(b1),
+        ]
+    }
+}
+
+/// What a world keeps for close pairs of one kind.
+#[derive(Debug)]
+pub(super) struct AskedClose<K: ElementCandidates> {
+    lists: Asked<Close<K>>,
+    visits: Asked<Measured<K>>,
+    measured: Vec<<K::Hit as ElementPair>::Close>,
+}
+
+impl<K: ElementCandidates> Default for AskedClose<K> {
+    fn default() -> Self {
+        Self {
+            lists: Asked::default(),
+            visits: Asked::default(),
+            measured: Vec::new(),
+        }
+    }
+}
+
+impl<K: ElementCandidates<Hit: InBodies>> AskedClose<K> {
+    /// All that are close, sorted.
+    pub(super) fn all<const N: usize>(
+        &mut self,
+        kind: &Measured<K>,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+    ) -> Result<&[<K::Hit as ElementPair>::Close], Error> {
+        let hits = self.lists.all(&kind.0, common, request)?;
+        let interrupt = Interrupt::new(request.question);
+        let executor = Executor {
+            threads: common.threads.here(),
+            interrupt: &interrupt,
+        };
+        let how = (common.instructions, executor);
+        measure(&common.bodies, hits, &mut self.measured, how);
+        common.end(&interrupt)?;
+        Ok(&self.measured)
+    }
+
+    /// Shows every one once, until the sink breaks.
+    pub(super) fn visit<const N: usize>(
+        &mut self,
+        kind: &Measured<K>,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+        sink: Sink<<K::Hit as ElementPair>::Close>,
+    ) -> Result<(), Error> {
+        self.visits.visit(kind, common, request, sink)
+    }
+
+    /// Does early what a query would do first.
+    pub(super) fn prepare<const N: usize>(
+        &mut self,
+        kind: &Measured<K>,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+    ) -> Result<(), Error> {
+        self.lists.prepare(&kind.0, common, request)
+    }
+}
+
+impl<K: ElementCandidates> Held for AskedClose<K> {
+    fn held(&self) -> usize {
+        self.lists.held() + self.visits.held() + held::list(&self.measured)
+    }
+}
+
+/// Some pairs that are to be measured.
+struct Job<'m, H: ElementPair> {
+    hits: &'m [H],
+    measured: &'m mut [H::Close],
+}
+
+/// Measures pairs, all of whose bodies a query has just looked at, into a list that is kept from call to call. Interrupted, it ends early.
+fn measure<const N: usize, S: Coordinate, H: InBodies>(
+    bodies: &Bodies<N, S>,
+    hits: &[H],
+    measured: &mut Vec<H::Close>,
+    (instructions, executor): (Instructions, Executor),
+) {
+    measured.clear();
+    measured.extend(hits.iter().map(|hit| hit.close(&Closest::default())));
+    let jobs = hits.chunks(JOB).zip(measured.chunks_mut(JOB));
+    let jobs = jobs.map(|(hits, measured)| Job { hits, measured });
+    let work = |_, job: &mut Job<H>| {
+        dispatch!(instructions, i => measure_some(i, bodies, job, executor.interrupt));
+    };
+    if executor.are_many() {
+        let mut jobs: Vec<Job<H>> = jobs.collect();
+        executor.run(&mut jobs, work);
+    } else {
+        // Without a list of them, which a step would allocate.
+        jobs.for_each(|mut job| executor.run(std::slice::from_mut(&mut job), work));
+    }
+}
+
+#[inline(always)]
+fn measure_some<I: Simd, const N: usize, S: Coordinate, H: InBodies>(
+    i: I,
+    bodies: &Bodies<N, S>,
+    job: &mut Job<H>,
+    interrupt: &Interrupt,
+) {
+    let mut known: Option<([BodyId; 2], [&Body<N, S>; 2])> = None;
+    for (hits, measured) in job.hits.chunks(4).zip(job.measured.chunks_mut(4)) {
+        let mut pairs = None;
+        for (lane, hit) in hits.iter().enumerate() {
+            let ids = hit.bodies();
+            let both = match known {
+                Some((of, both)) if of == ids => both,
+                _ => {
+                    let [Ok(a), Ok(b)] = ids.map(|id| bodies.get(id)) else {
+                        return;
+                    };
+                    known = Some((ids, [a, b]));
+                    [a, b]
+                }
+            };
+            let corners = hit.corners(both);
+            pairs.get_or_insert([corners; 4])[lane] = corners;
+        }
+        let Some(pairs) = pairs else {
+            return;
+        };
+        let Some(closest) = closest_of(i, H::ARE_EDGES, &pairs, hits.len(), interrupt) else {
+            return;
+        };
+        for ((hit, measured), closest) in hits.iter().zip(measured).zip(&closest) {
+            *measured = hit.close(closest);
+        }
+    }
+}

@@ -6,7 +6,7 @@ use crate::query::{All, First, Prepare, Selection, SomeAtATime, Want, go_on, sto
 use crate::signals::interruptible;
 use crate::world::World;
 use numpy::IntoPyArray;
-use pliant::{CloseEdgeEdge, CloseVertexTriangle};
+use pliant::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
 use pliant_check::with_world;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -17,16 +17,17 @@ use pyo3::types::{PyTuple, PyType};
 pub(crate) enum CloseKind {
     VertexTriangle,
     EdgeEdge,
+    Triangles,
 }
 
-/// A close pair of either kind.
+/// A close pair of any kind.
 #[derive(Clone, Copy)]
-struct Close {
+pub(crate) struct Close {
     row: [u32; 4],
     distance: f64,
     direction: Option<[f64; 3]>,
-    /// Of edges all four, of triangles the first three.
-    barycentric: [f64; 4],
+    /// Of two triangles all six, of edges the first four, of a vertex and a triangle the first three.
+    barycentric: [f64; 6],
 }
 
 impl From<CloseVertexTriangle> for Close {
@@ -36,7 +37,7 @@ impl From<CloseVertexTriangle> for Close {
             row: close.pair.into(),
             distance: close.distance,
             direction: close.direction,
-            barycentric: [a, b, c, 0.0],
+            barycentric: [a, b, c, 0.0, 0.0, 0.0],
         }
     }
 }
@@ -48,8 +49,36 @@ impl From<CloseEdgeEdge> for Close {
             row: close.pair.into(),
             distance: close.distance,
             direction: close.direction,
-            barycentric: [a, b, c, d],
+            barycentric: [a, b, c, d, 0.0, 0.0],
         }
+    }
+}
+
+impl From<CloseTriangles> for Close {
+    fn from(close: CloseTriangles) -> Self {
+        let ([a, b, c], [d, e, f]) = (close.barycentric_a, close.barycentric_b);
+        Self {
+            row: close.pair.into(),
+            distance: close.distance,
+            direction: close.direction,
+            barycentric: [a, b, c, d, e, f],
+        }
+    }
+}
+
+impl Close {
+    /// A ClosePair.
+    pub(crate) fn one(self, py: Python<'_>, kind: CloseKind) -> PyResult<Bound<'_, PyAny>> {
+        let (place, numbers) = match kind {
+            CloseKind::VertexTriangle => (2, &self.barycentric[..3]),
+            CloseKind::EdgeEdge => (3, &self.barycentric[..4]),
+            CloseKind::Triangles => (4, &self.barycentric[..]),
+        };
+        let [body_a, a, body_b, b] = self.row;
+        let pair = class(py, place)?.call1((body_a, a, body_b, b))?;
+        let barycentric = PyTuple::new(py, numbers)?;
+        let direction = self.direction.map(|[x, y, z]| (x, y, z));
+        class(py, 1)?.call1((pair, self.distance, direction, barycentric))
     }
 }
 
@@ -89,6 +118,10 @@ impl CloseQuery {
                         let query = world.close_edge_edge_pairs(of, distance);
                         want.of(query.interrupt_if(question))
                     }
+                    CloseKind::Triangles => {
+                        let query = world.close_triangle_pairs(of, distance);
+                        want.of(query.interrupt_if(question))
+                    }
                 })
             })
         })
@@ -104,17 +137,15 @@ impl CloseQuery {
         let distance: Vec<f64> = close.iter().map(|it| it.distance).collect();
         let direction = close.iter().map(|it| it.direction.unwrap_or_default());
         let direction = arrays::rows_of(py, direction.collect())?;
+        let all = || close.iter().map(|it| it.barycentric);
         let barycentric = match kind {
             CloseKind::VertexTriangle => {
-                let three = close.iter().map(|it| {
-                    let [a, b, c, _] = it.barycentric;
-                    [a, b, c]
-                });
-                arrays::rows_of(py, three.collect())?
+                arrays::rows_of(py, all().map(|[a, b, c, ..]| [a, b, c]).collect())?
             }
             CloseKind::EdgeEdge => {
-                arrays::rows_of(py, close.iter().map(|it| it.barycentric).collect())?
+                arrays::rows_of(py, all().map(|[a, b, c, d, ..]| [a, b, c, d]).collect())?
             }
+            CloseKind::Triangles => arrays::rows_of(py, all().collect())?,
         };
         let distance = distance.into_pyarray(py);
         class(py, 0)?.call1((pairs, distance, direction, barycentric))
@@ -123,8 +154,14 @@ impl CloseQuery {
 
 /// The named tuples of many and of one, and those of the elements.
 fn class(py: Python<'_>, place: usize) -> PyResult<&Bound<'_, PyType>> {
-    const NAMES: [&str; 4] = ["ClosePairs", "ClosePair", "VertexTriangle", "EdgeEdge"];
-    static CLASSES: [PyOnceLock<Py<PyType>>; 4] = [const { PyOnceLock::new() }; 4];
+    const NAMES: [&str; 5] = [
+        "ClosePairs",
+        "ClosePair",
+        "VertexTriangle",
+        "EdgeEdge",
+        "Pair",
+    ];
+    static CLASSES: [PyOnceLock<Py<PyType>>; 5] = [const { PyOnceLock::new() }; 5];
     CLASSES[place].import(py, "pliant._types", NAMES[place])
 }
 
@@ -146,19 +183,8 @@ impl CloseQuery {
     /// Some close pair, a ClosePair, or None if there is none: much cheaper than all where there are many. Which one may depend on options
     /// and history; whether there is one never does.
     fn first<'py>(&self, py: Python<'py>) -> Result<Option<Bound<'py, PyAny>>, Refused> {
-        let Some(close) = self.ask(py, First)? else {
-            return Ok(None);
-        };
-        let (place, numbers) = match self.kind {
-            CloseKind::VertexTriangle => (2, &close.barycentric[..3]),
-            CloseKind::EdgeEdge => (3, &close.barycentric[..]),
-        };
-        let [body_a, a, body_b, b] = close.row;
-        let pair = class(py, place)?.call1((body_a, a, body_b, b))?;
-        let barycentric = PyTuple::new(py, numbers)?;
-        let direction = close.direction.map(|[x, y, z]| (x, y, z));
-        let one = class(py, 1)?.call1((pair, close.distance, direction, barycentric))?;
-        Ok(Some(one))
+        let close = self.ask(py, First)?;
+        Ok(close.map(|close| close.one(py, self.kind)).transpose()?)
     }
 
     /// Calls visit(close) with some close pairs at a time, a ClosePairs, until it returns True (or anything true). Returns whether it did.
@@ -186,6 +212,7 @@ impl CloseQuery {
         let elements = match self.kind {
             CloseKind::VertexTriangle => "vertices and triangles",
             CloseKind::EdgeEdge => "edges and edges",
+            CloseKind::Triangles => "triangles",
         };
         let (of, distance) = (self.of.__repr__(), self.distance);
         format!("<pliant.CloseQuery of {of}, {elements}, within {distance}>")

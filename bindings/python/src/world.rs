@@ -1,11 +1,12 @@
 //! `World` as Python sees it: the Rust library's, method by method.
 
 use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedFaces};
-use crate::close::{CloseKind, CloseQuery};
+use crate::close::{Close, CloseKind, CloseQuery};
 use crate::error::{Refused, alone, alone_with, named_tuple};
 use crate::options::Keywords;
 use crate::pickled::{self, Written};
 use crate::query::{Kind, Query, Selection};
+use crate::signals::interruptible;
 use crate::state::State;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pliant::{BodyId, ErrorKind};
@@ -615,6 +616,79 @@ impl World {
     #[pyo3(signature = (of, distance))]
     fn close_edge_edge_pairs(slf: Py<Self>, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(slf, CloseKind::EdgeEdge, of, distance)
+    }
+
+    /// Asks which triangles are close to each other, in the shape of now: those at most distance apart, with their closest points; those that
+    /// intersect are, at distance 0. Within a body, those that share a vertex of the mesh are left out.
+    #[pyo3(signature = (of, distance))]
+    fn close_triangle_pairs(slf: Py<Self>, of: Selection, distance: f64) -> CloseQuery {
+        CloseQuery::new(slf, CloseKind::Triangles, of, distance)
+    }
+
+    /// How far the surfaces of two bodies are apart: their closest triangles, a ClosePair; None if they are further apart than cut_off.
+    /// The distance is 0 exactly if any of their triangles intersect; a body wholly inside another is as far from it as its surface is.
+    #[pyo3(signature = (a, b, cut_off=f64::INFINITY))]
+    fn distance<'py>(
+        &self,
+        py: Python<'py>,
+        a: Body,
+        b: Body,
+        cut_off: f64,
+    ) -> Result<Option<Bound<'py, PyAny>>, Refused> {
+        let found = self.with(py, |state| {
+            interruptible(|question| {
+                with_world!(&mut state.world, world => {
+                    world.interruptible(question).distance(a.0, b.0, cut_off)
+                })
+            })
+        })?;
+        let one = found.map(|close| Close::from(close).one(py, CloseKind::Triangles));
+        Ok(one.transpose()?)
+    }
+
+    /// How far a body is from all others that may meet it, as filters say: the distance to the nearest of them, which the ClosePair names;
+    /// None if no other is within cut_off.
+    #[pyo3(signature = (body, cut_off=f64::INFINITY))]
+    fn nearest_body<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+        cut_off: f64,
+    ) -> Result<Option<Bound<'py, PyAny>>, Refused> {
+        let found = self.with(py, |state| {
+            interruptible(|question| {
+                with_world!(&mut state.world, world => {
+                    world.interruptible(question).nearest_body(body.0, cut_off)
+                })
+            })
+        })?;
+        let one = found.map(|close| Close::from(close).one(py, CloseKind::Triangles));
+        Ok(one.transpose()?)
+    }
+
+    /// How far each vertex may move before anything can touch: a dictionary of bodies, with an array (n,) float64 each, at most half of
+    /// cut_off. It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of, as
+    /// close_vertex_triangle_pairs looks at them; rounded down by at most 1e-6 of itself. If every vertex moves less than that, in
+    /// whatever direction, none of these touch.
+    #[pyo3(signature = (of, cut_off))]
+    fn clearance<'py>(
+        &self,
+        py: Python<'py>,
+        of: Selection,
+        cut_off: f64,
+    ) -> Result<Bound<'py, PyDict>, Refused> {
+        let clearances = self.with(py, |state| {
+            interruptible(|question| {
+                with_world!(&mut state.world, world => {
+                    world.interruptible(question).clearance(of.0, cut_off)
+                })
+            })
+        })?;
+        let of_bodies = PyDict::new(py);
+        for (body, clearance) in clearances {
+            of_bodies.set_item(body.0, clearance.into_pyarray(py))?;
+        }
+        Ok(of_bodies)
     }
 
     /// What the last query did, with what Query.prepare did before it.

@@ -86,3 +86,38 @@ def test_touching_has_no_direction_and_refusals() -> None:
         with pytest.raises(pliant.Error) as refused:
             world.close_edge_edge_pairs(Selection.WORLD, distance).all()
         assert refused.value.kind == "BadDistance"
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_distances_of_bodies_and_triangles(dtype: Any) -> None:
+    world, faces, shapes = bodies(dtype)
+    apart = shapes[1] + np.array([0, 0, 2], dtype)
+    world.set_positions(1, apart)
+    nearest = world.distance(0, 1)
+    assert nearest is not None and isinstance(nearest.pair, pliant.Pair) and nearest.direction is not None
+    ends = [
+        np.asarray(nearest.barycentric[3 * k : 3 * k + 3]) @ shape[faces[triangle]].astype(np.float64)
+        for k, (shape, triangle) in enumerate(((shapes[0], nearest.pair.triangle_a), (apart, nearest.pair.triangle_b)))
+    ]
+    assert np.allclose(ends[0] - ends[1], nearest.distance * np.asarray(nearest.direction), atol=1e-12)
+    assert world.distance(0, 1, nearest.distance * 0.999) is None
+    assert world.nearest_body(1) is not None and world.nearest_body(1, 0.1) is None
+    close = world.close_triangle_pairs(Selection.between(0, 1), nearest.distance * 1.2).all()
+    assert close.barycentric.shape == (len(close.pairs), 6)
+    assert close.distance.min() == pytest.approx(nearest.distance, rel=1e-8)
+    world.set_positions(1, shapes[0])
+    touching = world.distance(0, 1)
+    assert touching is not None and touching.distance == 0 and touching.direction is None
+    with pytest.raises(pliant.Error) as refused:
+        world.distance(0, 1, -1.0)
+    assert refused.value.kind == "BadDistance"
+
+
+def test_clearance_is_half_the_least_distance() -> None:
+    world, _, shapes = bodies(np.float64)
+    clearance = world.clearance(Selection.WORLD, 0.5)
+    close = world.close_vertex_triangle_pairs(Selection.WORLD, 0.5).all()
+    assert [len(clearance[body]) for body in (0, 1)] == [len(shape) for shape in shapes]
+    assert all((of_body <= 0.25).all() for of_body in clearance.values())
+    for (body, vertex, _, _), distance in zip(close.pairs.tolist(), close.distance, strict=True):
+        assert clearance[body][vertex] <= distance / 2

@@ -65,10 +65,11 @@ def test_worlds_and_queries_have_the_methods_of_the_rust_librarys() -> None:
     of_world, of_query = public_methods(source_of("mod.rs")), public_methods(source_of("query.rs"))
     assert {"write_positions", "tree_cut", "intersections", "validate"} < of_world
     assert {"all", "first", "visit", "prepare", "at_most", "interrupt_if"} <= of_query
-    # Nothing is public elsewhere.
+    # Nothing is public elsewhere: what may be interrupted has the names of what it is.
     assert public_methods(source_of()) == of_world | of_query
-    # A pool of threads is nothing of Python's, and what makes a world has one name there.
-    of_world -= {"new", "with_options", "with_pool"}
+    assert public_methods(source_of("interruptible.rs")) < of_world
+    # A pool of threads is nothing of Python's, what makes a world has one name there, and signals interrupt it.
+    of_world -= {"new", "with_options", "with_pool", "interruptible"}
     assert of_class(pliant.World) == of_world | {"dtype"}
     # How much is wanted at most is an argument, and what interrupts a query are signals.
     of_query -= {"at_most", "interrupt_if"}

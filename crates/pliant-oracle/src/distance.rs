@@ -3,21 +3,27 @@
 //! The distance of two hulls is that of the origin and the hull of all differences of a point of the one and a point of the other. The
 //! point of that which is closest to the origin is in some simplex of these differences, and closest to the origin in all of the
 //! simplex's plane (or line). So each point, segment and triangle of differences is looked at: where the closest point of its plane lies
-//! in it, its distance is that of some points of the hulls, and the least of those is the answer. For hulls whose differences lie in
-//! one plane, or that are no more than three: a point and a triangle, two segments.
+//! in it, its distance is that of some points of the hulls, and the least of those is the answer; but where the origin is inside the
+//! hull of differences, which it can be only of two triangles, these intersect, and are 0 apart.
 
 use crate::hull::{Vector, minus};
 use crate::integers::integers;
+use crate::intersect;
 use dashu_int::IBig;
 use std::cmp::Ordering;
 
-/// Whether the distance of two hulls is less than x, x or more: a point and up to three points, or two and two.
+/// Whether the distance of two hulls is less than x, x or more: a point and up to three points, two and two, or three and three.
 ///
 /// # Panics
 ///
 /// If a number is not finite, or x negative.
 pub fn compare_distance(a: &[[f64; 3]], b: &[[f64; 3]], x: f64) -> Ordering {
-    assert!(x >= 0.0 && (a.len() == 1 && b.len() <= 3 || a.len() == 2 && b.len() == 2));
+    assert!(x >= 0.0 && matches!([a.len(), b.len()], [1, 1..=3] | [2, 2] | [3, 3]));
+    if let ([a, b, c], [d, e, f]) = (a, b)
+        && intersect(&[*a, *b, *c], &[*d, *e, *f])
+    {
+        return 0.0_f64.total_cmp(&x);
+    }
     let numbers: Vec<f64> = [a, b].concat().into_iter().flatten().chain([x]).collect();
     let all = integers(&numbers);
     let points: Vec<Vector<IBig>> = all[..numbers.len() - 1]
@@ -144,6 +150,12 @@ mod tests {
                 compare_distance(&other, &edge, expected.next_up()),
                 Ordering::Less
             );
+        }
+        let above = |z: f64| [[1.0, 1.0, z], [1.0, 1.5, z + 2.0], [1.5, 1.0, z + 3.0]];
+        for (other, expected) in [(above(2.0), 2.0), (above(0.0), 0.0), (above(-1.0), 0.0)] {
+            let is = |x: f64| compare_distance(&triangle, &other, x);
+            assert_eq!(is(expected), Ordering::Equal);
+            assert_eq!(is(expected.next_up()), Ordering::Less);
         }
         assert_eq!(
             compare_length(&[(0.5, [2.0, 0.0, 0.0]), (2.0, [1.0, 2.0, 0.0])], 5.0),

@@ -1,6 +1,6 @@
 //! What queries for close pairs find: two elements, how far apart they are, and where they are closest.
 
-use crate::hits::{EdgeEdge, VertexTriangle};
+use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 
 /// The smallest parts of two elements that hold the points in which they are closest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -48,6 +48,32 @@ pub struct CloseEdgeEdge {
     pub barycentric_a: [f64; 2],
     /// The point of the second.
     pub barycentric_b: [f64; 2],
+}
+
+/// Two triangles close to each other, of two bodies or of one.
+///
+/// The distance is off by at most 2^-30 of itself; it is 0 exactly if they intersect, or are closer than any number. Let s be the largest
+/// coordinate of any difference of their corners; then the points that `barycentric_a` and `barycentric_b` name are no further apart than
+/// the distance and 2^-30 of it and 2^-40 s: where triangles intersect, they are a point in common. Along `direction` the triangles are
+/// apart by the distance but for 2^-30 of it and 2^-48 s. Of several closest points, those here are some. Where corners a, b, c count x, y, z
+/// the point is a + y (b - a) + z (c - a). `point_a` and `point_b` are the
+/// same points, off by at most 2^-50 of the largest coordinate of a corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloseTriangles {
+    /// Which they are.
+    pub pair: Pair,
+    /// How far apart they are.
+    pub distance: f64,
+    /// From the second triangle to the first, of length 1; none if they intersect.
+    pub direction: Option<[f64; 3]>,
+    /// The point of the first triangle: what each corner counts, in their order; at least 0, together 1 but for rounding.
+    pub barycentric_a: [f64; 3],
+    /// The point of the second.
+    pub barycentric_b: [f64; 3],
+    /// The point of the first triangle, as coordinates.
+    pub point_a: [f64; 3],
+    /// The point of the second.
+    pub point_b: [f64; 3],
 }
 
 impl CloseVertexTriangle {

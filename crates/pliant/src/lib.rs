@@ -55,9 +55,10 @@
 //! | moving them | [`World::set_positions`], [`write_positions`](World::write_positions); [`rebuild`](World::rebuild); other meshes, [`set_mesh`](World::set_mesh) |
 //! | asking: what | [`World::intersections`]; [`Pair`] |
 //! | what is near, now or on the way | [`World::vertex_triangle_candidates`], [`edge_edge_candidates`](World::edge_edge_candidates); [`VertexTriangle`], [`EdgeEdge`]; [`World::edges`] |
+//! | what is close, how far apart | [`World::close_vertex_triangle_pairs`], [`close_edge_edge_pairs`](World::close_edge_edge_pairs), [`close_triangle_pairs`](World::close_triangle_pairs); [`distance`](World::distance), [`nearest_body`](World::nearest_body); [`clearance`](World::clearance) |
 //! | where bodies are going | [`World::set_motion`], [`finish_motion`](World::finish_motion), [`advance_motion`](World::advance_motion) |
 //! | of whom | [`Selection`]: the whole world, each body with itself too, two bodies, one with itself |
-//! | and how much | [`Query::all`], [`first`](Query::first), [`visit`](Query::visit), [`visit_some`](Query::visit_some); [`at_most`](Query::at_most), [`interrupt_if`](Query::interrupt_if) |
+//! | and how much | [`Query::all`], [`first`](Query::first), [`visit`](Query::visit), [`visit_some`](Query::visit_some); [`at_most`](Query::at_most), [`interrupt_if`](Query::interrupt_if); [`World::interruptible`] |
 //! | who may meet whom | [`World::set_filter`], [`ignore`](World::ignore), [`unignore`](World::unignore); of candidates, [`set_vertex_groups`](World::set_vertex_groups) |
 //! | the broad phase | [`BroadPhase`], [`World::set_loose_box`] |
 //! | what was refused, and why | [`Error`], [`ErrorKind`] |
@@ -113,7 +114,7 @@ mod tree;
 mod update;
 mod world;
 
-pub use close_pairs::{CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures};
+pub use close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
 pub use error::{Error, ErrorKind};
 pub use hits::{EdgeEdge, Pair, VertexTriangle};
 pub use ids::BodyId;
@@ -122,7 +123,7 @@ pub use kernels::Instructions;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
 pub use predicates::is_degenerate;
 pub use statistics::Statistics;
-pub use world::{NodeBox, Query, Scalar, Selection, TreeShape, World};
+pub use world::{Interruptible, NodeBox, Query, Scalar, Selection, TreeShape, World};
 
 /// The example in the README is compiled and run: in the repository, for a package has it elsewhere.
 #[cfg(doctest)]

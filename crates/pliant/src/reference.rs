@@ -67,6 +67,76 @@ fn pairs_of_one(triangles: &[[u32; 3]], all: &[Triangle]) -> Vec<[u32; 2]> {
     pairs
 }
 
+/// The pairs (triangle of a, triangle of b) that are at most so far apart, sorted, as
+/// [`World::close_triangle_pairs`](crate::World::close_triangle_pairs) means them.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn close_triangle_pairs<S: Scalar>(
+    triangles_a: &[[u32; 3]],
+    positions_a: &[[S; 3]],
+    triangles_b: &[[u32; 3]],
+    positions_b: &[[S; 3]],
+    distance: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    let (a, b) = (
+        corners(triangles_a, positions_a)?,
+        corners(triangles_b, positions_b)?,
+    );
+    let mut pairs = Vec::new();
+    for (i, a) in (0..).zip(&a) {
+        for (j, b) in (0..).zip(&b) {
+            if are_close(a, b, distance) {
+                pairs.push([i, j]);
+            }
+        }
+    }
+    Ok(pairs)
+}
+
+/// The pairs (smaller triangle, larger triangle) of one body that share no vertex and are at most so far apart, sorted.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn self_close_triangle_pairs<S: Scalar>(
+    triangles: &[[u32; 3]],
+    positions: &[[S; 3]],
+    distance: f64,
+) -> Result<Vec<[u32; 2]>, Error> {
+    let pairs = close_triangle_pairs(triangles, positions, triangles, positions, distance)?;
+    let share = |[i, j]: [u32; 2]| share_a_vertex(triangles[i as usize], triangles[j as usize]);
+    Ok(pairs
+        .into_iter()
+        .filter(|&[i, j]| i < j && !share([i, j]))
+        .collect())
+}
+
+/// Whether two triangles intersect, or any of their elements are at most so far apart.
+fn are_close(a: &Triangle, b: &Triangle, distance: f64) -> bool {
+    // What is further apart on one axis is further apart.
+    let box_of = |corners: &Triangle| {
+        let mut bounds = Bounds::EMPTY;
+        corners.iter().for_each(|&corner| bounds.include(corner));
+        bounds
+    };
+    are_within(&box_of(a), &box_of(b), distance)
+        && (triangles_intersect(a, b, &mut Exact) || {
+            let corner = |i: usize, [p, q]: [&Triangle; 2]| {
+                Primitives::VertexTriangle([p[i], q[0], q[1], q[2]])
+            };
+            let edges = |i: usize, j: usize| {
+                Primitives::EdgeEdge([a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]])
+            };
+            (0..3).any(|i| {
+                are_within_distance(&corner(i, [a, b]), distance)
+                    || are_within_distance(&corner(i, [b, a]), distance)
+                    || (0..3).any(|j| are_within_distance(&edges(i, j), distance))
+            })
+        })
+}
+
 /// A body, and where it is going.
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'m, S> {

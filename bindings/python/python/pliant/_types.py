@@ -96,19 +96,20 @@ class ClosePairs(NamedTuple):
     """
 
     pairs: NDArray[np.uint32]
-    """(k, 4): body, vertex, body, triangle; or body, edge, body, edge."""
+    """(k, 4): body, vertex, body, triangle; or body, edge, body, edge; or body, triangle, body, triangle."""
     distance: NDArray[np.float64]
     """(k,)"""
     direction: NDArray[np.float64]
     """(k, 3): from the second element to the first, of length 1; zeros where they touch."""
     barycentric: NDArray[np.float64]
-    """(k, 3): the point of the triangle, what each corner counts. Of edges (k, 4): what the ends of the first count, then of the second."""
+    """(k, 3): the point of the triangle, what each corner counts. Of edges (k, 4): what the ends of the first count, then
+    of the second. Of two triangles (k, 6): what the corners of the first count, then of the second."""
 
 
 class ClosePair(NamedTuple):
     """Two elements that are close, as a row of ClosePairs has them; direction is None if they touch."""
 
-    pair: VertexTriangle | EdgeEdge
+    pair: VertexTriangle | EdgeEdge | Pair
     distance: float
     direction: tuple[float, float, float] | None
     barycentric: tuple[float, ...]

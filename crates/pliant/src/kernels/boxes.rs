@@ -139,6 +139,47 @@ pub(crate) fn overlap_mask<I: Simd, const N: usize>(i: I, a: &BoxLanes<N>, b: &B
     mask
 }
 
+/// Bit 8 i + j is set unless lane i of `a` and lane j of `b` are surely further apart than the root of `limit`, a square. The first lanes
+/// are not empty, and so many of them, at least one, are compared.
+///
+/// A square of a gap computed in `f32` is off by six roundings of itself, and 2^-148, or where subnormal numbers are flushed by as much as
+/// a part of 2^-64 or 2^-184: a limit that is larger by 2^-20 of itself and 2^-100 allows more. Where it is beyond `f32`, no gap is.
+#[inline(always)]
+pub(crate) fn near_mask<I: Simd, const N: usize>(
+    i: I,
+    a: &BoxLanes<N>,
+    b: &BoxLanes<N>,
+    [len_a, len_b]: [usize; 2],
+    limit: f64,
+) -> u64 {
+    let most = (limit * (1.0 + f64::powi(0.5, 20)) + f64::powi(0.5, 100)) as f32;
+    let most = if most == f32::MAX {
+        f32::INFINITY
+    } else {
+        most.next_up()
+    };
+    let (zero, most) = (f32x8::splat(i, 0.0), f32x8::splat(i, most));
+    let (mut b_lo, mut b_hi) = ([zero; 3], [zero; 3]);
+    for axis in 0..3 {
+        b_lo[axis] = eight(i, &b.lo[axis]);
+        b_hi[axis] = eight(i, &b.hi[axis]);
+    }
+    let columns = u64::MAX >> (64 - len_b) & 0xff;
+    let mut mask = 0;
+    for lane in 0..len_a.min(N) {
+        let mut square = zero;
+        for axis in 0..3 {
+            let below = b_lo[axis] - a.hi[axis][lane];
+            let above = f32x8::splat(i, a.lo[axis][lane]) - b_hi[axis];
+            let gap = below.simd_gt(zero).select(below, zero);
+            let gap = above.simd_gt(zero).select(above, gap);
+            square += gap * gap;
+        }
+        mask |= (square.simd_le(most).to_bitmask() & columns) << (8 * lane);
+    }
+    mask
+}
+
 /// A row of N numbers as eight, the rest empty.
 #[inline(always)]
 pub(super) fn eight<I: Simd, const N: usize>(i: I, row: &[f32; N]) -> f32x8<I> {

@@ -14,8 +14,13 @@
 //! division and the length add 6 u: lower bounds allow 20 u S too. Results below the normal range are off by less than 2^-1020 each: where S
 //! is at least 2^-200, that is nothing beside 2^-250 S, even in products of four. Where S is smaller, nothing is sure. As r is a
 //! direction only if it is no rounding error, the lower bound is none where |r| is below 20 u S.
+//!
+//! **Triangles.** Two triangles that do not intersect are as far apart as the nearest of their fifteen pairs of elements. The way between
+//! the points of that pair bounds the distance of the triangles too, from below by the projections of all their corners: with S for the
+//! largest sum of the absolute coordinates of a difference of two of these, with as much room for rounding. Where they intersect, no
+//! direction parts them, and the bounds are apart.
 
-use crate::geometry::Real;
+use crate::geometry::{ELEMENT_PAIRS, FIRST_OF_EDGES, Real, four_corners, is_swapped};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x4, mask64x4};
 
@@ -165,6 +170,87 @@ pub(crate) fn of_edges<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4]) -> FourC
         .min(dot(way, t10))
         .min(dot(way, t01).min(dot(way, t11)));
     bounds(i, [x, y], way, least, [t, e, f])
+}
+
+/// Where two triangles are closest, unless they intersect.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct TwoClosest {
+    /// The nearest pair of elements, by its number, and how far along these.
+    pub(crate) which: usize,
+    pub(crate) along: [f64; 2],
+    /// The way from its second element to its first.
+    pub(crate) way: [f64; 3],
+    /// Its length.
+    pub(crate) distance: f64,
+    /// The true distance is at least that, and more than that is nothing. Perhaps less than none.
+    pub(crate) least: f64,
+    /// It is at most that. Perhaps infinite.
+    pub(crate) most: f64,
+}
+
+/// Where two triangles are closest, by their corners.
+#[inline(always)]
+pub(crate) fn of_triangles<I: Simd, S: Real>(
+    i: I,
+    a: &[&[S; 4]; 3],
+    b: &[&[S; 4]; 3],
+) -> TwoClosest {
+    let mut nearest = TwoClosest {
+        distance: f64::INFINITY,
+        most: f64::INFINITY,
+        ..TwoClosest::default()
+    };
+    let mut least_of_nearest = f64::NEG_INFINITY;
+    let mut first = 0;
+    while first < ELEMENT_PAIRS {
+        let end = if first < FIRST_OF_EDGES {
+            FIRST_OF_EDGES
+        } else {
+            ELEMENT_PAIRS
+        };
+        let count = (end - first).min(4);
+        let mut pairs = [four_corners(first, a, b); 4];
+        for lane in 1..count {
+            pairs[lane] = four_corners(first + lane, a, b);
+        }
+        let found = if first < FIRST_OF_EDGES {
+            of_vertices_and_triangles(i, &pairs)
+        } else {
+            of_edges(i, &pairs)
+        };
+        for lane in 0..count {
+            nearest.most = nearest.most.min(found.most[lane]);
+            if found.distance[lane] < nearest.distance {
+                nearest.which = first + lane;
+                nearest.along = [found.along[0][lane], found.along[1][lane]];
+                nearest.way = [found.way[0][lane], found.way[1][lane], found.way[2][lane]];
+                nearest.distance = found.distance[lane];
+                least_of_nearest = found.least[lane];
+            }
+        }
+        first += count;
+    }
+    nearest.least = f64::NEG_INFINITY;
+    if least_of_nearest > 0.0 {
+        let mut way = nearest.way;
+        if is_swapped(nearest.which) {
+            way = [0.0 - way[0], 0.0 - way[1], 0.0 - way[2]];
+        }
+        let [mut projection, mut largest] = [f64::INFINITY, 0.0_f64];
+        for p in a {
+            for q in b {
+                let d = [
+                    p[0].to_f64() - q[0].to_f64(),
+                    p[1].to_f64() - q[1].to_f64(),
+                    p[2].to_f64() - q[2].to_f64(),
+                ];
+                projection = projection.min(way[0] * d[0] + way[1] * d[1] + way[2] * d[2]);
+                largest = largest.max(d[0].abs() + d[1].abs() + d[2].abs());
+            }
+        }
+        nearest.least = projection / nearest.distance - ERROR * largest;
+    }
+    nearest
 }
 
 /// How far along a segment from 0 to e the point is that is nearest to t, from 0 to 1; and the square of their distance.

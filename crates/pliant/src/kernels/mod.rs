@@ -33,7 +33,7 @@ mod instructions;
 mod quantized;
 pub(crate) mod signs;
 
-pub(crate) use boxes::{BoxLanes, overlap_mask};
+pub(crate) use boxes::{BoxLanes, near_mask, overlap_mask};
 pub(crate) use buffer::Buffer;
 pub(crate) use coordinate::{Coordinate, Corners};
 pub(crate) use copy_checked::{check, copy_checked};

@@ -48,7 +48,7 @@ impl<S: Coordinate> Kind for Near<S> {
     type Buffers = ();
     type Source<'s> = Grown<Shape<'s, S>>;
 
-    const BOX_SET: BoxSetNumber = 2;
+    const BOX_SET: BoxSetNumber = 3;
     const LEAVES: Leaves = Leaves::AllTriangles;
 
     fn grows_by(&self) -> f32 {

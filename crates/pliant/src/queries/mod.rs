@@ -22,7 +22,10 @@ use crate::tree::BoxSource;
 pub(crate) use candidates::{
     EdgeEdgeCandidates, Groups, Margin, NearBoxes, NearElements, VertexTriangleCandidates, Which,
 };
-pub(crate) use close::{Close, ElementCandidates, ElementPair, Measured, closest_of};
+pub(crate) use close::{
+    Close, CloseKind, Measurable, Measured, NearTriangles, NearestPair, close,
+    closest_of_triangles, corners_of,
+};
 pub(crate) use intersections::Intersections;
 
 /// Two triangles whose boxes overlap, of the first body and of the second.

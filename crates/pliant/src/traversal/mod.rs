@@ -26,6 +26,8 @@
 //! included), and needs no recursion. Batches are long from the beginning where all hits are wanted: each ends in waiting for
 //! the last task. For a visitor they start small, so that one that wants the first hit gets it after a few nodes, and double.
 //!
+//! `nearest` is another loop, for two trees that are apart: not what overlaps is looked for, but what is least apart.
+//!
 //! A node is one box, a lane of a wide node (Embree calls the wide node a node). Differs from the paper, which descends pair by pair;
 //! where all hits are wanted the boxes reached are the same but for the order.
 
@@ -33,8 +35,10 @@ mod context;
 mod descent;
 mod expand;
 mod leaf_pairs;
+mod nearest;
 mod task;
 mod tree_pair;
 
 pub(crate) use descent::{Scratch, Sink, Wanted, descend};
+pub(crate) use nearest::{NearestScratch, gap_square, nearest};
 pub(crate) use tree_pair::{OneTree, Side, TreePair, TwoTrees};

@@ -264,7 +264,7 @@ impl<const N: usize, S: Coordinate> Common<N, S> {
         Err(ErrorKind::Interrupted.of_query())
     }
 
-    fn settle_origin(&mut self) {
+    pub(super) fn settle_origin(&mut self) {
         if self.origin.settle(&mut self.bodies.list) {
             self.body_pairs.forget();
         }

@@ -8,6 +8,7 @@
 
 use super::{BodyId, Scalar, Selection, World};
 use crate::error::Error;
+use crate::threads::Question;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
@@ -27,6 +28,7 @@ pub(super) fn clearance<S: Scalar>(
     world: &mut World<S>,
     of: Selection,
     cut_off: f64,
+    question: Option<Question>,
 ) -> Result<Clearances, Error> {
     let of_selection: Vec<BodyId> = match of {
         Selection::World | Selection::Everything => world.bodies().collect(),
@@ -52,6 +54,7 @@ pub(super) fn clearance<S: Scalar>(
     };
 
     let close = world.close_vertex_triangle_pairs(of, cut_off);
+    let close = close.interrupt(question);
     let _ = close.visit_some(|close| {
         for close in close {
             let pair = close.pair;
@@ -64,6 +67,7 @@ pub(super) fn clearance<S: Scalar>(
         ControlFlow::<()>::Continue(())
     })?;
     let close = world.close_edge_edge_pairs(of, cut_off);
+    let close = close.interrupt(question);
     let _ = close.visit_some(|close| {
         for close in close {
             let pair = close.pair;

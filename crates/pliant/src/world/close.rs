@@ -9,27 +9,25 @@ use super::body::Body;
 use super::query::Request;
 use crate::error::Error;
 use crate::held::{self, Held};
-use crate::hits::{EdgeEdge, VertexTriangle};
-use crate::kernels::closest::Corners;
+use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
-use crate::predicates::distance::Closest;
-use crate::queries::{Close, ElementCandidates, ElementPair, Measured, closest_of};
+use crate::queries::{CloseKind, Measurable, Measured};
 use crate::threads::{Executor, Interrupt};
 use crate::traversal::Sink;
 
 /// Pairs in a job: some tens of microseconds.
 const JOB: usize = 1024;
 
-/// Two elements whose corners are known to bodies.
-pub(super) trait InBodies: ElementPair {
-    /// Which bodies the first element and the second are of.
+/// Two things whose corners are known to bodies.
+pub(super) trait InBodies: Measurable {
+    /// Which bodies the first and the second are of.
     fn bodies(&self) -> [BodyId; 2];
 
     /// The corners in these bodies, brought into tree order; in the caller's order.
     fn corners<'b, const N: usize, S: Coordinate>(
         &self,
         bodies: [&'b Body<N, S>; 2],
-    ) -> Corners<'b, S>;
+    ) -> Self::Corners<'b, S>;
 }
 
 impl InBodies for VertexTriangle {
@@ -41,7 +39,7 @@ impl InBodies for VertexTriangle {
     fn corners<'b, const N: usize, S: Coordinate>(
         &self,
         [of_vertex, of_triangle]: [&'b Body<N, S>; 2],
-    ) -> Corners<'b, S> {
+    ) -> Self::Corners<'b, S> {
         let [a, b, c] = of_triangle.topology.triangles()[self.triangle as usize];
         [
             of_vertex.corner(self.vertex),
@@ -61,7 +59,7 @@ impl InBodies for EdgeEdge {
     fn corners<'b, const N: usize, S: Coordinate>(
         &self,
         [of_a, of_b]: [&'b Body<N, S>; 2],
-    ) -> Corners<'b, S> {
+    ) -> Self::Corners<'b, S> {
         let [a0, a1] = of_a.edges()[self.edge_a as usize];
         let [b0, b1] = of_b.edges()[self.edge_b as usize];
         [
@@ -73,15 +71,32 @@ impl InBodies for EdgeEdge {
     }
 }
 
-/// What a world keeps for close pairs of one kind.
-#[derive(Debug)]
-pub(super) struct AskedClose<K: ElementCandidates> {
-    lists: Asked<Close<K>>,
-    visits: Asked<Measured<K>>,
-    measured: Vec<<K::Hit as ElementPair>::Close>,
+impl InBodies for Pair {
+    fn bodies(&self) -> [BodyId; 2] {
+        [self.body_a, self.body_b]
+    }
+
+    #[inline]
+    fn corners<'b, const N: usize, S: Coordinate>(
+        &self,
+        [of_a, of_b]: [&'b Body<N, S>; 2],
+    ) -> Self::Corners<'b, S> {
+        [(of_a, self.triangle_a), (of_b, self.triangle_b)].map(|(body, triangle)| {
+            let corners = body.topology.triangles()[triangle as usize];
+            corners.map(|vertex| body.corner(vertex))
+        })
+    }
 }
 
-impl<K: ElementCandidates> Default for AskedClose<K> {
+/// What a world keeps for close pairs of one kind.
+#[derive(Debug)]
+pub(super) struct AskedClose<C: CloseKind> {
+    lists: Asked<C>,
+    visits: Asked<Measured<C>>,
+    measured: Vec<<C::Hit as Measurable>::Close>,
+}
+
+impl<C: CloseKind> Default for AskedClose<C> {
     fn default() -> Self {
         Self {
             lists: Asked::default(),
@@ -91,14 +106,14 @@ impl<K: ElementCandidates> Default for AskedClose<K> {
     }
 }
 
-impl<K: ElementCandidates<Hit: InBodies>> AskedClose<K> {
+impl<C: CloseKind<Hit: InBodies>> AskedClose<C> {
     /// All that are close, sorted.
     pub(super) fn all<const N: usize>(
         &mut self,
-        kind: &Measured<K>,
-        common: &mut Common<N, K::Scalar>,
+        kind: &Measured<C>,
+        common: &mut Common<N, C::Scalar>,
         request: &Request,
-    ) -> Result<&[<K::Hit as ElementPair>::Close], Error> {
+    ) -> Result<&[<C::Hit as Measurable>::Close], Error> {
         let hits = self.lists.all(&kind.0, common, request)?;
         let interrupt = Interrupt::new(request.question);
         let executor = Executor {
@@ -114,10 +129,10 @@ impl<K: ElementCandidates<Hit: InBodies>> AskedClose<K> {
     /// Shows every one once, until the sink breaks.
     pub(super) fn visit<const N: usize>(
         &mut self,
-        kind: &Measured<K>,
-        common: &mut Common<N, K::Scalar>,
+        kind: &Measured<C>,
+        common: &mut Common<N, C::Scalar>,
         request: &Request,
-        sink: Sink<<K::Hit as ElementPair>::Close>,
+        sink: Sink<<C::Hit as Measurable>::Close>,
     ) -> Result<(), Error> {
         self.visits.visit(kind, common, request, sink)
     }
@@ -125,22 +140,22 @@ impl<K: ElementCandidates<Hit: InBodies>> AskedClose<K> {
     /// Does early what a query would do first.
     pub(super) fn prepare<const N: usize>(
         &mut self,
-        kind: &Measured<K>,
-        common: &mut Common<N, K::Scalar>,
+        kind: &Measured<C>,
+        common: &mut Common<N, C::Scalar>,
         request: &Request,
     ) -> Result<(), Error> {
         self.lists.prepare(&kind.0, common, request)
     }
 }
 
-impl<K: ElementCandidates> Held for AskedClose<K> {
+impl<C: CloseKind> Held for AskedClose<C> {
     fn held(&self) -> usize {
         self.lists.held() + self.visits.held() + held::list(&self.measured)
     }
 }
 
 /// Some pairs that are to be measured.
-struct Job<'m, H: ElementPair> {
+struct Job<'m, H: Measurable> {
     hits: &'m [H],
     measured: &'m mut [H::Close],
 }
@@ -153,7 +168,7 @@ fn measure<const N: usize, S: Coordinate, H: InBodies>(
     (instructions, executor): (Instructions, Executor),
 ) {
     measured.clear();
-    measured.extend(hits.iter().map(|hit| hit.close(&Closest::default())));
+    measured.extend(hits.iter().map(|&hit| hit.unmeasured()));
     let jobs = hits.chunks(JOB).zip(measured.chunks_mut(JOB));
     let jobs = jobs.map(|(hits, measured)| Job { hits, measured });
     let work = |_, job: &mut Job<H>| {
@@ -196,11 +211,9 @@ fn measure_some<I: Simd, const N: usize, S: Coordinate, H: InBodies>(
         let Some(pairs) = pairs else {
             return;
         };
-        let Some(closest) = closest_of(i, H::ARE_EDGES, &pairs, hits.len(), interrupt) else {
+        let Some(found) = H::measure(i, hits, &pairs, interrupt) else {
             return;
         };
-        for ((hit, measured), closest) in hits.iter().zip(measured).zip(&closest) {
-            *measured = hit.close(closest);
-        }
+        measured.copy_from_slice(&found[..hits.len()]);
     }
 }

@@ -8,11 +8,12 @@ use super::bodies::Bodies;
 use super::body::{self, Body};
 use super::body_pairs::BodyPairs;
 use super::close::AskedClose;
+use super::distance::Distances;
 use super::origin::FloatingOrigin;
 use super::query::{Ask, Request};
 use super::witness::{self, Witnesses};
 use super::{BodyId, NodeBox, Selection, TreeShape};
-use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
+use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
@@ -20,10 +21,11 @@ use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
 use crate::queries::{
-    Candidate, Close, EdgeEdgeCandidates, Intersections, Measured, VertexTriangleCandidates,
+    Candidate, Close, EdgeEdgeCandidates, Intersections, Measured, NearTriangles,
+    VertexTriangleCandidates,
 };
 use crate::statistics::Statistics;
-use crate::threads::{Executor, Interrupt, Threads};
+use crate::threads::{Executor, Interrupt, Question, Threads};
 use crate::traversal::Sink;
 use std::ops::ControlFlow;
 
@@ -34,6 +36,7 @@ pub(crate) trait AnyEngine<S>:
     + Ask<EdgeEdge>
     + Ask<CloseVertexTriangle>
     + Ask<CloseEdgeEdge>
+    + Ask<CloseTriangles>
     + Send
     + Sync
 {
@@ -80,6 +83,18 @@ pub(crate) trait AnyEngine<S>:
     fn tree_cut(&self, id: BodyId, level: u32) -> Result<Vec<u32>, Error>;
     fn tree_boxes(&self, id: BodyId, level: u32) -> Result<Vec<NodeBox<S>>, Error>;
     fn vertex_order(&self, id: BodyId) -> Result<&[u32], Error>;
+    fn distance(
+        &mut self,
+        of: [BodyId; 2],
+        cut_off: f64,
+        question: Option<Question>,
+    ) -> Result<Option<CloseTriangles>, Error>;
+    fn nearest_body(
+        &mut self,
+        id: BodyId,
+        cut_off: f64,
+        question: Option<Question>,
+    ) -> Result<Option<CloseTriangles>, Error>;
     fn statistics(&self) -> &Statistics;
     fn memory_usage(&self) -> usize;
     fn validate(&self) -> Result<(), String>;
@@ -88,12 +103,14 @@ pub(crate) trait AnyEngine<S>:
 /// An engine whose trees have degree `N`.
 pub(super) struct Engine<const N: usize, S: Coordinate> {
     pub(super) common: Common<N, S>,
-    intersections: Asked<Intersections<S>>,
+    pub(super) intersections: Asked<Intersections<S>>,
     vertex_triangle: Asked<VertexTriangleCandidates<S>>,
     edge_edge: Asked<EdgeEdgeCandidates<S>>,
-    close_vertex_triangle: AskedClose<VertexTriangleCandidates<S>>,
-    close_edge_edge: AskedClose<EdgeEdgeCandidates<S>>,
-    witnesses: Witnesses,
+    close_vertex_triangle: AskedClose<Close<VertexTriangleCandidates<S>>>,
+    close_edge_edge: AskedClose<Close<EdgeEdgeCandidates<S>>>,
+    close_triangles: AskedClose<NearTriangles<S>>,
+    pub(super) witnesses: Witnesses,
+    pub(super) distances: Distances,
     /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
     lent: Vec<[S; 3]>,
     #[cfg(test)]
@@ -135,7 +152,9 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             edge_edge: Asked::default(),
             close_vertex_triangle: AskedClose::default(),
             close_edge_edge: AskedClose::default(),
+            close_triangles: AskedClose::default(),
             witnesses: Witnesses::default(),
+            distances: Distances::default(),
             lent: Vec::new(),
             #[cfg(test)]
             grown: Asked::default(),
@@ -164,6 +183,12 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
         };
         let body = bodies.get_mut(id)?;
         change(body, *instructions, executor).map_err(about(id))
+    }
+
+    /// A body is removed, or its triangles have a new order: what was found of them the last time is nothing any more.
+    fn forget_answers(&mut self, id: BodyId) {
+        self.witnesses.forget(id);
+        self.distances.last.forget(id);
     }
 
     /// Validates a new shape of a body and takes it over.
@@ -218,7 +243,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         let common = &mut self.common;
         let rank = common.bodies.remove(id)?;
         common.body_pairs.remove(rank);
-        self.witnesses.forget(id);
+        self.forget_answers(id);
         Ok(())
     }
 
@@ -275,14 +300,14 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         body.set_mesh(triangles, positions, &common.options)
             .map_err(about(id))?;
         common.note_movement();
-        self.witnesses.forget(id);
+        self.forget_answers(id);
         Ok(())
     }
 
     fn rebuild(&mut self, id: BodyId) -> Result<(), Error> {
         let common = &mut self.common;
         common.bodies.get_mut(id)?.rebuild(&common.options);
-        self.witnesses.forget(id);
+        self.forget_answers(id);
         Ok(())
     }
 
@@ -417,6 +442,24 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         Ok(self.body(id)?.order.vertex_order())
     }
 
+    fn distance(
+        &mut self,
+        of: [BodyId; 2],
+        cut_off: f64,
+        question: Option<Question>,
+    ) -> Result<Option<CloseTriangles>, Error> {
+        self.distance_of(of, cut_off, question)
+    }
+
+    fn nearest_body(
+        &mut self,
+        id: BodyId,
+        cut_off: f64,
+        question: Option<Question>,
+    ) -> Result<Option<CloseTriangles>, Error> {
+        self.nearest_body_of(id, cut_off, question)
+    }
+
     fn statistics(&self) -> &Statistics {
         &self.common.statistics
     }
@@ -433,7 +476,9 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             + self.edge_edge.held()
             + self.close_vertex_triangle.held()
             + self.close_edge_edge.held()
+            + self.close_triangles.held()
             + self.witnesses.held()
+            + self.distances.held()
             + held::list(&self.lent)
     }
 
@@ -552,6 +597,9 @@ ask!(CloseEdgeEdge, close_edge_edge, |request| {
     let candidates = EdgeEdgeCandidates::within;
     Measured(Close::within(request.distance()?, candidates))
 });
+ask!(CloseTriangles, close_triangles, |request| {
+    Measured(NearTriangles::within(request.distance()?))
+});
 
 /// The pair that answered the last question for a first pair.
 impl<const N: usize, S: Coordinate> Engine<N, S> {
@@ -594,7 +642,10 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
 }
 
 /// Two triangles of two bodies, or of one, as the caller numbers them.
-fn pair_of<const N: usize, S: Coordinate>(both: [&Body<N, S>; 2], found: Candidate) -> Pair {
+pub(super) fn pair_of<const N: usize, S: Coordinate>(
+    both: [&Body<N, S>; 2],
+    found: Candidate,
+) -> Pair {
     use crate::queries::{CallerIds, Kind};
     let ids = CallerIds {
         edges: [&[]; 2],

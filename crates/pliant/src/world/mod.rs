@@ -12,7 +12,9 @@ mod body_pairs;
 mod clearance;
 mod close;
 mod debug_view;
+mod distance;
 mod engine;
+mod interruptible;
 mod origin;
 mod positions;
 mod query;
@@ -26,7 +28,7 @@ mod tree_cut;
 mod validate;
 mod witness;
 
-use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
+use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
 use crate::error::Error;
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::ids::BodyId;
@@ -37,6 +39,7 @@ use crate::threads::Threads;
 pub(crate) use body::validate as validate_body;
 pub use debug_view::{NodeBox, TreeShape};
 use engine::AnyEngine;
+pub use interruptible::Interruptible;
 pub use query::Query;
 pub use scalar::Scalar;
 pub use selection::Selection;
@@ -518,6 +521,35 @@ impl<S: Scalar> World<S> {
         Query::<CloseEdgeEdge>::new(&mut *self.engine, of).within(distance)
     }
 
+    /// Asks which triangles are close to each other, in the shape of now: those at most `distance` apart, with their closest points. Those
+    /// that intersect are, at distance 0.
+    ///
+    /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given. As with
+    /// [`intersections`](Self::intersections), triangles of one body that share a vertex of the mesh are left out. Those that are
+    /// neighbours but for that always are close: this is for bodies that should keep a distance from each other.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// let mut world = World::<f64>::new();
+    /// let skin = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let shirt = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.002], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// let close = world.close_triangle_pairs(Selection::Between(shirt, skin), 0.004).all()?;
+    /// assert_eq!((close[0].distance, close[0].barycentric_a), (0.002, [1.0, 0.0, 0.0]));
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    #[doc(alias = "within_distance")]
+    pub fn close_triangle_pairs(
+        &mut self,
+        of: Selection,
+        distance: f64,
+    ) -> Query<'_, CloseTriangles> {
+        Query::<CloseTriangles>::new(&mut *self.engine, of).within(distance)
+    }
+
     /// How far each vertex may move before anything can touch: of the selection's bodies one number for each vertex, at most half of
     /// `cut_off`.
     ///
@@ -547,7 +579,86 @@ impl<S: Scalar> World<S> {
         of: Selection,
         cut_off: f64,
     ) -> Result<BTreeMap<BodyId, Vec<f64>>, Error> {
-        clearance::clearance(self, of, cut_off)
+        clearance::clearance(self, of, cut_off, None)
+    }
+
+    /// How far the surfaces of two bodies are apart, in the shape of now: their closest triangles, with the closest points, the first of
+    /// the first body; none if they are further apart than `cut_off`, which may be infinite.
+    ///
+    /// The distance is 0 exactly if any of their triangles intersect, or are closer than any number, and whether it is at most the cut-off is
+    /// decided exactly; it is as good as [`CloseTriangles`] says. Where several triangles are the closest, or others nearer by no more than
+    /// 2^-31 of it, it is some of them. Surfaces only: a body wholly inside another is as far from it as its surface is. Filters are not
+    /// looked at, and a motion is not.
+    ///
+    /// Cost: of bodies that are apart, about that of a query for intersections of bodies that touch there. The triangles that were the closest
+    /// the last time are tried first.
+    ///
+    /// ```
+    /// # use pliant::World;
+    /// let mut world = World::<f64>::new();
+    /// let wall = world.add(&[[0, 1, 2]], &[[0.0, -9.0, -9.0], [0.0, 9.0, -9.0], [0.0, 0.0, 9.0]])?;
+    /// let gripper = world.add(&[[0, 1, 2]], &[[3.0, 0.0, 0.0], [5.0, 1.0, 0.0], [5.0, 0.0, 1.0]])?;
+    /// let nearest = world.distance(gripper, wall, f64::INFINITY)?.expect("nothing is further apart");
+    /// assert_eq!((nearest.distance, nearest.direction), (3.0, Some([1.0, 0.0, 0.0])));
+    /// assert_eq!((nearest.point_a, nearest.point_b), ([3.0, 0.0, 0.0], [0.0; 3]));
+    /// assert!(world.distance(gripper, wall, 2.0)?.is_none());
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`SameBody`](crate::ErrorKind::SameBody) if both are one,
+    /// [`BadDistance`](crate::ErrorKind::BadDistance) if the cut-off is negative or NaN.
+    #[doc(alias = "separation")]
+    #[doc(alias = "closest_points")]
+    pub fn distance(
+        &mut self,
+        a: BodyId,
+        b: BodyId,
+        cut_off: f64,
+    ) -> Result<Option<CloseTriangles>, Error> {
+        self.engine.distance([a, b], cut_off, None)
+    }
+
+    /// How far a body is from all others that may meet it, as filters say: [`distance`](Self::distance) to the nearest of them, which
+    /// [`pair`](CloseTriangles::pair) names; none if no other is within `cut_off`. Of several that are equally near, it is some of them.
+    ///
+    /// Cost: that of the distance from those whose boxes are nearer than the nearest is.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), and [`BadDistance`](crate::ErrorKind::BadDistance) if the cut-off is negative or NaN.
+    pub fn nearest_body(
+        &mut self,
+        body: BodyId,
+        cut_off: f64,
+    ) -> Result<Option<CloseTriangles>, Error> {
+        self.engine.nearest_body(body, cut_off, None)
+    }
+
+    /// This world, for a question with one answer that is to end early, with an error, when `question` says so. What
+    /// [`Query::interrupt_if`] says of queries holds of these.
+    ///
+    /// ```
+    /// # use pliant::{ErrorKind, World};
+    /// use std::time::{Duration, Instant};
+    ///
+    /// # let mut world = World::<f32>::new();
+    /// # let [robot, wall] = [0.0, 1.0].map(|z| world.add(&[[0, 1, 2]], &[[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]]).unwrap());
+    /// let end = Instant::now() + Duration::from_secs(1);
+    /// let is_late = || Instant::now() > end;
+    /// let nearest = world.interruptible(&is_late).distance(robot, wall, 9.0)?;
+    /// # assert_eq!(nearest.unwrap().distance, 1.0);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn interruptible<'w>(
+        &'w mut self,
+        question: &'w (dyn Fn() -> bool + Sync),
+    ) -> Interruptible<'w, S> {
+        Interruptible {
+            world: self,
+            question,
+        }
     }
 
     /// What the last query did, with what [`Query::prepare`] did before it.

@@ -114,6 +114,12 @@ impl<'w, H: Copy> Query<'w, H> {
         self
     }
 
+    /// The same, if there is a question.
+    pub(super) fn interrupt(mut self, question: Option<Question<'w>>) -> Self {
+        self.request.question = question;
+        self
+    }
+
     /// All hits, sorted: the same for every option, history and number of threads. The slice is valid until the next call.
     ///
     /// Cost: the broad phase of a query of the whole world, O(n + overlaps) for bodies that move a little; and for bodies whose boxes

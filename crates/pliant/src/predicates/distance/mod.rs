@@ -1,4 +1,5 @@
-//! How far apart a vertex and a triangle are, or two edges: whether at most so far, exactly; and by which of their points.
+//! How far apart a vertex and a triangle are, or two edges: whether at most so far, exactly; and by which of their points. Two triangles are
+//! in `triangles`.
 //!
 //! A squared distance is a quotient of integers. The least distance of two elements is that of a pair of *features* at which it is
 //! attained: an end and an edge, the inside of a face and a vertex, the insides of two edges. Each of these is some distance of the
@@ -16,8 +17,12 @@
 //! quotient, and so each of its figures with an error of a few units in the last place, however small the distance is.
 
 mod integer;
+mod triangles;
 
 use integer::{ENOUGH, FEW, FEW_BITS, Integer, parts, powers};
+#[cfg(test)]
+pub(crate) use triangles::point_in_common;
+pub(crate) use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_triangles};
 
 type Point = [f64; 3];
 type Vector<const L: usize> = [Integer<L>; 3];
@@ -106,28 +111,37 @@ fn is_at_most<const L: usize>(feet: &Feet<L>, distance: f64, unit: i32) -> bool 
 /// of the exact one. The distance is zero where they touch, or are closer than any number.
 #[cold]
 pub(crate) fn closest(elements: &Primitives) -> Closest {
-    let [unit, end] = elements.powers();
+    closest_of(std::slice::from_ref(elements)).1
+}
+
+/// The same of the nearest of some pairs of elements, and which it is: exactly the nearest, or the first of those.
+fn closest_of(pairs: &[Primitives]) -> (usize, Closest) {
+    let powers = pairs.iter().map(Primitives::powers);
+    let both = powers.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
+    let [unit, end] = both.unwrap_or_default();
     if end - unit <= FEW_BITS {
-        closest_feet::<FEW>(elements, unit)
+        closest_feet::<FEW>(pairs, unit)
     } else {
-        closest_feet::<ENOUGH>(elements, unit)
+        closest_feet::<ENOUGH>(pairs, unit)
     }
 }
 
-fn closest_feet<const L: usize>(elements: &Primitives, unit: i32) -> Closest {
-    let mut least: Option<Feet<L>> = None;
-    feet(elements, unit, &mut |feet| {
-        let is_less = least.as_ref().is_none_or(|least| {
-            let [new, old] = [feet.over.times(&least.under), least.over.times(&feet.under)];
-            !old.is_at_most(&new)
+fn closest_feet<const L: usize>(pairs: &[Primitives], unit: i32) -> (usize, Closest) {
+    let mut least: Option<(usize, Feet<L>)> = None;
+    for (which, elements) in pairs.iter().enumerate() {
+        feet(elements, unit, &mut |feet| {
+            let is_less = least.as_ref().is_none_or(|(_, least)| {
+                let [new, old] = [feet.over.times(&least.under), least.over.times(&feet.under)];
+                !old.is_at_most(&new)
+            });
+            if is_less {
+                least = Some((which, feet));
+            }
         });
-        if is_less {
-            least = Some(feet);
-        }
-    });
-    let Some(feet) = least else {
+    }
+    let Some((which, feet)) = least else {
         // There are feet of ends, whatever the elements are.
-        return Closest::default();
+        return (0, Closest::default());
     };
     let (square, exponent) = quotient(&feet.over, &feet.under);
     // An even exponent: its root is a power of two.
@@ -137,7 +151,7 @@ fn closest_feet<const L: usize>(elements: &Primitives, unit: i32) -> Closest {
         (2.0 * square, exponent - 1)
     };
     let distance = scaled(square.sqrt(), exponent / 2 + unit);
-    Closest {
+    let closest = Closest {
         distance,
         along: feet.along,
         direction: if distance == 0.0 {
@@ -145,7 +159,8 @@ fn closest_feet<const L: usize>(elements: &Primitives, unit: i32) -> Closest {
         } else {
             unit_vector(&feet.way)
         },
-    }
+    };
+    (which, closest)
 }
 
 impl Primitives {

@@ -87,6 +87,11 @@ impl Margin {
         }
     }
 
+    /// By how much boxes of nodes are grown.
+    pub(crate) fn grown_by(self) -> f32 {
+        self.grown_by
+    }
+
     fn body_box(self, of_shape: Aabb) -> Aabb {
         of_shape.grown(self.grown_by)
     }

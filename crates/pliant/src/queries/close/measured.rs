@@ -1,18 +1,36 @@
 //! Close pairs that are measured as they are found, for visitors; a list is measured once it is sorted.
 
-use super::{Close, ElementCandidates, closest_of};
+use super::closest_of;
 use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
 use crate::geometry::{Aabb, Shape};
 use crate::hits::{EdgeEdge, Hit, VertexTriangle};
-use crate::kernels::{Buffer, dispatch};
+use crate::kernels::closest::Corners;
+use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
 use crate::predicates::distance::Closest;
-use crate::queries::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves};
+use crate::queries::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, Leaves};
 use crate::statistics::Statistics;
+use crate::threads::Interrupt;
 
-/// Two elements that can be measured.
-pub(crate) trait ElementPair: Hit {
+/// Two things that can be measured.
+pub(crate) trait Measurable: Hit {
     type Close: Copy + std::fmt::Debug + Send + Sync;
+    /// The corners of both, each with padding.
+    type Corners<'c, S: Coordinate>: Copy;
 
+    /// Before it was measured.
+    fn unmeasured(self) -> Self::Close;
+
+    /// With what is measured, of up to four; none if interrupted.
+    fn measure<I: Simd, S: Coordinate>(
+        i: I,
+        hits: &[Self],
+        corners: &[Self::Corners<'_, S>; 4],
+        interrupt: &Interrupt,
+    ) -> Option<[Self::Close; 4]>;
+}
+
+/// Two elements, which have four corners together.
+pub(crate) trait ElementPair: Measurable {
     /// Whether they are edges; else they are a vertex and a triangle.
     const ARE_EDGES: bool;
 
@@ -21,7 +39,6 @@ pub(crate) trait ElementPair: Hit {
 }
 
 impl ElementPair for VertexTriangle {
-    type Close = CloseVertexTriangle;
     const ARE_EDGES: bool = false;
 
     #[inline]
@@ -37,7 +54,6 @@ impl ElementPair for VertexTriangle {
 }
 
 impl ElementPair for EdgeEdge {
-    type Close = CloseEdgeEdge;
     const ARE_EDGES: bool = true;
 
     #[inline]
@@ -53,25 +69,67 @@ impl ElementPair for EdgeEdge {
     }
 }
 
+/// What both kinds of elements do alike.
+macro_rules! measurable {
+    ($pair:ty, $close:ty) => {
+        impl Measurable for $pair {
+            type Close = $close;
+            type Corners<'c, S: Coordinate> = Corners<'c, S>;
+
+            fn unmeasured(self) -> $close {
+                self.close(&Closest::default())
+            }
+
+            #[inline(always)]
+            fn measure<I: Simd, S: Coordinate>(
+                i: I,
+                hits: &[Self],
+                corners: &[Corners<'_, S>; 4],
+                interrupt: &Interrupt,
+            ) -> Option<[$close; 4]> {
+                let closest = closest_of(i, Self::ARE_EDGES, corners, hits.len(), interrupt)?;
+                let mut measured = [hits[0].unmeasured(); 4];
+                for lane in 0..hits.len() {
+                    measured[lane] = hits[lane].close(&closest[lane]);
+                }
+                Some(measured)
+            }
+        }
+    };
+}
+
+measurable!(VertexTriangle, CloseVertexTriangle);
+measurable!(EdgeEdge, CloseEdgeEdge);
+
 #[inline]
 fn direction(closest: &Closest) -> Option<[f64; 3]> {
     (closest.distance != 0.0).then_some(closest.direction)
 }
 
-/// Close pairs with what was measured of them.
+/// A kind of pairs that are at most some distance apart.
+pub(crate) trait CloseKind: Kind<Buffers = (), Hit: Measurable> {
+    /// The corners of a hit, in the order in which the caller has them.
+    fn callers_corners<'q>(
+        leaves: &LeafTest<'q, Self::Scalar>,
+        ids: &CallerIds,
+        hit: Self::TreeHit,
+    ) -> Option<<Self::Hit as Measurable>::Corners<'q, Self::Scalar>>;
+}
+
+/// Close pairs of a kind with what was measured of them.
 #[derive(Debug)]
-pub(crate) struct Measured<K>(pub(crate) Close<K>);
+pub(crate) struct Measured<C>(pub(crate) C);
 
-impl<K: ElementCandidates> Kind for Measured<K> {
-    type Scalar = K::Scalar;
-    type Hit = <K::Hit as ElementPair>::Close;
-    type TreeHit = [u32; 2];
+impl<C: CloseKind> Kind for Measured<C> {
+    type Scalar = C::Scalar;
+    type Hit = <C::Hit as Measurable>::Close;
+    type TreeHit = C::TreeHit;
     type Buffers = ();
-    type Source<'s> = K::Source<'s>;
+    type Source<'s> = C::Source<'s>;
 
-    const BOX_SET: BoxSetNumber = K::BOX_SET;
-    const LEAVES: Leaves = K::LEAVES;
-    const HOLDS_MOTIONS: bool = K::HOLDS_MOTIONS;
+    const BOX_SET: BoxSetNumber = C::BOX_SET;
+    const LEAVES: Leaves = C::LEAVES;
+    const HOLDS_MOTIONS: bool = C::HOLDS_MOTIONS;
 
     fn grows_by(&self) -> f32 {
         self.0.grows_by()
@@ -83,48 +141,60 @@ impl<K: ElementCandidates> Kind for Measured<K> {
 
     fn source<'s>(
         &self,
-        shape: Shape<'s, K::Scalar>,
-        end: Option<Shape<'s, K::Scalar>>,
-    ) -> K::Source<'s> {
+        shape: Shape<'s, C::Scalar>,
+        end: Option<Shape<'s, C::Scalar>>,
+    ) -> C::Source<'s> {
         self.0.source(shape, end)
+    }
+
+    fn test(
+        &self,
+        leaves: &LeafTest<C::Scalar>,
+        candidates: &mut Buffer<Candidate>,
+        buffers: &mut (),
+        hits: &mut Buffer<C::TreeHit>,
+        statistics: &mut Statistics,
+    ) {
+        self.0.test(leaves, candidates, buffers, hits, statistics);
     }
 
     fn test_runs(
         &self,
-        leaves: &LeafTest<K::Scalar>,
+        leaves: &LeafTest<C::Scalar>,
         pairs: &[[u32; 2]],
-        hits: &mut Buffer<[u32; 2]>,
+        hits: &mut Buffer<C::TreeHit>,
         statistics: &mut Statistics,
     ) {
         self.0.test_runs(leaves, pairs, hits, statistics);
     }
 
-    fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> Self::Hit {
-        self.0.to_caller(ids, hit).close(&Closest::default())
+    fn to_caller(&self, ids: &CallerIds, hit: C::TreeHit) -> Self::Hit {
+        self.0.to_caller(ids, hit).unmeasured()
     }
 
     fn to_callers(
         &self,
-        leaves: &LeafTest<K::Scalar>,
+        leaves: &LeafTest<C::Scalar>,
         ids: &CallerIds,
-        hits: &[[u32; 2]],
+        hits: &[C::TreeHit],
         of_caller: &mut Vec<Self::Hit>,
     ) {
         dispatch!(leaves.instructions, i => {
             for some in hits.chunks(4) {
-                let Some(first) = K::callers_corners(leaves, ids, some[0]) else {
+                let Some(first) = C::callers_corners(leaves, ids, some[0]) else {
                     return;
                 };
-                let mut pairs = [first; 4];
-                for (pair, &hit) in pairs.iter_mut().zip(some).skip(1) {
-                    *pair = K::callers_corners(leaves, ids, hit).unwrap_or(first);
+                let mut corners = [first; 4];
+                let mut of_some = [self.0.to_caller(ids, some[0]); 4];
+                for lane in 1..some.len() {
+                    corners[lane] = C::callers_corners(leaves, ids, some[lane]).unwrap_or(first);
+                    of_some[lane] = self.0.to_caller(ids, some[lane]);
                 }
-                let edges = K::Hit::ARE_EDGES;
-                let Some(closest) = closest_of(i, edges, &pairs, some.len(), leaves.interrupt) else {
+                let of_some = &of_some[..some.len()];
+                let Some(measured) = C::Hit::measure(i, of_some, &corners, leaves.interrupt) else {
                     return;
                 };
-                let measured = some.iter().zip(&closest);
-                of_caller.extend(measured.map(|(&hit, closest)| self.0.to_caller(ids, hit).close(closest)));
+                of_caller.extend_from_slice(&measured[..some.len()]);
             }
         });
     }

@@ -1,10 +1,11 @@
-//! Close pairs: candidates whose elements are at most some distance apart, exactly.
+//! Close pairs: candidates whose elements are at most some distance apart, exactly; and triangles that are (`triangles`).
 //!
 //! A candidate's boxes are as near as that on every axis; whether the elements are is decided four at a time between two proven bounds
 //! (`kernels::closest`), and the few that the distance lies between by integers (`predicates::distance`). They are of the shape of now;
 //! where a body has a motion, its boxes hold the way too, and only more candidates are looked at.
 
 mod measured;
+mod triangles;
 
 use super::{
     BoxSetNumber, CallerIds, EdgeEdgeCandidates, Kind, LeafTest, Leaves, Margin,
@@ -17,7 +18,8 @@ use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
 use crate::predicates::distance::{Closest, Primitives, are_within_distance, closest};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
-pub(crate) use measured::{ElementPair, Measured};
+pub(crate) use measured::{CloseKind, ElementPair, Measurable, Measured};
+pub(crate) use triangles::{NearTriangles, NearestPair, close, closest_of_triangles, corners_of};
 
 /// Candidates of a kind that are at most so far apart.
 #[derive(Debug)]
@@ -29,17 +31,20 @@ pub(crate) struct Close<K> {
 impl<K> Close<K> {
     /// `candidates` makes those of a margin. The distance is finite and at least 0.
     pub(crate) fn within(distance: f64, candidates: impl Fn(Margin) -> K) -> Self {
-        let half = distance / 2.0;
-        // Half of the smallest number there is has no number.
-        let radius = if 2.0 * half < distance {
-            half.next_up()
-        } else {
-            half
-        };
         Self {
-            candidates: candidates(Margin::new(radius)),
+            candidates: candidates(Margin::new(half(distance))),
             distance,
         }
+    }
+}
+
+/// Half a distance, or the next larger number: half of the smallest number there is has no number.
+fn half(distance: f64) -> f64 {
+    let half = distance / 2.0;
+    if 2.0 * half < distance {
+        half.next_up()
+    } else {
+        half
     }
 }
 
@@ -163,6 +168,19 @@ impl<K: ElementCandidates> Kind for Close<K> {
     #[inline]
     fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> K::Hit {
         self.candidates.to_caller(ids, hit)
+    }
+}
+
+impl<K: ElementCandidates> CloseKind for Close<K>
+where
+    K::Hit: for<'c> Measurable<Corners<'c, K::Scalar> = Corners<'c, K::Scalar>>,
+{
+    fn callers_corners<'q>(
+        leaves: &LeafTest<'q, K::Scalar>,
+        ids: &CallerIds,
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, K::Scalar>> {
+        K::callers_corners(leaves, ids, hit)
     }
 }
 

@@ -1,0 +1,74 @@
+//! The fifteen pairs of elements of two triangles: each corner and the other triangle, each edge and each edge.
+//!
+//! Two triangles that do not intersect are as far apart as the nearest of these, whatever triangles they are: where two convex sets are
+//! closest, neither point is inside a face unless the other is a corner or, between parallel faces or edges, may be moved until it is one.
+
+/// How many there are.
+pub(crate) const ELEMENT_PAIRS: usize = 15;
+/// The first that is of two edges; those before are of a corner and a triangle.
+pub(crate) const FIRST_OF_EDGES: usize = 6;
+
+/// The elements of a pair of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Elements {
+    /// A corner of the first triangle, and the second.
+    CornerOfFirst(usize),
+    /// A corner of the second triangle, and the first.
+    CornerOfSecond(usize),
+    /// An edge of either: that from the corner with its number to the next.
+    Edges([usize; 2]),
+}
+
+/// The elements of a pair by its number.
+#[inline]
+fn elements(which: usize) -> Elements {
+    match which {
+        0..3 => Elements::CornerOfFirst(which),
+        3..6 => Elements::CornerOfSecond(which - 3),
+        _ => Elements::Edges([(which - 6) / 3 % 3, (which - 6) % 3]),
+    }
+}
+
+const NEXT: [usize; 3] = [1, 2, 0];
+
+/// The four corners of a pair: a corner and those of the other triangle; or the ends of an edge of the first and of one of the second.
+#[inline]
+pub(crate) fn four_corners<T: Copy>(which: usize, a: &[T; 3], b: &[T; 3]) -> [T; 4] {
+    match elements(which) {
+        Elements::CornerOfFirst(i) => [a[i], b[0], b[1], b[2]],
+        Elements::CornerOfSecond(i) => [b[i], a[0], a[1], a[2]],
+        Elements::Edges([i, j]) => [a[i], a[NEXT[i]], b[j], b[NEXT[j]]],
+    }
+}
+
+/// Whether the first element of a pair is of the second triangle.
+#[inline]
+pub(crate) fn is_swapped(which: usize) -> bool {
+    matches!(elements(which), Elements::CornerOfSecond(_))
+}
+
+/// What each corner of either triangle counts in the points that are so far along the elements of a pair: in a triangle a, b, c the point
+/// a + x (b - a) + y (c - a); on two edges the part x of the first and y of the second.
+pub(crate) fn barycentric(which: usize, [x, y]: [f64; 2]) -> [[f64; 3]; 2] {
+    let mut corner = [0.0; 3];
+    let of_triangle = [(1.0 - x - y).max(0.0), x, y];
+    match elements(which) {
+        Elements::CornerOfFirst(i) => {
+            corner[i] = 1.0;
+            [corner, of_triangle]
+        }
+        Elements::CornerOfSecond(i) => {
+            corner[i] = 1.0;
+            [of_triangle, corner]
+        }
+        Elements::Edges([i, j]) => [on_edge(i, x), on_edge(j, y)],
+    }
+}
+
+/// What each corner counts in a point of an edge.
+pub(crate) fn on_edge(edge: usize, along: f64) -> [f64; 3] {
+    let mut counts = [0.0; 3];
+    counts[edge] = 1.0 - along;
+    counts[NEXT[edge]] = along;
+    counts
+}

@@ -1,0 +1,214 @@
+//! How far apart two triangles are: nothing if they intersect, else as far as the nearest of their fifteen pairs of elements.
+//!
+//! Whether they intersect is decided as everywhere. Then they have a point in common: where elements touch, or where an edge goes through
+//! the inside of the other triangle. It is computed in plain arithmetic first, and how far the points that were found are apart says
+//! how good they are; where that is too far, as for slivers, once more in integers.
+
+use super::integer::{ENOUGH, FEW, FEW_BITS, Integer};
+use super::{
+    Point, Primitives, are_within_distance, closest, closest_of, cross, dot, fraction, minus,
+    powers,
+};
+use crate::geometry::{
+    ELEMENT_PAIRS, FIRST_OF_EDGES, Real, barycentric, four_corners, is_swapped, on_edge,
+};
+use crate::predicates::{Exact, Triangle, intersect, triangles_intersect};
+
+/// Where two triangles are closest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct TrianglesClosest {
+    pub(crate) distance: f64,
+    /// From the second to the first, of length 1 but for rounding; zero if the distance is.
+    pub(crate) direction: Point,
+    /// What each corner of either triangle counts in its point.
+    pub(crate) barycentric: [[f64; 3]; 2],
+}
+
+/// Points in common that were computed may be so far apart, as a part of the largest coordinate of any difference of corners: 2^-40.
+const APART: f64 = f64::from_bits((1023 - 40) << 52);
+
+/// Some points of two triangles: a pair of elements, how far along them the points are, and how far apart they are at most.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SomePoints {
+    pub(crate) which: usize,
+    pub(crate) along: [f64; 2],
+    pub(crate) apart: f64,
+}
+
+/// Whether two triangles are at most so far apart. Exact; `S` is the type that their coordinates came in.
+#[cold]
+pub(crate) fn are_triangles_within<S: Real>(a: &Triangle, b: &Triangle, distance: f64) -> bool {
+    intersect::<S>(a, b, &mut 0)
+        || (0..ELEMENT_PAIRS).any(|which| are_within_distance(&pair(which, a, b), distance))
+}
+
+/// Where two triangles are closest, with an error of less than 2^-47 of distance and direction; where they intersect, points in common
+/// that are no further apart than 2^-40 of the largest coordinate of any difference of corners. `S` is as above; `known` are some points.
+#[cold]
+pub(crate) fn closest_triangles<S: Real>(
+    a: &Triangle,
+    b: &Triangle,
+    known: SomePoints,
+) -> TrianglesClosest {
+    if !intersect::<S>(a, b, &mut 0) {
+        let pairs: [Primitives; ELEMENT_PAIRS] = std::array::from_fn(|which| pair(which, a, b));
+        let (which, closest) = closest_of(&pairs);
+        return TrianglesClosest {
+            distance: closest.distance,
+            direction: if is_swapped(which) {
+                closest.direction.map(|x| 0.0 - x)
+            } else {
+                closest.direction
+            },
+            barycentric: barycentric(which, closest.along),
+        };
+    }
+    let near_enough = APART * largest_difference(a, b);
+    let barycentric = if known.apart <= near_enough {
+        barycentric(known.which, known.along)
+    } else {
+        match crossing(a, b) {
+            Some((points, apart)) if apart <= near_enough => points,
+            _ => point_in_common(a, b),
+        }
+    };
+    TrianglesClosest {
+        barycentric,
+        ..TrianglesClosest::default()
+    }
+}
+
+/// A pair of elements of two triangles.
+fn pair(which: usize, a: &Triangle, b: &Triangle) -> Primitives {
+    let corners = four_corners(which, a, b);
+    if which < FIRST_OF_EDGES {
+        Primitives::VertexTriangle(corners)
+    } else {
+        Primitives::EdgeEdge(corners)
+    }
+}
+
+fn largest_difference(a: &Triangle, b: &Triangle) -> f64 {
+    let mut largest = 0.0_f64;
+    for axis in 0..3 {
+        let of_all = || a.iter().chain(b).map(|corner| corner[axis]);
+        let most = of_all().fold(f64::NEG_INFINITY, f64::max);
+        let least = of_all().fold(f64::INFINITY, f64::min);
+        largest = largest.max(most - least);
+    }
+    largest
+}
+
+/// An edge of either triangle, and the other triangle: whose edge it is, which of its three, the ends.
+fn edges_and_triangles<'t>(
+    a: &'t Triangle,
+    b: &'t Triangle,
+) -> impl Iterator<Item = (bool, usize, [Point; 2], &'t Triangle)> {
+    let of_one = |one: &'t Triangle, other: &'t Triangle, is_second: bool| {
+        (0..3).map(move |edge| (is_second, edge, [one[edge], one[(edge + 1) % 3]], other))
+    };
+    of_one(a, b, false).chain(of_one(b, a, true))
+}
+
+/// What corners count in a point of an edge and in one of a triangle, those of the first triangle first.
+fn points(is_second: bool, edge: usize, t: f64, [u, v]: [f64; 2]) -> [[f64; 3]; 2] {
+    let on_edge = on_edge(edge, t);
+    let of_triangle = [(1.0 - u - v).max(0.0), u, v];
+    if is_second {
+        [of_triangle, on_edge]
+    } else {
+        [on_edge, of_triangle]
+    }
+}
+
+/// Where an edge goes through the other triangle, in plain arithmetic: points of both that are nearly one, and how far apart they are at
+/// most; none if no edge does.
+///
+/// The way between them is r = (p - a) + t (q - p) - u (b - a) - v (c - a). Let S be the sum of the absolute values of all coordinates of
+/// these four differences. A difference, a product and three sums round each coordinate, the length adds 4 roundings of itself: less than
+/// 20 2^-53 S in all, and 2^-1020 where numbers are below the normal range, which is no more if S is at least 2^-200.
+fn crossing(a: &Triangle, b: &Triangle) -> Option<([[f64; 3]; 2], f64)> {
+    let mut nearest: Option<([[f64; 3]; 2], f64)> = None;
+    for (is_second, edge, [p, q], [c0, c1, c2]) in edges_and_triangles(a, b) {
+        let difference = |p: &Point, q: &Point| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+        let product = |p: &Point, q: &Point| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+        let normal = |p: &Point, q: &Point| {
+            [
+                p[1] * q[2] - p[2] * q[1],
+                p[2] * q[0] - p[0] * q[2],
+                p[0] * q[1] - p[1] * q[0],
+            ]
+        };
+        let (e, f) = (difference(c1, c0), difference(c2, c0));
+        let (from, way) = (difference(&p, c0), difference(&q, &p));
+        let n = normal(&e, &f);
+        let [height, rise] = [product(&n, &from), product(&n, &way)];
+        let square = product(&n, &n);
+        if rise == 0.0 || square == 0.0 {
+            continue;
+        }
+        let t = (0.0 - height / rise).clamp(0.0, 1.0);
+        let at: Point = std::array::from_fn(|axis| from[axis] + t * way[axis]);
+        let u = (product(&normal(&at, &f), &n) / square).clamp(0.0, 1.0);
+        let v = (product(&normal(&e, &at), &n) / square).clamp(0.0, 1.0 - u);
+        let r: Point = std::array::from_fn(|axis| at[axis] - u * e[axis] - v * f[axis]);
+        let sum: f64 = [from, way, e, f]
+            .as_flattened()
+            .iter()
+            .map(|x| x.abs())
+            .sum();
+        let apart = product(&r, &r).sqrt() + 20.0 * (f64::EPSILON / 2.0) * sum;
+        let is_known = sum >= f64::powi(0.5, 200);
+        if is_known && nearest.is_none_or(|(_, known)| apart < known) {
+            nearest = Some((points(is_second, edge, t, [u, v]), apart));
+        }
+    }
+    nearest
+}
+
+/// A point in common of triangles that intersect, by integers.
+pub(crate) fn point_in_common(a: &Triangle, b: &Triangle) -> [[f64; 3]; 2] {
+    let touching = (0..ELEMENT_PAIRS).find(|&which| are_within_distance(&pair(which, a, b), 0.0));
+    if let Some(which) = touching {
+        return barycentric(which, closest(&pair(which, a, b)).along);
+    }
+    // So an edge goes through the inside of the other triangle, and not in its plane.
+    for (is_second, edge, [p, q], other) in edges_and_triangles(a, b) {
+        if triangles_intersect(&[p, q, q], other, &mut Exact) {
+            let all = [p, q, other[0], other[1], other[2]];
+            let coordinates = all.as_flattened().iter();
+            let of_all = coordinates.filter_map(|&x| powers(x));
+            let of_all = of_all.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
+            let [unit, end] = of_all.unwrap_or([0; 2]);
+            let [t, u, v] = if end - unit <= FEW_BITS {
+                exact_crossing::<FEW>(&all, unit)
+            } else {
+                exact_crossing::<ENOUGH>(&all, unit)
+            };
+            return points(is_second, edge, t, [u, v]);
+        }
+    }
+    // Where triangles intersect, elements touch or an edge crosses.
+    [[1.0, 0.0, 0.0]; 2]
+}
+
+/// Where an edge p q crosses a triangle, whose plane it is not in: how far along the edge, and along both sides of the first corner. Each
+/// within 2^-48 of the exact one.
+///
+/// With n normal to the triangle, the point is at the part t = h / w of the way, where h = n.(c0 - p) and w = n.(q - p). Times w it is
+/// x = w (p - c0) + h (q - p) from the first corner, and u = (x x f).n / (w n.n): 7 (b + 1) + 7 bits for coordinates of b.
+fn exact_crossing<const L: usize>(all: &[Point; 5], unit: i32) -> [f64; 3] {
+    let [p, q, c0, c1, c2] = all.map(|corner| corner.map(|x| Integer::<L>::new(x, unit)));
+    let (e, f) = (minus(&c1, &c0), minus(&c2, &c0));
+    let (from, way) = (minus(&p, &c0), minus(&q, &p));
+    let n = cross(&e, &f);
+    let mut w = dot(&n, &way);
+    let mut h = dot(&n, &from).negated();
+    if w.sign() < 0 {
+        (w, h) = (w.negated(), h.negated());
+    }
+    let x = std::array::from_fn(|axis| from[axis].times(&w).plus(&way[axis].times(&h)));
+    let whole = dot(&n, &n).times(&w);
+    let [u, v] = [dot(&cross(&x, &f), &n), dot(&cross(&e, &x), &n)];
+    [fraction(&h, &w), fraction(&u, &whole), fraction(&v, &whole)]
+}

@@ -1,0 +1,453 @@
+//! Triangles that are at most some distance apart, exactly: those that intersect, at distance 0, and those that do not.
+//!
+//! Candidates are triangles whose boxes, grown by half the distance, overlap; within a body, those that share a vertex of the mesh are left
+//! out as in `intersections`. Each is decided between two proven bounds (`kernels::closest`), and what the distance lies between
+//! by exact arithmetic (`predicates::distance`).
+
+use super::measured::{CloseKind, Measurable};
+use super::{ACCURACY, half};
+use crate::close_pairs::CloseTriangles;
+use crate::geometry::{Aabb, Real, Shape, barycentric, is_swapped};
+use crate::hits::Pair;
+use crate::ids::TreeTriangle;
+use crate::kernels::closest::{TwoClosest, of_triangles};
+use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
+use crate::predicates::Triangle;
+use crate::predicates::distance::{
+    SomePoints, TrianglesClosest, are_triangles_within, closest_triangles,
+};
+use crate::queries::{
+    BoxSetNumber, CallerIds, Candidate, Intersections, Kind, LeafTest, Leaves, Margin,
+};
+use crate::statistics::Statistics;
+use crate::threads::Interrupt;
+use crate::tree::Grown;
+use std::marker::PhantomData;
+
+/// Pairs of triangles that are at most so far apart.
+#[derive(Debug)]
+pub(crate) struct NearTriangles<S> {
+    margin: Margin,
+    distance: f64,
+    scalar: PhantomData<S>,
+}
+
+impl<S> NearTriangles<S> {
+    /// The distance is finite and at least 0.
+    pub(crate) fn within(distance: f64) -> Self {
+        Self {
+            margin: Margin::new(half(distance)),
+            distance,
+            scalar: PhantomData,
+        }
+    }
+}
+
+/// The corners of a triangle, each with padding.
+pub(crate) type ThreeCorners<'c, S> = [&'c [S; 4]; 3];
+
+/// The nearest of some pairs of triangles of two bodies that are measured one after the other.
+pub(crate) struct NearestPair {
+    cut_off: f64,
+    nearest: Option<(Candidate, TrianglesClosest)>,
+}
+
+impl NearestPair {
+    /// Of those that are at most so far apart; perhaps infinite.
+    pub(crate) fn within(cut_off: f64) -> Self {
+        Self {
+            cut_off,
+            nearest: None,
+        }
+    }
+
+    /// What was found.
+    pub(crate) fn found(self) -> Option<(Candidate, TrianglesClosest)> {
+        self.nearest
+    }
+
+    /// The square of the distance beyond which pairs need not be measured: those that are nearer by no more than 2^-31 of it need not.
+    pub(crate) fn limit(&self) -> f64 {
+        match &self.nearest {
+            Some((_, nearest)) => {
+                let enough = nearest.distance * (1.0 - f64::powi(0.5, 31));
+                enough * enough
+            }
+            None => self.cut_off * self.cut_off * (1.0 + 4.0 * f64::EPSILON),
+        }
+    }
+
+    /// Measures two triangles, and keeps them if they are nearer than all before.
+    pub(crate) fn measure<S: Coordinate>(
+        &mut self,
+        instructions: Instructions,
+        pair: Candidate,
+        corners: &[ThreeCorners<S>; 2],
+        interrupt: &Interrupt,
+        exact_decisions: &mut u64,
+    ) {
+        let is_nearer = match &self.nearest {
+            Some((_, nearest)) => {
+                let [a, b] = corners;
+                let found = dispatch!(instructions, i => of_triangles(i, a, b));
+                found.least < nearest.distance
+            }
+            None => {
+                dispatch!(instructions, i => is_close(i, corners, self.cut_off, exact_decisions))
+            }
+        };
+        if is_nearer
+            && let Some(found) =
+                dispatch!(instructions, i => closest_of_triangles(i, corners, interrupt))
+            && self
+                .nearest
+                .as_ref()
+                .is_none_or(|(_, nearest)| found.distance < nearest.distance)
+        {
+            self.nearest = Some((pair, found));
+        }
+    }
+}
+
+/// Where two triangles are closest; none if interrupted. What plain arithmetic leaves undecided takes long enough to be asked before.
+#[inline(always)]
+pub(crate) fn closest_of_triangles<I: Simd, S: Real>(
+    i: I,
+    [a, b]: &[ThreeCorners<S>; 2],
+    interrupt: &Interrupt,
+) -> Option<TrianglesClosest> {
+    let TwoClosest {
+        which,
+        along,
+        way,
+        distance,
+        least,
+        most,
+    } = of_triangles(i, a, b);
+    if most - least <= ACCURACY * distance {
+        let sign = if is_swapped(which) { -1.0 } else { 1.0 };
+        return Some(TrianglesClosest {
+            distance,
+            direction: way.map(|x| sign * x / distance),
+            barycentric: barycentric(which, along),
+        });
+    }
+    let known = SomePoints {
+        which,
+        along,
+        apart: most,
+    };
+    (!interrupt.is_set()).then(|| closest_triangles::<S>(&exact(a), &exact(b), known))
+}
+
+/// A triangle as exact arithmetic takes it.
+fn exact<S: Real>(corners: &ThreeCorners<S>) -> Triangle {
+    corners.map(|&[x, y, z, _]| [x, y, z].map(Real::to_f64))
+}
+
+/// The corners of a triangle of a shape.
+#[inline(always)]
+pub(crate) fn corners_of<'q, S: Coordinate>(
+    shape: &Shape<'q, S>,
+    triangle: TreeTriangle,
+) -> ThreeCorners<'q, S> {
+    let [a, b, c] = shape.triangles[triangle.index()];
+    [
+        shape.positions.padded(a),
+        shape.positions.padded(b),
+        shape.positions.padded(c),
+    ]
+}
+
+impl Measurable for Pair {
+    type Close = CloseTriangles;
+    type Corners<'c, S: Coordinate> = [ThreeCorners<'c, S>; 2];
+
+    fn unmeasured(self) -> CloseTriangles {
+        CloseTriangles {
+            pair: self,
+            distance: 0.0,
+            direction: None,
+            barycentric_a: [0.0; 3],
+            barycentric_b: [0.0; 3],
+            point_a: [0.0; 3],
+            point_b: [0.0; 3],
+        }
+    }
+
+    #[inline(always)]
+    fn measure<I: Simd, S: Coordinate>(
+        i: I,
+        hits: &[Self],
+        corners: &[Self::Corners<'_, S>; 4],
+        interrupt: &Interrupt,
+    ) -> Option<[CloseTriangles; 4]> {
+        let mut measured = [hits[0].unmeasured(); 4];
+        for lane in 0..hits.len() {
+            let closest = closest_of_triangles(i, &corners[lane], interrupt)?;
+            measured[lane] = close(hits[lane], &corners[lane], &closest);
+        }
+        Some(measured)
+    }
+}
+
+/// A pair, by its corners, with what was measured.
+pub(crate) fn close<S: Real>(
+    pair: Pair,
+    [a, b]: &[ThreeCorners<S>; 2],
+    closest: &TrianglesClosest,
+) -> CloseTriangles {
+    let [barycentric_a, barycentric_b] = closest.barycentric;
+    CloseTriangles {
+        pair,
+        distance: closest.distance,
+        direction: (closest.distance != 0.0).then_some(closest.direction),
+        barycentric_a,
+        barycentric_b,
+        point_a: point(a, barycentric_a),
+        point_b: point(b, barycentric_b),
+    }
+}
+
+/// The point in which each corner counts so much.
+fn point<S: Real>(corners: &ThreeCorners<S>, counts: [f64; 3]) -> [f64; 3] {
+    let [a, b, c] = exact(corners);
+    let [x, y, z] = counts;
+    std::array::from_fn(|axis| x * a[axis] + y * b[axis] + z * c[axis])
+}
+
+impl<S: Coordinate> Kind for NearTriangles<S> {
+    type Scalar = S;
+    type Hit = Pair;
+    type TreeHit = Candidate;
+    type Buffers = ();
+    type Source<'s> = Grown<Shape<'s, S>>;
+
+    const BOX_SET: BoxSetNumber = 2;
+    const LEAVES: Leaves = Leaves::Triangles;
+
+    fn grows_by(&self) -> f32 {
+        self.margin.grown_by()
+    }
+
+    fn body_box(&self, of_shape: Aabb) -> Aabb {
+        of_shape.grown(self.margin.grown_by())
+    }
+
+    fn source<'s>(&self, source: Shape<'s, S>, _: Option<Shape<'s, S>>) -> Grown<Shape<'s, S>> {
+        Grown {
+            source,
+            distance: self.margin.grown_by(),
+        }
+    }
+
+    fn test(
+        &self,
+        leaves: &LeafTest<S>,
+        candidates: &mut Buffer<Candidate>,
+        (): &mut (),
+        hits: &mut Buffer<Candidate>,
+        statistics: &mut Statistics,
+    ) {
+        let before = hits.len();
+        dispatch!(leaves.instructions, i => {
+            for &[a, b] in candidates.as_slice() {
+                let corners = [corners_of(leaves.shapes[0], a), corners_of(leaves.shapes[1], b)];
+                if leaves.interrupt.is_set() {
+                    break;
+                }
+                if is_close(i, &corners, self.distance, &mut statistics.exact_decisions) {
+                    hits.push([a, b]);
+                }
+            }
+        });
+        statistics.candidate_pairs += candidates.len() as u64;
+        statistics.pairs += (hits.len() - before) as u64;
+    }
+
+    #[inline]
+    fn to_caller(&self, ids: &CallerIds, candidate: Candidate) -> Pair {
+        Intersections::<S>::default().to_caller(ids, candidate)
+    }
+}
+
+/// Whether two triangles are at most so far apart. Counts exact decisions.
+#[inline(always)]
+pub(crate) fn is_close<I: Simd, S: Real>(
+    i: I,
+    [a, b]: &[ThreeCorners<S>; 2],
+    distance: f64,
+    exact_decisions: &mut u64,
+) -> bool {
+    let TwoClosest { least, most, .. } = of_triangles(i, a, b);
+    if (most <= distance) | (least > distance) {
+        return most <= distance;
+    }
+    *exact_decisions += 1;
+    are_triangles_within::<S>(&exact(a), &exact(b), distance)
+}
+
+impl<S: Coordinate> CloseKind for NearTriangles<S> {
+    fn callers_corners<'q>(
+        leaves: &LeafTest<'q, S>,
+        ids: &CallerIds,
+        [a, b]: Candidate,
+    ) -> Option<[ThreeCorners<'q, S>; 2]> {
+        let both = [
+            corners_of(leaves.shapes[0], a),
+            corners_of(leaves.shapes[1], b),
+        ];
+        let is_swapped = || {
+            let order = ids.orders[0];
+            order.caller_triangle(b) < order.caller_triangle(a)
+        };
+        Some(if leaves.itself && is_swapped() {
+            [both[1], both[0]]
+        } else {
+            both
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pliant_oracle::{Class, Random, compare_distance, compare_dot, compare_length, intersect};
+    use std::cmp::Ordering;
+
+    /// The largest coordinate of any difference of corners.
+    fn size(a: &Triangle, b: &Triangle) -> f64 {
+        let corners = || a.iter().chain(b);
+        let pairs = corners().flat_map(|p| corners().map(move |q| (p, q)));
+        let largest = pairs.flat_map(|(p, q)| (0..3).map(|axis| (p[axis] - q[axis]).abs()));
+        largest.fold(0.0, f64::max)
+    }
+
+    fn check_points(a: &Triangle, b: &Triangle, closest: &TrianglesClosest, apart: f64) {
+        let [of_a, of_b] = closest.barycentric;
+        assert!(of_a.iter().chain(&of_b).all(|&x| (0.0..=1.0).contains(&x)));
+        for of_one in [of_a, of_b] {
+            assert!(
+                (of_one.iter().sum::<f64>() - 1.0).abs() < 1e-15,
+                "{of_one:?}"
+            );
+        }
+        let mut sum = Vec::new();
+        for (sign, [_, x, y], corners) in [(1.0, of_a, a), (-1.0, of_b, b)] {
+            let [a, b, c] = *corners;
+            sum.extend([(sign, a), (sign * x, b), (0.0 - sign * x, a)]);
+            sum.extend([(sign * y, c), (0.0 - sign * y, a)]);
+        }
+        assert_ne!(
+            compare_length(&sum, apart),
+            Ordering::Greater,
+            "{a:?} {b:?} {closest:?}"
+        );
+    }
+
+    #[test]
+    fn triangles_are_as_far_apart_as_the_oracle_says() {
+        let mut random = Random::new(43);
+        let never = Interrupt::default();
+        let [mut apart, mut crossing, mut quick, mut decided] = [0; 4];
+        for round in 0..6_000 {
+            let [a, b] = Class::ALL[round % Class::ALL.len()].pair(&mut random);
+            let padded = [a, b].map(|it| it.map(|[x, y, z]| [x, y, z, z]));
+            let corners = padded.each_ref().map(|it| it.each_ref());
+            let mut of_all: Option<TrianglesClosest> = None;
+            for instructions in Instructions::all() {
+                let found = dispatch!(instructions, i => closest_of_triangles(i, &corners, &never));
+                let found = found.expect("nothing interrupts it");
+                assert_eq!(*of_all.get_or_insert(found), found);
+            }
+            let found = of_all.expect("there are instructions");
+            let d = found.distance;
+            let [nearly, hardly] = [2f64.powi(-30), 2f64.powi(-48)];
+            let s = size(&a, &b);
+            // Below the normal range no part of a number is a number.
+            let least = f64::MIN_POSITIVE;
+            assert_ne!(
+                compare_distance(&a, &b, d * (1.0 + nearly) + least),
+                Ordering::Greater
+            );
+            if d > least {
+                assert_ne!(compare_distance(&a, &b, d * (1.0 - nearly)), Ordering::Less);
+            }
+            if intersect(&a, &b) {
+                assert_eq!(d, 0.0);
+                crossing += 1;
+            }
+            check_points(
+                &a,
+                &b,
+                &found,
+                d * (1.0 + nearly) + 2f64.powi(-40) * s + least,
+            );
+            if d > least {
+                apart += 1;
+                let slack = nearly * d + hardly * s;
+                for p in &a {
+                    for q in &b {
+                        let by = compare_dot(found.direction, *p, *q, d - slack);
+                        assert_ne!(by, Ordering::Less, "{a:?} {b:?} {found:?}");
+                    }
+                }
+            } else if d == 0.0 {
+                assert_eq!(found.direction, [0.0; 3]);
+            }
+            for x in [
+                d,
+                d.next_up(),
+                d.next_down().max(0.0),
+                d * (1.0 + 1e-9),
+                d * (1.0 - 1e-9),
+                0.0,
+                0.3,
+            ] {
+                let expected = compare_distance(&a, &b, x) != Ordering::Greater;
+                let mut exact = 0;
+                let instructions = Instructions::widest();
+                let found = dispatch!(instructions, i => is_close(i, &corners, x, &mut exact));
+                assert_eq!(found, expected, "{a:?} {b:?} {x}");
+                decided += exact;
+                quick += 1 - exact;
+            }
+        }
+        let rest = [apart, crossing, quick, decided];
+        assert!(
+            apart > 1_500 && crossing > 1_500 && quick > 9_000 && decided > 9_000,
+            "{rest:?}"
+        );
+    }
+
+    #[test]
+    fn points_in_common_are_found_in_integers_too() {
+        let mut random = Random::new(44);
+        let mut through = 0;
+        for round in 0..3_000 {
+            let [a, b] = Class::ALL[round % Class::ALL.len()].pair(&mut random);
+            if !intersect(&a, &b) {
+                continue;
+            }
+            let unknown = SomePoints {
+                which: 0,
+                along: [0.0; 2],
+                apart: f64::INFINITY,
+            };
+            let least = f64::MIN_POSITIVE;
+            let found = closest_triangles::<f64>(&a, &b, unknown);
+            check_points(&a, &b, &found, 2f64.powi(-40) * size(&a, &b) + least);
+            let barycentric = crate::predicates::distance::point_in_common(&a, &b);
+            let found = TrianglesClosest {
+                barycentric,
+                ..found
+            };
+            check_points(&a, &b, &found, 2f64.powi(-48) * size(&a, &b) + least);
+            let touches = barycentric
+                .iter()
+                .any(|it| it.iter().filter(|&&x| x > 0.0).count() == 3);
+            through += u32::from(touches);
+        }
+        assert!(through > 200, "{through}");
+    }
+}

@@ -1,0 +1,227 @@
+//! Branch and bound: the triangles of two trees, those with the nearest boxes first, until no box that is left is near enough.
+//!
+//! A stack holds pairs of nodes with the square of the gap of their boxes, the nearest on top. What is further apart than the limit is
+//! passed over; the limit becomes smaller as triangles are measured. Boxes are made when they are reached, as everywhere: of two bodies
+//! that are apart those near the closest points, and few others.
+//!
+//! **A gap never is larger than the distance of what is in the boxes.** Sides of boxes are `f32`, so that a difference of two is rounded once in
+//! `f64`, by 2^-53 of itself, and squares and sums by as much; what is taken off is eight times that. A thread that flushes subnormal
+//! numbers reads sides that are off by less than 2^-126: 2^-120 is taken off each difference.
+//!
+//! Gottschalk, Lin and Manocha, Larsen et al. (2000, *Fast Distance Queries with Rectangular Swept Sphere Volumes*) descend the same way;
+//! here both nodes are opened at once, all their children compared side by side, and boxes are stale until they are reached.
+
+use super::expand::NodePair;
+use super::tree_pair::{Side, TreePair, TwoTrees};
+use crate::geometry::{Aabb, Shape};
+use crate::held::{self, Held};
+use crate::ids::{LeafId, NodeId, WideNodeId};
+use crate::kernels::{dispatch, near_mask};
+use crate::queries::Candidate;
+use crate::statistics::Statistics;
+use crate::tree::{BoxSource, Child, Leaves};
+use crate::update::{DirtySet, Refit};
+use std::ops::ControlFlow;
+
+/// Buffers, kept from query to query.
+#[derive(Debug, Default)]
+pub(crate) struct NearestScratch {
+    stack: Vec<(f64, NodePair)>,
+    triangles: Vec<(f64, Candidate)>,
+    reached: DirtySet,
+    lists: [Vec<WideNodeId>; 2],
+}
+
+/// Gives the square of the distance up to which triangles are looked for from now on, after it has looked at two of them, of these shapes.
+pub(crate) type Measure<'m, S> = &'m mut dyn FnMut([&Shape<'_, S>; 2], Candidate) -> f64;
+
+/// The square of the gap of two boxes, or somewhat less.
+pub(crate) fn gap_square(a: &Aabb, b: &Aabb) -> f64 {
+    let mut square = 0.0;
+    for axis in 0..3 {
+        let below = f64::from(b.lo[axis]) - f64::from(a.hi[axis]);
+        let above = f64::from(a.lo[axis]) - f64::from(b.hi[axis]);
+        let gap = (below.max(above) - f64::powi(0.5, 120)).max(0.0);
+        square += gap * gap;
+    }
+    square * (1.0 - 8.0 * f64::EPSILON)
+}
+
+/// Shows `measure` all triangles of two bodies whose boxes are not further apart than the limit then is; many of those are shown before
+/// others that are further apart. Breaks if interrupted.
+pub(crate) fn nearest<const N: usize, B: BoxSource>(
+    refit: Refit,
+    pair: &mut TwoTrees<N, B>,
+    scratch: &mut NearestScratch,
+    statistics: &mut Statistics,
+    mut limit: f64,
+    measure: Measure<B::Scalar>,
+) -> ControlFlow<()> {
+    scratch.stack.clear();
+    scratch.stack.push((0.0, [NodeId::ROOT; 2]));
+    while let Some((gap, nodes)) = scratch.stack.pop() {
+        if gap > limit {
+            continue;
+        }
+        if refit.executor.is_interrupted() {
+            return ControlFlow::Break(());
+        }
+        statistics.node_pairs += 1;
+        let children = [
+            pair.a.tree.nodes().child(nodes[0]),
+            pair.b.tree.nodes().child(nodes[1]),
+        ];
+        if let [Child::Leaf(a), Child::Leaf(b)] = children {
+            limit = among_leaves(refit, pair, [a, b], scratch, statistics, limit, measure);
+            continue;
+        }
+        for (which, child) in children.into_iter().enumerate() {
+            let Child::Inner(below) = child else {
+                continue;
+            };
+            if ![&pair.a, &pair.b][which].boxes.is_valid(below) {
+                scratch.reached.insert(below.0);
+                let (reached, lists) = (&mut scratch.reached, &mut scratch.lists);
+                refit.reached(&mut pair.refitted(which), reached, lists, statistics);
+            }
+        }
+        push_children(
+            refit,
+            [&pair.a, &pair.b],
+            nodes,
+            children,
+            &mut scratch.stack,
+            limit,
+        );
+    }
+    ControlFlow::Continue(())
+}
+
+/// Puts the pairs of children that are near enough onto the stack, the nearest last.
+fn push_children<const N: usize, B>(
+    refit: Refit,
+    [a, b]: [&Side<'_, N, B>; 2],
+    [node_a, node_b]: NodePair,
+    children: [Child; 2],
+    stack: &mut Vec<(f64, NodePair)>,
+    limit: f64,
+) {
+    let before = stack.len();
+    let (boxes_a, boxes_b) = (a.boxes.nodes(), b.boxes.nodes());
+    let mut push = |pair: NodePair| {
+        let gap = gap_square(&boxes_a.one(pair[0]), &boxes_b.one(pair[1]));
+        if gap <= limit {
+            stack.push((gap, pair));
+        }
+    };
+    match children {
+        [Child::Inner(below_a), Child::Inner(below_b)] => {
+            let lens = [
+                a.tree.wide_node(below_a).len(),
+                b.tree.wide_node(below_b).len(),
+            ];
+            let (a, b) = (boxes_a.of(below_a), boxes_b.of(below_b));
+            let mut mask = dispatch!(refit.instructions, i => near_mask(i, a, b, lens, limit));
+            while mask != 0 {
+                let bit = mask.trailing_zeros() as usize;
+                push([
+                    NodeId::new::<N>(below_a, bit / 8),
+                    NodeId::new::<N>(below_b, bit % 8),
+                ]);
+                mask &= mask - 1;
+            }
+        }
+        [Child::Inner(below), Child::Leaf(_)] => {
+            for lane in 0..a.tree.wide_node(below).len() {
+                push([NodeId::new::<N>(below, lane), node_b]);
+            }
+        }
+        [Child::Leaf(_), Child::Inner(below)] => {
+            for lane in 0..b.tree.wide_node(below).len() {
+                push([node_a, NodeId::new::<N>(below, lane)]);
+            }
+        }
+        [Child::Leaf(_), Child::Leaf(_)] => {}
+    }
+    stack[before..].sort_unstable_by(|(a, _), (b, _)| b.total_cmp(a));
+}
+
+/// Measures the triangles of two leaves, the nearest boxes first; returns the limit then.
+fn among_leaves<const N: usize, B: BoxSource>(
+    refit: Refit,
+    pair: &mut TwoTrees<N, B>,
+    leaves: [LeafId; 2],
+    scratch: &mut NearestScratch,
+    statistics: &mut Statistics,
+    mut limit: f64,
+    measure: Measure<B::Scalar>,
+) -> f64 {
+    let all = [&pair.a.tree.leaves, &pair.b.tree.leaves];
+    scratch.triangles.clear();
+    if all.iter().all(|leaves| leaves.have_blocks()) {
+        for which in 0..2 {
+            if ![&pair.a, &pair.b][which].boxes.is_leaf_valid(leaves[which]) {
+                scratch.reached.insert(leaves[which].0);
+                let mut one = pair.refitted(which);
+                refit.reached_leaves(&mut one, &mut scratch.reached, statistics);
+            }
+        }
+        near_triangles(
+            refit,
+            [&pair.a, &pair.b],
+            leaves,
+            &mut scratch.triangles,
+            limit,
+        );
+    } else {
+        let [a, b] = [0, 1].map(|which| all[which].first_triangle(leaves[which]));
+        scratch.triangles.push((0.0, [a, b]));
+    }
+    let shapes = [pair.a.source.shape(), pair.b.source.shape()];
+    for &(gap, triangles) in &scratch.triangles {
+        if gap > limit {
+            break;
+        }
+        statistics.candidate_pairs += 1;
+        limit = measure(shapes, triangles);
+    }
+    limit
+}
+
+/// The triangles of two leaves whose boxes are near enough, the nearest first.
+fn near_triangles<const N: usize, B>(
+    refit: Refit,
+    sides: [&Side<'_, N, B>; 2],
+    leaves: [LeafId; 2],
+    triangles: &mut Vec<(f64, Candidate)>,
+    limit: f64,
+) {
+    use crate::ids::BlockId;
+    let of: [&Leaves; 2] = sides.map(|side| &side.tree.leaves);
+    let boxes = sides.map(|side| side.boxes.blocks());
+    for block_a in of[0].blocks(leaves[0]).map(BlockId) {
+        for block_b in of[1].blocks(leaves[1]).map(BlockId) {
+            let runs = [of[0].run_of_block(block_a), of[1].run_of_block(block_b)];
+            let (a, b) = (boxes[0].of(block_a), boxes[1].of(block_b));
+            let lens = runs.map(|run| run.count as usize);
+            let mut mask = dispatch!(refit.instructions, i => near_mask(i, a, b, lens, limit));
+            while mask != 0 {
+                let bit = mask.trailing_zeros();
+                let gap = gap_square(&a.get(bit as usize / 8), &b.get(bit as usize % 8));
+                let pair = [runs[0].first.plus(bit / 8), runs[1].first.plus(bit % 8)];
+                triangles.push((gap, pair));
+                mask &= mask - 1;
+            }
+        }
+    }
+    triangles.sort_unstable_by(|(a, _), (b, _)| a.total_cmp(b));
+}
+
+impl Held for NearestScratch {
+    fn held(&self) -> usize {
+        held::list(&self.stack)
+            + held::list(&self.triangles)
+            + self.reached.held()
+            + self.lists.iter().map(held::list).sum::<usize>()
+    }
+}

@@ -1,0 +1,318 @@
+//! Triangles that are close, and how far bodies are apart: every configuration says what the plain reference does, while bodies move, turn
+//! back, come and go.
+
+mod common;
+
+use common::{Lcg, every_configuration, sheet};
+use pliant::{
+    BodyId, CloseTriangles, ErrorKind, Options, Pair, Scalar, Selection, World, reference,
+};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+
+/// What a test knows of a body.
+struct Known<S> {
+    id: BodyId,
+    triangles: Vec<[u32; 3]>,
+    positions: Vec<[S; 3]>,
+}
+
+/// The pairs of two bodies that are so close, as the reference says; those of one body with itself.
+fn expected<S: Scalar>(a: &Known<S>, b: &Known<S>, distance: f64) -> Vec<Pair> {
+    let pairs = if a.id == b.id {
+        reference::self_close_triangle_pairs(&a.triangles, &a.positions, distance)
+    } else {
+        let (a, b) = ((&a.triangles, &a.positions), (&b.triangles, &b.positions));
+        reference::close_triangle_pairs(a.0, a.1, b.0, b.1, distance)
+    };
+    let pair = |[triangle_a, triangle_b]: [u32; 2]| Pair {
+        body_a: a.id,
+        triangle_a,
+        body_b: b.id,
+        triangle_b,
+    };
+    pairs.unwrap().into_iter().map(pair).collect()
+}
+
+/// The list; *first* and *visit_some* agree with it.
+fn ask<S: Scalar>(world: &mut World<S>, of: Selection, distance: f64) -> Vec<CloseTriangles> {
+    let all = world
+        .close_triangle_pairs(of, distance)
+        .all()
+        .unwrap()
+        .to_vec();
+    let first = world.close_triangle_pairs(of, distance).first().unwrap();
+    assert_eq!(first.is_some(), !all.is_empty());
+    assert!(first.is_none_or(|first| all.contains(&first)));
+    let mut shown = Vec::new();
+    let visit = world.close_triangle_pairs(of, distance);
+    let _ = visit
+        .visit_some(|some| {
+            shown.extend_from_slice(some);
+            ControlFlow::<()>::Continue(())
+        })
+        .unwrap();
+    shown.sort_unstable_by_key(|close| close.pair);
+    assert_eq!(shown, all);
+    if !all.is_empty() {
+        let fewer = world
+            .close_triangle_pairs(of, distance)
+            .at_most(all.len() - 1);
+        let limit = all.len() - 1;
+        assert_eq!(
+            fewer.all().unwrap_err().kind,
+            ErrorKind::TooManyHits { limit }
+        );
+    }
+    all
+}
+
+/// Figures of a pair belong together.
+fn check_figures<S: Scalar>(close: &CloseTriangles, bodies: &[Known<S>]) {
+    let mut points = [[0.0; 3]; 2];
+    for (point, (body, triangle, counts)) in points.iter_mut().zip([
+        (
+            close.pair.body_a,
+            close.pair.triangle_a,
+            close.barycentric_a,
+        ),
+        (
+            close.pair.body_b,
+            close.pair.triangle_b,
+            close.barycentric_b,
+        ),
+    ]) {
+        let body = bodies.iter().find(|known| known.id == body).unwrap();
+        for (vertex, count) in body.triangles[triangle as usize].into_iter().zip(counts) {
+            for axis in 0..3 {
+                point[axis] += count * body.positions[vertex as usize][axis].to_f64();
+            }
+        }
+    }
+    let [a, b] = points;
+    for axis in 0..3 {
+        assert!((a[axis] - close.point_a[axis]).abs() < 1e-12, "{close:?}");
+        assert!((b[axis] - close.point_b[axis]).abs() < 1e-12, "{close:?}");
+        let along = close.direction.map_or(0.0, |direction| direction[axis]);
+        let way = a[axis] - b[axis];
+        assert!((way - close.distance * along).abs() < 1e-7, "{close:?}");
+    }
+    assert_eq!(close.direction.is_none(), close.distance == 0.0);
+}
+
+/// What is promised of a distance: nothing is nearer, and something is as near.
+fn check_distance<S: Scalar>(
+    found: Option<CloseTriangles>,
+    of: [&Known<S>; 2],
+    cut_off: f64,
+    bodies: &[Known<S>],
+) {
+    let [a, b] = of;
+    let Some(found) = found else {
+        assert!(expected(a, b, cut_off.min(1e9)).is_empty());
+        return;
+    };
+    assert_eq!([found.pair.body_a, found.pair.body_b], [a.id, b.id]);
+    check_figures(&found, bodies);
+    let slack = 2f64.powi(-30);
+    let (below, above) = (
+        found.distance * (1.0 - slack),
+        found.distance * (1.0 + slack),
+    );
+    assert!(found.distance <= cut_off * (1.0 + slack));
+    let near = expected(a, b, above);
+    assert!(near.contains(&found.pair), "{found:?} {near:?}");
+    if found.distance > 0.0 {
+        assert!(expected(a, b, below).is_empty(), "{found:?}");
+    }
+}
+
+/// A rough sheet, a degenerate one among them, somewhere.
+fn shape<S: Scalar>(random: &mut Lcg, flat: &[[f32; 3]], of: fn(f64) -> S) -> Vec<[S; 3]> {
+    let at: [f64; 3] = std::array::from_fn(|_| 0.7 * f64::from(random.below(4)));
+    let rough = f64::from(random.below(3)) * 0.3;
+    flat.iter()
+        .map(|p| {
+            std::array::from_fn(|axis| {
+                of(at[axis] + f64::from(p[axis]) + rough * f64::from(random.unit()))
+            })
+        })
+        .collect()
+}
+
+/// The nearest body is the one whose distance is the least.
+fn check_nearest<S: Scalar>(world: &mut World<S>, bodies: &[Known<S>]) {
+    let id = bodies[0].id;
+    let [mut least, mut to] = [f64::INFINITY, 0.0];
+    for other in &bodies[1..] {
+        let found = world
+            .distance(id, other.id, f64::INFINITY)
+            .unwrap()
+            .unwrap();
+        if found.distance < least {
+            [least, to] = [found.distance, f64::from(other.id.0)];
+        }
+    }
+    let nearest = world.nearest_body(id, f64::INFINITY).unwrap().unwrap();
+    assert!(
+        (nearest.distance - least).abs() <= least * 2f64.powi(-29),
+        "{nearest:?} {least} {to}"
+    );
+    assert!(world.nearest_body(id, least * 0.99).unwrap().is_none() || least == 0.0);
+}
+
+fn live<S: Scalar>(options: Options, seed: u64, steps: u32, of: fn(f64) -> S) -> [usize; 3] {
+    let random = &mut Lcg(seed);
+    let mut world = World::<S>::with_options(options);
+    let mut bodies: Vec<Known<S>> = Vec::new();
+    let mut seen = [0; 3];
+    for step in 0..steps {
+        while bodies.len() < 3 || bodies.len() == 3 && step % 7 == 6 {
+            let (triangles, flat) = sheet(3 + random.below(3));
+            let positions = shape(random, &flat, of);
+            let id = world.add(&triangles, &positions).unwrap();
+            bodies.push(Known {
+                id,
+                triangles,
+                positions,
+            });
+        }
+        if bodies.len() > 3 {
+            let gone = bodies.remove(random.below(4) as usize);
+            world.remove(gone.id).unwrap();
+        }
+        let which = random.below(3) as usize;
+        let moved = &mut bodies[which];
+        if random.below(2) == 0 {
+            let by: [f64; 3] = std::array::from_fn(|_| 0.4 * f64::from(random.unit()) - 0.2);
+            for point in &mut moved.positions {
+                *point = std::array::from_fn(|axis| of(point[axis].to_f64() + by[axis]));
+            }
+        } else {
+            let flat: Vec<[f32; 3]> = moved
+                .positions
+                .iter()
+                .map(|_| [random.unit() * 2.0, random.unit(), random.unit()])
+                .collect();
+            moved.positions = shape(random, &flat, of);
+        }
+        world.set_positions(moved.id, &moved.positions).unwrap();
+        if step % 5 == 4 {
+            world.rebuild(moved.id).unwrap();
+        }
+        let ids = [bodies[0].id, bodies[1].id];
+        for distance in [0.0, 0.15] {
+            let mut of_world = Vec::new();
+            for i in 0..3 {
+                for j in i + 1..3 {
+                    let (a, b) = (&bodies[i], &bodies[j]);
+                    of_world.extend(expected(a, b, distance));
+                }
+            }
+            of_world.sort_unstable();
+            let found = ask(&mut world, Selection::World, distance);
+            assert!(
+                found
+                    .iter()
+                    .map(|close| close.pair)
+                    .eq(of_world.iter().copied())
+            );
+            let within = ask(&mut world, Selection::Within(ids[0]), distance);
+            let itself = expected(&bodies[0], &bodies[0], distance);
+            assert!(within.iter().map(|close| close.pair).eq(itself));
+            let between = ask(&mut world, Selection::Between(ids[1], ids[0]), distance);
+            let of_two = expected(&bodies[1], &bodies[0], distance);
+            assert!(between.iter().map(|close| close.pair).eq(of_two));
+            let everything = ask(&mut world, Selection::Everything, distance);
+            assert!(everything.len() >= found.len() + within.len());
+            for close in &everything {
+                assert!(close.distance <= distance * (1.0 + 2f64.powi(-30)));
+                check_figures(close, &bodies);
+            }
+            seen[0] += everything.len();
+        }
+        for [i, j] in [[0, 1], [1, 0], [1, 2]] {
+            let (a, b) = (&bodies[i], &bodies[j]);
+            let far = world.distance(a.id, b.id, f64::INFINITY).unwrap();
+            check_distance(far, [a, b], f64::INFINITY, &bodies);
+            let far = far.unwrap();
+            seen[1] += usize::from(far.distance > 0.0);
+            seen[2] += usize::from(far.distance == 0.0);
+            for cut_off in [0.0, 0.3, far.distance * 0.999, far.distance * 1.001] {
+                let near = world.distance(a.id, b.id, cut_off).unwrap();
+                assert_eq!(near.is_some(), !expected(a, b, cut_off).is_empty());
+                check_distance(near, [a, b], cut_off, &bodies);
+            }
+        }
+        check_nearest(&mut world, &bodies);
+        world.validate().unwrap();
+    }
+    seen
+}
+
+#[test]
+fn every_configuration_says_what_the_reference_does() {
+    let mut seen = [0; 3];
+    for (at, options) in every_configuration().into_iter().enumerate().step_by(23) {
+        let seed = at as u64;
+        let of_one = if at % 2 == 0 {
+            live::<f32>(options, seed, 5, |x| x as f32)
+        } else {
+            live::<f64>(options, seed, 5, |x| x + 1e3)
+        };
+        seen = std::array::from_fn(|i| seen[i] + of_one[i]);
+    }
+    assert!(seen[0] > 4_000 && seen[1] > 100 && seen[2] > 10, "{seen:?}");
+}
+
+#[test]
+fn threads_and_long_lives_do_not_change_anything() {
+    for threads in [1, 3] {
+        let mut options = Options::default();
+        options.threads = NonZeroUsize::new(threads).unwrap();
+        live::<f32>(options, 77, 20, |x| x as f32);
+        live::<f64>(options, 78, 20, |x| x);
+    }
+}
+
+#[test]
+fn what_is_no_distance_is_refused() {
+    let mut world = World::<f32>::new();
+    let (triangles, positions) = sheet(3);
+    let body = world.add(&triangles, &positions).unwrap();
+    let other = world.add(&triangles, &positions).unwrap();
+    for distance in [-1.0, f64::NAN, f64::NEG_INFINITY] {
+        let bad = |kind: ErrorKind| matches!(kind, ErrorKind::BadDistance { .. });
+        assert!(bad(world.distance(body, other, distance).unwrap_err().kind));
+        assert!(bad(world.nearest_body(body, distance).unwrap_err().kind));
+        let close = world.close_triangle_pairs(Selection::World, distance);
+        assert!(bad(close.all().unwrap_err().kind));
+    }
+    let same = world.distance(body, body, 1.0).unwrap_err();
+    assert_eq!(same.kind, ErrorKind::SameBody);
+    world.remove(other).unwrap();
+    for gone in [
+        world.distance(body, other, 1.0),
+        world.nearest_body(other, 1.0),
+    ] {
+        let gone = gone.unwrap_err();
+        assert_eq!((gone.body, gone.kind), (Some(other), ErrorKind::NoSuchBody));
+    }
+    assert!(world.nearest_body(body, f64::INFINITY).unwrap().is_none());
+}
+
+#[test]
+fn filters_are_for_the_nearest_body_only() {
+    let mut world = World::<f64>::new();
+    let triangle = [[0, 1, 2]];
+    let at = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
+    let [a, b, c] = [0.0, 1.0, 5.0].map(|z| world.add(&triangle, &at(z)).unwrap());
+    assert_eq!(world.nearest_body(a, 9.0).unwrap().unwrap().pair.body_b, b);
+    world.ignore(a, b).unwrap();
+    let nearest = world.nearest_body(a, 9.0).unwrap().unwrap();
+    assert_eq!((nearest.pair.body_b, nearest.distance), (c, 5.0));
+    assert_eq!(world.distance(a, b, 9.0).unwrap().unwrap().distance, 1.0);
+    world.set_filter(c, 2, 2).unwrap();
+    world.set_filter(a, 1, 1).unwrap();
+    assert!(world.nearest_body(a, 9.0).unwrap().is_none());
+}

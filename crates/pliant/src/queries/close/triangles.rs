@@ -353,7 +353,7 @@ mod tests {
         for round in 0..6_000 {
             let [a, b] = Class::ALL[round % Class::ALL.len()].pair(&mut random);
             let padded = [a, b].map(|it| it.map(|[x, y, z]| [x, y, z, z]));
-            let corners = padded.each_ref().map(|it| it.each_ref());
+            let corners = padded.each_ref().map(<[_; 3]>::each_ref);
             let mut of_all: Option<TrianglesClosest> = None;
             for instructions in Instructions::all() {
                 let found = dispatch!(instructions, i => closest_of_triangles(i, &corners, &never));

@@ -66,6 +66,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
             "held",
             "ids",
             "statistics",
+            "geometry",
             "kernels",
             "mesh",
             "threads",

@@ -225,3 +225,100 @@ impl Held for NearestScratch {
             + self.lists.iter().map(held::list).sum::<usize>()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernels::{BoxLanes, Instructions};
+    use pliant_oracle::{Random, compare_length};
+    use std::cmp::Ordering;
+
+    /// Boxes of some scale, of which some overlap, some are beside each other and some far away.
+    fn boxes(random: &mut Random, scale: f32) -> Vec<Aabb> {
+        let mut side = || {
+            let x = (random.below(64) as f32 - 32.0) * 0.37 * scale;
+            let y = random.below(9) as f32 * 0.41 * scale;
+            [x, x + y]
+        };
+        let boxes = (0..8).map(|_| {
+            let [x, y, z] = [side(), side(), side()];
+            Aabb {
+                lo: [x[0], y[0], z[0]],
+                hi: [x[1], y[1], z[1]],
+            }
+        });
+        boxes.collect()
+    }
+
+    /// Two points of boxes that are nearest.
+    fn nearest_points(a: &Aabb, b: &Aabb) -> [[f64; 3]; 2] {
+        let mut points = [[0.0; 3]; 2];
+        for axis in 0..3 {
+            let ends = if b.lo[axis] > a.hi[axis] {
+                [a.hi[axis], b.lo[axis]]
+            } else if a.lo[axis] > b.hi[axis] {
+                [a.lo[axis], b.hi[axis]]
+            } else {
+                continue;
+            };
+            for which in 0..2 {
+                points[which][axis] = ends[which].into();
+            }
+        }
+        points
+    }
+
+    #[test]
+    fn gaps_are_never_larger_than_they_are() {
+        let mut random = Random::new(45);
+        let [mut near, mut far] = [0; 2];
+        for round in 0..400 {
+            let scale = [1.0, 1e-30, 1e-44, 1e17, 1e36][round % 5];
+            let both = [boxes(&mut random, scale), boxes(&mut random, scale)];
+            let lanes = both.each_ref().map(|all| {
+                let mut lanes = BoxLanes::<8>::EMPTY;
+                all.iter()
+                    .enumerate()
+                    .for_each(|(lane, it)| lanes.set(lane, it));
+                lanes
+            });
+            let [a, b] = [
+                both[0][random.below(8) as usize],
+                both[1][random.below(8) as usize],
+            ];
+            let limit = gap_square(&a, &b) * [1.0, 1.01, 0.99][round % 3];
+            for instructions in Instructions::all() {
+                let mask =
+                    dispatch!(instructions, i => near_mask(i, &lanes[0], &lanes[1], [8, 7], limit));
+                for bit in 0..64 {
+                    let [a, b] = [&both[0][bit / 8], &both[1][bit % 8]];
+                    let [p, q] = nearest_points(a, b);
+                    let gap = gap_square(a, b).sqrt();
+                    let compare = |x: f64| compare_length(&[(1.0, p), (-1.0, q)], x);
+                    let surely = gap * (1.0 - f64::EPSILON);
+                    assert_ne!(compare(surely), Ordering::Less, "{a:?} {b:?}");
+                    // And no more is taken off than is said.
+                    let most = (gap + f64::powi(0.5, 118)) * (1.0 + f64::powi(0.5, 48));
+                    assert_ne!(compare(most), Ordering::Greater, "{a:?} {b:?}");
+                    let is_set = mask >> bit & 1 == 1;
+                    if bit % 8 == 7 {
+                        assert!(!is_set);
+                    } else if compare(limit.sqrt() * (1.0 - f64::EPSILON)) != Ordering::Greater {
+                        assert!(is_set, "{a:?} {b:?} {limit}");
+                        near += 1;
+                    } else if compare(
+                        (limit.sqrt() + f64::powi(0.5, 49)) * (1.0 + f64::powi(0.5, 18)),
+                    ) == Ordering::Greater
+                    {
+                        assert!(
+                            !is_set || limit > f64::from(f32::MAX),
+                            "{a:?} {b:?} {limit}"
+                        );
+                        far += 1;
+                    }
+                }
+            }
+        }
+        assert!(near > 5_000 && far > 5_000, "{near} {far}");
+    }
+}

@@ -8,7 +8,7 @@ use super::bodies::Bodies;
 use super::body::{self, Body};
 use super::body_pairs::BodyPairs;
 use super::close::AskedClose;
-use super::distance::Distances;
+use super::distance::{self, Distances};
 use super::origin::FloatingOrigin;
 use super::query::{Ask, Request};
 use super::witness::{self, Witnesses};
@@ -21,8 +21,7 @@ use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
 use crate::queries::{
-    Candidate, Close, EdgeEdgeCandidates, Intersections, Measured, NearTriangles,
-    VertexTriangleCandidates,
+    Close, EdgeEdgeCandidates, Intersections, Measured, NearTriangles, VertexTriangleCandidates,
 };
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Question, Threads};
@@ -103,14 +102,14 @@ pub(crate) trait AnyEngine<S>:
 /// An engine whose trees have degree `N`.
 pub(super) struct Engine<const N: usize, S: Coordinate> {
     pub(super) common: Common<N, S>,
-    pub(super) intersections: Asked<Intersections<S>>,
+    intersections: Asked<Intersections<S>>,
     vertex_triangle: Asked<VertexTriangleCandidates<S>>,
     edge_edge: Asked<EdgeEdgeCandidates<S>>,
     close_vertex_triangle: AskedClose<Close<VertexTriangleCandidates<S>>>,
     close_edge_edge: AskedClose<Close<EdgeEdgeCandidates<S>>>,
     close_triangles: AskedClose<NearTriangles<S>>,
-    pub(super) witnesses: Witnesses,
-    pub(super) distances: Distances,
+    witnesses: Witnesses,
+    distances: Distances,
     /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
     lent: Vec<[S; 3]>,
     #[cfg(test)]
@@ -448,7 +447,25 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         cut_off: f64,
         question: Option<Question>,
     ) -> Result<Option<CloseTriangles>, Error> {
-        self.distance_of(of, cut_off, question)
+        distance::check(cut_off)?;
+        let request = Request {
+            of: Selection::Between(of[0], of[1]),
+            most: usize::MAX,
+            question,
+            within: cut_off,
+        };
+        if Ask::<Pair>::first(self, &request)?.is_some() {
+            let triangles = self.witnesses.get(of);
+            return Ok(triangles.and_then(|it| distance::in_common(&self.common, of, it)));
+        }
+        let interrupt = Interrupt::new(question);
+        let scratch = &mut self.intersections.scratch;
+        let common = &mut self.common;
+        let found = self
+            .distances
+            .nearest(common, scratch, of, cut_off, &interrupt)?;
+        common.end(&interrupt)?;
+        Ok(found)
     }
 
     fn nearest_body(
@@ -457,7 +474,24 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         cut_off: f64,
         question: Option<Question>,
     ) -> Result<Option<CloseTriangles>, Error> {
-        self.nearest_body_of(id, cut_off, question)
+        distance::check(cut_off)?;
+        let mut statistics = self.common.done_early;
+        let (mut nearest, mut within) = (None, cut_off);
+        for (gap, other) in distance::others_by_gap(&mut self.common, id)? {
+            if gap > distance::squared(within) {
+                break;
+            }
+            let found = self.distance([id, other], within, question);
+            statistics += self.common.statistics;
+            if let Some(found) = found?
+                && (nearest.is_none() || found.distance < within)
+            {
+                within = found.distance;
+                nearest = Some(found);
+            }
+        }
+        self.common.statistics = statistics;
+        Ok(nearest)
     }
 
     fn statistics(&self) -> &Statistics {
@@ -628,7 +662,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
         let mut statistics = self.common.done_early;
         let both = [self.body(bodies[0])?, self.body(bodies[1])?];
         let found = witness::near(both, last, &interrupt, &mut statistics);
-        let pair = found.map(|found| pair_of(both, found));
+        let pair = found.map(|found| witness::pair_of(both, found));
         if let Some(found) = found {
             self.common.statistics = statistics;
             self.common.done_early = Statistics::default();
@@ -639,18 +673,4 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
         }
         Ok(pair)
     }
-}
-
-/// Two triangles of two bodies, or of one, as the caller numbers them.
-pub(super) fn pair_of<const N: usize, S: Coordinate>(
-    both: [&Body<N, S>; 2],
-    found: Candidate,
-) -> Pair {
-    use crate::queries::{CallerIds, Kind};
-    let ids = CallerIds {
-        edges: [&[]; 2],
-        bodies: both.map(|body| body.id),
-        orders: both.map(|body| &body.order),
-    };
-    Intersections::<S>::default().to_caller(&ids, found)
 }

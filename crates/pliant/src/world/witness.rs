@@ -9,10 +9,11 @@ use super::BodyId;
 use super::body::Body;
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
+use crate::hits::Pair;
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
 use crate::predicates::{Triangle, intersect};
-use crate::queries::Candidate;
+use crate::queries::{CallerIds, Candidate, Intersections, Kind};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use std::collections::BTreeMap;
@@ -54,6 +55,19 @@ pub(super) fn near<const N: usize, S: Coordinate>(
     among::<1, N, S>(both, last, interrupt, statistics)
         .or_else(|| among::<8, N, S>(both, last, interrupt, statistics))
         .or_else(|| among::<64, N, S>(both, last, interrupt, statistics))
+}
+
+/// Two triangles of two bodies, or of one, as the caller numbers them.
+pub(super) fn pair_of<const N: usize, S: Coordinate>(
+    both: [&Body<N, S>; 2],
+    found: Candidate,
+) -> Pair {
+    let ids = CallerIds {
+        edges: [&[]; 2],
+        bodies: both.map(|body| body.id),
+        orders: both.map(|body| &body.order),
+    };
+    Intersections::<S>::default().to_caller(&ids, found)
 }
 
 /// A pair that intersects among `R` triangles on either side.

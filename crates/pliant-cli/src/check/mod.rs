@@ -111,7 +111,7 @@ Examples:
   pliant check walk.npz --quiet && echo clean
 
 Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 8 MB, however many frames there are, and 7.5 times two frames where the mesh changes from file to file; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), and of glTF bodies that move the rest positions, joints, deltas and keys.
+Memory: at most 3.5 times two frames (positions and triangles) and 10 MB, however many frames there are, and 7.5 times two frames where the mesh changes from file to file; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), and of glTF bodies that move the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
 
 /// `A,B`.

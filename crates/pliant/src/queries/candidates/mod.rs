@@ -92,11 +92,15 @@ impl Margin {
         self.grown_by
     }
 
-    fn body_box(self, of_shape: Aabb) -> Aabb {
+    pub(crate) fn body_box(self, of_shape: Aabb) -> Aabb {
         of_shape.grown(self.grown_by)
     }
 
-    fn source<'s, S>(self, from: Shape<'s, S>, to: Option<Shape<'s, S>>) -> Grown<Swept<'s, S>> {
+    pub(crate) fn source<'s, S>(
+        self,
+        from: Shape<'s, S>,
+        to: Option<Shape<'s, S>>,
+    ) -> Grown<Swept<'s, S>> {
         Grown {
             source: Swept { from, to },
             distance: self.grown_by,

@@ -21,7 +21,7 @@ use crate::queries::{
 };
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
-use crate::tree::Grown;
+use crate::tree::{Grown, Swept};
 use std::marker::PhantomData;
 
 /// Pairs of triangles that are at most so far apart.
@@ -221,7 +221,7 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
     type Hit = Pair;
     type TreeHit = Candidate;
     type Buffers = ();
-    type Source<'s> = Grown<Shape<'s, S>>;
+    type Source<'s> = Grown<Swept<'s, S>>;
 
     const BOX_SET: BoxSetNumber = 2;
     const LEAVES: Leaves = Leaves::Triangles;
@@ -231,14 +231,12 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
     }
 
     fn body_box(&self, of_shape: Aabb) -> Aabb {
-        of_shape.grown(self.margin.grown_by())
+        self.margin.body_box(of_shape)
     }
 
-    fn source<'s>(&self, source: Shape<'s, S>, _: Option<Shape<'s, S>>) -> Grown<Shape<'s, S>> {
-        Grown {
-            source,
-            distance: self.margin.grown_by(),
-        }
+    /// Of the type of candidates, so that nothing that makes boxes is compiled for this kind alone.
+    fn source<'s>(&self, shape: Shape<'s, S>, _: Option<Shape<'s, S>>) -> Grown<Swept<'s, S>> {
+        self.margin.source(shape, None)
     }
 
     fn test(

@@ -67,8 +67,16 @@ impl From<CloseTriangles> for Close {
 }
 
 impl Close {
+    /// A ClosePair of two triangles.
+    pub(crate) fn of_triangles(
+        py: Python<'_>,
+        close: CloseTriangles,
+    ) -> PyResult<Bound<'_, PyAny>> {
+        Self::from(close).one(py, CloseKind::Triangles)
+    }
+
     /// A ClosePair.
-    pub(crate) fn one(self, py: Python<'_>, kind: CloseKind) -> PyResult<Bound<'_, PyAny>> {
+    fn one(self, py: Python<'_>, kind: CloseKind) -> PyResult<Bound<'_, PyAny>> {
         let (place, numbers) = match kind {
             CloseKind::VertexTriangle => (2, &self.barycentric[..3]),
             CloseKind::EdgeEdge => (3, &self.barycentric[..4]),

@@ -642,8 +642,7 @@ impl World {
                 })
             })
         })?;
-        let one = found.map(|close| Close::from(close).one(py, CloseKind::Triangles));
-        Ok(one.transpose()?)
+        Ok(found.map(|it| Close::of_triangles(py, it)).transpose()?)
     }
 
     /// How far a body is from all others that may meet it, as filters say: the distance to the nearest of them, which the ClosePair names;
@@ -662,8 +661,7 @@ impl World {
                 })
             })
         })?;
-        let one = found.map(|close| Close::from(close).one(py, CloseKind::Triangles));
-        Ok(one.transpose()?)
+        Ok(found.map(|it| Close::of_triangles(py, it)).transpose()?)
     }
 
     /// How far each vertex may move before anything can touch: a dictionary of bodies, with an array (n,) float64 each, at most half of

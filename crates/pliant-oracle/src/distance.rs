@@ -22,7 +22,11 @@ pub fn compare_distance(a: &[[f64; 3]], b: &[[f64; 3]], x: f64) -> Ordering {
     if let ([a, b, c], [d, e, f]) = (a, b)
         && intersect(&[*a, *b, *c], &[*d, *e, *f])
     {
-        return 0.0_f64.total_cmp(&x);
+        return if x > 0.0 {
+            Ordering::Less
+        } else {
+            Ordering::Equal
+        };
     }
     let numbers: Vec<f64> = [a, b].concat().into_iter().flatten().chain([x]).collect();
     let all = integers(&numbers);

@@ -56,15 +56,15 @@ pub struct CloseEdgeEdge {
 /// coordinate of any difference of their corners; then the points that `barycentric_a` and `barycentric_b` name are no further apart than
 /// the distance and 2^-30 of it and 2^-40 s: where triangles intersect, they are a point in common. Along `direction` the triangles are
 /// apart by the distance but for 2^-30 of it and 2^-48 s. Of several closest points, those here are some. Where corners a, b, c count x, y, z
-/// the point is a + y (b - a) + z (c - a). `point_a` and `point_b` are the
-/// same points, off by at most 2^-50 of the largest coordinate of a corner.
+/// the point is a + y (b - a) + z (c - a); `point_a` and `point_b` are the same points, each coordinate off by at most 2^-50 of the largest
+/// coordinate of the triangle's corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseTriangles {
     /// Which they are.
     pub pair: Pair,
     /// How far apart they are.
     pub distance: f64,
-    /// From the second triangle to the first, of length 1; none if they intersect.
+    /// From the second triangle to the first, of length 1; none at distance 0.
     pub direction: Option<[f64; 3]>,
     /// The point of the first triangle: what each corner counts, in their order; at least 0, together 1 but for rounding.
     pub barycentric_a: [f64; 3],

@@ -139,11 +139,12 @@ pub(crate) fn overlap_mask<I: Simd, const N: usize>(i: I, a: &BoxLanes<N>, b: &B
     mask
 }
 
-/// Bit 8 i + j is set unless lane i of `a` and lane j of `b` are surely further apart than the root of `limit`, a square. The first lanes
-/// are not empty, and so many of them, at least one, are compared.
+/// Bit 8 i + j is set unless lane i of `a` and lane j of `b` are surely further apart than the root of `limit`, a square. Of either so many
+/// lanes are compared, at least one; these are not empty.
 ///
-/// A square of a gap computed in `f32` is off by six roundings of itself, and 2^-148, or where subnormal numbers are flushed by as much as
-/// a part of 2^-64 or 2^-184: a limit that is larger by 2^-20 of itself and 2^-100 allows more. Where it is beyond `f32`, no gap is.
+/// A square of a gap computed in `f32` is off by six roundings of itself, and by 2^-148 below the normal range; where subnormal numbers are
+/// flushed, by 2^-64 of itself or 2^-184 more. A limit that is larger by 2^-20 of itself and 2^-100 allows for it. Where that is beyond
+/// `f32`, no square is.
 #[inline(always)]
 pub(crate) fn near_mask<I: Simd, const N: usize>(
     i: I,
@@ -153,20 +154,15 @@ pub(crate) fn near_mask<I: Simd, const N: usize>(
     limit: f64,
 ) -> u64 {
     let most = (limit * (1.0 + f64::powi(0.5, 20)) + f64::powi(0.5, 100)) as f32;
-    let most = if most == f32::MAX {
-        f32::INFINITY
-    } else {
-        most.next_up()
-    };
-    let (zero, most) = (f32x8::splat(i, 0.0), f32x8::splat(i, most));
+    let (zero, most) = (f32x8::splat(i, 0.0), f32x8::splat(i, most.next_up()));
     let (mut b_lo, mut b_hi) = ([zero; 3], [zero; 3]);
     for axis in 0..3 {
         b_lo[axis] = eight(i, &b.lo[axis]);
         b_hi[axis] = eight(i, &b.hi[axis]);
     }
-    let columns = u64::MAX >> (64 - len_b) & 0xff;
+    let columns = u64::MAX >> (64 - len_b);
     let mut mask = 0;
-    for lane in 0..len_a.min(N) {
+    for lane in 0..len_a {
         let mut square = zero;
         for axis in 0..3 {
             let below = b_lo[axis] - a.hi[axis][lane];

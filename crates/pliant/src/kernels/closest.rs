@@ -178,11 +178,11 @@ pub(crate) struct TwoClosest {
     /// The nearest pair of elements, by its number, and how far along these.
     pub(crate) which: usize,
     pub(crate) along: [f64; 2],
-    /// The way from its second element to its first.
+    /// The way from the second triangle to the first.
     pub(crate) way: [f64; 3],
     /// Its length.
     pub(crate) distance: f64,
-    /// The true distance is at least that, and more than that is nothing. Perhaps less than none.
+    /// The true distance is at least that. Perhaps less than none, which it is where they intersect.
     pub(crate) least: f64,
     /// It is at most that. Perhaps infinite.
     pub(crate) most: f64,
@@ -230,12 +230,13 @@ pub(crate) fn of_triangles<I: Simd, S: Real>(
         }
         first += count;
     }
+    if is_swapped(nearest.which) {
+        let [x, y, z] = nearest.way;
+        nearest.way = [0.0 - x, 0.0 - y, 0.0 - z];
+    }
     nearest.least = f64::NEG_INFINITY;
+    let way = nearest.way;
     if least_of_nearest > 0.0 {
-        let mut way = nearest.way;
-        if is_swapped(nearest.which) {
-            way = [0.0 - way[0], 0.0 - way[1], 0.0 - way[2]];
-        }
         let [mut projection, mut largest] = [f64::INFINITY, 0.0_f64];
         for p in a {
             for q in b {

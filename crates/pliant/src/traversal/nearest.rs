@@ -4,18 +4,19 @@
 //! passed over; the limit becomes smaller as triangles are measured. Boxes are made when they are reached, as everywhere: of two bodies
 //! that are apart those near the closest points, and few others.
 //!
-//! **A gap never is larger than the distance of what is in the boxes.** Sides of boxes are `f32`, so that a difference of two is rounded once in
-//! `f64`, by 2^-53 of itself, and squares and sums by as much; what is taken off is eight times that. A thread that flushes subnormal
-//! numbers reads sides that are off by less than 2^-126: 2^-120 is taken off each difference.
+//! **A gap never is larger than the distance of what is in the boxes.** Sides of boxes are `f32`. In `f64` a difference of two, what is
+//! taken off it, its square, two sums and what is taken off in the end are rounded by 2^-53 each: eight roundings of a square at most, and
+//! sixteen are taken off. A thread that flushes subnormal numbers reads sides that are off by less than 2^-126: 2^-120 is taken off each
+//! difference.
 //!
-//! Gottschalk, Lin and Manocha, Larsen et al. (2000, *Fast Distance Queries with Rectangular Swept Sphere Volumes*) descend the same way;
-//! here both nodes are opened at once, all their children compared side by side, and boxes are stale until they are reached.
+//! Larsen, Gottschalk, Lin and Manocha (2000, *Fast Distance Queries with Rectangular Swept Sphere Volumes*) descend the same way; here
+//! both nodes are opened at once, all their children compared side by side, and boxes are stale until they are reached.
 
 use super::expand::NodePair;
 use super::tree_pair::{Side, TreePair, TwoTrees};
 use crate::geometry::{Aabb, Shape};
 use crate::held::{self, Held};
-use crate::ids::{LeafId, NodeId, WideNodeId};
+use crate::ids::{BlockId, LeafId, NodeId, WideNodeId};
 use crate::kernels::{dispatch, near_mask};
 use crate::queries::Candidate;
 use crate::statistics::Statistics;
@@ -196,7 +197,6 @@ fn near_triangles<const N: usize, B>(
     triangles: &mut Vec<(f64, Candidate)>,
     limit: f64,
 ) {
-    use crate::ids::BlockId;
     let of: [&Leaves; 2] = sides.map(|side| &side.tree.leaves);
     let boxes = sides.map(|side| side.boxes.blocks());
     for block_a in of[0].blocks(leaves[0]).map(BlockId) {

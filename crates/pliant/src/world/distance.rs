@@ -77,9 +77,11 @@ impl Distances {
         let places = [common.bodies.place(of[0])?, common.bodies.place(of[1])?];
         let instructions = common.instructions;
         let kind = &Intersections::default();
+        let mut found = NearestPair::within(cut_off);
+        let mut limit = found.limit();
         let both = common.bodies.two(places);
         let [box_a, box_b] = both.each_ref().map(|body| body.box_for(kind, origin));
-        if gap_square(&box_a, &box_b) > squared(cut_off) {
+        if gap_square(&box_a, &box_b) > limit {
             return Ok(None);
         }
         let refit = Refit {
@@ -106,14 +108,12 @@ impl Distances {
             return Ok(None);
         };
         let mut pair = TwoTrees { a, b };
-        let mut found = NearestPair::within(cut_off);
         let mut exact = 0;
         let mut measure = |shapes: [&Shape<'_, S>; 2], triangles: Candidate| {
             let corners = [0, 1].map(|which| corners_of(shapes[which], triangles[which]));
             found.measure(instructions, triangles, &corners, interrupt, &mut exact);
             found.limit()
         };
-        let mut limit = squared(cut_off);
         if let Some(last) = self.last.get(of) {
             limit = measure([&pair.a.source, &pair.b.source], last);
         }
@@ -136,11 +136,6 @@ impl Distances {
             &closest,
         )))
     }
-}
-
-/// The square of a distance, or somewhat more.
-pub(super) fn squared(distance: f64) -> f64 {
-    distance * distance * (1.0 + 4.0 * f64::EPSILON)
 }
 
 /// Refuses what is no distance. It may be infinite.

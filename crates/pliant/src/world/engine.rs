@@ -21,7 +21,8 @@ use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
 use crate::queries::{
-    Close, EdgeEdgeCandidates, Intersections, Measured, NearTriangles, VertexTriangleCandidates,
+    Close, EdgeEdgeCandidates, Intersections, Measured, NearTriangles, NearestPair,
+    VertexTriangleCandidates,
 };
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Question, Threads};
@@ -478,7 +479,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         let mut statistics = self.common.done_early;
         let (mut nearest, mut within) = (None, cut_off);
         for (gap, other) in distance::others_by_gap(&mut self.common, id)? {
-            if gap > distance::squared(within) {
+            if gap > NearestPair::within(within).limit() {
                 break;
             }
             let found = self.distance([id, other], within, question);

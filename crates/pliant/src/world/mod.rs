@@ -590,8 +590,8 @@ impl<S: Scalar> World<S> {
     /// 2^-31 of it, it is some of them. Surfaces only: a body wholly inside another is as far from it as its surface is. Filters are not
     /// looked at, and a motion is not.
     ///
-    /// Cost: of bodies that are apart, about that of a query for intersections of bodies that touch there. The triangles that were the closest
-    /// the last time are tried first.
+    /// Cost: what a query for intersections does ahead, and the nodes and triangles whose boxes are nearer to each other than the bodies are.
+    /// The triangles that were the closest the last time are measured first.
     ///
     /// ```
     /// # use pliant::World;

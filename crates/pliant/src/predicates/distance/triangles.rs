@@ -42,8 +42,9 @@ pub(crate) fn are_triangles_within<S: Real>(a: &Triangle, b: &Triangle, distance
         || (0..ELEMENT_PAIRS).any(|which| are_within_distance(&pair(which, a, b), distance))
 }
 
-/// Where two triangles are closest, with an error of less than 2^-47 of distance and direction; where they intersect, points in common
-/// that are no further apart than 2^-40 of the largest coordinate of any difference of corners. `S` is as above; `known` are some points.
+/// Where two triangles are closest, with an error of less than 2^-48 of distance and direction; where they intersect, points in common
+/// that are no further apart than 2^-40 of the largest coordinate of any difference of corners. `S` is the type that their coordinates
+/// came in; `known` are some points, which need not be good ones.
 #[cold]
 pub(crate) fn closest_triangles<S: Real>(
     a: &Triangle,

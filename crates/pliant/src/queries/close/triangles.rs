@@ -7,7 +7,7 @@
 use super::measured::{CloseKind, Measurable};
 use super::{ACCURACY, half};
 use crate::close_pairs::CloseTriangles;
-use crate::geometry::{Aabb, Real, Shape, barycentric, is_swapped};
+use crate::geometry::{Aabb, Real, Shape, barycentric};
 use crate::hits::Pair;
 use crate::ids::TreeTriangle;
 use crate::kernels::closest::{TwoClosest, of_triangles};
@@ -86,19 +86,14 @@ impl NearestPair {
         interrupt: &Interrupt,
         exact_decisions: &mut u64,
     ) {
+        let [a, b] = corners;
+        let measured = dispatch!(instructions, i => of_triangles(i, a, b));
         let is_nearer = match &self.nearest {
-            Some((_, nearest)) => {
-                let [a, b] = corners;
-                let found = dispatch!(instructions, i => of_triangles(i, a, b));
-                found.least < nearest.distance
-            }
-            None => {
-                dispatch!(instructions, i => is_close(i, corners, self.cut_off, exact_decisions))
-            }
+            Some((_, nearest)) => measured.least < nearest.distance,
+            None => is_within(&measured, corners, self.cut_off, exact_decisions),
         };
         if is_nearer
-            && let Some(found) =
-                dispatch!(instructions, i => closest_of_triangles(i, corners, interrupt))
+            && let Some(found) = closest(measured, corners, interrupt)
             && self
                 .nearest
                 .as_ref()
@@ -109,10 +104,20 @@ impl NearestPair {
     }
 }
 
-/// Where two triangles are closest; none if interrupted. What plain arithmetic leaves undecided takes long enough to be asked before.
+/// Where two triangles are closest; none if interrupted.
 #[inline(always)]
 pub(crate) fn closest_of_triangles<I: Simd, S: Real>(
     i: I,
+    corners: &[ThreeCorners<S>; 2],
+    interrupt: &Interrupt,
+) -> Option<TrianglesClosest> {
+    let [a, b] = corners;
+    closest(of_triangles(i, a, b), corners, interrupt)
+}
+
+/// The same of two that were measured in plain arithmetic. What that leaves undecided takes long enough to be asked before whether to end.
+fn closest<S: Real>(
+    measured: TwoClosest,
     [a, b]: &[ThreeCorners<S>; 2],
     interrupt: &Interrupt,
 ) -> Option<TrianglesClosest> {
@@ -123,12 +128,11 @@ pub(crate) fn closest_of_triangles<I: Simd, S: Real>(
         distance,
         least,
         most,
-    } = of_triangles(i, a, b);
+    } = measured;
     if most - least <= ACCURACY * distance {
-        let sign = if is_swapped(which) { -1.0 } else { 1.0 };
         return Some(TrianglesClosest {
             distance,
-            direction: way.map(|x| sign * x / distance),
+            direction: way.map(|x| x / distance),
             barycentric: barycentric(which, along),
         });
     }
@@ -250,11 +254,13 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
         let before = hits.len();
         dispatch!(leaves.instructions, i => {
             for &[a, b] in candidates.as_slice() {
-                let corners = [corners_of(leaves.shapes[0], a), corners_of(leaves.shapes[1], b)];
                 if leaves.interrupt.is_set() {
                     break;
                 }
-                if is_close(i, &corners, self.distance, &mut statistics.exact_decisions) {
+                let corners = [corners_of(leaves.shapes[0], a), corners_of(leaves.shapes[1], b)];
+                let measured = of_triangles(i, &corners[0], &corners[1]);
+                let exact = &mut statistics.exact_decisions;
+                if is_within(&measured, &corners, self.distance, exact) {
                     hits.push([a, b]);
                 }
             }
@@ -269,17 +275,15 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
     }
 }
 
-/// Whether two triangles are at most so far apart. Counts exact decisions.
-#[inline(always)]
-pub(crate) fn is_close<I: Simd, S: Real>(
-    i: I,
+/// Whether two triangles, measured in plain arithmetic, are at most so far apart. Counts exact decisions.
+fn is_within<S: Real>(
+    measured: &TwoClosest,
     [a, b]: &[ThreeCorners<S>; 2],
     distance: f64,
     exact_decisions: &mut u64,
 ) -> bool {
-    let TwoClosest { least, most, .. } = of_triangles(i, a, b);
-    if (most <= distance) | (least > distance) {
-        return most <= distance;
+    if (measured.most <= distance) | (measured.least > distance) {
+        return measured.most <= distance;
     }
     *exact_decisions += 1;
     are_triangles_within::<S>(&exact(a), &exact(b), distance)
@@ -341,6 +345,38 @@ mod tests {
             Ordering::Greater,
             "{a:?} {b:?} {closest:?}"
         );
+        for (counts, corners) in [(of_a, a), (of_b, b)] {
+            check_coordinates(counts, corners);
+        }
+    }
+
+    /// A point in coordinates is the one that the corners name, but for 2^-50 of the largest of theirs.
+    fn check_coordinates(counts: [f64; 3], corners: &Triangle) {
+        let padded = corners.map(|[x, y, z]| [x, y, z, z]);
+        let found = point(&padded.each_ref(), counts);
+        let largest = corners
+            .as_flattened()
+            .iter()
+            .fold(0.0, |most: f64, x| most.max(x.abs()));
+        let ([a, b, c], [_, y, z]) = (*corners, counts);
+        for axis in 0..3 {
+            let only = |p: [f64; 3]| [p[axis], 0.0, 0.0];
+            let sum = [
+                (1.0, a),
+                (y, b),
+                (0.0 - y, a),
+                (z, c),
+                (0.0 - z, a),
+                (-1.0, found),
+            ];
+            let off = sum.map(|(by, p)| (by, only(p)));
+            let most = 2f64.powi(-50) * largest + f64::MIN_POSITIVE;
+            assert_ne!(
+                compare_length(&off, most),
+                Ordering::Greater,
+                "{corners:?} {counts:?}"
+            );
+        }
     }
 
     #[test]
@@ -405,7 +441,9 @@ mod tests {
                 let expected = compare_distance(&a, &b, x) != Ordering::Greater;
                 let mut exact = 0;
                 let instructions = Instructions::widest();
-                let found = dispatch!(instructions, i => is_close(i, &corners, x, &mut exact));
+                let [p, q] = &corners;
+                let measured = dispatch!(instructions, i => of_triangles(i, p, q));
+                let found = is_within(&measured, &corners, x, &mut exact);
                 assert_eq!(found, expected, "{a:?} {b:?} {x}");
                 decided += exact;
                 quick += 1 - exact;

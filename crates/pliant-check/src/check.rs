@@ -42,7 +42,7 @@ pub struct Check {
 }
 
 /// A query that is interrupted if the caller wants that.
-fn unless<'q>(stop: Option<Question<'q>>, query: Query<'q, Pair>) -> Query<'q, Pair> {
+fn unless<'q, H: Copy>(stop: Option<Question<'q>>, query: Query<'q, H>) -> Query<'q, H> {
     match stop {
         Some(stop) => query.interrupt_if(stop),
         None => query,
@@ -216,6 +216,13 @@ impl Check {
         }
         let mut asked = settings.clone();
         asked.itself |= bodies.count() == 1;
+        match asked.within {
+            Some(distance) if !(distance >= 0.0 && distance.is_finite()) => {
+                return Err(Error::Distance(distance));
+            }
+            Some(_) if asked.itself => return Err(Error::WithinItself),
+            _ => {}
+        }
         Ok(Self {
             asked,
             frames,
@@ -454,7 +461,8 @@ impl Check {
         self.remarks.begin(frame);
         self.places.begin();
         let comparable = baseline.as_ref().map(|it| &it.comparable[..]);
-        let visited = if first && known.is_none() && !skip && !self.bodies.are_split() {
+        let any_will_do = first && self.asked.within.is_none();
+        let visited = if any_will_do && known.is_none() && !skip && !self.bodies.are_split() {
             self.take_first(&mut taker, stop)
         } else {
             self.take_all(&mut taker, wanted.places, comparable.unwrap_or(&[]), stop)
@@ -486,7 +494,7 @@ impl Check {
         Ok(first.map_or(ControlFlow::Continue(()), |pair| {
             let row = pair.into();
             self.remarks.take(taker.frame(), sources, row);
-            taker.take(row, has_degenerate(sources, row), false)
+            taker.take(row, None, has_degenerate(sources, row), false)
         }))
     }
 
@@ -505,12 +513,12 @@ impl Check {
             filter,
             remarks,
             places,
-            asked: Settings { itself, .. },
+            asked: Settings { itself, within, .. },
             ..
         } = self;
         let mut stop = ControlFlow::Continue(());
         let Sequence { world, sources, .. } = sequence;
-        let take = |pair: Pair| {
+        let mut take = |pair: Pair, distance: Option<f64>| {
             let of_sources = pair.into();
             let Some(row) = bodies.row(of_sources) else {
                 return ControlFlow::Continue(());
@@ -519,12 +527,14 @@ impl Check {
             // The world knows sources only.
             let is_asked = (body_a != body_b || *itself) && filter.meet(body_a, body_b);
             if is_asked {
-                remarks.take(taker.frame(), sources, of_sources);
+                if distance.is_none() {
+                    remarks.take(taker.frame(), sources, of_sources);
+                }
                 let [a, _, b, _] = of_sources.map(|number| number as usize);
                 let comparable = [a, b].map(|source| comparable.get(source) == Some(&true));
                 let degenerate = has_degenerate(sources, of_sources);
                 let before = taker.count();
-                stop = taker.take(row, degenerate, comparable == [true; 2]);
+                stop = taker.take(row, distance, degenerate, comparable == [true; 2]);
                 if finds_places && taker.count() > before {
                     places.take(&Split(sources, bodies), of_sources, row);
                 }
@@ -535,8 +545,11 @@ impl Check {
                 ControlFlow::Continue(())
             }
         };
-        let _ = with_world!(world, world => {
-            unless(question, world.intersections(*of)).visit(take)
+        let _ = with_world!(world, world => match *within {
+            None => unless(question, world.intersections(*of)).visit(|pair| take(pair, None)),
+            Some(most) => unless(question, world.close_triangle_pairs(*of, most))
+                // What is known of a distance is off by a billionth; that it is at most this is known exactly.
+                .visit(|close| take(close.pair, Some(close.distance.min(most)))),
         })?;
         Ok(stop)
     }

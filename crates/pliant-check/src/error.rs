@@ -23,6 +23,14 @@ pub enum Error {
     /// A clip was asked for, but no source has one.
     #[error("no body has an animation, so none can be chosen")]
     NoClip,
+    /// A distance that is none.
+    #[error("a distance must be a finite number, at least 0; this is {0}")]
+    Distance(f64),
+    /// Bodies are asked how close they are to themselves.
+    #[error(
+        "neighbouring triangles of a body always are close to each other: a distance is kept between two bodies or more, and not with themselves"
+    )]
+    WithinItself,
     /// Sources move, but not together.
     #[error(
         "frame counts must be equal or 1: {} has {frames} frames, {} has {other_frames}",
@@ -59,7 +67,7 @@ pub enum Error {
     },
     /// A list of pairs would take more memory than it may.
     #[error(
-        "frame {frame}: more than {most} pairs intersect, and their list needs more memory than is allowed"
+        "frame {frame}: more than {most} pairs are found, and their list needs more memory than is allowed"
     )]
     TooManyPairs {
         /// The frame.
@@ -67,8 +75,8 @@ pub enum Error {
         /// So many may be listed.
         most: usize,
     },
-    /// More pairs intersect than anybody would wait for, or look at.
-    #[error("frame {frame}: more than {most} pairs intersect, and the rest is not looked for")]
+    /// There are more pairs than anybody would wait for, or look at.
+    #[error("frame {frame}: more than {most} pairs are found, and the rest is not looked for")]
     Endless {
         /// The frame.
         frame: usize,

@@ -19,8 +19,11 @@ pub struct Found {
     pub changed: Vec<u32>,
     /// How many pairs; at most one if only the first was asked for.
     pub count: usize,
-    /// The smallest of them.
+    /// The smallest of them; of a nearest pair, that.
     pub smallest: Option<Row>,
+    /// How far apart the nearest of them is, at most as far as was asked for. `None` where there is no pair, or no distance was
+    /// asked for.
+    pub distance: Option<f64>,
     /// All of them, sorted; none where they are not listed.
     pub pairs: Vec<Row>,
     /// How many were left out because they intersect in the baseline frame. `None` where there is no such frame, and where the
@@ -59,6 +62,8 @@ pub(crate) struct Taker<'a> {
     baseline: Option<&'a [Row]>,
     /// Whether pairs with a triangle without area are left out.
     skip_degenerate: bool,
+    /// Whether the nearest pair so far has a triangle without area.
+    is_degenerate: bool,
 }
 
 impl<'a> Taker<'a> {
@@ -74,6 +79,7 @@ impl<'a> Taker<'a> {
             changed: Vec::new(),
             count: 0,
             smallest: None,
+            distance: None,
             pairs: Vec::new(),
             left_out: baseline.map(|_| 0),
             degenerate: 0,
@@ -86,6 +92,7 @@ impl<'a> Taker<'a> {
             most,
             baseline,
             skip_degenerate: false,
+            is_degenerate: false,
         }
     }
 
@@ -95,11 +102,12 @@ impl<'a> Taker<'a> {
         self
     }
 
-    /// Takes a pair, or leaves it out. `degenerate`: whether a triangle of it has no area. `comparable`: whether its bodies have the
-    /// meshes that the baseline is about.
+    /// Takes a pair, or leaves it out. `distance`: how far apart it is, if that is asked. `degenerate`: whether a triangle of it has no
+    /// area. `comparable`: whether its bodies have the meshes that the baseline is about.
     pub(crate) fn take(
         &mut self,
         row: Row,
+        distance: Option<f64>,
         degenerate: bool,
         comparable: bool,
     ) -> ControlFlow<Stop> {
@@ -115,6 +123,25 @@ impl<'a> Taker<'a> {
             *left_out += 1;
             return ControlFlow::Continue(());
         }
+        if let Some(distance) = distance {
+            let is_nearer = match (found.distance, found.smallest) {
+                (Some(least), Some(smallest)) => (distance, row) < (least, smallest),
+                _ => true,
+            };
+            if !found.complete {
+                // The nearest is known when all were seen.
+                if is_nearer {
+                    found.count = 0;
+                    found.pairs.clear();
+                    found.smallest = None;
+                    found.degenerate -= usize::from(self.is_degenerate);
+                } else {
+                    return ControlFlow::Continue(());
+                }
+            }
+            found.distance = Some(found.distance.map_or(distance, |least| least.min(distance)));
+            self.is_degenerate = degenerate;
+        }
         if found.count >= MOST_COUNTED {
             return ControlFlow::Break(Stop::Endless);
         }
@@ -127,7 +154,7 @@ impl<'a> Taker<'a> {
             }
             found.pairs.push(row);
         }
-        if found.complete {
+        if found.complete || distance.is_some() {
             return ControlFlow::Continue(());
         }
         // What else is left out is not known.
@@ -161,10 +188,10 @@ mod tests {
         let mut taker = Taker::new(0, false, false, usize::MAX, None);
         taker.found.count = MOST_COUNTED - 1;
         assert_eq!(
-            taker.take([0, 1, 0, 2], false, true),
+            taker.take([0, 1, 0, 2], None, false, true),
             ControlFlow::Continue(())
         );
-        let stopped = taker.take([0, 1, 0, 3], false, true);
+        let stopped = taker.take([0, 1, 0, 3], None, false, true);
         assert_eq!(stopped, ControlFlow::Break(Stop::Endless));
         assert_eq!(taker.end().count, MOST_COUNTED);
     }

@@ -9,7 +9,10 @@ use std::path::PathBuf;
 pub struct Settings {
     /// Each body against itself too. One body alone always is.
     pub itself: bool,
-    /// No more than one pair in each frame.
+    /// Pairs of different bodies that are at most so far apart, intersecting ones at distance 0, instead of those that intersect. Of
+    /// one body neighbours always are that close: it cannot be asked of one alone, nor with [`itself`](Self::itself).
+    pub within: Option<f64>,
+    /// No more than one pair in each frame; with [`within`](Self::within) the nearest.
     pub first: bool,
     /// Pairs are kept in a list; if not, they are only counted.
     pub listed: bool,
@@ -84,6 +87,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             itself: false,
+            within: None,
             first: false,
             listed: true,
             max_list: u64::MAX,

@@ -91,6 +91,9 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         }
         CheckError::NamedTwice { .. } => Some("name it once"),
         CheckError::NoClip => Some("leave out `--clip`"),
+        CheckError::WithinItself => Some(
+            "name a second body, or make the pieces of this one bodies with `--split`, and leave out `--self`",
+        ),
         CheckError::EmptyGroup { .. } => Some("write NAME=BODY,BODY"),
         CheckError::Endless { .. } => Some("ask for less with `--first`, or mend the mesh"),
         CheckError::OnePoint { .. } => Some("mend it, or export it without them"),

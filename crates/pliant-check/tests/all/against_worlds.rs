@@ -1,8 +1,8 @@
 //! A check against worlds made by hand: every piece a body of its own there, every frame a world of its own, every rule asked of
 //! every pair.
 
-use pliant::{Selection, World};
-use pliant_check::{Baseline, Check, Found, Group, Row, Settings, Split};
+use pliant::{Pair, Selection, World};
+use pliant_check::{Baseline, Check, Error, Found, Group, Row, Settings, Split};
 use pliant_io::OpenOptions;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -66,7 +66,12 @@ impl SourceMade {
 }
 
 /// All pairs of a frame, those of bodies with themselves too.
-fn by_hand(sources: &[SourceMade], split: bool, frame: usize) -> Vec<Row> {
+fn by_hand(
+    sources: &[SourceMade],
+    split: bool,
+    frame: usize,
+    within: Option<f64>,
+) -> Vec<(Row, f64)> {
     let mut world = World::<f64>::new();
     // For each body of the world its triangles, as the source numbers them.
     let mut bodies = Vec::new();
@@ -81,21 +86,35 @@ fn by_hand(sources: &[SourceMade], split: bool, frame: usize) -> Vec<Row> {
         }
     }
     let named = |body: u32, triangle: u32| [body, bodies[body as usize][triangle as usize] as u32];
-    let mut rows: Vec<Row> = Vec::new();
-    for pair in world.intersections(Selection::World).all().unwrap() {
+    let mut rows: Vec<(Row, f64)> = Vec::new();
+    let row = |pair: Pair| {
         let [[a, t], [b, u]] = [
             named(pair.body_a.0, pair.triangle_a),
             named(pair.body_b.0, pair.triangle_b),
         ];
-        rows.push([a, t, b, u]);
+        [a, t, b, u]
+    };
+    if let Some(within) = within {
+        for close in world
+            .close_triangle_pairs(Selection::World, within)
+            .all()
+            .unwrap()
+        {
+            rows.push((row(close.pair), close.distance));
+        }
+        rows.sort_unstable_by_key(|&(row, _)| row);
+        return rows;
+    }
+    for &pair in world.intersections(Selection::World).all().unwrap() {
+        rows.push((row(pair), 0.0));
     }
     for id in world.bodies().collect::<Vec<_>>() {
         for &pair in world.intersections(Selection::Within(id)).all().unwrap() {
             let [[a, t], [b, u]] = pair.triangles().map(|triangle| named(id.0, triangle));
-            rows.push([a, t, b, u]);
+            rows.push(([a, t, b, u], 0.0));
         }
     }
-    rows.sort_unstable();
+    rows.sort_unstable_by_key(|&(row, _)| row);
     rows
 }
 
@@ -117,13 +136,14 @@ fn source() -> impl Strategy<Value = SourceMade> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(800))]
 
     #[test]
     fn what_is_asked_is_what_is_found(
         sources in prop::collection::vec(source(), 1..4),
         split: bool,
         itself: bool,
+        within in prop::option::weighted(0.5, 0..5_u8),
         first: bool,
         listed: bool,
         baseline in prop::option::of(0..FRAMES),
@@ -156,14 +176,19 @@ proptest! {
         let meets = |[a, _, b, _]: &Row| !rules.iter().any(|(some, others, _)| {
             some.contains(a) && others.contains(b) || some.contains(b) && others.contains(a)
         });
-        let is_asked = |row: &&Row| (row[0] != row[2] || itself || count == 1) && meets(row);
+        let within = within.map(|quarters| f64::from(quarters) / 4.0);
+        let is_asked = |(row, _): &&(Row, f64)| (row[0] != row[2] || itself || count == 1) && meets(row);
+        let with_distances = |frame| -> Vec<(Row, f64)> {
+            by_hand(&sources, split, frame, within).iter().filter(is_asked).copied().collect()
+        };
         let expected = |frame| -> Vec<Row> {
-            by_hand(&sources, split, frame).iter().filter(is_asked).copied().collect()
+            with_distances(frame).into_iter().map(|(row, _)| row).collect()
         };
         let known = baseline.map_or_else(Vec::new, expected);
 
         let settings = Settings {
             itself,
+            within,
             first,
             listed,
             split: split.then_some(Split::Components),
@@ -174,7 +199,12 @@ proptest! {
         };
         // Every piece has vertices of its own, and coinciding edges are to stay two.
         let reading = OpenOptions { weld: false, ..OpenOptions::default() };
-        let check = Check::open(&arguments, &reading, &settings).unwrap();
+        let check = Check::open(&arguments, &reading, &settings);
+        if within.is_some() && (itself || count == 1) {
+            prop_assert!(matches!(check, Err(Error::WithinItself)));
+            return Ok(());
+        }
+        let check = check.unwrap();
         prop_assert_eq!(check.body_count(), count as usize);
         let found = all_frames(check);
         prop_assert_eq!(found.len(), FRAMES);
@@ -182,12 +212,25 @@ proptest! {
             let (old, new): (Vec<Row>, Vec<Row>) =
                 expected(found.frame).into_iter().partition(|row| known.binary_search(row).is_ok());
             prop_assert_eq!(found.complete, !first);
+            // The same distance, whichever triangle of a pair comes first, but for its rounding.
+            let distances = with_distances(found.frame);
+            let distance_of = |row| distances.iter().find(|(it, _)| *it == row).map(|&(_, it)| it);
+            let least = new.iter().filter_map(|&row| distance_of(row)).reduce(f64::min);
+            let about = |a: Option<f64>, b: Option<f64>| match (a, b) {
+                (Some(a), Some(b)) => (a - b).abs() <= f64::powi(0.5, 28) * b,
+                (a, b) => a == b,
+            };
+            prop_assert!(about(found.distance, least.filter(|_| within.is_some())));
+            if let (true, Some(_), Some(row)) = (first, within, found.smallest) {
+                prop_assert!(about(distance_of(row), least));
+            }
             if first {
                 prop_assert_eq!(found.count, new.len().min(1));
                 prop_assert!(found.smallest.is_none_or(|row| new.contains(&row)));
                 prop_assert_eq!(found.smallest.is_some(), !new.is_empty());
-                let all_were_left_out = baseline.is_some() && new.is_empty();
-                prop_assert_eq!(found.left_out, all_were_left_out.then_some(old.len()));
+                // The nearest is known when all were seen.
+                let all_were_seen = baseline.is_some() && (new.is_empty() || within.is_some());
+                prop_assert_eq!(found.left_out, all_were_seen.then_some(old.len()));
             } else {
                 prop_assert_eq!(found.count, new.len());
                 prop_assert_eq!(found.smallest, new.first().copied());

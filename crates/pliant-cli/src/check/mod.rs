@@ -33,10 +33,13 @@ pub(crate) struct Arguments {
     /// Check each body against itself too; one body alone always is
     #[arg(long = "self")]
     itself: bool,
+    /// Instead of what intersects, the triangles of different bodies that are at most D apart, in the unit of the files; those that intersect are 0 apart. Of one body neighbours always are that close: not with --self
+    #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["report", "png"])]
+    within: Option<f64>,
     /// Only how many pairs, not which
     #[arg(long)]
     count: bool,
-    /// Stop at the first pair of each frame
+    /// Stop at the first pair of each frame; with --within the nearest pair
     #[arg(long)]
     first: bool,
     /// Make every connected piece of a file a body: FILE#1, FILE#2, ...; or every group of an OBJ file: FILE#NAME; in the order of their lowest triangle. Triangles keep their numbers, and those that share a vertex of the file are left out
@@ -108,9 +111,10 @@ Examples:
   pliant check walk.npz --png worst.png --frame 50   its largest place
   pliant check a.ply --png a.png --view top --size 800x600
   pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
+  pliant check shirt.ply skin.ply --within 0.002     nothing closer than 2 mm?
   pliant check walk.npz --quiet && echo clean
 
-Exit code 0: nothing intersects. 1: something does. 2: it could not be checked; standard error says why.
+Exit code 0: nothing intersects, or is as close as that. 1: something does. 2: it could not be checked; standard error says why.
 Memory: at most 3.5 times two frames (positions and triangles) and 10 MB, however many frames there are, and 7.5 times two frames where the mesh changes from file to file; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), and of glTF bodies that move the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
 
@@ -182,6 +186,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
     options.threads = arguments.threads;
     let settings = Settings {
         itself: arguments.itself,
+        within: arguments.within,
         max_list: arguments.max_memory,
         split: arguments.split.map(|split| match split {
             Split::Components => pliant_check::Split::Components,
@@ -196,6 +201,14 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         ..Settings::default()
     };
     Check::open(&arguments.bodies, &reading, &settings)
+}
+
+/// A distance that triangles may have from each other.
+fn distance(text: &str) -> Result<f64, String> {
+    let distance = text.parse().ok();
+    distance
+        .filter(|distance: &f64| *distance >= 0.0 && distance.is_finite())
+        .ok_or_else(|| "write a distance in the unit of the files, at least 0: 0.002".to_owned())
 }
 
 /// Whether anything shows places.

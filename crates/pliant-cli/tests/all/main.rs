@@ -21,3 +21,4 @@ mod strangers;
 mod streams;
 mod surfaces;
 mod who_meets;
+mod within;

@@ -4,8 +4,9 @@
 //! found, with `--first` or `--count`, one for each of the first frames that intersect. The runner shows ten errors of a step, so no
 //! more are printed.
 
-use super::{Form, Tally, counted, places};
+use super::{Form, Tally, counted, places, short};
 use crate::advice;
+use crate::check::Arguments;
 use crate::table::grouped;
 use pliant_check::{Check, Found, Row};
 use pliant_io::{shown, shown_within};
@@ -14,9 +15,18 @@ use std::io::{self, Write};
 /// So many errors of one step are shown.
 const MOST_ANNOTATIONS: usize = 10;
 
-#[derive(Default)]
 pub(super) struct Github {
+    within: Option<f64>,
     annotated: usize,
+}
+
+impl Github {
+    pub(super) fn new(arguments: &Arguments) -> Self {
+        Self {
+            within: arguments.within,
+            annotated: 0,
+        }
+    }
 }
 
 impl Form for Github {
@@ -32,7 +42,15 @@ impl Form for Github {
             return Ok(());
         }
         self.annotated += 1;
-        let pairs = if found.complete {
+        let pairs = if let (Some(within), Some(distance)) = (self.within, found.distance) {
+            let pairs = if found.complete {
+                counted((found.count, "pair", "pairs"))
+            } else {
+                "at least 1 pair".to_owned()
+            };
+            let distance = short(distance);
+            format!("{pairs} of triangles at most {within} apart, the nearest {distance}")
+        } else if found.complete {
             counted((
                 found.count,
                 "pair of triangles intersects",

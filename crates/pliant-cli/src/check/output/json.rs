@@ -27,6 +27,9 @@
 //! in that frame. Of more than a thousand those with the most pairs are there, and `places_left_out` says how many are not. With
 //! `--count` and `--first` there are none.
 //!
+//! With `--within`, which is repeated, pairs are those of triangles of different bodies that are so close, and a frame has `distance`: that
+//! of the nearest of its pairs, or `null` where it has none. With `--first` the nearest is the one pair.
+//!
 //! `degenerate` says how many pairs have a triangle without area, where there are any: of those counted, or with
 //! `"skip_degenerate": true` of those that were left out for it.
 
@@ -46,6 +49,7 @@ pub(super) struct Json {
     ignore: Vec<Names>,
     baseline: Option<Baseline>,
     skip_degenerate: bool,
+    within: Option<f64>,
     has_frames: bool,
     lists_places: bool,
 }
@@ -103,6 +107,9 @@ struct FrameEntry<'a> {
     count: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     complete: Option<bool>,
+    /// `null` where nothing is as close as that; not there where no distance was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    distance: Option<serde_json::Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     left_out: Option<usize>,
     #[serde(skip_serializing_if = "is_zero")]
@@ -201,6 +208,7 @@ impl Json {
             ignore: arguments.ignore.clone(),
             baseline: arguments.baseline.clone(),
             skip_degenerate: arguments.skip_degenerate,
+            within: arguments.within,
             has_frames: false,
             lists_places: !arguments.count && !arguments.first,
         }
@@ -259,6 +267,9 @@ impl Form for Json {
         if self.skip_degenerate {
             write!(out, r#","skip_degenerate":true"#)?;
         }
+        if let Some(within) = self.within {
+            write!(out, r#","within":{}"#, json!(within))?;
+        }
         write!(out, r#","frames":["#)
     }
 
@@ -274,6 +285,7 @@ impl Form for Json {
             changed: changed.collect(),
             count: found.count,
             complete: (!found.complete).then_some(false),
+            distance: self.within.map(|_| json!(found.distance)),
             left_out: found.left_out,
             degenerate: found.degenerate,
             pairs: (!self.count_only).then_some(&found.pairs),

@@ -46,6 +46,10 @@ trait Form {
 struct Tally {
     frames: usize,
     intersecting: usize,
+    /// The distance that was asked for, if not what intersects was.
+    within: Option<f64>,
+    /// The frame with the nearest pair, and how far apart it is.
+    nearest: Option<(usize, f64)>,
     /// The frame with the most pairs, and their number; none where not all pairs are known.
     worst: Option<(usize, usize)>,
     /// Pairs with a triangle that has no area, counted or left out.
@@ -57,6 +61,11 @@ impl Tally {
         self.frames += 1;
         self.intersecting += usize::from(found.count > 0);
         self.degenerate += found.degenerate;
+        if let Some(distance) = found.distance
+            && self.nearest.is_none_or(|(_, least)| distance < least)
+        {
+            self.nearest = Some((found.frame, distance));
+        }
         if found.complete && found.count > self.worst.map_or(0, |(_, most)| most) {
             self.worst = Some((found.frame, found.count));
         }
@@ -68,7 +77,15 @@ impl Tally {
         let worst = self.worst.map_or_else(String::new, |(frame, count)| {
             format!("; most pairs: {} in frame {frame}", grouped(count as u64))
         });
-        format!("{intersecting} of {frames} frames intersect{worst}")
+        let Some(within) = self.within else {
+            return format!("{intersecting} of {frames} frames intersect{worst}");
+        };
+        let nearest = self.nearest.map_or_else(String::new, |(frame, distance)| {
+            format!("; least distance: {} in frame {frame}", short(distance))
+        });
+        format!(
+            "{intersecting} of {frames} frames have triangles of two bodies at most {within} apart{nearest}{worst}"
+        )
     }
 }
 
@@ -78,13 +95,16 @@ impl Output {
         let form: Box<dyn Form> = match arguments.format {
             Format::Table => Box::new(table::Table::new(arguments)),
             Format::Json => Box::new(json::Json::new(arguments)),
-            Format::Github => Box::new(github::Github::default()),
+            Format::Github => Box::new(github::Github::new(arguments)),
             Format::Lines => Box::new(lines::Lines::new(arguments)),
         };
         let mut output = Self {
             out: BufWriter::new(io::stdout()),
             form: (!arguments.quiet).then_some(form),
-            tally: Tally::default(),
+            tally: Tally {
+                within: arguments.within,
+                ..Tally::default()
+            },
         };
         output.print(|form, out, _| form.head(out, check))?;
         Ok(output)
@@ -141,8 +161,39 @@ pub(super) fn annotate<T>(arguments: &Arguments, error: anyhow::Error) -> anyhow
     Err(error)
 }
 
+/// Four digits that count: nobody types it elsewhere.
+fn short(x: f64) -> String {
+    let digits = format!("{x:.3e}");
+    match digits.parse::<f64>() {
+        Ok(rounded) if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) => {
+            format!("{}", rounded + 0.0)
+        }
+        _ => digits,
+    }
+}
+
 /// `1 vertex`, `2 vertices`.
 fn counted((number, one, many): (usize, &str, &str)) -> String {
     let name = if number == 1 { one } else { many };
     format!("{} {name}", grouped(number as u64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn coordinates_have_four_digits() {
+        for (x, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (-1.234_56, "-1.235"),
+            (123_456.0, "123500"),
+            (0.000_123_456, "0.0001235"),
+            (1.0 / 3.0 * 1e-9, "3.333e-10"),
+            (f64::MAX, "1.798e308"),
+        ] {
+            assert_eq!(short(x), text, "{x}");
+        }
+    }
 }

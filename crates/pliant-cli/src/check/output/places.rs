@@ -1,6 +1,6 @@
 //! Places, in words: a line each, for the table and for annotations.
 
-use super::counted;
+use super::{counted, short};
 use pliant_check::{Check, Life, Place};
 use pliant_io::shown;
 
@@ -51,35 +51,4 @@ pub(super) fn lies(check: &Check, place: &Place) -> String {
         "{size} across, round ({x}, {y}, {z}); {}{more}",
         named.join(", ")
     )
-}
-
-/// Four digits that count: nobody types it elsewhere.
-fn short(x: f64) -> String {
-    let digits = format!("{x:.3e}");
-    match digits.parse::<f64>() {
-        Ok(rounded) if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) => {
-            format!("{}", rounded + 0.0)
-        }
-        _ => digits,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::short;
-
-    #[test]
-    fn coordinates_have_four_digits() {
-        for (x, text) in [
-            (0.0, "0"),
-            (-0.0, "0"),
-            (-1.234_56, "-1.235"),
-            (123_456.0, "123500"),
-            (0.000_123_456, "0.0001235"),
-            (1.0 / 3.0 * 1e-9, "3.333e-10"),
-            (f64::MAX, "1.798e308"),
-        ] {
-            assert_eq!(short(x), text, "{x}");
-        }
-    }
 }

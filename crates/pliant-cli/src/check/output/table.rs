@@ -1,7 +1,7 @@
 //! A table for people.
 
 use super::files::Files;
-use super::{Form, Tally, counted, places};
+use super::{Form, Tally, counted, places, short};
 use crate::check::{Arguments, Names};
 use crate::table::grouped;
 use pliant_check::{Baseline, BodyFacts, Check, Found};
@@ -20,6 +20,7 @@ pub(super) struct Table {
     ignore: Vec<Names>,
     baseline: Option<Baseline>,
     skip_degenerate: bool,
+    within: Option<f64>,
     /// Known from the head on.
     files: Option<Files>,
 }
@@ -32,6 +33,7 @@ impl Table {
             ignore: arguments.ignore.clone(),
             baseline: arguments.baseline.clone(),
             skip_degenerate: arguments.skip_degenerate,
+            within: arguments.within,
             files: None,
         }
     }
@@ -62,7 +64,10 @@ impl Table {
             none if none.is_empty() => none,
             some => format!("; left out: {some}"),
         };
-        format!("{bodies}{ignored}{left_out}")
+        let within = self.within.map_or_else(String::new, |within| {
+            format!(", triangles at most {within} apart")
+        });
+        format!("{bodies}{within}{ignored}{left_out}")
     }
 }
 
@@ -111,11 +116,12 @@ impl Form for Table {
         }
         self.files = Files::of(check);
         let file = self.files.as_ref().map_or_else(String::new, Files::header);
+        let distance = self.within.map_or("", |_| "    distance");
         let left_out = self.baseline.as_ref().map_or("", |_| "  left out");
         let first_pair = if self.count_only { "" } else { "  first pair" };
         writeln!(
             out,
-            "checked: {}\n\n{:>8}{file}{:>10}{left_out}{first_pair}",
+            "checked: {}\n\n{:>8}{file}{:>10}{distance}{left_out}{first_pair}",
             self.asked(check),
             "frame",
             "pairs"
@@ -137,6 +143,10 @@ impl Form for Table {
         let files = self.files.as_ref();
         let file = files.map_or_else(String::new, |files| files.frame(check, frame));
         write!(out, "{frame:>8}{file} {:>9}", grouped(count as u64))?;
+        if self.within.is_some() {
+            let distance = found.distance.map_or_else(|| "-".to_owned(), short);
+            write!(out, "{distance:>12}")?;
+        }
         if self.baseline.is_some() {
             match found.left_out {
                 Some(left_out) => write!(out, " {:>9}", grouped(left_out as u64))?,

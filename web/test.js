@@ -54,8 +54,8 @@ async function open(name, options = {}) {
   await page.goto(address);
   await page.waitForSelector('body[data-ready]', { timeout: 60_000 });
   const state = async () => {
-    const { number, pairs, red, made, boxes, places, focus, glass, hidden } = await page.locator('.stage').evaluate((stage) => ({ ...stage.dataset }));
-    return { number: +number, pairs: +pairs, red: +red, made: +made, boxes: +boxes, places: +places, focus: focus === '' ? null : +focus, glass, hidden: +hidden };
+    const { number, pairs, red, near, gaps, made, boxes, places, focus, glass, hidden } = await page.locator('.stage').evaluate((stage) => ({ ...stage.dataset }));
+    return { number: +number, pairs: +pairs, red: +red, near: +near, gaps: +gaps, made: +made, boxes: +boxes, places: +places, focus: focus === '' ? null : +focus, glass, hidden: +hidden };
   };
   /** Waits until the eye has come to the place that it flies to. */
   const arrived = (focus) => page.waitForFunction((focus) => {
@@ -564,4 +564,28 @@ test('the default scene, 2 x 20,480 triangles and 200 steps: under 30 MB, and it
   assert.deepEqual(await state().then(({ number, red }) => [number, red > 0]), [60, true]);
   assert.equal(await page.locator('.notes').isVisible(), false, 'nothing was left out');
   await close();
+});
+
+test('what is close has a colour of its own, and lines to what it is close to', { skip }, async () => {
+  const square = (z) => `v -1 -1 ${z}\nv 1 -1 ${z}\nv 1 1 ${z}\nv -1 1 ${z}\nf 1 2 3\nf 1 3 4\n`;
+  // In frame 0 a tip is above the square, in frame 1 it is in it, in frame 2 far from it.
+  const tip = (z) => `v 0.5 0 ${z}\nv 0.4 0.3 ${z + 1}\nv 0.6 -0.3 ${z + 1}\nf 1 2 3\n`;
+  [0.25, -0.25, 2].forEach((z, frame) => writeFileSync(join(folder, `tip_${frame}.obj`), tip(z)));
+  writeFileSync(join(folder, 'square.obj'), square(0));
+  pliant('check', 'tip_*.obj', 'square.obj', '--within', '0.5', '--report', 'close.html', '--force');
+  const { page, state, close } = await open('close.html');
+  const status = () => page.locator('.status').textContent();
+  await page.keyboard.press('Home');
+  assert.deepEqual(pick(await state()), { number: 0, pairs: 2, red: 0, near: 3, gaps: 2 });
+  assert.equal(await status(), 'frame 0: 2 pairs, 3 orange triangles within 0.5');
+  await page.screenshot({ path: join(shots, 'close.png') });
+  await page.keyboard.press('ArrowRight');
+  assert.deepEqual(pick(await state()), { number: 1, pairs: 2, red: 2, near: 1, gaps: 1 });
+  assert.equal(await status(), 'frame 1: 2 pairs, 2 red triangles that intersect, 1 orange triangle within 0.5');
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await status(), 'frame 2: nothing is within 0.5');
+  await close();
+  function pick({ number, pairs, red, near, gaps }) {
+    return { number, pairs, red, near, gaps };
+  }
 });

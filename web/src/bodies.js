@@ -7,8 +7,9 @@ const LISTED = 100;
 
 export class BodyList {
   /** `changed` is told the numbers of bodies that are hidden. */
-  constructor(hit, changed) {
-    this.hit = hit;
+  constructor({ hit, near }, changed) {
+    Object.assign(this, { hit, near });
+    this.within = null;
     this.changed = changed;
     this.search = element('input', { type: 'search', placeholder: 'Find a body', 'aria-label': 'Find a body', oninput: () => this.show() });
     this.list = element('ul', { className: 'legend' });
@@ -77,9 +78,13 @@ export class BodyList {
       return element('li', {}, eye, alone);
     });
     if (found.length > LISTED) listed.push(element('li', { className: 'hint' }, `and ${grouped(found.length - LISTED)} more: type a part of the name`));
-    const chip = element('span', { className: 'chip' });
-    chip.style.background = this.hit;
-    this.list.replaceChildren(...listed, element('li', { className: 'hint' }, chip, 'intersects'));
+    const meaning = (colour, said) => {
+      const chip = element('span', { className: 'chip' });
+      chip.style.background = colour;
+      return element('li', { className: 'hint' }, chip, said);
+    };
+    const near = this.within === null ? [] : [meaning(this.near, `within ${this.within}`)];
+    this.list.replaceChildren(...listed, meaning(this.hit, 'intersects'), ...near);
     this.everybody.hidden = this.hidden.size === 0;
     if (had !== undefined) this.list.querySelector(`[data-body="${+had}"]`)?.focus();
   }

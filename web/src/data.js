@@ -39,6 +39,12 @@ class Reader {
     return words;
   }
 
+  /** Two triangles each, and a point of the one and of the other. */
+  gaps(count) {
+    const [a, b] = [this.words(count), this.words(count)];
+    return Array.from(a, (one, i) => ({ triangles: [one, b[i]], points: Array.from({ length: 6 }, () => this.float()) }));
+  }
+
   /** Positions in steps: all x, all y, all z; as differences to one of three predictions. */
   positions(count, last, lastButOne) {
     const mode = this.byte();
@@ -98,6 +104,8 @@ export async function unpack(facts, base64) {
     const arePairs = reader.byte() === 1;
     const a = reader.words(count);
     const b = arePairs ? reader.words(count) : null;
+    const near = reader.words(reader.word());
+    const gaps = reader.gaps(reader.word());
     const made = reader.slice(Math.ceil(bits / 8));
     return {
       place,
@@ -105,7 +113,10 @@ export async function unpack(facts, base64) {
       pairs: facts.pairs[place],
       shapes,
       partners: arePairs ? { a, b } : null,
+      // All triangles of pairs; those in `near` are close to others and intersect none.
       red: arePairs ? distinct(a, b) : a,
+      near,
+      gaps,
       made,
       places: facts.places[at].map(([number, count, lower, upper, label]) => ({ number, count, lower, upper, label })),
       placeCount: facts.placeCounts[at],

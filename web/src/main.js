@@ -62,7 +62,7 @@ const boxesSaid = element('span', { className: 'hint' });
 const seeThrough = element('button', { type: 'button', 'aria-pressed': 'false', onclick: () => stage?.toggleSeeThrough() }, 'See through');
 const wireframe = element('button', { type: 'button', 'aria-pressed': 'false', onclick: toggleWireframe }, 'Wireframe');
 const places = new PlaceList((number) => stage?.flyTo(number));
-const bodies = new BodyList(report.hit, (hidden) => stage?.hide(hidden));
+const bodies = new BodyList(report, (hidden) => stage?.hide(hidden));
 const stageBox = element('section', { className: 'stage', 'aria-label': 'The bodies in motion' },
   element('div', { className: 'shown' },
     element('div', { className: 'picture' }, canvas, player.status),
@@ -134,6 +134,9 @@ async function choose(place) {
   if (!stageBox.hidden) {
     if (!stage && !openStage()) return ready();
     player.along = play.along;
+    player.within = play.within;
+    selection.within = play.within;
+    bodies.within = play.within;
     player.slider.setAttribute('aria-label', play.along);
     stage.show(motion);
     offerLevels(motion);
@@ -158,7 +161,7 @@ function ready() {
 
 function openStage() {
   try {
-    stage = new Stage(canvas, report.hit, (triangle) => selection.choose(triangle), lookedAt);
+    stage = new Stage(canvas, report, (triangle) => selection.choose(triangle), lookedAt);
     return true;
   } catch (error) {
     console.warn(error);
@@ -183,7 +186,7 @@ function shown(frame) {
   sayBoxes();
   lookedAt();
   charts.forEach((chart) => chart.mark(frame.number));
-  Object.assign(stageBox.dataset, { number: frame.number, pairs: frame.pairs, red });
+  Object.assign(stageBox.dataset, { number: frame.number, pairs: frame.pairs, red, near: frame.near.length, gaps: frame.gaps.length });
   return red;
 }
 

@@ -7,6 +7,8 @@ export class Player {
   constructor(along, shown) {
     this.along = along;
     this.shown = shown;
+    /** How close pairs are, if they are not those that intersect. */
+    this.within = null;
     const button = (text, title, act) => element('button', { type: 'button', title, onclick: act }, text);
     this.playButton = element('button', { type: 'button', className: 'play', onclick: () => this.toggle() });
     this.slider = element('input', { type: 'range', min: 0, step: 1, 'aria-label': along, oninput: () => this.go(+this.slider.value) });
@@ -59,9 +61,18 @@ export class Player {
     this.slider.value = now;
     const { number, pairs } = this.frame;
     const red = this.shown(this.frame);
-    const text = `${this.along} ${number}: ${pairs === 0 ? 'nothing intersects' : `${counted(pairs, 'pair')}, ${grouped(red)} red ${red === 1 ? 'triangle' : 'triangles'}`}`;
+    const text = `${this.along} ${number}: ${this.found(pairs, red, this.frame.near.length)}`;
     this.slider.setAttribute('aria-valuetext', text);
     this.status.textContent = text;
+  }
+
+  /** What a frame has, in words. */
+  found(pairs, red, near) {
+    const triangles = (count, which) => `${grouped(count)} ${which} ${count === 1 ? 'triangle' : 'triangles'}`;
+    if (pairs === 0) return this.within === null ? 'nothing intersects' : `nothing is within ${this.within}`;
+    if (this.within === null) return `${counted(pairs, 'pair')}, ${triangles(red, 'red')}`;
+    const some = [red > 0 && `${triangles(red, 'red')} that intersect`, near > 0 && `${triangles(near, 'orange')} within ${this.within}`];
+    return [counted(pairs, 'pair'), ...some.filter(Boolean)].join(', ');
   }
 
   /** To a frame by its number, or to the one before it that is shown. */

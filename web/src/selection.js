@@ -10,6 +10,7 @@ export class Selection {
   /** `changed` is told which triangles to outline: the chosen one first. */
   constructor(changed) {
     this.changed = changed;
+    this.within = null;
     this.panel = element('div', { className: 'selection', 'aria-live': 'polite' });
     this.chosen = null;
   }
@@ -66,7 +67,8 @@ export class Selection {
       return;
     }
     const partners = this.partners();
-    const said = partners.length === 0 ? ' meets nothing here.' : ` meets ${counted(partners.length, 'triangle')}:`;
+    const meets = this.within === null ? 'meets' : 'is close to';
+    const said = partners.length === 0 ? ` ${meets} nothing here.` : ` ${meets} ${counted(partners.length, 'triangle')}:`;
     const listed = partners.slice(0, LISTED).map((partner) => element('li', {},
       element('button', { type: 'button', className: 'quiet', onclick: () => this.choose(partner) }, this.named(partner))));
     if (partners.length > LISTED) listed.push(element('li', { className: 'hint' }, `and ${grouped(partners.length - LISTED)} more`));

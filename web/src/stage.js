@@ -5,7 +5,7 @@ import {
   LineSegments, Mesh, MeshLambertMaterial, PerspectiveCamera, Plane, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { boxAround } from './data.js';
+import { bodyOf, boxAround } from './data.js';
 import { colour, element } from './dom.js';
 import { SIZE, areHidden, directions, fit } from './views.js';
 
@@ -16,7 +16,7 @@ const EDGES = [0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4, 6, 5, 7, 0, 4, 1, 5, 2, 6,
 
 export class Stage {
   /** Throws where the browser has no WebGL. `picked` is told what is clicked: a body and a triangle, or null. */
-  constructor(canvas, red, picked, told) {
+  constructor(canvas, { hit, near }, picked, told) {
     this.canvas = canvas;
     this.told = told;
     this.ring = element('div', { className: 'ring', hidden: true });
@@ -31,7 +31,7 @@ export class Stage {
     this.chosenGlass = null;
     this.autoGlass = false;
     this.wireframe = false;
-    this.red = red;
+    Object.assign(this, { red: hit, near });
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(28, 1, 0.01, 100);
@@ -50,11 +50,14 @@ export class Stage {
     canvas.addEventListener('blur', () => (this.controls.enableZoom = false));
     this.made = lines(0.6);
     this.notMade = lines(0.28);
+    // From a triangle to another that is close to it, whatever is in front.
+    this.gaps = lines(0.9);
+    this.gaps.material.depthTest = false;
     this.outline = lines(1);
     this.outline.material.depthTest = false;
     this.outline.renderOrder = 3;
     this.bodies = [];
-    this.scene.add(this.made, this.notMade, this.outline);
+    this.scene.add(this.made, this.notMade, this.gaps, this.outline);
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.listen(picked);
     this.recolour();
@@ -94,27 +97,38 @@ export class Stage {
       hits.visible = mesh.visible && hits.geometry.drawRange.count > 0;
     });
     this.boxesOf(this.level);
+    this.showGaps();
     this.seeWhatHides();
     this.draw();
   }
 
+  /** Lines between bodies that are shown. */
+  showGaps() {
+    const { bodies } = this.motion;
+    const isShown = ({ triangles }) => triangles.every((triangle) => this.isShown(bodyOf(bodies, triangle).body));
+    setLines(this.gaps, new Float32Array((this.frame?.gaps ?? []).filter(isShown).flatMap(({ points }) => points)));
+  }
+
   body(body) {
     const position = new BufferAttribute(new Float32Array(3 * body.vertices), 3).setUsage(DynamicDrawUsage);
-    const make = (corners, properties) => {
+    const make = (corners, ...properties) => {
       const geometry = new BufferGeometry();
       geometry.setAttribute('position', position);
       geometry.setIndex(new BufferAttribute(corners, 1));
-      const mesh = new Mesh(geometry, new MeshLambertMaterial({ flatShading: true, side: DoubleSide, ...properties }));
+      const materials = properties.map((each) => new MeshLambertMaterial({ flatShading: true, side: DoubleSide, ...each }));
+      const mesh = new Mesh(geometry, materials.length > 1 ? materials : materials[0]);
       mesh.frustumCulled = false;
       this.scene.add(mesh);
       return mesh;
     };
     const mesh = make(body.corners, { color: body.colour });
     // Red triangles are the same triangles once more, in front of themselves.
-    const hits = make(new Uint32Array(body.corners.length), {
-      color: this.red, emissive: this.red, emissiveIntensity: 0.12,
+    // Those that are close and intersect none have a colour of their own.
+    const inFront = (hue) => ({
+      color: hue, emissive: hue, emissiveIntensity: 0.12,
       polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1,
     });
+    const hits = make(new Uint32Array(body.corners.length), inFront(this.red), inFront(this.near));
     hits.renderOrder = 1;
     return { body, mesh, hits, position };
   }
@@ -124,6 +138,7 @@ export class Stage {
     const before = this.place(this.focus);
     this.frame = frame;
     let [at, red] = [0, 0];
+    const near = new Set(frame.near);
     this.bodies.forEach(({ body, mesh, hits, position }, number) => {
       mesh.visible = this.isShown(number);
       if (!frame.shapes[number]) {
@@ -140,16 +155,25 @@ export class Stage {
       mesh.geometry.boundingSphere = null;
       const index = hits.geometry.index;
       let length = 0;
-      for (; at < frame.red.length && frame.red[at] < body.first + body.triangles; at++) {
-        const triangle = frame.red[at] - body.first;
+      const own = [];
+      for (; at < frame.red.length && frame.red[at] < body.first + body.triangles; at++) own.push(frame.red[at]);
+      const isNear = (triangle) => near.has(triangle);
+      hits.userData.triangles = near.size > 0 ? [...own.filter((triangle) => !isNear(triangle)), ...own.filter(isNear)] : own;
+      for (const row of hits.userData.triangles) {
+        const triangle = row - body.first;
         for (let corner = 0; corner < 3; corner++) index.array[length++] = body.corners[3 * triangle + corner];
       }
       index.needsUpdate = true;
       hits.geometry.setDrawRange(0, length);
       hits.visible = mesh.visible && length > 0;
-      red += length / 3;
+      const redOnes = own.length - own.filter(isNear).length;
+      hits.geometry.clearGroups();
+      if (redOnes > 0) hits.geometry.addGroup(0, 3 * redOnes, 0);
+      if (redOnes < own.length) hits.geometry.addGroup(3 * redOnes, length - 3 * redOnes, 1);
+      red += redOnes;
     });
     this.showMarkers();
+    this.showGaps();
     const now = this.place(this.focus);
     if (before && now && this.follows) {
       // The place stays where it is in the picture, wherever its body goes.
@@ -241,13 +265,13 @@ export class Stage {
       const room = 1e-4 + 1e-3 * (high[axis] - low[axis]);
       return [new Plane(normal, room - low[axis]), new Plane(normal.clone().negate(), high[axis] + room)];
     });
-    const others = [this.made, this.notMade, this.outline].filter((object) => object.visible);
+    const others = [this.made, this.notMade, this.gaps, this.outline].filter((object) => object.visible);
     others.forEach((object) => (object.visible = false));
     const count = (withBodies) => {
       this.bodies.forEach(({ mesh, hits }, number) => {
         mesh.visible = withBodies && this.isShown(number);
         Object.assign(mesh.material, { transparent: false, opacity: 1, depthWrite: true, colorWrite: false, wireframe: false });
-        hits.material.clippingPlanes = planes;
+        hits.material.forEach((material) => (material.clippingPlanes = planes));
       });
       this.renderer.localClippingEnabled = true;
       this.renderer.setRenderTarget(this.small);
@@ -264,7 +288,7 @@ export class Stage {
     this.bodies.forEach(({ mesh, hits }, number) => {
       mesh.visible = this.isShown(number);
       mesh.material.colorWrite = true;
-      hits.material.clippingPlanes = null;
+      hits.material.forEach((material) => (material.clippingPlanes = null));
     });
     others.forEach((object) => (object.visible = true));
     this.applySeeThrough();
@@ -415,6 +439,7 @@ export class Stage {
   recolour() {
     this.made.material.color.set(colour('box-made'));
     this.notMade.material.color.set(colour('box'));
+    this.gaps.material.color.set(colour('ink'));
     this.outline.material.color.set(colour('ink'));
     this.draw();
   }
@@ -467,7 +492,7 @@ export class Stage {
     this.far.position.copy(position);
     this.far.lookAt(target);
     this.reach(this.far, target);
-    const lines = [this.made, this.notMade, this.outline].filter((object) => object.visible);
+    const lines = [this.made, this.notMade, this.gaps, this.outline].filter((object) => object.visible);
     lines.forEach((object) => (object.visible = false));
     this.renderer.setScissorTest(true);
     this.renderer.setScissor(left + 1, bottom, width, height);
@@ -553,9 +578,7 @@ export class Stage {
     if (!nearest) return null;
     const body = this.bodies.findIndex(({ mesh, hits }) => nearest.object === mesh || nearest.object === hits);
     if (!this.seeThrough) return { body, triangle: nearest.faceIndex };
-    const { first, triangles } = this.bodies[body].body;
-    const own = this.frame.red.filter((triangle) => triangle >= first && triangle < first + triangles);
-    return { body, triangle: own[nearest.faceIndex] - first };
+    return { body, triangle: this.bodies[body].hits.userData.triangles[nearest.faceIndex] - this.bodies[body].body.first };
   }
 }
 

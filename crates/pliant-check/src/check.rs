@@ -5,7 +5,7 @@ use crate::baseline;
 use crate::bodies::{Bodies, BodyFacts};
 use crate::error::Error;
 use crate::filter::Filter;
-use crate::found::{Found, MOST_COUNTED, Row, Stop, Taker};
+use crate::found::{Closeness, Found, Gap, MOST_COUNTED, Row, Stop, Taker};
 use crate::lives::{Life, Lives};
 use crate::one_point;
 use crate::opened::Opened;
@@ -454,10 +454,14 @@ impl Check {
         let Wanted { first, listed, .. } = wanted;
         let baseline = self.baseline.take();
         let known = baseline.as_ref().and_then(|it| it.pairs.as_deref());
-        let most = self.asked.max_list / size_of::<Row>() as u64;
+        let lists_gaps = self.asked.within.is_some() && self.asked.closest_points;
+        let gap = if lists_gaps { size_of::<Gap>() } else { 0 };
+        let most = self.asked.max_list / (size_of::<Row>() + gap) as u64;
         let most = usize::try_from(most).unwrap_or(usize::MAX);
         let skip = self.asked.skip_degenerate;
-        let mut taker = Taker::new(frame, first, listed, most, known).skip_degenerate(skip);
+        let mut taker = Taker::new(frame, first, listed, most, known)
+            .skip_degenerate(skip)
+            .list_gaps(lists_gaps);
         self.remarks.begin(frame);
         self.places.begin();
         let comparable = baseline.as_ref().map(|it| &it.comparable[..]);
@@ -518,7 +522,7 @@ impl Check {
         } = self;
         let mut stop = ControlFlow::Continue(());
         let Sequence { world, sources, .. } = sequence;
-        let mut take = |pair: Pair, distance: Option<f64>| {
+        let mut take = |pair: Pair, closeness: Option<Closeness>| {
             let of_sources = pair.into();
             let Some(row) = bodies.row(of_sources) else {
                 return ControlFlow::Continue(());
@@ -527,14 +531,14 @@ impl Check {
             // The world knows sources only.
             let is_asked = (body_a != body_b || *itself) && filter.meet(body_a, body_b);
             if is_asked {
-                if distance.is_none() {
+                if closeness.is_none() {
                     remarks.take(taker.frame(), sources, of_sources);
                 }
                 let [a, _, b, _] = of_sources.map(|number| number as usize);
                 let comparable = [a, b].map(|source| comparable.get(source) == Some(&true));
                 let degenerate = has_degenerate(sources, of_sources);
                 let before = taker.count();
-                stop = taker.take(row, distance, degenerate, comparable == [true; 2]);
+                stop = taker.take(row, closeness, degenerate, comparable == [true; 2]);
                 if finds_places && taker.count() > before {
                     places.take(&Split(sources, bodies), of_sources, row);
                 }
@@ -548,8 +552,12 @@ impl Check {
         let _ = with_world!(world, world => match *within {
             None => unless(question, world.intersections(*of)).visit(|pair| take(pair, None)),
             Some(most) => unless(question, world.close_triangle_pairs(*of, most))
-                // What is known of a distance is off by a billionth; that it is at most this is known exactly.
-                .visit(|close| take(close.pair, Some(close.distance.min(most)))),
+                .visit(|close| {
+                    // What is known of a distance is off by a billionth; that it is at most this is known exactly.
+                    let distance = close.distance.min(most);
+                    let points = [close.point_a, close.point_b];
+                    take(close.pair, Some(Closeness { distance, points }))
+                }),
         })?;
         Ok(stop)
     }

@@ -26,6 +26,8 @@ pub struct Found {
     pub distance: Option<f64>,
     /// All of them, sorted; none where they are not listed.
     pub pairs: Vec<Row>,
+    /// Of pairs that are listed and do not intersect where they are closest, in the order of `pairs`, if that was asked for.
+    pub gaps: Vec<Gap>,
     /// How many were left out because they intersect in the baseline frame. `None` where there is no such frame, and where the
     /// search stopped at the first new pair.
     pub left_out: Option<usize>,
@@ -35,6 +37,24 @@ pub struct Found {
     pub complete: bool,
     /// The places of these pairs, most pairs first, if they were asked for and all pairs were.
     pub places: Option<Vec<Place>>,
+}
+
+/// Between two triangles that are close to each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Which they are.
+    pub pair: Row,
+    /// How far apart they are; more than 0.
+    pub distance: f64,
+    /// A point of the one and a point of the other that are as close as that.
+    pub points: [[f64; 3]; 2],
+}
+
+/// How close two triangles are, where that is asked.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Closeness {
+    pub(crate) distance: f64,
+    pub(crate) points: [[f64; 3]; 2],
 }
 
 /// Why a search stopped.
@@ -62,8 +82,9 @@ pub(crate) struct Taker<'a> {
     baseline: Option<&'a [Row]>,
     /// Whether pairs with a triangle without area are left out.
     skip_degenerate: bool,
-    /// Whether the nearest pair so far has a triangle without area.
-    is_degenerate: bool,
+    /// 1 if the nearest pair so far has a triangle without area.
+    degenerate_nearest: usize,
+    lists_gaps: bool,
 }
 
 impl<'a> Taker<'a> {
@@ -81,6 +102,7 @@ impl<'a> Taker<'a> {
             smallest: None,
             distance: None,
             pairs: Vec::new(),
+            gaps: Vec::new(),
             left_out: baseline.map(|_| 0),
             degenerate: 0,
             complete: !first,
@@ -92,7 +114,8 @@ impl<'a> Taker<'a> {
             most,
             baseline,
             skip_degenerate: false,
-            is_degenerate: false,
+            degenerate_nearest: 0,
+            lists_gaps: false,
         }
     }
 
@@ -102,12 +125,18 @@ impl<'a> Taker<'a> {
         self
     }
 
-    /// Takes a pair, or leaves it out. `distance`: how far apart it is, if that is asked. `degenerate`: whether a triangle of it has no
+    /// From now on lists where pairs are closest, if `list` and they are listed.
+    pub(crate) fn list_gaps(mut self, list: bool) -> Self {
+        self.lists_gaps = list;
+        self
+    }
+
+    /// Takes a pair, or leaves it out. `closeness`: how far apart it is, if that is asked. `degenerate`: whether a triangle of it has no
     /// area. `comparable`: whether its bodies have the meshes that the baseline is about.
     pub(crate) fn take(
         &mut self,
         row: Row,
-        distance: Option<f64>,
+        closeness: Option<Closeness>,
         degenerate: bool,
         comparable: bool,
     ) -> ControlFlow<Stop> {
@@ -123,7 +152,7 @@ impl<'a> Taker<'a> {
             *left_out += 1;
             return ControlFlow::Continue(());
         }
-        if let Some(distance) = distance {
+        if let Some(Closeness { distance, .. }) = closeness {
             let is_nearer = match (found.distance, found.smallest) {
                 (Some(least), Some(smallest)) => (distance, row) < (least, smallest),
                 _ => true,
@@ -133,14 +162,15 @@ impl<'a> Taker<'a> {
                 if is_nearer {
                     found.count = 0;
                     found.pairs.clear();
+                    found.gaps.clear();
                     found.smallest = None;
-                    found.degenerate -= usize::from(self.is_degenerate);
+                    found.degenerate -= self.degenerate_nearest;
                 } else {
                     return ControlFlow::Continue(());
                 }
             }
             found.distance = Some(found.distance.map_or(distance, |least| least.min(distance)));
-            self.is_degenerate = degenerate;
+            self.degenerate_nearest = usize::from(degenerate);
         }
         if found.count >= MOST_COUNTED {
             return ControlFlow::Break(Stop::Endless);
@@ -153,8 +183,21 @@ impl<'a> Taker<'a> {
                 return ControlFlow::Break(Stop::Full);
             }
             found.pairs.push(row);
+            if let Some(Closeness { distance, points }) = closeness
+                && self.lists_gaps
+                && distance > 0.0
+            {
+                if found.gaps.try_reserve(1).is_err() {
+                    return ControlFlow::Break(Stop::Full);
+                }
+                found.gaps.push(Gap {
+                    pair: row,
+                    distance,
+                    points,
+                });
+            }
         }
-        if found.complete || distance.is_some() {
+        if found.complete || closeness.is_some() {
             return ControlFlow::Continue(());
         }
         // What else is left out is not known.
@@ -175,6 +218,7 @@ impl<'a> Taker<'a> {
     pub(crate) fn end(self) -> Found {
         let mut found = self.found;
         found.pairs.sort_unstable();
+        found.gaps.sort_unstable_by_key(|gap| gap.pair);
         found
     }
 }

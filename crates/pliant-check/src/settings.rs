@@ -12,6 +12,8 @@ pub struct Settings {
     /// Pairs of different bodies that are at most so far apart, intersecting ones at distance 0, instead of those that intersect. Of
     /// one body neighbours always are that close: it cannot be asked of one alone, nor with [`itself`](Self::itself).
     pub within: Option<f64>,
+    /// Where pairs of [`within`](Self::within) are listed, the points in which they are closest are too; a pair then takes 88 bytes.
+    pub closest_points: bool,
     /// No more than one pair in each frame; with [`within`](Self::within) the nearest.
     pub first: bool,
     /// Pairs are kept in a list; if not, they are only counted.
@@ -88,6 +90,7 @@ impl Default for Settings {
         Self {
             itself: false,
             within: None,
+            closest_points: false,
             first: false,
             listed: true,
             max_list: u64::MAX,

@@ -10,7 +10,7 @@ use pliant::{BodyId, Scalar, World};
 use pliant_check::{Meshes, Place, Places};
 use pliant_io::shown_within;
 use pliant_report::picture::{self, Picture, Shot, View};
-use pliant_report::{BodyLabel, Chart, Motion, Play, Recorder, Report, Series, Spot};
+use pliant_report::{BodyLabel, Chart, Gap, Motion, Play, Recorder, Report, Series, Spot};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -95,6 +95,8 @@ pub(crate) struct Watcher {
     recorder: Option<Recorder>,
     /// What frames are called.
     along: String,
+    /// How close pairs are, if they are not those that intersect.
+    within: Option<f64>,
     /// Of a play whose places nobody else finds.
     places: Places,
 }
@@ -167,8 +169,15 @@ impl Watcher {
             recorder: options.report.is_some().then(|| Recorder::new(labels())),
             options,
             along: along.to_owned(),
+            within: None,
             places: Places::new(),
         })
+    }
+
+    /// From now on pairs are of triangles that are so close.
+    pub(crate) fn within(mut self, within: Option<f64>) -> Self {
+        self.within = within;
+        self
     }
 
     /// Whether the pairs of this frame are.
@@ -192,16 +201,19 @@ impl Watcher {
             self.places.take(&shown, pair, pair);
         }
         let places = self.places.end(&shown);
-        self.frame_with(number, world, pairs, &places, |body| format!("body {body}"))
+        self.frame_with(number, world, pairs, &places, &[], |body| {
+            format!("body {body}")
+        })
     }
 
-    /// The same where places are known; `name` says what a body is called in them.
+    /// The same where places are known, and the gaps of pairs that do not intersect, sorted by pair; `name` says what a body is called in them.
     pub(crate) fn frame_with<S: Scalar>(
         &mut self,
         number: u32,
         world: &World<S>,
         pairs: &[[u32; 4]],
         places: &[Place],
+        gaps: &[Gap],
         name: impl Fn(u32) -> String,
     ) -> anyhow::Result<()> {
         let spot = |place: &Place| Spot {
@@ -213,7 +225,7 @@ impl Watcher {
         };
         let spots: Vec<Spot> = places.iter().map(spot).collect();
         if let Some(recorder) = &mut self.recorder {
-            recorder.frame_with(number, world, pairs, &spots);
+            recorder.frame_with(number, world, pairs, &spots, gaps);
         }
         if let Some(path) = self
             .options
@@ -245,11 +257,12 @@ impl Watcher {
         };
         let motion = recorder.finish();
         let mut report = Report::new(&asked());
-        report.found = found(&motion, along);
+        report.found = found(&motion, along, self.within);
         let mut play = Play::new(name, along);
+        play.within = self.within;
         play.facts = facts(&motion, along);
         tell(&motion, &mut play);
-        play.charts.push(pairs_chart(&motion, along));
+        play.charts.push(pairs_chart(&motion, along, self.within));
         report.add(play, motion);
         write_page(path, &report, self.options.over)
     }
@@ -301,8 +314,22 @@ pub(crate) fn asked() -> String {
 }
 
 /// In a sentence or two.
-fn found(motion: &Motion, along: &str) -> String {
+fn found(motion: &Motion, along: &str, within: Option<f64>) -> String {
     let all = motion.pairs().len();
+    if let Some(within) = within {
+        let close = format!("triangles of two bodies that are at most {within} apart");
+        return match (motion.first_contact(), motion.worst()) {
+            (Some(first), Some((worst, most))) => {
+                let hit = grouped(motion.frames_with_hits() as u64);
+                let pairs = counted(most, "pair", "pairs");
+                format!(
+                    "There are {close} in {hit} of {} {along}s, first in {along} {first}. Most: {pairs}, in {along} {worst}.",
+                    grouped(all as u64)
+                )
+            }
+            _ => format!("There are no {close}."),
+        };
+    }
     match (motion.first_contact(), motion.worst()) {
         (Some(_), Some((worst, most))) if all == 1 => {
             format!(
@@ -355,9 +382,13 @@ fn facts(motion: &Motion, along: &str) -> Vec<(String, String)> {
     .to_vec()
 }
 
-fn pairs_chart(motion: &Motion, along: &str) -> Chart {
+fn pairs_chart(motion: &Motion, along: &str, within: Option<f64>) -> Chart {
+    let which = within.map_or_else(
+        || "intersecting pairs".to_owned(),
+        |within| format!("pairs at most {within} apart"),
+    );
     chart(
-        &format!("intersecting pairs per {along}"),
+        &format!("{which} per {along}"),
         "pairs",
         along,
         motion.numbers(),

@@ -40,6 +40,10 @@ pub(crate) struct Frame {
     /// Of each record of a body; none of those whose mesh the body has not, or not yet, in this frame.
     pub(crate) shapes: Vec<Option<Shape>>,
     pub(crate) hits: Hits,
+    /// Sorted; those of the triangles in `hits` that intersect none, but are close to one.
+    pub(crate) near: Vec<u32>,
+    /// The nearest first; of very many the nearest.
+    pub(crate) gaps: Vec<GapShown>,
     /// Body by body, level by level, part by part: was the box made for this shape?
     pub(crate) made: Vec<bool>,
     /// Where hits hang together, most pairs first; of very many the first.
@@ -61,6 +65,24 @@ pub struct Spot {
     pub upper: [f64; 3],
     /// Whose they are. Anything may be in it.
     pub label: String,
+}
+
+/// Between two triangles that are close and do not intersect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Body, triangle, body, triangle.
+    pub pair: [u32; 4],
+    /// How far apart they are.
+    pub distance: f64,
+    /// A point of each, as far apart as that.
+    pub points: [[f64; 3]; 2],
+}
+
+/// The same with all bodies' triangles numbered in one row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct GapShown {
+    pub(crate) triangles: [u32; 2],
+    pub(crate) points: [[f64; 3]; 2],
 }
 
 /// Which triangles intersect; all bodies' triangles are numbered in one row.
@@ -170,7 +192,8 @@ impl Frame {
             Hits::Triangles(triangles) => 4 * triangles.len(),
         };
         let spots = self.spots.iter().map(|spot| 100 + spot.label.len());
-        6 * vertices + hits + self.made.len() / 8 + spots.sum::<usize>()
+        let near = 4 * self.near.len() + 32 * self.gaps.len();
+        6 * vertices + hits + near + self.made.len() / 8 + spots.sum::<usize>()
     }
 }
 

@@ -100,6 +100,19 @@ impl Motion {
                 before[body] = [rounded, last];
             }
             out.hits(frame);
+            out.bytes(&(frame.near.len() as u32).to_le_bytes());
+            out.words(frame.near.iter().copied());
+            out.bytes(&(frame.gaps.len() as u32).to_le_bytes());
+            for end in 0..2 {
+                out.words(frame.gaps.iter().map(|gap| gap.triangles[end]));
+            }
+            for gap in &frame.gaps {
+                for point in gap.points {
+                    for axis in 0..3 {
+                        out.float((point[axis] - view.centre[axis]) / view.radius);
+                    }
+                }
+            }
             let mut made = frame.made.clone();
             made.resize(bits.max(made.len()), false);
             out.bits(&made);
@@ -225,7 +238,7 @@ fn zigzag(difference: u16) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frames::Shape;
+    use crate::frames::{GapShown, Shape};
     use crate::recorder::BodyLabel;
     use flate2::read::ZlibDecoder;
     use pliant::BodyId;
@@ -328,6 +341,17 @@ mod tests {
                 1 => Hits::Triangles(vec![0, 2, 3]),
                 _ => Hits::Pairs(Vec::new()),
             },
+            near: if frame == 0 {
+                vec![2, 3, 70_000]
+            } else {
+                Vec::new()
+            },
+            gaps: (0..frame % 2)
+                .map(|_| GapShown {
+                    triangles: [3, 4],
+                    points: [[0.5, 0.25, -1.0], [0.5, 0.125, f64::from(frame)]],
+                })
+                .collect(),
             made: (0..11)
                 .map(|bit| (bit * bit + frame).is_multiple_of(3))
                 .collect(),
@@ -411,6 +435,20 @@ mod tests {
                 }
                 ([0], Hits::Triangles(triangles)) => assert_eq!(packed.words(count), *triangles),
                 (kind, hits) => panic!("{kind:?} for {hits:?}"),
+            }
+            let count = u32::from_le_bytes(packed.array()) as usize;
+            assert_eq!(packed.words(count), frame.near);
+            let count = u32::from_le_bytes(packed.array()) as usize;
+            let [a, b] = [(); 2].map(|()| packed.words(count));
+            assert_eq!((a.len(), b.len()), (frame.gaps.len(), frame.gaps.len()));
+            for (number, gap) in frame.gaps.iter().enumerate() {
+                assert_eq!([a[number], b[number]], gap.triangles);
+                for point in gap.points {
+                    for axis in 0..3 {
+                        let x = f64::from_le_bytes(packed.array()) * view.radius;
+                        assert!((x + view.centre[axis] - point[axis]).abs() < 1e-12);
+                    }
+                }
             }
             let bytes = packed.slice(frame.made.len().div_ceil(8));
             let bits = (0..frame.made.len()).map(|bit| bytes[bit / 8] >> (bit % 8) & 1 == 1);

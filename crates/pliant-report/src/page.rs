@@ -5,7 +5,7 @@
 
 use crate::MARK;
 use crate::chart::Chart;
-use crate::colours::{HIT, of_body, of_line};
+use crate::colours::{HIT, NEAR, of_body, of_line};
 use crate::frames::{Frame, Motion};
 use crate::pack::{STEPS, View};
 use crate::report::{Play, Report};
@@ -26,6 +26,7 @@ impl Report {
             "found": self.found,
             "facts": facts(&self.facts),
             "hit": hex(HIT),
+            "near": hex(NEAR),
             "plays": self.plays.iter().map(|play| self.play(play)).collect::<Value>(),
             "motions": self.motions.iter().map(motion).collect::<Value>(),
         });
@@ -71,6 +72,7 @@ impl Report {
         json!({
             "name": play.name,
             "along": play.along,
+            "within": play.within,
             "facts": play.facts,
             "notes": notes,
             "motion": play.motion,

@@ -7,7 +7,7 @@
 //! A body that gets another mesh has a record more from that frame on, and each frame says which record it shows. Once the meshes
 //! alone take half of what a page can hold, frames with further ones are counted and not drawn.
 
-use crate::frames::{BodyRecord, Frame, Hits, Motion, Shape, Spot};
+use crate::frames::{BodyRecord, Frame, Gap, GapShown, Hits, Motion, Shape, Spot};
 use pliant::{BodyId, Scalar, World};
 
 /// The most bytes of frames that go into a page, before they are compressed: positions rounded to two bytes, pairs as eight.
@@ -16,6 +16,9 @@ const BUDGET: usize = 30 << 20;
 
 /// Above this number of pairs in a frame, only which triangles are red is kept, not with whom each meets.
 const MOST_PAIRS: usize = 100_000;
+
+/// Gaps of a frame that are kept.
+const MOST_GAPS: usize = 5_000;
 
 /// Places of a frame that are kept.
 const MOST_SPOTS: usize = 40;
@@ -91,16 +94,18 @@ impl Recorder {
     /// Takes a frame: its number, the world in it, and the pairs found: body, triangle, body, triangle. The bodies are those of
     /// the first frame; pairs of others are counted and not drawn. The world's boxes are as the queries left them.
     pub fn frame<S: Scalar>(&mut self, number: u32, world: &World<S>, pairs: &[[u32; 4]]) {
-        self.frame_with(number, world, pairs, &[]);
+        self.frame_with(number, world, pairs, &[], &[]);
     }
 
-    /// The same, with the places where the pairs hang together, most pairs first.
+    /// The same, with the places where the pairs hang together, most pairs first; and of pairs that are close and do not intersect the
+    /// gaps, sorted by pair.
     pub fn frame_with<S: Scalar>(
         &mut self,
         number: u32,
         world: &World<S>,
         pairs: &[[u32; 4]],
         spots: &[Spot],
+        gaps: &[Gap],
     ) {
         let place = self.numbers.len();
         self.numbers.push(number);
@@ -111,7 +116,7 @@ impl Recorder {
         if self.too_large || !self.meet_meshes(world) {
             return;
         }
-        let mut frame = self.look(place, world, pairs);
+        let mut frame = self.look(place, world, pairs, gaps);
         frame.spots = spots.iter().take(MOST_SPOTS).cloned().collect();
         frame.all_spots = spots.len();
         let count = pairs.len();
@@ -231,7 +236,13 @@ impl Recorder {
         true
     }
 
-    fn look<S: Scalar>(&self, place: usize, world: &World<S>, pairs: &[[u32; 4]]) -> Frame {
+    fn look<S: Scalar>(
+        &self,
+        place: usize,
+        world: &World<S>,
+        pairs: &[[u32; 4]],
+        gaps: &[Gap],
+    ) -> Frame {
         let mut firsts = Vec::with_capacity(self.bodies.len());
         let mut first = 0;
         for body in &self.bodies {
@@ -261,6 +272,32 @@ impl Recorder {
                     .collect(),
             )
         };
+        let mut near: Vec<u32> = Vec::new();
+        let mut kept: Vec<&Gap> = Vec::new();
+        if !gaps.is_empty() {
+            let is_apart =
+                |pair: &&[u32; 4]| gaps.binary_search_by_key(*pair, |gap| gap.pair).is_ok();
+            let mut is_red = vec![false; first as usize];
+            let intersecting = pairs.iter().filter(|pair| !is_apart(pair));
+            for triangle in intersecting.filter_map(global_pair).flatten() {
+                is_red[triangle as usize] = true;
+            }
+            near = pairs.iter().filter_map(global_pair).flatten().collect();
+            near.retain(|&triangle| !is_red[triangle as usize]);
+            near.sort_unstable();
+            near.dedup();
+            kept = gaps.iter().collect();
+            kept.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+            kept.truncate(MOST_GAPS);
+        }
+        let gaps = kept.into_iter().filter_map(|gap| {
+            let triangles = global_pair(&gap.pair)?;
+            Some(GapShown {
+                triangles,
+                points: gap.points,
+            })
+        });
+        let gaps = gaps.collect();
         let (mut shapes, mut made) = (Vec::with_capacity(self.bodies.len()), Vec::new());
         for (number, body) in self.bodies.iter().enumerate() {
             let is_now = self.known.contains(&(body.id, number));
@@ -286,6 +323,8 @@ impl Recorder {
             place,
             shapes,
             hits,
+            near,
+            gaps,
             made,
             spots: Vec::new(),
             all_spots: 0,

@@ -25,6 +25,8 @@ pub struct Play {
     pub name: String,
     /// What its steps are called: `step` or `frame`.
     pub along: String,
+    /// How close triangles are that are pairs, if pairs are not those that intersect.
+    pub within: Option<f64>,
     /// Names and values.
     pub facts: Vec<(String, String)>,
     /// What must be said about it.
@@ -58,6 +60,7 @@ impl Play {
         Self {
             name: name.to_owned(),
             along: along.to_owned(),
+            within: None,
             facts: Vec::new(),
             notes: Vec::new(),
             motion: None,

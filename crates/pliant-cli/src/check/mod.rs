@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     #[arg(long = "self")]
     itself: bool,
     /// Instead of what intersects, the triangles of different bodies that are at most D apart, in the unit of the files; those that intersect are 0 apart. Of one body neighbours always are that close: not with --self
-    #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = distance, conflicts_with_all = ["report", "png"])]
+    #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = distance, conflicts_with = "png")]
     within: Option<f64>,
     /// Only how many pairs, not which
     #[arg(long)]
@@ -187,6 +187,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
     let settings = Settings {
         itself: arguments.itself,
         within: arguments.within,
+        closest_points: arguments.pictures.any(),
         max_list: arguments.max_memory,
         split: arguments.split.map(|split| match split {
             Split::Components => pliant_check::Split::Components,

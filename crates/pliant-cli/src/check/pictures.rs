@@ -8,7 +8,7 @@ use crate::advice;
 use crate::report::{Watcher, fact};
 use pliant_check::{AnyWorld, Baseline, Check, Found, Row, with_world};
 use pliant_io::shown;
-use pliant_report::BodyLabel;
+use pliant_report::{BodyLabel, Gap};
 
 /// Looks at the frames of one check.
 pub(super) struct Pictures(Watcher);
@@ -16,7 +16,8 @@ pub(super) struct Pictures(Watcher);
 impl Pictures {
     pub(super) fn new(arguments: &Arguments, check: &Check) -> anyhow::Result<Self> {
         let numbers = 0..u32::try_from(check.frame_count()).unwrap_or(u32::MAX);
-        Watcher::new(&arguments.pictures, || labels(check), "frame", numbers).map(Self)
+        Watcher::new(&arguments.pictures, || labels(check), "frame", numbers)
+            .map(|watcher| Self(watcher.within(arguments.within)))
     }
 
     /// Whether they need all pairs of this frame.
@@ -35,6 +36,20 @@ impl Pictures {
             .iter()
             .map(|&row| of_sources(check, row))
             .collect();
+        let gap = |gap: &pliant_check::Gap| {
+            let [a, b] = gap.points;
+            let pair = of_sources(check, gap.pair);
+            // The points change places with their triangles.
+            let is_same =
+                check.source_of(gap.pair[0]) == Some(pair[0] as usize) && gap.pair[1] == pair[1];
+            Gap {
+                pair,
+                distance: gap.distance,
+                points: if is_same { [a, b] } else { [b, a] },
+            }
+        };
+        let mut gaps: Vec<Gap> = found.gaps.iter().map(gap).collect();
+        gaps.sort_unstable_by_key(|gap| gap.pair);
         let places = found.places.as_deref().unwrap_or_default();
         // Of one body nobody needs to be told whose it is.
         let name = |body| match check.body(body) {
@@ -45,7 +60,7 @@ impl Pictures {
         // Of a first pair nobody has found a place.
         match &found.places {
             Some(_) => {
-                with_world!(check.world(), world => watcher.frame_with(number, world, &pairs, places, name))
+                with_world!(check.world(), world => watcher.frame_with(number, world, &pairs, places, &gaps, name))
             }
             None => with_world!(check.world(), world => watcher.frame(number, world, &pairs)),
         }

@@ -151,3 +151,38 @@ fn neighbours_are_not_asked() {
         said.assert_refused(&[bad, "at least 0"]);
     }
 }
+
+#[test]
+fn a_report_says_what_is_close() {
+    let folder = folder(&[
+        ("skin.obj", flat(0.0)),
+        ("shirt_0.obj", two_corners([0.5, 0.25])),
+        ("shirt_1.obj", two_corners([-0.5, 0.125])),
+    ]);
+    let arguments = [
+        "shirt_*.obj",
+        "skin.obj",
+        "--within",
+        "0.5",
+        "--report",
+        "page.html",
+    ];
+    assert_eq!(check(folder.path(), &arguments).code, 1);
+    let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+    for said in [
+        "There are triangles of two bodies that are at most 0.5 apart in 2 of 2 frames, first in frame 0. Most: 2 pairs, in frame 0.",
+        "pairs at most 0.5 apart per frame",
+        r#""within":0.5"#,
+    ] {
+        assert!(page.contains(said), "{said}");
+    }
+    let image = [
+        "shirt_*.obj",
+        "skin.obj",
+        "--within",
+        "0.5",
+        "--png",
+        "image.png",
+    ];
+    check(folder.path(), &image).assert_refused(&["--within", "--png"]);
+}

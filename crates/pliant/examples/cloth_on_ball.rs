@@ -4,10 +4,16 @@
 //! length again. Contacts come from the pairs alone: where a triangle of the cloth meets one of the ball, its corners are pushed
 //! out along the ball triangle's normal, and rub. In one small step nothing moves further than a triangle is wide.
 //!
+//! With `apart` the cloth keeps a thickness: contacts are the vertices and triangles, and edges and edges, that are closer than that, and
+//! each is put as far apart along the direction in which it is closest, again and again until all are. In a small step nothing moves
+//! further than the cloth is thick.
+//!
 //! ```sh
 //! cargo run --release -p pliant --example cloth_on_ball                # ten seconds of it
 //! cargo run --release -p pliant --example cloth_on_ball -- 10 frames   # and OBJ files, 30 a second, into a folder
 //! pliant check 'frames/cloth_*.obj' 'frames/ball_*.obj' --count        # what each frame shows
+//! cargo run --release -p pliant --example cloth_on_ball -- 10 frames apart
+//! pliant check 'frames/cloth_*.obj' 'frames/ball_*.obj' --within 0.018 # nothing
 //! ```
 
 use glam::Vec3;
@@ -20,6 +26,9 @@ const STEP: f32 = 1.0 / STEPS_A_SECOND as f32;
 pub(crate) const RADIUS: f32 = 0.5;
 const SIDE: f32 = 1.6;
 const THICKNESS: f32 = 0.0005; // so high above the ball do contacts put points
+/// So far from the ball the cloth is kept by [`Simulation::step_apart`].
+pub(crate) const THICK: f32 = 0.02;
+const ROUNDS: usize = 50; // at most, to put everything apart
 const FRICTION: f32 = 0.9; // how much of its sliding a point in contact loses in a step
 
 struct Surface {
@@ -36,6 +45,8 @@ pub(crate) struct Simulation {
     ball: Surface,
     /// Two points of the cloth and their distance.
     edges: Vec<([usize; 2], f32)>,
+    /// Those of the cloth and of the ball, as the library numbers them.
+    numbered: [Vec<[u32; 2]>; 2],
     pub(crate) steps: usize,
 }
 
@@ -82,6 +93,21 @@ impl Surface {
     }
 }
 
+/// A point of the cloth, its corners and their shares in it, that is too close to one of the ball.
+struct Contact {
+    corners: [u32; 3],
+    shares: [f32; 3],
+    there: Vec3,
+    /// From the ball to the cloth.
+    normal: Vec3,
+}
+
+/// The point of a triangle with these shares of its corners.
+fn at(points: &[Vec3], corners: [u32; 3], shares: [f32; 3]) -> Vec3 {
+    let [a, b, c] = corners.map(|corner| points[corner as usize]);
+    shares[0] * a + shares[1] * b + shares[2] * c
+}
+
 /// Where the ball is after so many steps.
 fn centre(steps: usize) -> Vec3 {
     let time = steps as f32 * STEP;
@@ -106,7 +132,12 @@ impl Simulation {
             edges.extend([[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]));
         }
         let long = |[a, b]: [usize; 2]| cloth.points[a].distance(cloth.points[b]);
+        let numbered = [
+            world.edges(cloth.body)?.to_vec(),
+            world.edges(ball.body)?.to_vec(),
+        ];
         Ok(Self {
+            numbered,
             edges: edges.into_iter().map(|ends| (ends, long(ends))).collect(),
             world,
             cloth,
@@ -115,10 +146,9 @@ impl Simulation {
         })
     }
 
-    /// One time step; returns how many pairs of triangles met.
-    pub(crate) fn step(&mut self) -> Result<usize, Error> {
-        // The application moves the bodies ...
-        let (world, cloth, ball) = (&mut self.world, &mut self.cloth, &mut self.ball);
+    /// The application moves the bodies.
+    fn move_bodies(&mut self) -> Result<(), Error> {
+        let (cloth, ball) = (&mut self.cloth, &mut self.ball);
         for (point, before) in cloth.points.iter_mut().zip(&mut cloth.before) {
             let velocity = 0.999 * (*point - *before);
             *before = *point;
@@ -133,13 +163,25 @@ impl Simulation {
             }
         }
         self.steps += 1;
-        let swing = centre(self.steps) - centre(self.steps - 1);
         for (point, from) in ball.points.iter_mut().zip(&ball.before) {
             *point = *from + centre(self.steps);
         }
+        cloth.show(&mut self.world)?;
+        ball.show(&mut self.world)
+    }
+
+    /// How far the ball went in this step.
+    fn swing(&self) -> Vec3 {
+        centre(self.steps) - centre(self.steps - 1)
+    }
+
+    /// One time step; returns how many pairs of triangles met.
+    pub(crate) fn step(&mut self) -> Result<usize, Error> {
+        // The application moves the bodies ...
+        self.move_bodies()?;
+        let swing = self.swing();
+        let (world, cloth, ball) = (&mut self.world, &mut self.cloth, &mut self.ball);
         // ... the library answers ...
-        cloth.show(world)?;
-        ball.show(world)?;
         let pairs = world
             .intersections(Selection::Between(cloth.body, ball.body))
             .all()?;
@@ -167,6 +209,102 @@ impl Simulation {
         Ok(pairs.len())
     }
 
+    /// One time step after which the cloth is [`THICK`] away from the ball; returns how many elements were too close.
+    pub(crate) fn step_apart(&mut self) -> Result<usize, Error> {
+        self.move_bodies()?;
+        let swing = self.swing();
+        let (world, cloth, ball) = (&mut self.world, &mut self.cloth, &mut self.ball);
+        let between = Selection::Between(cloth.body, ball.body);
+        let mut normals = vec![None; cloth.points.len()];
+        let mut met = 0;
+        for _ in 0..ROUNDS {
+            // The library says what is close, and how ...
+            let mut contacts = Vec::new();
+            for close in world
+                .close_vertex_triangle_pairs(between, f64::from(THICK))
+                .all()?
+            {
+                let towards = Vec3::from(close.direction.unwrap_or_default().map(|x| x as f32));
+                let shares = close.barycentric.map(|share| share as f32);
+                let (vertex, triangle) = (close.pair.vertex, close.pair.triangle as usize);
+                contacts.push(if close.pair.vertex_body == cloth.body {
+                    let there = at(&ball.points, ball.triangles[triangle], shares);
+                    Contact {
+                        corners: [vertex; 3],
+                        shares: [1.0, 0.0, 0.0],
+                        there,
+                        normal: towards,
+                    }
+                } else {
+                    let there = ball.points[vertex as usize];
+                    Contact {
+                        corners: cloth.triangles[triangle],
+                        shares,
+                        there,
+                        normal: -towards,
+                    }
+                });
+            }
+            // The body with the lower number comes first: the cloth.
+            for close in world
+                .close_edge_edge_pairs(between, f64::from(THICK))
+                .all()?
+            {
+                let normal = Vec3::from(close.direction.unwrap_or_default().map(|x| x as f32));
+                let [a, b] = self.numbered[0][close.pair.edge_a as usize];
+                let [c, d] = self.numbered[1][close.pair.edge_b as usize];
+                let [s, t] = close.barycentric_a.map(|share| share as f32);
+                let [u, v] = close.barycentric_b.map(|share| share as f32);
+                let there = at(&ball.points, [c, d, d], [u, v, 0.0]);
+                contacts.push(Contact {
+                    corners: [a, b, b],
+                    shares: [s, t, 0.0],
+                    there,
+                    normal,
+                });
+            }
+            // ... and the application puts it apart, one contact after the other.
+            let mut deepest = 0.0_f32;
+            for Contact {
+                corners,
+                shares,
+                there,
+                normal,
+            } in &contacts
+            {
+                let depth = THICK - (at(&cloth.points, *corners, *shares) - there).dot(*normal);
+                deepest = deepest.max(depth);
+                let weight: f32 = shares.iter().map(|share| share * share).sum();
+                for (&corner, share) in corners.iter().zip(shares).filter(|_| depth > 0.0) {
+                    if *share > 0.0 {
+                        cloth.points[corner as usize] += depth * share / weight * normal;
+                        normals[corner as usize] = Some(*normal);
+                    }
+                }
+            }
+            cloth.show(world)?;
+            met = met.max(contacts.len());
+            if deepest < 0.02 * THICK {
+                break;
+            }
+        }
+        // What was put apart goes with the ball from now on, but for some of its sliding.
+        for ((point, before), normal) in cloth.points.iter().zip(&mut cloth.before).zip(normals) {
+            if let Some(normal) = normal {
+                let sliding = (*point - *before - swing).reject_from_normalized(normal);
+                *before = *point - swing - (1.0 - FRICTION) * sliding;
+            }
+        }
+        Ok(met)
+    }
+
+    /// How far the cloth is from the ball.
+    pub(crate) fn gap(&mut self) -> Result<f64, Error> {
+        let (cloth, ball) = (self.cloth.body, self.ball.body);
+        let nearest = self.world.distance(cloth, ball, f64::from(SIDE))?;
+        Ok(nearest.map_or(f64::INFINITY, |nearest| nearest.distance))
+    }
+
     /// How deep the deepest point of the cloth is inside the ball; negative: how far the nearest is outside.
     pub(crate) fn depth(&self) -> f32 {
         let inside = |point: &Vec3| RADIUS - point.distance(centre(self.steps));
@@ -184,22 +322,32 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = env::args().skip(1);
     let seconds: usize = arguments.next().map_or(Ok(10), |text| text.parse())?;
     let folder = arguments.next();
+    let apart = arguments.next().is_some_and(|word| word == "apart");
     folder.as_ref().map_or(Ok(()), fs::create_dir_all)?;
     let mut simulation = Simulation::new()?;
     for step in 1..=seconds * STEPS_A_SECOND {
-        let pairs = simulation.step()?;
-        if step.is_multiple_of(STEPS_A_SECOND / 4) {
-            let (time, height) = (step as f32 * STEP, simulation.height());
-            let depth = 1e3 * simulation.depth();
-            println!(
-                "{time:5.2} s: {pairs:3} pairs, cloth at {height:.3} m, {depth:6.1} mm inside"
-            );
-        }
+        let pairs = if apart {
+            simulation.step_apart()?
+        } else {
+            simulation.step()?
+        };
         if let (Some(folder), true) = (&folder, step.is_multiple_of(STEPS_A_SECOND / 30)) {
             let frame = step / (STEPS_A_SECOND / 30);
             let Simulation { cloth, ball, .. } = &simulation;
             cloth.write_obj(format!("{folder}/cloth_{frame:04}.obj"))?;
             ball.write_obj(format!("{folder}/ball_{frame:04}.obj"))?;
+        }
+        if step.is_multiple_of(STEPS_A_SECOND / 4) {
+            let (time, height) = (step as f32 * STEP, simulation.height());
+            let depth = 1e3 * simulation.depth();
+            if apart {
+                let gap = 1e3 * simulation.gap()?;
+                println!("{time:5.2} s: cloth at {height:.3} m, {gap:.3} mm apart");
+                continue;
+            }
+            println!(
+                "{time:5.2} s: {pairs:3} pairs, cloth at {height:.3} m, {depth:6.1} mm inside"
+            );
         }
     }
     Ok(())

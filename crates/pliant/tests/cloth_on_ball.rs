@@ -4,7 +4,7 @@
 #[allow(dead_code, reason = "its main is not called")]
 mod cloth_on_ball;
 
-use cloth_on_ball::{RADIUS, STEPS_A_SECOND, Simulation};
+use cloth_on_ball::{RADIUS, STEPS_A_SECOND, Simulation, THICK};
 
 #[test]
 fn the_cloth_stays_on_the_ball_and_outside_it() {
@@ -21,4 +21,20 @@ fn the_cloth_stays_on_the_ball_and_outside_it() {
         (height - RADIUS).abs() < 0.02,
         "{height} m above its middle"
     );
+}
+
+#[test]
+fn the_cloth_keeps_its_thickness() {
+    let mut simulation = Simulation::new().unwrap();
+    let (mut met, mut least) = (0, f64::INFINITY);
+    for _ in 0..4 * STEPS_A_SECOND {
+        met += usize::from(simulation.step_apart().unwrap() > 0);
+        least = least.min(simulation.gap().unwrap());
+        let (step, thick) = (simulation.steps, f64::from(THICK));
+        assert!(least >= 0.9 * thick, "step {step}: {least} m apart");
+    }
+    println!("met in {met} steps, at least {least} m apart");
+    assert!(met > STEPS_A_SECOND, "it met the ball in {met} steps");
+    let height = simulation.height() - RADIUS - THICK;
+    assert!(height.abs() < 0.02, "{height} m above where it lies");
 }

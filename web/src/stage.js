@@ -157,8 +157,8 @@ export class Stage {
       let length = 0;
       const own = [];
       for (; at < frame.red.length && frame.red[at] < body.first + body.triangles; at++) own.push(frame.red[at]);
-      const isNear = (triangle) => near.has(triangle);
-      hits.userData.triangles = near.size > 0 ? [...own.filter((triangle) => !isNear(triangle)), ...own.filter(isNear)] : own;
+      const ownRed = own.filter((triangle) => !near.has(triangle));
+      hits.userData.triangles = [...ownRed, ...own.filter((triangle) => near.has(triangle))];
       for (const row of hits.userData.triangles) {
         const triangle = row - body.first;
         for (let corner = 0; corner < 3; corner++) index.array[length++] = body.corners[3 * triangle + corner];
@@ -166,11 +166,11 @@ export class Stage {
       index.needsUpdate = true;
       hits.geometry.setDrawRange(0, length);
       hits.visible = mesh.visible && length > 0;
-      const redOnes = own.length - own.filter(isNear).length;
+      const redLength = 3 * ownRed.length;
       hits.geometry.clearGroups();
-      if (redOnes > 0) hits.geometry.addGroup(0, 3 * redOnes, 0);
-      if (redOnes < own.length) hits.geometry.addGroup(3 * redOnes, length - 3 * redOnes, 1);
-      red += redOnes;
+      if (redLength > 0) hits.geometry.addGroup(0, redLength, 0);
+      if (redLength < length) hits.geometry.addGroup(redLength, length - redLength, 1);
+      red += ownRed.length;
     });
     this.showMarkers();
     this.showGaps();

@@ -19,14 +19,15 @@ pub struct Found {
     pub changed: Vec<u32>,
     /// How many pairs; at most one if only the first was asked for.
     pub count: usize,
-    /// The smallest of them; of a nearest pair, that.
+    /// The smallest of them; where only one pair was asked for, that pair.
     pub smallest: Option<Row>,
     /// How far apart the nearest of them is, at most as far as was asked for. `None` where there is no pair, or no distance was
     /// asked for.
     pub distance: Option<f64>,
     /// All of them, sorted; none where they are not listed.
     pub pairs: Vec<Row>,
-    /// Of pairs that are listed and do not intersect where they are closest, in the order of `pairs`, if that was asked for.
+    /// Where those of `pairs` that do not intersect are closest, in the same order; none if
+    /// [`closest_points`](crate::Settings::closest_points) were not asked for.
     pub gaps: Vec<Gap>,
     /// How many were left out because they intersect in the baseline frame. `None` where there is no such frame, and where the
     /// search stopped at the first new pair.
@@ -82,8 +83,7 @@ pub(crate) struct Taker<'a> {
     baseline: Option<&'a [Row]>,
     /// Whether pairs with a triangle without area are left out.
     skip_degenerate: bool,
-    /// 1 if the nearest pair so far has a triangle without area.
-    degenerate_nearest: usize,
+    /// Whether it is listed, too, where pairs are closest.
     lists_gaps: bool,
 }
 
@@ -114,7 +114,6 @@ impl<'a> Taker<'a> {
             most,
             baseline,
             skip_degenerate: false,
-            degenerate_nearest: 0,
             lists_gaps: false,
         }
     }
@@ -153,24 +152,21 @@ impl<'a> Taker<'a> {
             return ControlFlow::Continue(());
         }
         if let Some(Closeness { distance, .. }) = closeness {
-            let is_nearer = match (found.distance, found.smallest) {
-                (Some(least), Some(smallest)) => (distance, row) < (least, smallest),
-                _ => true,
-            };
             if !found.complete {
-                // The nearest is known when all were seen.
-                if is_nearer {
-                    found.count = 0;
-                    found.pairs.clear();
-                    found.gaps.clear();
-                    found.smallest = None;
-                    found.degenerate -= self.degenerate_nearest;
-                } else {
+                // Of one pair that is asked for, the nearest: it is known when all were seen.
+                let nearest = found.distance.zip(found.smallest);
+                if nearest.is_some_and(|nearest| nearest <= (distance, row)) {
                     return ControlFlow::Continue(());
+                }
+                found.count = 0;
+                found.smallest = None;
+                found.pairs.clear();
+                found.gaps.clear();
+                if !self.skip_degenerate {
+                    found.degenerate = 0;
                 }
             }
             found.distance = Some(found.distance.map_or(distance, |least| least.min(distance)));
-            self.degenerate_nearest = usize::from(degenerate);
         }
         if found.count >= MOST_COUNTED {
             return ControlFlow::Break(Stop::Endless);

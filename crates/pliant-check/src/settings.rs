@@ -12,7 +12,8 @@ pub struct Settings {
     /// Pairs of different bodies that are at most so far apart, intersecting ones at distance 0, instead of those that intersect. Of
     /// one body neighbours always are that close: it cannot be asked of one alone, nor with [`itself`](Self::itself).
     pub within: Option<f64>,
-    /// Where pairs of [`within`](Self::within) are listed, the points in which they are closest are too; a pair then takes 88 bytes.
+    /// Where pairs of [`within`](Self::within) are listed, so are the points in which they are closest: [`Found::gaps`](crate::Found). A
+    /// pair then takes 88 bytes of [`max_list`](Self::max_list).
     pub closest_points: bool,
     /// No more than one pair in each frame; with [`within`](Self::within) the nearest.
     pub first: bool,

@@ -192,7 +192,7 @@ impl Frame {
             Hits::Triangles(triangles) => 4 * triangles.len(),
         };
         let spots = self.spots.iter().map(|spot| 100 + spot.label.len());
-        let near = 4 * self.near.len() + 32 * self.gaps.len();
+        let near = 4 * self.near.len() + 56 * self.gaps.len();
         6 * vertices + hits + near + self.made.len() / 8 + spots.sum::<usize>()
     }
 }

@@ -14,8 +14,8 @@ pub struct Statistics {
     pub triangle_boxes: u64,
     /// Pairs of nodes with overlapping boxes; of a distance, those whose boxes were near enough to be opened.
     pub node_pairs: u64,
-    /// Pairs of triangles with overlapping boxes, which were therefore decided, or near enough to be measured. Within a body, without those that share a
-    /// vertex.
+    /// Pairs of triangles with overlapping boxes, which were therefore decided, or near enough to be measured. Within a body, without those
+    /// that share a vertex.
     pub candidate_pairs: u64,
     /// Candidates of which floating point left a sign open, so that exact arithmetic was needed.
     pub exact_decisions: u64,

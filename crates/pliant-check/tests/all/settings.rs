@@ -340,3 +340,60 @@ fn lists_have_a_limit_that_of_the_baseline_too() {
     };
     assert!(counts(&arguments, &counted).is_ok());
 }
+
+#[test]
+fn where_pairs_are_closest_is_listed_if_that_is_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    let arguments = [
+        write("skin.obj", "v -1 -1 0\nv 9 -1 0\nv -1 9 0\nf 1 2 3\n"),
+        // The first is above the plane, the second goes through it.
+        write(
+            "shirt.obj",
+            "v 1 1 0.25\nv 1 2 4\nv 2 1 4\nv 3 3 -1\nv 3 4 4\nv 4 3 4\nf 1 2 3\nf 4 5 6\n",
+        ),
+    ];
+    let find = |within, closest_points, listed, first| {
+        let settings = Settings {
+            within: Some(within),
+            closest_points,
+            listed,
+            first,
+            ..Settings::default()
+        };
+        let mut check = Check::open(&arguments, &OpenOptions::default(), &settings)?;
+        Ok::<_, Error>(check.next_frame()?.unwrap())
+    };
+    let found = find(0.25, true, true, false).unwrap();
+    assert_eq!(found.pairs, [[0, 0, 1, 0], [0, 0, 1, 1]]);
+    assert_eq!((found.distance, found.gaps.len()), (Some(0.0), 1));
+    let gap = &found.gaps[0];
+    assert_eq!((gap.pair, gap.distance), ([0, 0, 1, 0], 0.25));
+    let expected = [[1.0, 1.0, 0.0], [1.0, 1.0, 0.25]];
+    let both = gap
+        .points
+        .as_flattened()
+        .iter()
+        .zip(expected.as_flattened());
+    assert!(
+        both.into_iter().all(|(x, y)| (x - y).abs() < 1e-12),
+        "{gap:?}"
+    );
+    // Not of what is not listed, not asked for, or not the nearest.
+    for [closest_points, listed, first] in [
+        [false, true, false],
+        [true, false, false],
+        [true, true, true],
+    ] {
+        let found = find(0.25, closest_points, listed, first).unwrap();
+        assert_eq!((found.distance, found.gaps), (Some(0.0), Vec::new()));
+    }
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        let refused = find(bad, false, true, false);
+        assert!(matches!(refused, Err(Error::Distance(_))), "{bad}");
+    }
+}

@@ -7,7 +7,11 @@ ball triangle's normal, and rub. In one small step nothing moves further than a 
 What a loop does one after the other is done at once here where it is about different points: edges of one colour share none, so
 all of them take their length together; and of every point the first contact comes at once, then the second, and so on.
 
+With `apart` the cloth keeps a thickness: contacts are the vertices and triangles, and edges and edges, that are closer than that, and
+each is put as far apart along the direction in which it is closest, again and again until all are.
+
     python cloth_on_ball.py 10        # ten seconds of it
+    python cloth_on_ball.py 10 apart
 """
 
 from __future__ import annotations
@@ -27,6 +31,8 @@ STEP = 1.0 / STEPS_A_SECOND
 RADIUS = 0.5
 SIDE = 1.6
 THICKNESS = 0.0005  # so high above the ball do contacts put points
+THICK = 0.02  # so far from the ball `step_apart` keeps the cloth
+ROUNDS = 100  # at most, to put everything apart
 FRICTION = 0.9  # how much of its sliding a point in contact loses in a step
 FALL = np.array([0.0, 0.0, -9.81 * STEP * STEP], np.float32)
 
@@ -108,14 +114,14 @@ class Simulation:
             self.world.add(faces=self.cloth_faces, positions=self.cloth),
             self.world.add(faces=self.ball_faces, positions=self.ball),
         )
+        self.numbered = [self.world.edges(body).astype(np.int64) for body in self.bodies]
         sides = np.sort(self.cloth_faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
         edges = np.unique(sides, axis=0)
         self.edges = [edges[group] for group in coloured(edges)]
         self.rests = [np.linalg.norm(self.cloth[a] - self.cloth[b], axis=1, keepdims=True) for a, b in (group.T for group in self.edges)]
 
-    def step(self) -> int:
-        """One time step; returns how many pairs of triangles met."""
-        # The application moves the bodies ...
+    def move_bodies(self) -> None:
+        """The application moves the bodies."""
         velocity = np.float32(0.999) * (self.cloth - self.before)
         self.before = self.cloth.copy()
         self.cloth += velocity + FALL
@@ -128,10 +134,16 @@ class Simulation:
                 self.cloth[b] -= half
         self.steps += 1
         self.ball = self.ball_at_first + centre(self.steps)
-        # ... the library answers ...
         cloth, ball = self.bodies
         self.world.set_positions(cloth, self.cloth)
         self.world.set_positions(ball, self.ball)
+
+    def step(self) -> int:
+        """One time step; returns how many pairs of triangles met."""
+        # The application moves the bodies ...
+        self.move_bodies()
+        # ... the library answers ...
+        cloth, ball = self.bodies
         pairs = self.world.intersections(pliant.Selection.between(cloth, ball)).all()
         # ... and the application reacts.
         self.push(self.cloth_faces[pairs[:, 1]], self.ball_faces[pairs[:, 3]])
@@ -154,6 +166,75 @@ class Simulation:
             self.cloth[points] += depth * normal - np.float32(FRICTION) * sliding
             self.before[points] = self.cloth[points] - swing - np.float32(1.0 - FRICTION) * sliding
 
+    def step_apart(self) -> int:
+        """One time step after which the cloth is THICK away from the ball; returns how many elements were too close."""
+        self.move_bodies()
+        normals = np.zeros_like(self.cloth)
+        met = 0
+        for _ in range(ROUNDS):
+            # The library says what is close, and how ...
+            corners, shares, there, normal = self.contacts()
+            met = max(met, len(corners))
+            points = (shares[:, :, None] * self.cloth[corners]).sum(axis=1)
+            depth = np.float32(THICK) - dot(points - there, normal)
+            if not len(depth) or depth.max() < 0.02 * THICK:
+                break
+            # ... and the application puts it apart: what several contacts ask of a corner, by their mean, weighed with its shares.
+            weight = dot(shares, shares)
+            moves = (depth / weight * shares)[:, :, None] * normal[:, None]
+            total = np.zeros((len(self.cloth), 1), np.float32)
+            moved = np.zeros_like(self.cloth)
+            np.add.at(total, corners.ravel(), shares.reshape(-1, 1))
+            np.add.at(moved, corners.ravel(), (shares[:, :, None] * moves).reshape(-1, 3))
+            touched = total[:, 0] > 0
+            self.cloth[touched] += moved[touched] / total[touched]
+            normals[touched] = unit(moved[touched])
+            self.world.set_positions(self.bodies[0], self.cloth)
+        # What was put apart goes with the ball from now on, but for some of its sliding.
+        touched = dot(normals, normals)[:, 0] > 0
+        normal = normals[touched]
+        swing = centre(self.steps) - centre(self.steps - 1)
+        moved = self.cloth[touched] - self.before[touched] - swing
+        sliding = moved - dot(moved, normal) * normal
+        self.before[touched] = self.cloth[touched] - swing - np.float32(1.0 - FRICTION) * sliding
+        return met
+
+    def contacts(self) -> tuple[Integers, Array, Array, Array]:
+        """What is too close: the corners of the cloth's element and their shares in its point, the ball's point, and the way out."""
+        cloth, ball = self.bodies
+        between = pliant.Selection.between(cloth, ball)
+        # A vertex and a triangle: the vertex comes first, of whichever body it is.
+        close = self.world.close_vertex_triangle_pairs(between, THICK).all()
+        pairs, shares, out = close.pairs.astype(np.int64), close.barycentric.astype(np.float32), close.direction.astype(np.float32)
+        of_cloth = pairs[:, 0] == int(cloth)
+        vertices, triangles = pairs[of_cloth, 1], pairs[of_cloth, 3]
+        above = (
+            np.repeat(vertices[:, None], 3, axis=1),
+            np.repeat(np.array([[1, 0, 0]], np.float32), len(vertices), axis=0),
+            (shares[of_cloth, :, None] * self.ball[self.ball_faces[triangles]]).sum(axis=1),
+            out[of_cloth],
+        )
+        vertices, triangles = pairs[~of_cloth, 1], pairs[~of_cloth, 3]
+        below = (self.cloth_faces[triangles], shares[~of_cloth], self.ball[vertices], -out[~of_cloth])
+        # An edge and an edge: the body with the lower number comes first, the cloth.
+        close = self.world.close_edge_edge_pairs(between, THICK).all()
+        shares, out = close.barycentric.astype(np.float32), close.direction.astype(np.float32)
+        of_cloth_ends = self.numbered[0][close.pairs[:, 1]]
+        of_ball_ends = self.numbered[1][close.pairs[:, 3]]
+        across = (
+            np.concatenate([of_cloth_ends, of_cloth_ends[:, 1:]], axis=1),
+            np.concatenate([shares[:, :2], np.zeros_like(shares[:, :1])], axis=1),
+            (shares[:, 2:, None] * self.ball[of_ball_ends]).sum(axis=1),
+            out,
+        )
+        corners, shares, there, normal = (np.concatenate(parts) for parts in zip(above, below, across))
+        return corners, shares, there, np.nan_to_num(normal)
+
+    def gap(self) -> float:
+        """How far the cloth is from the ball."""
+        nearest = self.world.distance(*self.bodies, SIDE)
+        return np.inf if nearest is None else nearest.distance
+
     def depth(self) -> float:
         """How deep the deepest point of the cloth is inside the ball; negative: how far the nearest is outside."""
         return float(RADIUS - np.linalg.norm(self.cloth - centre(self.steps), axis=1).min())
@@ -165,10 +246,13 @@ class Simulation:
 
 def main(arguments: list[str]) -> None:
     seconds = int(arguments[0]) if arguments else 10
+    apart = "apart" in arguments[1:]
     simulation = Simulation()
     for step in range(1, seconds * STEPS_A_SECOND + 1):
-        pairs = simulation.step()
-        if step % (STEPS_A_SECOND // 4) == 0:
+        pairs = simulation.step_apart() if apart else simulation.step()
+        if step % (STEPS_A_SECOND // 4) == 0 and apart:
+            print(f"{step * STEP:5.2f} s: cloth at {simulation.height():.3f} m, {1e3 * simulation.gap():.3f} mm apart")
+        elif step % (STEPS_A_SECOND // 4) == 0:
             height, depth = simulation.height(), 1e3 * simulation.depth()
             print(f"{step * STEP:5.2f} s: {pairs:3} pairs, cloth at {height:.3f} m, {depth:6.1f} mm inside")
 

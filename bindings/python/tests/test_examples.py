@@ -61,9 +61,24 @@ def test_cloth_on_ball() -> None:
     assert abs(simulation.height() - RADIUS) < 0.02
 
 
+def test_cloth_on_ball_keeps_its_thickness() -> None:
+    """What the Rust test says of the Rust example: nothing comes nearer than 0.9 of the thickness."""
+    from cloth_on_ball import RADIUS, STEPS_A_SECOND, THICK, Simulation
+
+    simulation, met = Simulation(), 0
+    for step in range(4 * STEPS_A_SECOND):
+        met += simulation.step_apart() > 0
+        assert simulation.gap() >= 0.9 * THICK, step
+    assert met > STEPS_A_SECOND
+    # It rubs, and so slides down slowly: its middle lies 20 mm beside the ball's top by now.
+    assert abs(simulation.height() - RADIUS - THICK) < 0.03
+
+
 def test_cloth_on_ball_prints(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     said = run("cloth_on_ball.py", 1, monkeypatch=monkeypatch, capsys=capsys).splitlines()
     assert len(said) == 4 and said[-1].startswith(" 1.00 s: ")
+    said = run("cloth_on_ball.py", 1, "apart", monkeypatch=monkeypatch, capsys=capsys).splitlines()
+    assert len(said) == 4 and said[-1].endswith(" mm apart")
 
 
 class TestTrimeshManager:

@@ -11,7 +11,9 @@
 mod accumulator;
 pub(crate) mod distance;
 mod gap;
+mod integer;
 mod lattice;
+pub(crate) mod motion;
 mod orientation;
 mod point;
 mod triangles;

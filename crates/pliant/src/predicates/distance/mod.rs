@@ -13,19 +13,22 @@
 //!
 //! Where n is zero, the face is an edge or a point, and two parallel edges are as near as an end of one is to the other.
 //!
-//! This is for what `kernels::closest` leaves undecided: some microseconds each, nothing allocated. It has the least distance as a
+//! With b bits a coordinate, a difference has b + 1, a normal 2 (b + 1) + 1 in each of three and its square 4 (b + 1) + 4, the square of a
+//! volume 6 (b + 1) + 6. Two quotients of such are compared by products of 10 (b + 1) + 10 bits, and of the square of a distance by as few,
+//! for that is only done where they are nearly equal. So up to 150 bits a coordinate nothing is allocated.
+//!
+//! This is for what `kernels::closest` leaves undecided: some microseconds each. It has the least distance as a
 //! quotient, and so each of its figures with an error of a few units in the last place, however small the distance is.
 
-mod integer;
 mod triangles;
 
-use integer::{ENOUGH, FEW, FEW_BITS, Integer, parts, powers};
+use super::integer::{Integer, parts, powers_of_all};
 #[cfg(test)]
 pub(crate) use triangles::point_in_common;
 pub(crate) use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_triangles};
 
 type Point = [f64; 3];
-type Vector<const L: usize> = [Integer<L>; 3];
+type Vector = [Integer; 3];
 
 /// Two elements, by their corners.
 #[derive(Clone, Copy, Debug)]
@@ -48,12 +51,12 @@ pub(crate) struct Closest {
 }
 
 /// A pair of features: the square of their distance is `over / under`.
-struct Feet<const L: usize> {
-    over: Integer<L>,
-    under: Integer<L>,
+struct Feet {
+    over: Integer,
+    under: Integer,
     along: [f64; 2],
     /// The way from the second to the first, of any length; where they touch, any.
-    way: Vector<L>,
+    way: Vector,
 }
 
 /// Distances that are larger are all the same: no two points are further apart.
@@ -65,24 +68,16 @@ pub(crate) fn are_within_distance(elements: &Primitives, distance: f64) -> bool 
     if distance >= FARTHEST {
         return true;
     }
-    let [unit, end] = elements.powers();
-    if end - unit <= FEW_BITS {
-        are_within::<FEW>(elements, unit, distance)
-    } else {
-        are_within::<ENOUGH>(elements, unit, distance)
-    }
-}
-
-fn are_within<const L: usize>(elements: &Primitives, unit: i32, distance: f64) -> bool {
+    let [unit, _] = powers_of_all(elements.corners().as_flattened());
     let mut is_within = false;
-    feet::<L>(elements, unit, &mut |feet| {
+    feet(elements, unit, &mut |feet| {
         is_within = is_within || is_at_most(&feet, distance, unit);
     });
     is_within
 }
 
 /// Whether the distance of a pair of features is at most this.
-fn is_at_most<const L: usize>(feet: &Feet<L>, distance: f64, unit: i32) -> bool {
+fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
     if feet.over.is_zero() || distance == 0.0 {
         return feet.over.is_zero();
     }
@@ -99,7 +94,7 @@ fn is_at_most<const L: usize>(feet: &Feet<L>, distance: f64, unit: i32) -> bool 
         return n < square;
     }
     // So neither of these is much larger than the other.
-    let integer = Integer::<L>::new(integer as f64, 0);
+    let integer = Integer::new(integer as f64, 0);
     let shift = 2 * exponent.unsigned_abs() as usize;
     let [of_over, of_square] = if exponent < 0 { [shift, 0] } else { [0, shift] };
     let over = feet.over.shifted(of_over);
@@ -116,18 +111,9 @@ pub(crate) fn closest(elements: &Primitives) -> Closest {
 
 /// The same of the nearest of some pairs of elements, and which it is: exactly the nearest, or the first of those.
 fn closest_of(pairs: &[Primitives]) -> (usize, Closest) {
-    let powers = pairs.iter().map(Primitives::powers);
-    let both = powers.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
-    let [unit, end] = both.unwrap_or_default();
-    if end - unit <= FEW_BITS {
-        closest_feet::<FEW>(pairs, unit)
-    } else {
-        closest_feet::<ENOUGH>(pairs, unit)
-    }
-}
-
-fn closest_feet<const L: usize>(pairs: &[Primitives], unit: i32) -> (usize, Closest) {
-    let mut least: Option<(usize, Feet<L>)> = None;
+    let coordinates = pairs.iter().flat_map(|pair| pair.corners().as_flattened());
+    let [unit, _] = powers_of_all(coordinates);
+    let mut least: Option<(usize, Feet)> = None;
     for (which, elements) in pairs.iter().enumerate() {
         feet(elements, unit, &mut |feet| {
             let is_less = least.as_ref().is_none_or(|(_, least)| {
@@ -169,21 +155,13 @@ impl Primitives {
             Self::VertexTriangle(corners) | Self::EdgeEdge(corners) => corners,
         }
     }
-
-    /// The largest power of two that all coordinates are multiples of, and the smallest that all are below.
-    fn powers(&self) -> [i32; 2] {
-        let coordinates = self.corners().as_flattened().iter();
-        let powers = coordinates.filter_map(|&x| powers(x));
-        let both = powers.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
-        both.unwrap_or([0; 2])
-    }
 }
 
 /// Shows `found` all feet of elements, in units of 2^unit: some distance each, the least among them.
-fn feet<const L: usize>(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet<L>)) {
+fn feet(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet)) {
     let [p, q, r, s] = elements
         .corners()
-        .map(|corner| corner.map(|x| Integer::<L>::new(x, unit)));
+        .map(|corner| corner.map(|x| Integer::new(x, unit)));
     match elements {
         Primitives::VertexTriangle(_) => {
             let [a, b, c] = [q, r, s];
@@ -217,13 +195,13 @@ fn feet<const L: usize>(elements: &Primitives, unit: i32, found: &mut dyn FnMut(
 }
 
 /// A point and a segment from a to b, which may be a point. `is_second`: the point is of the second element.
-fn of_end<const L: usize>(
-    p: &Vector<L>,
-    a: &Vector<L>,
-    b: &Vector<L>,
+fn of_end(
+    p: &Vector,
+    a: &Vector,
+    b: &Vector,
     along: impl Fn(f64) -> [f64; 2],
     is_second: bool,
-    found: &mut dyn FnMut(Feet<L>),
+    found: &mut dyn FnMut(Feet),
 ) {
     let (e, t) = (minus(b, a), minus(p, a));
     let (whole, part) = (dot(&e, &e), dot(&t, &e));
@@ -236,7 +214,8 @@ fn of_end<const L: usize>(
     } else {
         let area = cross(&t, &e);
         let way = std::array::from_fn(|i| t[i].times(&whole).minus(&e[i].times(&part)));
-        (dot(&area, &area), whole, way, fraction(&part, &whole))
+        let along = fraction(&part, &whole);
+        (dot(&area, &area), whole, way, along)
     };
     found(Feet {
         over,
@@ -252,15 +231,15 @@ fn of_end<const L: usize>(
 
 /// The insides of a face and a point, or of two edges: with a common normal, and how far along times its square; if each is within 0
 /// and the whole, and of a triangle their sum too.
-fn of_insides<const L: usize>(
-    n: &Vector<L>,
-    t: &Vector<L>,
-    along: [Integer<L>; 2],
+fn of_insides(
+    n: &Vector,
+    t: &Vector,
+    along: [Integer; 2],
     is_triangle: bool,
-    found: &mut dyn FnMut(Feet<L>),
+    found: &mut dyn FnMut(Feet),
 ) {
     let whole = dot(n, n);
-    let is_inside = |x: &Integer<L>| x.sign() >= 0 && x.is_at_most(&whole);
+    let is_inside = |x: &Integer| x.sign() >= 0 && x.is_at_most(&whole);
     let [p, q] = &along;
     if whole.is_zero()
         || !is_inside(p)
@@ -273,39 +252,39 @@ fn of_insides<const L: usize>(
     found(Feet {
         over: height.times(&height),
         way: if height.sign() < 0 {
-            n.map(Integer::negated)
+            n.clone().map(Integer::negated)
         } else {
-            *n
+            n.clone()
         },
         along: [fraction(p, &whole), fraction(q, &whole)],
         under: whole,
     });
 }
 
-fn minus<const L: usize>(p: &Vector<L>, q: &Vector<L>) -> Vector<L> {
+fn minus(p: &Vector, q: &Vector) -> Vector {
     std::array::from_fn(|i| p[i].minus(&q[i]))
 }
 
-fn cross<const L: usize>(p: &Vector<L>, q: &Vector<L>) -> Vector<L> {
+fn cross(p: &Vector, q: &Vector) -> Vector {
     std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         p[j].times(&q[k]).minus(&p[k].times(&q[j]))
     })
 }
 
-fn dot<const L: usize>(p: &Vector<L>, q: &Vector<L>) -> Integer<L> {
+fn dot(p: &Vector, q: &Vector) -> Integer {
     let [x, y, z] = std::array::from_fn(|i| p[i].times(&q[i]));
     x.plus(&y).plus(&z)
 }
 
 /// A quotient of integers, of which the second is positive: a number from 1/2 to 2, or zero, and an exponent.
-fn quotient<const L: usize>(over: &Integer<L>, under: &Integer<L>) -> (f64, i32) {
+fn quotient(over: &Integer, under: &Integer) -> (f64, i32) {
     let ((m, e), (n, f)) = (over.approximately(), under.approximately());
     (m / n, e - f)
 }
 
 /// A quotient from 0 to 1.
-fn fraction<const L: usize>(over: &Integer<L>, under: &Integer<L>) -> f64 {
+fn fraction(over: &Integer, under: &Integer) -> f64 {
     let (m, e) = quotient(over, under);
     scaled(m, e).min(1.0)
 }
@@ -322,8 +301,8 @@ fn scaled(m: f64, e: i32) -> f64 {
 }
 
 /// The unit vector of a way, or zero.
-fn unit_vector<const L: usize>(way: &Vector<L>) -> Point {
-    let parts = way.map(|x| x.approximately());
+fn unit_vector(way: &Vector) -> Point {
+    let parts = way.each_ref().map(|x| x.approximately());
     let exponents = parts.iter().filter(|(m, _)| *m != 0.0).map(|&(_, e)| e);
     let Some(largest) = exponents.max() else {
         return [0.0; 3];

@@ -4,10 +4,9 @@
 //! the inside of the other triangle. It is computed in plain arithmetic first, and how far the points that were found are apart says
 //! how good they are; where that is too far, as for slivers, once more in integers.
 
-use super::integer::{ENOUGH, FEW, FEW_BITS, Integer};
+use super::super::integer::{Integer, powers_of_all};
 use super::{
     Point, Primitives, are_within_distance, closest, closest_of, cross, dot, fraction, minus,
-    powers,
 };
 use crate::geometry::{
     ELEMENT_PAIRS, FIRST_OF_EDGES, Real, barycentric, four_corners, is_swapped, on_edge,
@@ -177,15 +176,8 @@ pub(crate) fn point_in_common(a: &Triangle, b: &Triangle) -> [[f64; 3]; 2] {
     for (is_second, edge, [p, q], other) in edges_and_triangles(a, b) {
         if triangles_intersect(&[p, q, q], other, &mut Exact) {
             let all = [p, q, other[0], other[1], other[2]];
-            let coordinates = all.as_flattened().iter();
-            let of_all = coordinates.filter_map(|&x| powers(x));
-            let of_all = of_all.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
-            let [unit, end] = of_all.unwrap_or([0; 2]);
-            let [t, u, v] = if end - unit <= FEW_BITS {
-                exact_crossing::<FEW>(&all, unit)
-            } else {
-                exact_crossing::<ENOUGH>(&all, unit)
-            };
+            let [unit, _] = powers_of_all(all.as_flattened());
+            let [t, u, v] = exact_crossing(&all, unit);
             return points(is_second, edge, t, [u, v]);
         }
     }
@@ -198,8 +190,8 @@ pub(crate) fn point_in_common(a: &Triangle, b: &Triangle) -> [[f64; 3]; 2] {
 ///
 /// With n normal to the triangle, the point is at the part t = h / w of the way, where h = n.(c0 - p) and w = n.(q - p). Times w it is
 /// x = w (p - c0) + h (q - p) from the first corner, and u = (x x f).n / (w n.n): 7 (b + 1) + 7 bits for coordinates of b.
-fn exact_crossing<const L: usize>(all: &[Point; 5], unit: i32) -> [f64; 3] {
-    let [p, q, c0, c1, c2] = all.map(|corner| corner.map(|x| Integer::<L>::new(x, unit)));
+fn exact_crossing(all: &[Point; 5], unit: i32) -> [f64; 3] {
+    let [p, q, c0, c1, c2] = all.map(|corner| corner.map(|x| Integer::new(x, unit)));
     let (e, f) = (minus(&c1, &c0), minus(&c2, &c0));
     let (from, way) = (minus(&p, &c0), minus(&q, &p));
     let n = cross(&e, &f);

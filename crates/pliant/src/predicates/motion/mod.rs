@@ -1,0 +1,483 @@
+//! Whether and when two elements first meet that move during a step: a vertex and a triangle, or two edges. Exact.
+//!
+//! Corners move on straight lines, from where they are at time 0 to where they are at time 1. The elements meet where the origin is a
+//! difference of their points; these differences are a polygon Q with corners q_i that are affine in t: a triangle (its corners less the vertex), or a parallelogram
+//! (an end of the one edge less an end of the other, in order around). Of a polygon in one plane with the origin the question is planar, and has an answer by signs
+//! alone, for degenerate ones too (`holds_origin`):
+//!
+//! ```text
+//! the origin is in Q   if and only if   det(q_0, q_1, q_2) = 0,
+//!                                       on no axis all q_i are beyond the origin on one side,
+//!                                       and on no axis two of the q_i x q_(i+1) have opposite signs
+//! ```
+//!
+//! Proof of the last two for a plane through the origin. Let the q_i x q_(i+1) be l_i n. If Q has area, its normal is not zero on some axis, on which these have
+//! the signs of the l_i or all the opposite; the origin is in a convex polygon if and only if the l_i have no opposite signs. (And if it is in it, all q_i are on one side on no axis.)
+//! If Q is a segment or a point whose line or direction does not go through the origin, the l_i add up to zero, for they are what Q's area is seen from there: either
+//! two have opposite signs, or all are zero, and Q is a point. If all q_i are on one line with the origin, it is in their hull if and only if they are not all beyond it on one
+//! side; which an axis shows that is not normal to the line.
+//!
+//! The determinant D is a polynomial in t of degree 3, the other signs are those of polynomials of degree 2 and 1. If D is not zero, the elements
+//! meet at those of its roots at which the polygon holds the origin: at most three questions at algebraic numbers (`root`). If D is zero for all t, the answer
+//! changes only where one of the other polynomials has a root, and is that of a closed set: the first time is 0 or one of these. All is
+//! computed in integers: no tolerance, no search without end. Tens of microseconds a pair; for the few that floating point leaves undecided.
+//!
+//! What is told of a time is a *cell* ([`Contact::cell`]): neighbours of a grid around it. So what is told depends on the exact time and
+//! on the width of the grid alone, not on the way in which it was found.
+
+mod certain;
+mod polynomial;
+mod root;
+
+use super::integer::{Integer, powers_of_all};
+use certain::{Certain, certain};
+use polynomial::Polynomial;
+use root::{Root, visit_roots};
+use std::cmp::Ordering;
+use std::ops::ControlFlow;
+
+type Point = [f64; 3];
+
+/// Two elements that move: their corners at the start and at the end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moving {
+    /// Whether they are two edges, by the ends of either; else they are a vertex and the corners of a triangle.
+    pub(crate) are_edges: bool,
+    pub(crate) corners: [[Point; 4]; 2],
+}
+
+/// When two elements first meet.
+#[derive(Clone, Debug)]
+pub(crate) enum Contact {
+    AtStart,
+    Later(Later),
+}
+
+/// A time after the start.
+#[derive(Clone, Debug)]
+pub(crate) struct Later(Root);
+
+/// A polynomial for each axis.
+type Vector = [Polynomial; 3];
+
+/// The difference of two elements: a polygon of three or four corners that move.
+struct Polygon {
+    corners: [Vector; 4],
+    count: usize,
+}
+
+/// How a pair was decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Decided {
+    InFloatingPoint,
+    InIntegers,
+}
+
+/// The cell of a grid in which two elements first meet, if they do in [0, 1]; and how that was decided.
+#[inline]
+pub(crate) fn impact(moving: &Moving, grid: Grid) -> (Option<[f64; 2]>, Decided) {
+    match certain(moving, grid) {
+        Certain::Never => (None, Decided::InFloatingPoint),
+        Certain::Within(cell) => (Some(cell), Decided::InFloatingPoint),
+        Certain::Nothing => {
+            let cell = first_contact(moving).map(|contact| contact.cell(grid));
+            (cell, Decided::InIntegers)
+        }
+    }
+}
+
+/// When they first meet, if they do in [0, 1].
+#[cold]
+pub(crate) fn first_contact(moving: &Moving) -> Option<Contact> {
+    let polygon = Polygon::new(moving);
+    let determinant = polygon.determinant();
+    let at_zero = |polynomial: &Polynomial| polynomial.sign_at_zero();
+    if determinant.sign_at_zero() == 0 && polygon.holds_origin(&at_zero) {
+        return Some(Contact::AtStart);
+    }
+    let mut first = None;
+    if determinant.is_zero() {
+        polygon.visit_polynomials(&mut |polynomial| polygon.find_first(polynomial, &mut first));
+    } else {
+        polygon.find_first(&determinant, &mut first);
+    }
+    first.map(|root| Contact::Later(Later(root)))
+}
+
+impl Polygon {
+    fn new(moving: &Moving) -> Self {
+        let [unit, _] = powers_of_all(moving.corners.as_flattened().as_flattened());
+        let integers = moving
+            .corners
+            .map(|corners| corners.map(|corner| corner.map(|x| Integer::new(x, unit))));
+        let [start, end] = &integers;
+        let difference = |p: usize, q: usize| -> Vector {
+            std::array::from_fn(|axis| {
+                let [start, end] = [start, end].map(|it| it[p][axis].minus(&it[q][axis]));
+                Polynomial::affine(start, &end)
+            })
+        };
+        if moving.are_edges {
+            Self {
+                corners: [
+                    difference(0, 2),
+                    difference(1, 2),
+                    difference(1, 3),
+                    difference(0, 3),
+                ],
+                count: 4,
+            }
+        } else {
+            Self {
+                corners: [
+                    difference(1, 0),
+                    difference(2, 0),
+                    difference(3, 0),
+                    [Polynomial::ZERO; 3],
+                ],
+                count: 3,
+            }
+        }
+    }
+
+    fn corners(&self) -> &[Vector] {
+        &self.corners[..self.count]
+    }
+
+    /// Of corner i x corner i + 1, on an axis.
+    fn cross(&self, i: usize, axis: usize) -> Polynomial {
+        let [p, q] = [&self.corners[i], &self.corners[(i + 1) % self.count]];
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+        p[j].times(&q[k]).minus(&p[k].times(&q[j]))
+    }
+
+    fn determinant(&self) -> Polynomial {
+        let mut sum = Polynomial::ZERO;
+        for axis in 0..3 {
+            sum = sum.plus(&self.cross(0, axis).times(&self.corners[2][axis]));
+        }
+        sum
+    }
+
+    /// Whether the polygon holds the origin, by signs at a time at which the two are in one plane.
+    fn holds_origin(&self, sign: &dyn Fn(&Polynomial) -> i8) -> bool {
+        (0..3).all(|axis| {
+            let mut sides = self.corners().iter().map(|corner| sign(&corner[axis]));
+            let first = sides.next().unwrap_or(0);
+            first == 0 || sides.any(|side| side != first)
+        }) && (0..3).all(|axis| {
+            let [mut is_any_positive, mut is_any_negative] = [false; 2];
+            for i in 0..self.count {
+                let turn = sign(&self.cross(i, axis));
+                is_any_positive |= turn > 0;
+                is_any_negative |= turn < 0;
+                if is_any_positive && is_any_negative {
+                    return false;
+                }
+            }
+            true
+        })
+    }
+
+    /// Makes `first` the first root of a polynomial at which the polygon holds the origin, if that is earlier.
+    fn find_first(&self, polynomial: &Polynomial, first: &mut Option<Root>) {
+        let _ = visit_roots(polynomial, &mut |mut root| {
+            root.narrow();
+            let is_earlier = first
+                .as_ref()
+                .is_none_or(|first| root.compare(first) == Ordering::Less);
+            if is_earlier && !self.holds_origin(&|polynomial| root.sign_of(polynomial)) {
+                return ControlFlow::Continue(());
+            }
+            // Those after it are later.
+            if is_earlier {
+                *first = Some(root);
+            }
+            ControlFlow::Break(())
+        });
+    }
+
+    /// Shows all whose signs decide a planar question.
+    fn visit_polynomials(&self, show: &mut dyn FnMut(&Polynomial)) {
+        for i in 0..self.count {
+            for axis in 0..3 {
+                show(&self.corners[i][axis]);
+                show(&self.cross(i, axis));
+            }
+        }
+    }
+}
+
+/// The numbers that are told of times: multiples of a power of two up to 1, or all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Grid {
+    /// The power of two; 0 for all numbers.
+    spacing: f64,
+}
+
+impl Grid {
+    /// The coarsest with cells no wider than `width`, which is at least 0.
+    pub(crate) fn new(width: f64) -> Self {
+        Self {
+            spacing: if width >= 1.0 {
+                1.0
+            } else {
+                // The power of two alone; of subnormal numbers none.
+                f64::from_bits(width.to_bits() & 0x7ff << 52)
+            },
+        }
+    }
+
+    /// The cell or cells that a part of the step is in.
+    fn cell_of(self, low: f64, high: f64) -> [f64; 2] {
+        [self.down(low), self.up(high)]
+    }
+
+    /// Whether there is no other number of the grid between these two of it.
+    fn is_cell(self, [low, high]: [f64; 2]) -> bool {
+        if self.spacing == 0.0 {
+            high <= low.next_up()
+        } else {
+            high - low <= self.spacing
+        }
+    }
+
+    /// The largest of them that is at most `t`, from 0 to 1.
+    fn down(self, t: f64) -> f64 {
+        if self.spacing == 0.0 {
+            return t;
+        }
+        // A quotient by a power of two is exact, and so is its product.
+        (t / self.spacing).floor() * self.spacing
+    }
+
+    /// The least of them that is at least `t`.
+    fn up(self, t: f64) -> f64 {
+        if self.spacing == 0.0 {
+            return t;
+        }
+        (t / self.spacing).ceil() * self.spacing
+    }
+}
+
+impl Contact {
+    /// The numbers of a grid next to the time: the largest before it, and the least that is not before it. Of time 0 both are 0.
+    pub(crate) fn cell(&self, grid: Grid) -> [f64; 2] {
+        match self {
+            Self::AtStart => [0.0; 2],
+            Self::Later(later) => later.cell(grid),
+        }
+    }
+
+    /// Which time is earlier.
+    pub(crate) fn compare(&self, other: &Self) -> Ordering {
+        match (self, other) {
+            (Self::AtStart, Self::AtStart) => Ordering::Equal,
+            (Self::AtStart, Self::Later(_)) => Ordering::Less,
+            (Self::Later(_), Self::AtStart) => Ordering::Greater,
+            (Self::Later(Later(a)), Self::Later(Later(b))) => a.compare(b),
+        }
+    }
+}
+
+impl Later {
+    fn cell(&self, grid: Grid) -> [f64; 2] {
+        let Self(root) = self;
+        let [low, high] = root.about();
+        // Perhaps the interval of the root is in one cell.
+        let [mut low, mut high] = [grid.down(low), grid.up(high).min(1.0)];
+        if low > 0.0 && root.is_at_most(low) {
+            low = 0.0;
+        }
+        if !root.is_at_most(high) {
+            high = 1.0;
+        }
+        // Positive numbers are in the order of their bits. The root is in (low, high].
+        loop {
+            let [a, b] = [low.to_bits(), high.to_bits()];
+            let middle = f64::from_bits(a + (b - a) / 2);
+            let [below, above] = [grid.down(middle), grid.up(middle)];
+            // The numbers of the grid that are next to the middle; one of them at least is within, or none is.
+            let within = |x: f64| x > low && x < high;
+            let at = if within(below) {
+                below
+            } else if within(above) {
+                above
+            } else {
+                return [low, high];
+            };
+            if root.is_at_most(at) {
+                high = at;
+            } else {
+                low = at;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vertex_triangle(p: [Point; 2], a: [Point; 2], b: [Point; 2], c: [Point; 2]) -> Moving {
+        Moving {
+            are_edges: false,
+            corners: [0, 1].map(|at| [p[at], a[at], b[at], c[at]]),
+        }
+    }
+
+    fn cell(moving: &Moving, width: f64) -> Option<[f64; 2]> {
+        first_contact(moving).map(|contact| contact.cell(Grid::new(width)))
+    }
+
+    #[test]
+    fn floating_point_is_certain_of_what_is_so() {
+        let mut random = pliant_oracle::Random::new(7);
+        let [mut never, mut within, mut total] = [0; 3];
+        let mut unit = || (random.bits() >> 11) as f64 / f64::powi(2.0, 53);
+        for round in 0..20_000 {
+            let scale = [1.0, 0.2, 3.0][round % 3];
+            let moving = Moving {
+                are_edges: round % 2 == 0,
+                corners: [0, 1].map(|_| [0; 4].map(|_| [0; 3].map(|_| scale * unit()))),
+            };
+            let grid = Grid::new([1e-6, 1.0, 0.01, 0.0][round % 4]);
+            let exact = first_contact(&moving).map(|contact| contact.cell(grid));
+            total += 1;
+            match certain(&moving, grid) {
+                Certain::Never => {
+                    never += 1;
+                    assert_eq!(exact, None, "{moving:?}");
+                }
+                Certain::Within(cell) => {
+                    within += 1;
+                    assert_eq!(exact, Some(cell), "{moving:?}");
+                }
+                Certain::Nothing => {}
+            }
+        }
+        println!("{never} {within} of {total}");
+        assert!(never > total / 2 && within > total / 20);
+    }
+
+    const A: [f64; 3] = [0.0, 0.0, 0.0];
+    const B: [f64; 3] = [4.0, 0.0, 0.0];
+    const C: [f64; 3] = [0.0, 4.0, 0.0];
+
+    #[test]
+    fn a_vertex_falls_on_a_triangle() {
+        let falls = |x: f64, y: f64, from: f64, to: f64| {
+            vertex_triangle([[x, y, from], [x, y, to]], [A; 2], [B; 2], [C; 2])
+        };
+        assert_eq!(
+            cell(&falls(1.0, 1.0, 1.0, -1.0), 0.0),
+            Some([0.5f64.next_down(), 0.5])
+        );
+        assert_eq!(cell(&falls(1.0, 1.0, 1.0, -1.0), 0.25), Some([0.25, 0.5]));
+        let [low, high] = cell(&falls(1.0, 1.0, 1.0, -2.0), 0.0).unwrap();
+        // The number next to a third is below it.
+        assert_eq!([low, high], [1.0 / 3.0, (1.0f64 / 3.0).next_up()]);
+        let [low, high] = cell(&falls(1.0, 1.0, 1.0, -2.0), 1e-6).unwrap();
+        assert!(low < 1.0 / 3.0 && high > 1.0 / 3.0 && high - low <= 1e-6);
+        // On an edge, at a corner, and one step beyond.
+        assert_eq!(cell(&falls(2.0, 2.0, 1.0, 0.0), 1.0), Some([0.0, 1.0]));
+        assert_eq!(
+            cell(&falls(4.0, 0.0, 1.0, 0.0), 0.0),
+            Some([1f64.next_down(), 1.0])
+        );
+        assert_eq!(cell(&falls(2.0, 2f64.next_up(), 1.0, -1.0), 0.0), None);
+        assert_eq!(cell(&falls(1.0, 1.0, 1.0, 5e-324), 0.0), None);
+        assert_eq!(cell(&falls(1.0, 1.0, 0.0, 1.0), 1e-6), Some([0.0; 2]));
+        // Touches at once, so to say.
+        assert_eq!(
+            cell(&falls(1.0, 1.0, 5e-324, -1.0), 1e-6),
+            Some([0.0, f64::powi(0.5, 20)])
+        );
+        let [low, high] = cell(&falls(1.0, 1.0, 5e-324, -1.0), 0.0).unwrap();
+        assert_eq!([low, high], [0.0, 5e-324]);
+    }
+
+    #[test]
+    fn coplanar_motion() {
+        // In the plane of the triangle, from outside, through corner and edge.
+        let slides =
+            |from: [f64; 3], to: [f64; 3]| vertex_triangle([from, to], [A; 2], [B; 2], [C; 2]);
+        assert_eq!(
+            cell(&slides([-1.0, 1.0, 0.0], [1.0, 1.0, 0.0]), 0.0),
+            Some([0.5f64.next_down(), 0.5])
+        );
+        assert_eq!(
+            cell(&slides([-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]), 0.0),
+            Some([0.5f64.next_down(), 0.5])
+        );
+        assert_eq!(
+            cell(&slides([8.0, -4.0, 0.0], [0.0, 4.0, 0.0]), 0.0),
+            Some([0.5f64.next_down(), 0.5])
+        );
+        assert_eq!(cell(&slides([8.0, -3.0, 0.0], [0.0, 5.0, 0.0]), 0.0), None);
+        assert_eq!(cell(&slides([3.0, 3.0, 0.0], [5.0, 5.0, 0.0]), 0.0), None);
+    }
+
+    #[test]
+    fn edges_cross_touch_and_slide() {
+        let edges = |a: [[Point; 2]; 2], b: [[Point; 2]; 2]| Moving {
+            are_edges: true,
+            corners: [0, 1].map(|at| [a[at][0], a[at][1], b[at][0], b[at][1]]),
+        };
+        let x = |from: f64, to: f64, z: f64| [[from, 0.0, z], [to, 0.0, z]];
+        let y = |from: f64, to: f64| [[0.0, from, 0.0], [0.0, to, 0.0]];
+        let half = Some([0.5f64.next_down(), 0.5]);
+        assert_eq!(
+            cell(
+                &edges([x(-1.0, 1.0, 1.0), x(-1.0, 1.0, -1.0)], [y(-1.0, 1.0); 2]),
+                0.0
+            ),
+            half
+        );
+        // Ends meet.
+        assert_eq!(
+            cell(
+                &edges([x(0.0, 1.0, 1.0), x(0.0, 1.0, -1.0)], [y(0.0, 1.0); 2]),
+                0.0
+            ),
+            half
+        );
+        assert_eq!(
+            cell(
+                &edges([x(1.0, 2.0, 1.0), x(1.0, 2.0, -1.0)], [y(0.0, 1.0); 2]),
+                0.0
+            ),
+            None
+        );
+        // Collinear edges slide into each other; parallel ones fall on each other.
+        assert_eq!(
+            cell(
+                &edges([x(3.0, 4.0, 0.0), x(-1.0, 0.0, 0.0)], [x(0.0, 1.0, 0.0); 2]),
+                0.0
+            ),
+            half
+        );
+        assert_eq!(
+            cell(
+                &edges([x(0.5, 4.0, 1.0), x(0.5, 4.0, -1.0)], [x(0.0, 1.0, 0.0); 2]),
+                0.0
+            ),
+            half
+        );
+        assert_eq!(
+            cell(
+                &edges([x(1.5, 4.0, 1.0), x(1.5, 4.0, -1.0)], [x(0.0, 1.0, 0.0); 2]),
+                0.0
+            ),
+            None
+        );
+        // Points.
+        assert_eq!(
+            cell(
+                &edges([x(0.5, 0.5, 1.0), x(0.5, 0.5, -1.0)], [x(0.5, 0.5, 0.0); 2]),
+                0.0
+            ),
+            half
+        );
+    }
+}

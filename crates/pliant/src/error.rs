@@ -93,6 +93,27 @@ pub enum ErrorKind {
         /// The distance.
         distance: f64,
     },
+    /// Corners at the start and at the end of motions are of different numbers of pairs.
+    DifferentCounts {
+        /// Pairs at the start.
+        start: usize,
+        /// Pairs at the end.
+        end: usize,
+    },
+    /// A coordinate of a pair of elements is NaN, infinite, or larger than `f32::MAX` in magnitude.
+    BadCorner {
+        /// The pair, counted from 0.
+        pair: usize,
+        /// Its corner, from 0 to 3.
+        corner: usize,
+        /// Where it is.
+        position: [f64; 3],
+    },
+    /// A width of intervals of times is negative, infinite or NaN.
+    BadWidth {
+        /// The width.
+        width: f64,
+    },
     /// A time within a step is not from 0 to 1.
     BadTime {
         /// The time.
@@ -186,6 +207,23 @@ impl fmt::Display for ErrorKind {
             Self::BadDistance { distance } => write!(
                 f,
                 "the distance is {distance}; give a finite number that is at least 0"
+            ),
+            Self::DifferentCounts { start, end } => write!(
+                f,
+                "{start} pairs at the start and {end} at the end; give as many"
+            ),
+            Self::BadCorner {
+                pair,
+                corner,
+                position,
+            } => write!(
+                f,
+                "corner {corner} of pair {pair} is at {position:?}; coordinates must be finite and at most {:e} in magnitude",
+                f32::MAX
+            ),
+            Self::BadWidth { width } => write!(
+                f,
+                "the width is {width}; give a finite number that is at least 0"
             ),
             Self::BadTime { time } => {
                 write!(f, "the time is {time}; within a step it is from 0 to 1")

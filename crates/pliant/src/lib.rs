@@ -100,9 +100,11 @@ mod geometry;
 mod held;
 mod hits;
 mod ids;
+mod impacts;
 mod kernels;
 mod mesh;
 mod options;
+mod pair_impacts;
 mod predicates;
 mod queries;
 pub mod reference;
@@ -118,12 +120,14 @@ pub use close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, Closes
 pub use error::{Error, ErrorKind};
 pub use hits::{EdgeEdge, Pair, VertexTriangle};
 pub use ids::BodyId;
+pub use impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 #[doc(hidden)]
 pub use kernels::Instructions;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
+pub use pair_impacts::{edge_edge_impacts, vertex_triangle_impacts};
 pub use predicates::is_degenerate;
 pub use statistics::Statistics;
-pub use world::{Interruptible, NodeBox, Query, Scalar, Selection, TreeShape, World};
+pub use world::{Interruptible, NodeBox, Query, Scalar, Selection, Timed, TreeShape, World};
 
 /// The example in the README is compiled and run: in the repository, for a package has it elsewhere.
 #[cfg(doctest)]

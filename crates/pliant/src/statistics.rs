@@ -17,6 +17,8 @@ pub struct Statistics {
     /// Pairs of triangles with overlapping boxes, which were therefore decided, or near enough to be measured. Within a body, without those
     /// that share a vertex.
     pub candidate_pairs: u64,
+    /// Of moving elements, those that separating directions in single precision left open, so that they were decided one by one.
+    pub scalar_decisions: u64,
     /// Candidates of which floating point left a sign open, so that exact arithmetic was needed.
     pub exact_decisions: u64,
     /// Pairs found.
@@ -32,6 +34,7 @@ impl std::ops::AddAssign for Statistics {
             triangle_boxes,
             node_pairs,
             candidate_pairs,
+            scalar_decisions,
             exact_decisions,
             pairs,
         } = other;
@@ -41,6 +44,7 @@ impl std::ops::AddAssign for Statistics {
         self.triangle_boxes += triangle_boxes;
         self.node_pairs += node_pairs;
         self.candidate_pairs += candidate_pairs;
+        self.scalar_decisions += scalar_decisions;
         self.exact_decisions += exact_decisions;
         self.pairs += pairs;
     }

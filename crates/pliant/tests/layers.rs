@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folder, or file of the crate's root, and what it may use.
-const LAYERS: [(&str, &[&str]); 21] = [
+const LAYERS: [(&str, &[&str]); 23] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -17,6 +17,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
     ("error", &["ids"]),
     ("hits", &["ids"]),
     ("close_pairs", &["hits"]),
+    ("impacts", &["hits"]),
     ("geometry", &["held", "ids"]),
     ("kernels", &["held", "ids", "geometry"]),
     ("mesh", &["held", "ids", "error", "threads"]),
@@ -51,6 +52,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
             "ids",
             "hits",
             "close_pairs",
+            "impacts",
             "statistics",
             "geometry",
             "kernels",
@@ -85,6 +87,7 @@ const LAYERS: [(&str, &[&str]); 21] = [
             "error",
             "hits",
             "close_pairs",
+            "impacts",
             "geometry",
             "kernels",
             "mesh",
@@ -102,11 +105,12 @@ const LAYERS: [(&str, &[&str]); 21] = [
         "reference",
         &["error", "geometry", "mesh", "predicates", "world"],
     ),
+    ("pair_impacts", &["error", "kernels", "predicates", "world"]),
     ("lib", &[]),
 ];
 
 /// What the root exports under a name of its own, and where it is from.
-const EXPORTED: [(&str, &str); 23] = [
+const EXPORTED: [(&str, &str); 29] = [
     ("BodyId", "ids"),
     ("BroadPhase", "options"),
     ("CloseEdgeEdge", "close_pairs"),
@@ -114,8 +118,10 @@ const EXPORTED: [(&str, &str); 23] = [
     ("ClosestFeatures", "close_pairs"),
     ("Degree", "options"),
     ("EdgeEdge", "hits"),
+    ("EdgeEdgeImpact", "impacts"),
     ("Error", "error"),
     ("ErrorKind", "error"),
+    ("Impact", "impacts"),
     ("Instructions", "kernels"),
     ("NodeBox", "world"),
     ("Options", "options"),
@@ -125,11 +131,15 @@ const EXPORTED: [(&str, &str); 23] = [
     ("Scalar", "world"),
     ("Selection", "world"),
     ("Statistics", "statistics"),
+    ("Timed", "world"),
     ("TreeShape", "world"),
     ("Update", "options"),
     ("VertexTriangle", "hits"),
+    ("VertexTriangleImpact", "impacts"),
     ("World", "world"),
+    ("edge_edge_impacts", "pair_impacts"),
     ("kernels", "kernels"),
+    ("vertex_triangle_impacts", "pair_impacts"),
 ];
 
 fn source() -> PathBuf {

@@ -29,18 +29,23 @@ impl<S: Real> Points<S> {
 
     /// Points in the order in which they come: what `kernels::gather` must give.
     pub(crate) fn of(points: impl ExactSizeIterator<Item = [S; 3]>) -> Self {
-        let points: Vec<_> = points.map(|[x, y, z]| [x, y, z, z]).collect();
+        let mut all = Self::with_len(0);
+        all.refill(points);
+        all
+    }
+
+    /// As many points as come, in memory that is there.
+    pub(crate) fn refill(&mut self, points: impl Iterator<Item = [S; 3]>) {
         let padded = |[x, y, z]: [S; 3]| [x, y, z, z];
-        let bounds = points.chunks(IN_A_ROW).map(|row| {
+        self.points.clear();
+        self.points.extend(points.map(padded));
+        self.bounds.clear();
+        self.bounds.extend(self.points.chunks(IN_A_ROW).map(|row| {
             let mut bounds = Bounds::EMPTY;
             row.iter()
                 .for_each(|&[x, y, z, _]| bounds.include([x, y, z]));
             [padded(bounds.lo), padded(bounds.hi)]
-        });
-        Self {
-            bounds: bounds.collect(),
-            points,
-        }
+        }));
     }
 
     #[inline]

@@ -30,6 +30,10 @@ pub(crate) trait Real:
     /// Whether boxes are exact, so that an origin has no use.
     const BOXES_ARE_EXACT: bool;
 
+    /// What [`toward`](Self::toward) is off by, at most: this part of the larger end, and [`LEAST`](Self::LEAST).
+    const STEP: f64;
+    const LEAST: f64;
+
     /// The same value; exact.
     fn to_f64(self) -> f64;
     /// Finite and at most `f32::MAX` in magnitude.
@@ -52,6 +56,9 @@ impl Real for f32 {
     // The smallest difference of two f32 is 2^-149; the product of three of them is far inside f64.
     const UNDERFLOW: f64 = 0.0;
     const BOXES_ARE_EXACT: bool = true;
+    // Rounded to f32, after roundings that are 2^29 times smaller; to zero, if subnormal numbers are flushed.
+    const STEP: f64 = f64::from_bits((1023 - 23) << 52);
+    const LEAST: f64 = f64::from_bits((1023 - 125) << 52);
 
     #[inline]
     fn to_f64(self) -> f64 {
@@ -86,6 +93,9 @@ impl Real for f64 {
     // 2^-1018, sixteen times the smallest normal number.
     const UNDERFLOW: f64 = f64::from_bits(5 << 52);
     const BOXES_ARE_EXACT: bool = false;
+    // A difference of twice the larger end, a product with it and a sum, each rounded to 2^-53 of itself: 2^-53 times 5.
+    const STEP: f64 = f64::from_bits((1023 - 50) << 52);
+    const LEAST: f64 = f64::from_bits((1023 - 1019) << 52);
 
     #[inline]
     fn to_f64(self) -> f64 {

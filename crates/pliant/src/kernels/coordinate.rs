@@ -33,11 +33,17 @@ pub(crate) trait Coordinate: Real {
 
     /// Differences of points as lanes, each coordinate rounded to the nearest f32 (of f64 to the nearest f64 before): for every
     /// (a, b) corner a minus corner b.
-    fn differences<I: Simd, const D: usize>(
+    fn differences<I: Simd, C: CornersOfEight<Self>, const D: usize>(
         i: I,
-        corners: &Corners<Self>,
+        corners: &C,
         of: [(usize, usize); D],
     ) -> [Vectors<I>; D];
+}
+
+/// The corners of eight things, up to eight of each.
+pub(crate) trait CornersOfEight<S> {
+    const COUNT: usize;
+    fn get(&self, corner: usize, lane: usize) -> &[S; 4];
 }
 
 /// The corners of eight pairs of triangles A and B; of A 0, 1 and 2, of B 3, 4 and 5.
@@ -47,7 +53,9 @@ pub(crate) struct Corners<'p, S> {
     pub(crate) vertices: [[TreeVertex; 6]; 8],
 }
 
-impl<S> Corners<'_, S> {
+impl<S> CornersOfEight<S> for Corners<'_, S> {
+    const COUNT: usize = 6;
+
     #[inline(always)]
     fn get(&self, corner: usize, lane: usize) -> &[S; 4] {
         self.positions[corner / 3].padded(self.vertices[lane][corner])
@@ -84,15 +92,15 @@ impl Coordinate for f32 {
     }
 
     #[inline(always)]
-    fn differences<I: Simd, const D: usize>(
+    fn differences<I: Simd, C: CornersOfEight<Self>, const D: usize>(
         i: I,
-        corners: &Corners<Self>,
+        corners: &C,
         of: [(usize, usize); D],
     ) -> [Vectors<I>; D] {
-        // Lanes first, differences of lanes then: six turns instead of one for every difference.
+        // Lanes first, differences of lanes then: a turn for every corner instead of one for every difference.
         let zero = f32x8::splat(i, 0.0);
-        let mut points = [[zero; 3]; 6];
-        for corner in 0..6 {
+        let mut points = [[zero; 3]; 8];
+        for corner in 0..C::COUNT {
             let mut eight = [f32x4::splat(i, 0.0); 8];
             for lane in 0..8 {
                 eight[lane] = f32x4::load_array_ref(i, corners.get(corner, lane));
@@ -148,9 +156,9 @@ impl Coordinate for f64 {
     }
 
     #[inline(always)]
-    fn differences<I: Simd, const D: usize>(
+    fn differences<I: Simd, C: CornersOfEight<Self>, const D: usize>(
         i: I,
-        corners: &Corners<Self>,
+        corners: &C,
         of: [(usize, usize); D],
     ) -> [Vectors<I>; D] {
         // In f64, because an f32 may not hold the points.

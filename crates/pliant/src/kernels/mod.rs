@@ -11,6 +11,7 @@
 //! gather        positions into tree order, and the bounds of every few
 //! extent        boxes of points and of triangles
 //! boxes         boxes side by side, and which of them overlap
+//! apart         whether elements that move stay apart
 //! closest       where elements are closest, and between what their distance is
 //! gaps          boxes of vertices, edges and triangles, and which of them are near each other
 //! find          where a number is among eight
@@ -20,6 +21,7 @@
 //! quantized     boxes as bytes, and which of them are surely apart
 //! ```
 
+pub(crate) mod apart;
 mod boxes;
 mod buffer;
 pub(crate) mod closest;

@@ -2,12 +2,13 @@
 //!
 //! The update, the traversal, the sorting and what users call are the same for every kind. A kind says what is different: what its boxes
 //! are made of and which set of them it uses, what two leaves do to each other, its rule for neighbours in the mesh, and what a hit is.
-//! `intersections`, `candidates` and `close` are kinds. Another, `grown`, is for tests only and shows that nothing else knows the first.
+//! `intersections`, `candidates`, `close` and `impacts` are kinds. Another, `grown`, is for tests only and shows that nothing else knows the first.
 
 mod candidates;
 mod close;
 #[cfg(test)]
 pub(crate) mod grown;
+mod impacts;
 mod intersections;
 
 use crate::geometry::{Aabb, Points, Shape};
@@ -26,6 +27,7 @@ pub(crate) use close::{
     Close, CloseKind, Measurable, Measured, NearTriangles, NearestPair, close,
     closest_of_triangles, corners_of,
 };
+pub(crate) use impacts::{Impacts, MayMeet};
 pub(crate) use intersections::Intersections;
 
 /// Two triangles whose boxes overlap, of the first body and of the second.
@@ -50,6 +52,11 @@ pub(crate) trait Kind: Sync {
     const LEAVES: Leaves;
     /// Whether its boxes hold the end of a motion too.
     const HOLDS_MOTIONS: bool = false;
+
+    /// How far it looks along motions.
+    fn reach(&self) -> Reach {
+        Reach::End
+    }
 
     /// By how much its boxes are larger than those of the shape, on every side.
     fn grows_by(&self) -> f32 {
@@ -86,6 +93,7 @@ pub(crate) trait Kind: Sync {
         &self,
         _leaves: &LeafTest<Self::Scalar>,
         _pairs: &[[u32; 2]],
+        _buffers: &mut Self::Buffers,
         _hits: &mut Buffer<Self::TreeHit>,
         _statistics: &mut Statistics,
     ) {
@@ -105,6 +113,17 @@ pub(crate) trait Kind: Sync {
     ) {
         of_caller.extend(hits.iter().map(|&hit| self.to_caller(ids, hit)));
     }
+}
+
+/// How far a kind that holds motions looks along them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Reach {
+    /// To the end.
+    End,
+    /// Boxes hold the way up to this time, where the shape at it is rounded, which the kind allows for. What moves goes on to the end.
+    Until(f64),
+    /// To the shape at this time, rounded, as if the motion ended there.
+    To(f64),
 }
 
 /// What a kind is shown of leaves that overlap.
@@ -127,6 +146,8 @@ pub(crate) struct LeafTest<'q, S> {
     pub(crate) shapes: [&'q Shape<'q, S>; 2],
     /// Where vertices are at the end of a motion, for kinds that hold motions.
     pub(crate) ends: [Option<&'q Points<S>>; 2],
+    /// Where vertices are going.
+    pub(crate) motions: [Option<&'q Points<S>>; 2],
     /// For kinds that are shown runs.
     pub(crate) elements: [Option<NearElements<'q>>; 2],
     /// Whether it is one body with itself.

@@ -185,9 +185,13 @@ impl<K: Kind> LeafTests<K> {
             self.runs.extend(pairs.map(triangles));
             cursor.pair = end;
         }
-        context
-            .kind
-            .test_runs(leaf_test, &self.runs, &mut self.hits, &mut self.statistics);
+        context.kind.test_runs(
+            leaf_test,
+            &self.runs,
+            &mut self.buffers,
+            &mut self.hits,
+            &mut self.statistics,
+        );
         cursor
     }
 
@@ -267,6 +271,7 @@ where
         interrupt: context.interrupt,
         shapes: sides.map(|side| side.source.shape()),
         ends: sides.map(|side| side.source.end().map(|end| end.positions)),
+        motions: sides.map(|side| side.motion),
         elements: sides.map(|side| side.elements),
         itself: P::ITSELF,
     }

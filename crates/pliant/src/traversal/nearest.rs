@@ -99,7 +99,7 @@ pub(crate) fn nearest<const N: usize, B: BoxSource>(
 }
 
 /// Puts the pairs of children that are near enough onto the stack, the nearest last.
-fn push_children<const N: usize, B>(
+fn push_children<const N: usize, B: BoxSource>(
     refit: Refit,
     [a, b]: [&Side<'_, N, B>; 2],
     [node_a, node_b]: NodePair,
@@ -190,7 +190,7 @@ fn among_leaves<const N: usize, B: BoxSource>(
 }
 
 /// The triangles of two leaves whose boxes are near enough, the nearest first.
-fn near_triangles<const N: usize, B>(
+fn near_triangles<const N: usize, B: BoxSource>(
     refit: Refit,
     sides: [&Side<'_, N, B>; 2],
     leaves: [LeafId; 2],

@@ -55,7 +55,7 @@ impl<K: Kind> Default for Task<K> {
 
 /// Whether all boxes that the kind reads are known to be valid because they were completed at once, so that tasks need not wait for any,
 /// and pairs of leaves can be tested as soon as they are found.
-pub(super) fn are_free<const N: usize, K: Kind, B>(sides: [&Side<'_, N, B>; 2]) -> bool {
+pub(super) fn are_free<const N: usize, K: Kind, B: BoxSource>(sides: [&Side<'_, N, B>; 2]) -> bool {
     let is_complete = |side: &&Side<N, B>| {
         side.boxes.are_nodes_complete()
             && (K::LEAVES.elements().is_some() || side.boxes.are_leaves_complete())
@@ -173,7 +173,10 @@ impl<K: Kind> Task<K> {
     }
 
     /// Notes the wide nodes below the batch that are stale; whether there are any.
-    fn asks_for_stale<const N: usize, B>(&mut self, sides: [&Side<'_, N, B>; 2]) -> bool {
+    fn asks_for_stale<const N: usize, B: BoxSource>(
+        &mut self,
+        sides: [&Side<'_, N, B>; 2],
+    ) -> bool {
         for pair in &self.batch {
             for which in 0..2 {
                 let Side { tree, boxes, .. } = sides[which];

@@ -1,5 +1,6 @@
 //! What is descended: the trees of two bodies, or the tree of one against itself.
 
+use crate::geometry::Points;
 use crate::ids::BodyId;
 use crate::mesh::Order;
 use crate::queries::{CallerIds, NearElements};
@@ -7,12 +8,14 @@ use crate::tree::{BoxSet, BoxSource, Tree};
 use crate::update::Refitted;
 
 /// One body as the traversal sees it.
-pub(crate) struct Side<'t, const N: usize, B> {
+pub(crate) struct Side<'t, const N: usize, B: BoxSource> {
     pub(crate) body: BodyId,
     pub(crate) order: &'t Order,
     pub(crate) tree: &'t Tree<N>,
     pub(crate) boxes: &'t mut BoxSet<N>,
     pub(crate) source: B,
+    /// Where vertices are going, for kinds that hold motions.
+    pub(crate) motion: Option<&'t Points<B::Scalar>>,
     /// For kinds that are shown runs of triangles.
     pub(crate) elements: Option<NearElements<'t>>,
 }
@@ -52,7 +55,7 @@ pub(crate) trait TreePair<const N: usize>: Sync {
 }
 
 /// Two bodies, whose root boxes are valid and overlap.
-pub(crate) struct TwoTrees<'t, const N: usize, B> {
+pub(crate) struct TwoTrees<'t, const N: usize, B: BoxSource> {
     pub(crate) a: Side<'t, N, B>,
     pub(crate) b: Side<'t, N, B>,
 }
@@ -75,7 +78,7 @@ impl<const N: usize, B: BoxSource> TreePair<N> for TwoTrees<'_, N, B> {
 ///
 /// A pair of one node with itself stands for the pairs within it; it expands into its children with themselves and into
 /// the pairs of different children that overlap.
-pub(crate) struct OneTree<'t, const N: usize, B> {
+pub(crate) struct OneTree<'t, const N: usize, B: BoxSource> {
     pub(crate) side: Side<'t, N, B>,
 }
 

@@ -101,9 +101,14 @@ where
         }
         common.end(&interrupt)
     }
+}
 
+impl<K: Kind> Asked<K>
+where
+    K::Scalar: Coordinate,
+{
     /// All hits, those of two bodies after the other. Returns false if there are more than the request allows.
-    fn collect<const N: usize>(
+    pub(super) fn collect<const N: usize>(
         &mut self,
         kind: &K,
         common: &mut Common<N, K::Scalar>,
@@ -145,12 +150,29 @@ where
         common.end(interrupt)?;
         Ok(is_all)
     }
-}
 
-impl<K: Kind> Asked<K>
-where
-    K::Scalar: Coordinate,
-{
+    /// All hits, sorted by numbers that they have; for kinds whose hits are more than those.
+    pub(super) fn all_by<const N: usize>(
+        &mut self,
+        kind: &K,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+        numbers: impl Fn(&K::Hit) -> [u32; 4],
+    ) -> Result<&[K::Hit], Error> {
+        let interrupt = Interrupt::new(request.question);
+        let mut hits = std::mem::take(&mut self.hits);
+        hits.clear();
+        let is_all = self.collect(kind, common, request, &interrupt, &mut hits);
+        // Kept after an error too: what was reserved once need not be reserved again.
+        self.hits = hits;
+        if !is_all? {
+            let limit = request.most;
+            return Err(ErrorKind::TooManyHits { limit }.of_query());
+        }
+        self.hits.sort_unstable_by_key(numbers);
+        Ok(&self.hits)
+    }
+
     /// Shows every hit once, until the sink breaks.
     pub(super) fn visit<const N: usize>(
         &mut self,

@@ -9,7 +9,7 @@ use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{self, Elements, Order, Topology};
 use crate::options::{Options, Partition};
-use crate::queries::{Groups, Kind, NearBoxes, NearElements, Which};
+use crate::queries::{Groups, Kind, NearBoxes, NearElements, Reach, Which};
 use crate::threads::Executor;
 use crate::traversal::Side;
 use crate::tree::build::{Balanced, Connectivity, CutAt, InitialShape, Plan, plan};
@@ -44,15 +44,32 @@ pub(super) struct Body<const N: usize, S> {
     groups: Option<Box<VertexGroups>>,
 }
 
+/// Of so many triangles one is looked at to know how far vertices move.
+const SAMPLED: usize = 16;
+
 /// Where the vertices are going.
 struct Motion<S> {
     /// The shape at the end, if there is a motion; if not, memory for the next.
     end: Positions<S>,
     /// Of the vertices that triangles use.
     bounds: Bounds<S>,
-    /// Counts motions, from 1.
+    /// Counts motions, and shapes on the way, from 1.
+    epochs: u64,
+    /// The number of this one.
     epoch: u64,
     is_on: bool,
+    /// The shape on the way that was asked for last.
+    partway: Option<Partway<S>>,
+}
+
+/// The shape at some time of a motion, rounded.
+struct Partway<S> {
+    /// In tree order.
+    points: Points<S>,
+    /// Of which shape and which motion, and when.
+    of: (u64, u64, f64),
+    /// Its own number among motions.
+    epoch: u64,
 }
 
 /// Groups of the caller's vertices, and of all elements in tree order once these are known.
@@ -145,8 +162,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             mask: self.mask,
             loose: self.loose,
             motion: self.motion().map(|motion| {
+                let end = motion.end.in_callers_order(self.order.vertex_order());
                 Box::new(Motion {
-                    end: Positions::new(&motion.end.in_callers_order(self.order.vertex_order())),
+                    end: Positions::new(&end),
+                    partway: None,
                     ..*motion
                 })
             }),
@@ -189,6 +208,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.positions.forget_tree_order(self.order.vertex_order());
         if let Some(motion) = &mut self.motion {
             motion.end.forget_tree_order(self.order.vertex_order());
+            motion.partway = None;
         }
         self.elements = OnceLock::new();
         self.near_boxes = None;
@@ -208,11 +228,11 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.positions.len()
     }
 
-    /// Brings the shape into tree order, which everything that looks at it needs, and that at the end of a motion if that is looked at
-    /// too. Returns false if it was interrupted.
+    /// Brings the shape into tree order, which everything that looks at it needs, and what is looked at of a motion, if it is. Returns
+    /// false if it was interrupted.
     pub(super) fn bring_into_tree_order(
         &mut self,
-        with_motion: bool,
+        reach: Option<Reach>,
         instructions: Instructions,
         executor: Executor,
     ) -> bool {
@@ -221,12 +241,17 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             .positions
             .bring_into_tree_order(instructions, executor, order);
         let motion = self.motion.as_mut();
-        let motion = motion.filter(|motion| with_motion && motion.is_on);
-        is_in_order
-            && motion.is_none_or(|motion| {
-                let end = &mut motion.end;
-                end.bring_into_tree_order(instructions, executor, order)
-            })
+        let (Some(motion), Some(reach)) = (motion.filter(|motion| motion.is_on), reach) else {
+            return is_in_order;
+        };
+        let end = &mut motion.end;
+        if !is_in_order || !end.bring_into_tree_order(instructions, executor, order) {
+            return false;
+        }
+        if let Reach::Until(t) | Reach::To(t) = reach {
+            motion.make_partway(self.positions.in_tree_order(), self.epoch, t);
+        }
+        true
     }
 
     /// The motion, if there is one.
@@ -239,9 +264,9 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     pub(super) fn make_near_boxes(
         &mut self,
         which: Which,
+        reach: Option<Reach>,
         origin: Origin,
-        instructions: Instructions,
-        executor: Executor,
+        (instructions, executor): (Instructions, Executor),
     ) -> bool {
         if !self.know_elements(&|| executor.is_interrupted()) {
             return false;
@@ -253,10 +278,13 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             epoch: self.epoch,
         };
         let motion = self.motion.as_deref().filter(|motion| motion.is_on);
-        let end = motion.map(|motion| Shape {
-            positions: motion.end.in_tree_order(),
-            epoch: motion.epoch,
-            ..shape
+        let end = motion.zip(reach).map(|(motion, reach)| {
+            let (positions, epoch) = motion.held(reach);
+            Shape {
+                positions,
+                epoch,
+                ..shape
+            }
         });
         let source = Swept {
             from: shape,
@@ -320,6 +348,49 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                 elements.tree_vertex(&self.order, CallerVertex(vertex))
             });
         self.positions.in_tree_order().padded(vertex)
+    }
+
+    /// Where a vertex is at the end of the motion, or stays if there is none; the same of it.
+    #[inline]
+    pub(super) fn corner_at_end(&self, vertex: u32) -> &[S; 4] {
+        let Some(motion) = self.motion() else {
+            return self.corner(vertex);
+        };
+        let vertex = self
+            .known_elements()
+            .map_or(TreeVertex(vertex), |elements| {
+                elements.tree_vertex(&self.order, CallerVertex(vertex))
+            });
+        motion.end.in_tree_order().padded(vertex)
+    }
+
+    /// By how many lengths of an edge vertices move, on the mean of some of both; 0 if there is no motion.
+    pub(super) fn motion_in_edges(&self) -> f64 {
+        let Some(motion) = self.motion() else {
+            return 0.0;
+        };
+        let order = self.order.vertex_order();
+        let from = |vertex| self.positions.get(vertex, order);
+        let to = |vertex| motion.end.get(vertex, order);
+        let way = |p: [S; 3], q: [S; 3]| {
+            let along = |axis: usize| (p[axis].to_f64() - q[axis].to_f64()).abs();
+            along(0).max(along(1)).max(along(2))
+        };
+        let some = self.order.all_corners().iter().step_by(SAMPLED);
+        let (mut ways, mut sides) = (0.0, 0.0);
+        for &[a, b, _] in some {
+            ways += way(from(a), to(a));
+            sides += way(from(a), from(b));
+        }
+        if ways == 0.0 { 0.0 } else { ways / sides }
+    }
+
+    /// The largest magnitude of a coordinate, now or at the end of the motion.
+    pub(super) fn largest_coordinate(&self) -> f64 {
+        let motion = self.motion();
+        let bounds = motion.map_or(self.bounds, |motion| self.bounds.union(&motion.bounds));
+        let sides = bounds.lo.iter().chain(&bounds.hi);
+        sides.fold(0.0, |most, side| most.max(side.to_f64().abs()))
     }
 
     /// Gives every vertex a group; those of one group do not meet, unless it is 0.
@@ -388,10 +459,17 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         };
         let motion = self.motion.as_deref();
         let motion = motion.filter(|motion| K::HOLDS_MOTIONS && motion.is_on);
-        let end = motion.map(|motion| Shape {
-            positions: motion.end.in_tree_order(),
-            epoch: motion.epoch,
-            ..shape
+        let end = motion.map(|motion| {
+            let (positions, epoch) = motion.held(kind.reach());
+            Shape {
+                positions,
+                epoch,
+                ..shape
+            }
+        });
+        let going = motion.map(|motion| match kind.reach() {
+            Reach::End | Reach::Until(_) => motion.end.in_tree_order(),
+            Reach::To(_) => motion.held(kind.reach()).0,
         });
         let near_boxes = self.near_boxes.as_deref();
         let elements = self.elements.get().zip(near_boxes);
@@ -411,6 +489,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             tree,
             boxes: self.boxes[K::BOX_SET].get_or_insert_with(|| BoxSet::new(tree)),
             source: kind.source(shape, end),
+            motion: going,
             elements,
         }
     }
@@ -495,7 +574,8 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         };
         if let Some(motion) = &mut self.motion {
             motion.bounds = taking.take(&mut motion.end, end)?;
-            motion.epoch += 1;
+            motion.epochs += 1;
+            motion.epoch = motion.epochs;
             motion.is_on = true;
             return Ok(());
         }
@@ -505,8 +585,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.motion = Some(Box::new(Motion {
             end: place,
             bounds,
+            epochs: 1,
             epoch: 1,
             is_on: true,
+            partway: None,
         }));
         Ok(())
     }
@@ -593,6 +675,46 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         }
         self.loose = loose;
         Ok(())
+    }
+}
+
+impl<S: Coordinate> Motion<S> {
+    /// Makes the shape at a time, unless it is there; both ends are in tree order.
+    fn make_partway(&mut self, from: &Points<S>, epoch: u64, t: f64) {
+        let of = (epoch, self.epoch, t);
+        if self
+            .partway
+            .as_ref()
+            .is_some_and(|partway| partway.of == of)
+        {
+            return;
+        }
+        self.epochs += 1;
+        let mut points = match self.partway.take() {
+            Some(partway) => partway.points,
+            None => Points::with_len(0),
+        };
+        let ways = from.points.iter().zip(&self.end.in_tree_order().points);
+        points.refill(ways.map(|(from, to)| {
+            [
+                from[0].toward(to[0], t),
+                from[1].toward(to[1], t),
+                from[2].toward(to[2], t),
+            ]
+        }));
+        self.partway = Some(Partway {
+            points,
+            of,
+            epoch: self.epochs,
+        });
+    }
+
+    /// The other shape that boxes hold, and its number.
+    fn held(&self, reach: Reach) -> (&Points<S>, u64) {
+        match (&self.partway, reach) {
+            (Some(partway), Reach::Until(_) | Reach::To(_)) => (&partway.points, partway.epoch),
+            _ => (self.end.in_tree_order(), self.epoch),
+        }
     }
 }
 
@@ -723,10 +845,10 @@ impl<const N: usize, S> Held for Body<N, S> {
             + held::list(&self.boxes)
             + held::within(boxes)
             + self.positions.held()
-            + self
-                .motion
-                .as_ref()
-                .map_or(0, |motion| size_of::<Motion<S>>() + motion.end.held())
+            + self.motion.as_ref().map_or(0, |motion| {
+                let partway = motion.partway.as_ref().map_or(0, |it| it.points.held());
+                size_of::<Motion<S>>() + motion.end.held() + partway
+            })
             + self
                 .elements
                 .get()

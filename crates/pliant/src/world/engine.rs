@@ -9,6 +9,7 @@ use super::body::{self, Body};
 use super::body_pairs::BodyPairs;
 use super::close::AskedClose;
 use super::distance::{self, Distances};
+use super::impacts::OfKind;
 use super::origin::FloatingOrigin;
 use super::query::{Ask, Request};
 use super::witness::{self, Witnesses};
@@ -17,12 +18,13 @@ use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
-use crate::hits::{EdgeEdge, Pair, VertexTriangle};
+use crate::hits::{EdgeEdge, Hit, Pair, VertexTriangle};
+use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
 use crate::queries::{
-    Close, EdgeEdgeCandidates, Intersections, Measured, NearTriangles, NearestPair,
-    VertexTriangleCandidates,
+    Close, EdgeEdgeCandidates, Impacts, Intersections, Margin, Measured, NearTriangles,
+    NearestPair, Reach, VertexTriangleCandidates,
 };
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Question, Threads};
@@ -37,6 +39,8 @@ pub(crate) trait AnyEngine<S>:
     + Ask<CloseVertexTriangle>
     + Ask<CloseEdgeEdge>
     + Ask<CloseTriangles>
+    + Ask<VertexTriangleImpact>
+    + Ask<EdgeEdgeImpact>
     + Send
     + Sync
 {
@@ -95,6 +99,18 @@ pub(crate) trait AnyEngine<S>:
         cut_off: f64,
         question: Option<Question>,
     ) -> Result<Option<CloseTriangles>, Error>;
+    fn first_impact(
+        &mut self,
+        of: Selection,
+        width: f64,
+        question: Option<Question>,
+    ) -> Result<Option<Impact>, Error>;
+    fn collision_free_step(
+        &mut self,
+        of: Selection,
+        min_distance: f64,
+        question: Option<Question>,
+    ) -> Result<f64, Error>;
     fn statistics(&self) -> &Statistics;
     fn memory_usage(&self) -> usize;
     fn validate(&self) -> Result<(), String>;
@@ -109,6 +125,8 @@ pub(super) struct Engine<const N: usize, S: Coordinate> {
     close_vertex_triangle: AskedClose<Close<VertexTriangleCandidates<S>>>,
     close_edge_edge: AskedClose<Close<EdgeEdgeCandidates<S>>>,
     close_triangles: AskedClose<NearTriangles<S>>,
+    pub(super) vertex_triangle_impacts: Asked<Impacts<VertexTriangleCandidates<S>>>,
+    pub(super) edge_edge_impacts: Asked<Impacts<EdgeEdgeCandidates<S>>>,
     witnesses: Witnesses,
     distances: Distances,
     /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
@@ -153,6 +171,8 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             close_vertex_triangle: AskedClose::default(),
             close_edge_edge: AskedClose::default(),
             close_triangles: AskedClose::default(),
+            vertex_triangle_impacts: Asked::default(),
+            edge_edge_impacts: Asked::default(),
             witnesses: Witnesses::default(),
             distances: Distances::default(),
             lent: Vec::new(),
@@ -450,10 +470,9 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
     ) -> Result<Option<CloseTriangles>, Error> {
         distance::check(cut_off)?;
         let request = Request {
-            of: Selection::Between(of[0], of[1]),
-            most: usize::MAX,
             question,
             within: cut_off,
+            ..Request::new(Selection::Between(of[0], of[1]))
         };
         if Ask::<Pair>::first(self, &request)?.is_some() {
             let triangles = self.witnesses.get(of);
@@ -495,6 +514,36 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         Ok(nearest)
     }
 
+    fn first_impact(
+        &mut self,
+        of: Selection,
+        width: f64,
+        question: Option<Question>,
+    ) -> Result<Option<Impact>, Error> {
+        let request = Request {
+            width,
+            question,
+            ..Request::new(of)
+        };
+        let grid = request.grid()?;
+        let first = self.earliest(&request, OfKind::Both, false)?;
+        Ok(first.map(|(impact, contact)| impact.with_cell(contact.cell(grid))))
+    }
+
+    fn collision_free_step(
+        &mut self,
+        of: Selection,
+        min_distance: f64,
+        question: Option<Question>,
+    ) -> Result<f64, Error> {
+        let request = Request {
+            within: min_distance,
+            question,
+            ..Request::new(of)
+        };
+        self.free_step(&request)
+    }
+
     fn statistics(&self) -> &Statistics {
         &self.common.statistics
     }
@@ -512,6 +561,8 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             + self.close_vertex_triangle.held()
             + self.close_edge_edge.held()
             + self.close_triangles.held()
+            + self.vertex_triangle_impacts.held()
+            + self.edge_edge_impacts.held()
             + self.witnesses.held()
             + self.distances.held()
             + held::list(&self.lent)
@@ -635,6 +686,58 @@ ask!(CloseEdgeEdge, close_edge_edge, |request| {
 ask!(CloseTriangles, close_triangles, |request| {
     Measured(NearTriangles::within(request.distance()?))
 });
+
+/// Answers queries for impacts of one kind.
+macro_rules! ask_impacts {
+    ($hit:ident, $asked:ident, $candidates:ident, $of:expr) => {
+        impl<const N: usize, S: Coordinate> Ask<$hit> for Engine<N, S> {
+            fn all(&mut self, request: &Request) -> Result<&[$hit], Error> {
+                let kind = Self::all_of(request, $candidates::within)?;
+                let numbers = |impact: &$hit| impact.pair.numbers();
+                self.$asked
+                    .all_by(&kind, &mut self.common, request, numbers)
+            }
+
+            fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
+                let grid = request.grid()?;
+                let first = self.earliest(request, $of, false)?;
+                let first = first.map(|(impact, contact)| impact.with_cell(contact.cell(grid)));
+                Ok(first.and_then($hit::of))
+            }
+
+            fn visit(&mut self, request: &Request, sink: Sink<$hit>) -> Result<(), Error> {
+                let kind = Self::all_of(request, $candidates::within)?;
+                self.$asked.visit(&kind, &mut self.common, request, sink)
+            }
+
+            fn prepare(&mut self, request: &Request) -> Result<(), Error> {
+                let kind = Self::all_of(request, $candidates::within)?;
+                self.$asked.prepare(&kind, &mut self.common, request)
+            }
+        }
+    };
+}
+
+ask_impacts!(
+    VertexTriangleImpact,
+    vertex_triangle_impacts,
+    VertexTriangleCandidates,
+    OfKind::VerticesAndTriangles
+);
+ask_impacts!(
+    EdgeEdgeImpact,
+    edge_edge_impacts,
+    EdgeEdgeCandidates,
+    OfKind::Edges
+);
+
+impl<const N: usize, S: Coordinate> Engine<N, S> {
+    /// All impacts of a kind of candidates.
+    fn all_of<K>(request: &Request, within: impl Fn(Margin) -> K) -> Result<Impacts<K>, Error> {
+        let candidates = within(Margin::new(0.0));
+        Ok(Impacts::of(candidates, request.grid()?, Reach::End))
+    }
+}
 
 /// The pair that answered the last question for a first pair.
 impl<const N: usize, S: Coordinate> Engine<N, S> {

@@ -3,6 +3,7 @@
 use super::{BodyId, Scalar, Selection, World, clearance};
 use crate::close_pairs::CloseTriangles;
 use crate::error::Error;
+use crate::impacts::Impact;
 use crate::threads::Question;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -43,6 +44,26 @@ impl<S: Scalar> Interruptible<'_, S> {
     pub fn nearest_body(self, body: BodyId, cut_off: f64) -> Result<Option<CloseTriangles>, Error> {
         let engine = &mut self.world.engine;
         engine.nearest_body(body, cut_off, Some(self.question))
+    }
+
+    /// [`World::first_impact`](crate::World::first_impact).
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn first_impact(self, of: Selection, width: f64) -> Result<Option<Impact>, Error> {
+        let engine = &mut self.world.engine;
+        engine.first_impact(of, width, Some(self.question))
+    }
+
+    /// [`World::collision_free_step`](crate::World::collision_free_step).
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn collision_free_step(self, of: Selection, min_distance: f64) -> Result<f64, Error> {
+        let engine = &mut self.world.engine;
+        engine.collision_free_step(of, min_distance, Some(self.question))
     }
 
     /// [`World::clearance`](crate::World::clearance).

@@ -11,9 +11,11 @@ mod body;
 mod body_pairs;
 mod clearance;
 mod close;
+mod corners;
 mod debug_view;
 mod distance;
 mod engine;
+mod impacts;
 mod interruptible;
 mod origin;
 mod positions;
@@ -32,6 +34,7 @@ use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
 use crate::error::Error;
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::ids::BodyId;
+use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::Instructions;
 use crate::options::Options;
 use crate::statistics::Statistics;
@@ -40,7 +43,7 @@ pub(crate) use body::validate as validate_body;
 pub use debug_view::{NodeBox, TreeShape};
 use engine::AnyEngine;
 pub use interruptible::Interruptible;
-pub use query::Query;
+pub use query::{Query, Timed};
 pub use scalar::Scalar;
 pub use selection::Selection;
 use std::collections::BTreeMap;
@@ -548,6 +551,92 @@ impl<S: Scalar> World<S> {
         distance: f64,
     ) -> Query<'_, CloseTriangles> {
         Query::<CloseTriangles>::new(&mut *self.engine, of).within(distance)
+    }
+
+    /// Asks which vertices and triangles meet on the way to the end of a motion, and when first. See
+    /// [`edge_edge_impacts`](Self::edge_edge_impacts) for the other half: surfaces that are apart first meet where a vertex meets a triangle or two edges meet.
+    ///
+    /// Vertices move on straight lines, in real arithmetic, from where they are at time 0 to where [`set_motion`](Self::set_motion) said at
+    /// time 1; a body without a motion stands still. Whether a pair meets is decided exactly: as closed sets, degenerate triangles, motion in one
+    /// plane, touching at the start and at the end included. When, is an interval ([`VertexTriangleImpact`]), as narrow as [`Query::width`] says. [`Query::first`] is
+    /// that with the least exact time, and much faster than all.
+    ///
+    /// Which pairs are looked at is said at [`vertex_triangle_candidates`](Self::vertex_triangle_candidates): no corner of a triangle
+    /// meets it, vertex groups and filters count. They are not listed on the way: memory is for what meets.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// let mut world = World::<f64>::new();
+    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 2.0], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// // It falls by 3, and its corner touches the floor after two thirds of the step.
+    /// world.set_motion(leaf, &[[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// let first = world.vertex_triangle_impacts(Selection::World).first()?.expect("it falls far enough");
+    /// assert_eq!((first.pair.vertex_body, first.pair.vertex), (leaf, 0));
+    /// assert!(first.low < 2.0 / 3.0 && 2.0 / 3.0 <= first.high && first.high - first.low <= 1e-6);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    #[doc(alias = "time_of_impact")]
+    #[doc(alias = "continuous_collision_detection")]
+    #[doc(alias = "point_triangle_ccd")]
+    pub fn vertex_triangle_impacts(&mut self, of: Selection) -> Query<'_, VertexTriangleImpact> {
+        Query::new(&mut *self.engine, of)
+    }
+
+    /// Asks which edges meet on the way to the end of a motion, and when first, as
+    /// [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) asks it of vertices and triangles. Edges have the numbers that
+    /// [`edges`](Self::edges) gives them; two that have an end in common are not looked at.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    #[doc(alias = "edge_edge_ccd")]
+    pub fn edge_edge_impacts(&mut self, of: Selection) -> Query<'_, EdgeEdgeImpact> {
+        Query::new(&mut *self.engine, of)
+    }
+
+    /// The first contact on the way to the end of a motion: that with the least exact time of all
+    /// [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) and [`edge_edge_impacts`](Self::edge_edge_impacts); of several at one time
+    /// a vertex and a triangle rather than edges, the first in order. Its interval is at most `width` wide: see [`Query::width`].
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    pub fn first_impact(&mut self, of: Selection, width: f64) -> Result<Option<Impact>, Error> {
+        self.engine.first_impact(of, width, None)
+    }
+
+    /// How far everything may go on its way to the end of a motion and stay further apart than `min_distance`: a time t from 0 to 1 to call
+    /// [`advance_motion`](Self::advance_motion) with. It is proven that on straight ways to the shape that this makes, rounded as it is, no vertex meets a triangle
+    /// and no edge another. 1 if that is so of the whole motion; then [`finish_motion`](Self::finish_motion) does the same.
+    ///
+    /// t is at least 0.9 of the exact time of the first contact if at 0.9 of that time, and before, everything is apart by 8 units in the last place of the largest
+    /// coordinate; else perhaps smaller, or 0. What meets at the start already does not count: it is in the lists of impacts with time 0. So a world that begins
+    /// without intersections, and is advanced by such steps alone, never has any.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// # let mut world = World::<f64>::new();
+    /// # let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// # let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 2.0], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// # world.set_motion(leaf, &[[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// let step = world.collision_free_step(Selection::Everything, 0.0)?;
+    /// assert!(step > 0.6 && step < 2.0 / 3.0);
+    /// world.advance_motion(step)?;
+    /// assert!(world.intersections(Selection::Everything).first()?.is_none());
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    #[doc(alias = "compute_collision_free_stepsize")]
+    pub fn collision_free_step(&mut self, of: Selection, min_distance: f64) -> Result<f64, Error> {
+        self.engine.collision_free_step(of, min_distance, None)
     }
 
     /// How far each vertex may move before anything can touch: of the selection's bodies one number for each vertex, at most half of

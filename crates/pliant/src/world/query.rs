@@ -2,11 +2,16 @@
 
 use super::Selection;
 use crate::error::{Error, ErrorKind};
+use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
+use crate::predicates::motion::Grid;
 use crate::queries::Margin;
 use crate::threads::Question;
 use crate::traversal::Sink;
 use std::fmt;
 use std::ops::ControlFlow;
+
+/// How wide intervals of times may be, if nothing is said.
+const WIDTH: f64 = 1e-6;
 
 /// What a query is asked with.
 #[derive(Clone, Copy)]
@@ -17,9 +22,22 @@ pub(crate) struct Request<'q> {
     pub(super) question: Option<Question<'q>>,
     /// Of candidates, the margin round each element; of close pairs, how far they may be apart; else 0.
     pub(super) within: f64,
+    /// Of impacts, how wide the intervals of times may be; else nothing.
+    pub(super) width: f64,
 }
 
-impl Request<'_> {
+impl<'q> Request<'q> {
+    /// Of all hits, with nothing said but of whom.
+    pub(super) fn new(of: Selection) -> Self {
+        Self {
+            of,
+            most: usize::MAX,
+            question: None,
+            within: 0.0,
+            width: WIDTH,
+        }
+    }
+
     /// The margin that is asked for.
     pub(super) fn margin(&self) -> Result<Margin, Error> {
         let radius = self.within;
@@ -27,6 +45,15 @@ impl Request<'_> {
             return Ok(Margin::new(radius));
         }
         Err(ErrorKind::BadMargin { radius }.of_query())
+    }
+
+    /// The grid of times that is asked for.
+    pub(super) fn grid(&self) -> Result<Grid, Error> {
+        let width = self.width;
+        if width.is_finite() && width >= 0.0 {
+            return Ok(Grid::new(width));
+        }
+        Err(ErrorKind::BadWidth { width }.of_query())
     }
 
     /// The distance that is asked for.
@@ -58,6 +85,7 @@ pub(crate) trait Ask<H> {
 ///   [`SameBody`](crate::ErrorKind::SameBody) if it names one twice as two;
 /// - [`Interrupted`](crate::ErrorKind::Interrupted) if [`interrupt_if`](Self::interrupt_if) said so;
 /// - [`TooManyHits`](crate::ErrorKind::TooManyHits) if a list would be longer than [`at_most`](Self::at_most) allows;
+/// - of impacts, [`BadWidth`](crate::ErrorKind::BadWidth) if the width is;
 /// - of candidates, [`BadMargin`](crate::ErrorKind::BadMargin) if the margin is negative, infinite or NaN; of close pairs,
 ///   [`BadDistance`](crate::ErrorKind::BadDistance) if the distance is.
 #[must_use = "a query does nothing until it is asked for all, for the first, or to visit"]
@@ -68,13 +96,10 @@ pub struct Query<'w, H> {
 
 impl<'w, H: Copy> Query<'w, H> {
     pub(super) fn new(engine: &'w mut dyn Ask<H>, of: Selection) -> Self {
-        let request = Request {
-            of,
-            most: usize::MAX,
-            question: None,
-            within: 0.0,
-        };
-        Self { engine, request }
+        Self {
+            engine,
+            request: Request::new(of),
+        }
     }
 
     /// With a margin round each element, or a distance.
@@ -134,7 +159,8 @@ impl<'w, H: Copy> Query<'w, H> {
 
     /// Some hit, if there is one. Much cheaper than all where there are many.
     ///
-    /// Whether there is one never depends on options or history; which one may.
+    /// Whether there is one never depends on options or history; which one may. But of impacts it is that with the least exact time; of
+    /// several, the first in order.
     ///
     /// # Errors
     ///
@@ -215,6 +241,30 @@ impl<'w, H: Copy> Query<'w, H> {
     /// See [`Query`].
     pub fn prepare(self) -> Result<(), Error> {
         self.engine.prepare(&self.request)
+    }
+}
+
+/// Hits that have a time.
+pub trait Timed: sealed::Timed {}
+
+mod sealed {
+    pub trait Timed {}
+}
+
+impl sealed::Timed for VertexTriangleImpact {}
+impl sealed::Timed for EdgeEdgeImpact {}
+impl Timed for VertexTriangleImpact {}
+impl Timed for EdgeEdgeImpact {}
+
+impl<H: Timed> Query<'_, H> {
+    /// How wide the interval of an impact may be: `high - low` is at most this, 10^-6 if nothing is said. Finite, at least 0; 0 for two neighbouring
+    /// numbers, which are as near as there are.
+    ///
+    /// The interval is the cell of a grid: its ends are the multiples next to the exact time of the largest power of two that is not above the width;
+    /// or numbers next to it, where these are further from each other than that. A width of 10^-6 costs next to nothing.
+    pub fn width(mut self, width: f64) -> Self {
+        self.request.width = width;
+        self
     }
 }
 

@@ -85,7 +85,8 @@ where
     ) -> ControlFlow<(), Side<'b, N, K::Source<'b>>> {
         let executor = self.refit.executor;
         let instructions = self.refit.instructions;
-        if !body.bring_into_tree_order(K::HOLDS_MOTIONS, instructions, executor) {
+        let reach = K::HOLDS_MOTIONS.then(|| self.kind.reach());
+        if !body.bring_into_tree_order(reach, instructions, executor) {
             return ControlFlow::Break(());
         }
         let itself = partner == Partner::Itself;
@@ -93,7 +94,7 @@ where
             body.tree.know_neighbours(&body.order, executor);
         }
         if let Some(which) = K::LEAVES.elements()
-            && !body.make_near_boxes(which, self.origin, instructions, executor)
+            && !body.make_near_boxes(which, reach, self.origin, (instructions, executor))
         {
             return ControlFlow::Break(());
         }

@@ -60,6 +60,7 @@ fn request(of: Selection) -> Request<'static> {
         most: usize::MAX,
         question: None,
         within: 0.0,
+        width: 0.0,
     }
 }
 

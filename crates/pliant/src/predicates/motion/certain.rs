@@ -77,9 +77,9 @@ struct Polygon {
     most: Corners,
 }
 
-/// What is certain of a pair, by cells of a grid.
+/// What is certain of a pair, by cells of a grid; what is after `until` may be left out.
 #[inline]
-pub(crate) fn certain(moving: &Moving, grid: Grid) -> Certain {
+pub(crate) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     let polygon = Polygon::new(moving);
     let (determinant, error) = polygon.determinant();
     if one_sign(determinant, error) {
@@ -99,7 +99,7 @@ pub(crate) fn certain(moving: &Moving, grid: Grid) -> Certain {
         };
         count = last;
         let mut part = parts[last];
-        if one_sign(part.determinant, error) {
+        if part.low >= until || one_sign(part.determinant, error) {
             continue;
         }
         if !part.is_inside {

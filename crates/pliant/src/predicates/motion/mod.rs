@@ -73,10 +73,10 @@ pub(crate) enum Decided {
     InIntegers,
 }
 
-/// The cell of a grid in which two elements first meet, if they do in [0, 1]; and how that was decided.
+/// The cell of a grid in which two elements first meet, if they do in [0, 1]; and how that was decided. What begins after `until` may be left out.
 #[inline]
-pub(crate) fn impact(moving: &Moving, grid: Grid) -> (Option<[f64; 2]>, Decided) {
-    match certain(moving, grid) {
+pub(crate) fn impact(moving: &Moving, grid: Grid, until: f64) -> (Option<[f64; 2]>, Decided) {
+    match certain(moving, grid, until) {
         Certain::Never => (None, Decided::InFloatingPoint),
         Certain::Within(cell) => (Some(cell), Decided::InFloatingPoint),
         Certain::Nothing => {
@@ -344,7 +344,7 @@ mod tests {
             let grid = Grid::new([1e-6, 1.0, 0.01, 0.0][round % 4]);
             let exact = first_contact(&moving).map(|contact| contact.cell(grid));
             total += 1;
-            match certain(&moving, grid) {
+            match certain(&moving, grid, 1.0) {
                 Certain::Never => {
                     never += 1;
                     assert_eq!(exact, None, "{moving:?}");

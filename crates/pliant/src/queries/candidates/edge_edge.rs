@@ -54,6 +54,7 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
         &self,
         leaves: &LeafTest<S>,
         pairs: &[[u32; 2]],
+        _buffers: &mut (),
         hits: &mut Buffer<[u32; 2]>,
         statistics: &mut Statistics,
     ) {

@@ -58,6 +58,7 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
         &self,
         leaves: &LeafTest<S>,
         pairs: &[[u32; 2]],
+        _buffers: &mut (),
         hits: &mut Buffer<[u32; 2]>,
         statistics: &mut Statistics,
     ) {

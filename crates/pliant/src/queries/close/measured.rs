@@ -162,10 +162,11 @@ impl<C: CloseKind> Kind for Measured<C> {
         &self,
         leaves: &LeafTest<C::Scalar>,
         pairs: &[[u32; 2]],
+        buffers: &mut (),
         hits: &mut Buffer<C::TreeHit>,
         statistics: &mut Statistics,
     ) {
-        self.0.test_runs(leaves, pairs, hits, statistics);
+        self.0.test_runs(leaves, pairs, buffers, hits, statistics);
     }
 
     fn to_caller(&self, ids: &CallerIds, hit: C::TreeHit) -> Self::Hit {

@@ -11,7 +11,7 @@ use super::{
     BoxSetNumber, CallerIds, EdgeEdgeCandidates, Kind, LeafTest, Leaves, Margin,
     VertexTriangleCandidates,
 };
-use crate::geometry::{Aabb, Real, Shape};
+use crate::geometry::{Aabb, Points, Real, Shape};
 use crate::ids::TreeVertex;
 use crate::kernels::closest::{Corners, FourClosest, of_edges, of_vertices_and_triangles};
 use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
@@ -53,8 +53,18 @@ pub(crate) trait ElementCandidates:
     Kind<TreeHit = [u32; 2], Buffers = (), Hit: ElementPair>
 {
     /// The four corners of a candidate: vertex, triangle; or both ends of either edge.
+    #[inline(always)]
     fn corners<'q>(
         leaves: &LeafTest<'q, Self::Scalar>,
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, Self::Scalar>> {
+        Self::corners_in(leaves, leaves.shapes.map(|shape| shape.positions), hit)
+    }
+
+    /// The same where vertices of the two bodies are at these positions.
+    fn corners_in<'q>(
+        leaves: &LeafTest<'q, Self::Scalar>,
+        positions: [&'q Points<Self::Scalar>; 2],
         hit: [u32; 2],
     ) -> Option<Corners<'q, Self::Scalar>>;
 
@@ -152,12 +162,14 @@ impl<K: ElementCandidates> Kind for Close<K> {
         &self,
         leaves: &LeafTest<K::Scalar>,
         pairs: &[[u32; 2]],
+        buffers: &mut (),
         hits: &mut Buffer<[u32; 2]>,
         statistics: &mut Statistics,
     ) {
         let before = hits.len();
         let pairs_before = statistics.pairs;
-        self.candidates.test_runs(leaves, pairs, hits, statistics);
+        self.candidates
+            .test_runs(leaves, pairs, buffers, hits, statistics);
         let exact = &mut statistics.exact_decisions;
         let new = hits.tail_mut(before);
         let kept = dispatch!(leaves.instructions, i => self.keep(i, leaves, new, exact));
@@ -226,25 +238,31 @@ impl<K: ElementCandidates> Close<K> {
 
 impl<S: Coordinate> ElementCandidates for VertexTriangleCandidates<S> {
     #[inline(always)]
-    fn corners<'q>(leaves: &LeafTest<'q, S>, hit: [u32; 2]) -> Option<Corners<'q, S>> {
+    fn corners_in<'q>(
+        leaves: &LeafTest<'q, S>,
+        positions: [&'q Points<S>; 2],
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, S>> {
         let (side, vertex, triangle) = Self::sides_of(hit);
-        let [of_vertex, of_triangle] = [leaves.shapes[side], leaves.shapes[1 - side]];
-        let [a, b, c] = of_triangle.triangles[triangle.index()];
-        let positions = of_triangle.positions;
+        let [a, b, c] = leaves.shapes[1 - side].triangles[triangle.index()];
+        let of_triangle = positions[1 - side];
         Some([
-            of_vertex.positions.padded(vertex),
-            positions.padded(a),
-            positions.padded(b),
-            positions.padded(c),
+            positions[side].padded(vertex),
+            of_triangle.padded(a),
+            of_triangle.padded(b),
+            of_triangle.padded(c),
         ])
     }
 }
 
 impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
     #[inline(always)]
-    fn corners<'q>(leaves: &LeafTest<'q, S>, [a, b]: [u32; 2]) -> Option<Corners<'q, S>> {
-        let [first, second] = Self::ends(leaves, [a, b])?;
-        let [of_a, of_b] = leaves.shapes.map(|shape| shape.positions);
+    fn corners_in<'q>(
+        leaves: &LeafTest<'q, S>,
+        [of_a, of_b]: [&'q Points<S>; 2],
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, S>> {
+        let [first, second] = Self::ends(leaves, hit)?;
         let [a0, a1] = first.map(|end| of_a.padded(end));
         let [b0, b1] = second.map(|end| of_b.padded(end));
         Some([a0, a1, b0, b1])

@@ -1,0 +1,256 @@
+//! Impacts: candidates of a motion whose elements meet on the way, and when first.
+//!
+//! Candidates are decided as soon as a batch of them is found, and never listed: eight at a time by separating directions in single precision (`kernels::apart`),
+//! which leaves few; each of these in double precision where rounding cannot matter, else in integers (`predicates::motion`). What is found of a pair is
+//! its cell of a grid of times, which depends on nothing but the pair.
+
+use super::close::ElementCandidates;
+use super::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves, Reach};
+use crate::geometry::{Aabb, Real, Shape};
+use crate::hits::{EdgeEdge, Hit, VertexTriangle};
+use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
+use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
+use crate::kernels::{Buffer, Simd, dispatch};
+use crate::predicates::motion::{Decided, Grid, Moving, impact};
+use crate::statistics::Statistics;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Candidates of a kind that meet during a motion.
+#[derive(Debug)]
+pub(crate) struct Impacts<K> {
+    candidates: K,
+    grid: Grid,
+    until: Until,
+    reach: Reach,
+}
+
+/// A time after which nothing is of interest.
+#[derive(Debug)]
+pub(crate) struct Until(AtomicU64);
+
+impl Until {
+    pub(crate) fn new(time: f64) -> Self {
+        Self(AtomicU64::new(time.to_bits()))
+    }
+
+    pub(crate) fn get(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
+    }
+
+    /// Tasks read it while they are at work, so it is only set between: what they do then does not depend on threads.
+    pub(crate) fn set(&self, time: f64) {
+        self.0.store(time.to_bits(), Ordering::Relaxed);
+    }
+}
+
+/// Two elements that meet, in tree order, and the cell of the grid in which they first do.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct TimedHit {
+    pub(crate) pair: [u32; 2],
+    pub(crate) cell: [f64; 2],
+}
+
+/// Two elements that may meet.
+pub(crate) trait MayMeet: Hit {
+    const ARE_EDGES: bool;
+    type Impact: Copy + std::fmt::Debug + Send + Sync;
+
+    /// With the cell in which they do.
+    fn impact(self, cell: [f64; 2]) -> Self::Impact;
+}
+
+impl MayMeet for VertexTriangle {
+    const ARE_EDGES: bool = false;
+    type Impact = VertexTriangleImpact;
+
+    #[inline]
+    fn impact(self, [low, high]: [f64; 2]) -> VertexTriangleImpact {
+        VertexTriangleImpact {
+            pair: self,
+            low,
+            high,
+        }
+    }
+}
+
+impl MayMeet for EdgeEdge {
+    const ARE_EDGES: bool = true;
+    type Impact = EdgeEdgeImpact;
+
+    #[inline]
+    fn impact(self, [low, high]: [f64; 2]) -> EdgeEdgeImpact {
+        EdgeEdgeImpact {
+            pair: self,
+            low,
+            high,
+        }
+    }
+}
+
+impl<K> Impacts<K> {
+    /// Of candidates whose margin is zero, but for what boxes that reach up to a time are off by.
+    pub(crate) fn of(candidates: K, grid: Grid, reach: Reach) -> Self {
+        Self {
+            candidates,
+            grid,
+            until: Until::new(match reach {
+                Reach::Until(time) => time,
+                Reach::End | Reach::To(_) => 1.0,
+            }),
+            reach,
+        }
+    }
+
+    pub(crate) fn until(&self) -> &Until {
+        &self.until
+    }
+}
+
+impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
+    type Scalar = K::Scalar;
+    type Hit = <K::Hit as MayMeet>::Impact;
+    type TreeHit = TimedHit;
+    /// Candidates.
+    type Buffers = Buffer<[u32; 2]>;
+    type Source<'s> = K::Source<'s>;
+
+    const BOX_SET: BoxSetNumber = K::BOX_SET;
+    const LEAVES: Leaves = K::LEAVES;
+    const HOLDS_MOTIONS: bool = true;
+
+    fn reach(&self) -> Reach {
+        self.reach
+    }
+
+    fn grows_by(&self) -> f32 {
+        self.candidates.grows_by()
+    }
+
+    fn body_box(&self, of_shape: Aabb) -> Aabb {
+        self.candidates.body_box(of_shape)
+    }
+
+    fn source<'s>(
+        &self,
+        shape: Shape<'s, K::Scalar>,
+        end: Option<Shape<'s, K::Scalar>>,
+    ) -> K::Source<'s> {
+        self.candidates.source(shape, end)
+    }
+
+    fn test_runs(
+        &self,
+        leaves: &LeafTest<K::Scalar>,
+        pairs: &[[u32; 2]],
+        candidates: &mut Buffer<[u32; 2]>,
+        hits: &mut Buffer<TimedHit>,
+        statistics: &mut Statistics,
+    ) {
+        let pairs_before = statistics.pairs;
+        candidates.clear();
+        self.candidates
+            .test_runs(leaves, pairs, &mut (), candidates, statistics);
+        statistics.pairs = pairs_before;
+        let until = self.until.get();
+        let used = candidates.len();
+        let eights = candidates.eights();
+        dispatch!(leaves.instructions, i => {
+            for (place, eight) in eights.iter().enumerate() {
+                let count = (used - 8 * place).min(8);
+                let decided = self.decide(i, leaves, &eight[..count], until, hits, statistics);
+                if decided.is_none() {
+                    return;
+                }
+            }
+        });
+    }
+
+    #[inline]
+    fn to_caller(&self, ids: &CallerIds, hit: TimedHit) -> Self::Hit {
+        self.candidates.to_caller(ids, hit.pair).impact(hit.cell)
+    }
+}
+
+impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
+    /// Decides up to eight candidates, of which there is one at least. None if interrupted.
+    #[inline(always)]
+    fn decide<I: Simd>(
+        &self,
+        i: I,
+        leaves: &LeafTest<K::Scalar>,
+        candidates: &[[u32; 2]],
+        until: f64,
+        hits: &mut Buffer<TimedHit>,
+        statistics: &mut Statistics,
+    ) -> Option<()> {
+        let first = moving_corners::<K>(leaves, candidates[0])?;
+        let mut corners = MovingCorners([[first[0]; 8]; 8]);
+        for lane in 0..8 {
+            let of_lane = match candidates.get(lane) {
+                Some(&candidate) if lane > 0 => moving_corners::<K>(leaves, candidate)?,
+                _ => first,
+            };
+            for corner in 0..8 {
+                corners.0[corner][lane] = of_lane[corner];
+            }
+        }
+        let until_at_least = (until as f32).next_up().min(1.0);
+        let are_apart = if <K::Hit as MayMeet>::ARE_EDGES {
+            edges(i, &corners, until_at_least, 0.0)
+        } else {
+            vertices_and_triangles(i, &corners, until_at_least, 0.0)
+        };
+        let mut rest = !are_apart & (0xff >> (8 - candidates.len()));
+        while rest != 0 {
+            let lane = rest.trailing_zeros() as usize % 8;
+            rest &= rest - 1;
+            if leaves.interrupt.is_set() {
+                return None;
+            }
+            let moving = moving::<K>(&corners, lane);
+            let (cell, decided) = impact(&moving, self.grid, until);
+            statistics.scalar_decisions += 1;
+            statistics.exact_decisions += u64::from(decided == Decided::InIntegers);
+            if let Some(cell) = cell {
+                statistics.pairs += 1;
+                hits.push(TimedHit {
+                    pair: candidates[lane],
+                    cell,
+                });
+            }
+        }
+        Some(())
+    }
+}
+
+/// The corners of a candidate at the start of the motion and at its end.
+#[inline(always)]
+fn moving_corners<'q, K: ElementCandidates>(
+    leaves: &LeafTest<'q, K::Scalar>,
+    candidate: [u32; 2],
+) -> Option<[&'q [K::Scalar; 4]; 8]> {
+    let start = leaves.shapes.map(|shape| shape.positions);
+    let end = [
+        leaves.motions[0].unwrap_or(start[0]),
+        leaves.motions[1].unwrap_or(start[1]),
+    ];
+    let [a, b, c, d] = K::corners_in(leaves, start, candidate)?;
+    let [e, f, g, h] = K::corners_in(leaves, end, candidate)?;
+    Some([a, b, c, d, e, f, g, h])
+}
+
+/// A pair of eight as exact arithmetic takes it.
+fn moving<K: ElementCandidates<Hit: MayMeet>>(
+    corners: &MovingCorners<K::Scalar>,
+    lane: usize,
+) -> Moving {
+    let mut of_pair = [[[0.0; 3]; 4]; 2];
+    for corner in 0..8 {
+        let [x, y, z, _] = *corners.0[corner][lane];
+        of_pair[corner / 4][corner % 4] = [x, y, z].map(Real::to_f64);
+    }
+    Moving {
+        are_edges: <K::Hit as MayMeet>::ARE_EDGES,
+        corners: of_pair,
+    }
+}

@@ -1,0 +1,311 @@
+//! When bodies first meet on their way: all pairs of elements that do, the first of them, and how far everything may go.
+//!
+//! **The first** is looked for on the first part of the motion, then on a longer one, until something meets: boxes that hold a short way are small. What has
+//! met before limits what is still looked at. Times are compared by cells of a fine grid, and exactly where cells are equal.
+//!
+//! **A step that is free of contact** goes somewhat less far than the first contact. There every corner is rounded, so that the straight motion to the
+//! rounded shape is another one; it is decided whether anything meets on that, exactly, and if so a shorter step is tried. What meets at the start of
+//! a motion is no contact of the step.
+
+use super::Selection;
+use super::asked::{Asked, Common};
+use super::bodies::Bodies;
+use super::body::Body;
+use super::close::InBodies;
+use super::corners::FourCorners;
+use super::engine::Engine;
+use super::query::Request;
+use crate::error::Error;
+use crate::geometry::Real;
+use crate::hits::Hit;
+use crate::impacts::Impact;
+use crate::kernels::Coordinate;
+use crate::predicates::motion::{Contact, Grid, Moving, first_contact};
+use crate::queries::{
+    EdgeEdgeCandidates, Impacts, Kind, Margin, MayMeet, Reach, VertexTriangleCandidates,
+};
+use crate::statistics::Statistics;
+use crate::threads::Interrupt;
+use std::cmp::Ordering;
+use std::ops::ControlFlow;
+
+/// The cells in which the first contact is looked for: 2^-40 wide.
+const SEARCHED: f64 = f64::from_bits((1023 - 40) << 52);
+
+/// The next part of a motion that is looked at is so many times as long.
+const LONGER: f64 = 4.0;
+/// The first is not shorter than this.
+const SHORTEST: f64 = 1.0 / 1024.0;
+
+/// Parts of the time of the first contact that are tried as a step, from the longest on: 0.9 of it is promised.
+const PARTS: [f64; 9] = [
+    31.0 / 32.0,
+    30.0 / 32.0,
+    29.0 / 32.0,
+    0.5,
+    0.25,
+    1.0 / 16.0,
+    1.0 / 256.0,
+    1.0 / 65536.0,
+    0.0,
+];
+
+/// The earliest contacts that were found so far.
+struct Earliest {
+    /// The cell of the grid that all of them are in.
+    cell: [f64; 2],
+    impacts: Vec<Impact>,
+    /// Whether what meets at the start is passed over.
+    after_start: bool,
+}
+
+impl Earliest {
+    /// Takes those that are as early as what is known, or earlier; returns the time after which nothing is of interest.
+    fn take<H: Copy + Into<Impact>>(&mut self, found: &[H]) -> f64 {
+        for &impact in found {
+            let impact: Impact = impact.into();
+            let cell = [impact.low(), impact.high()];
+            if self.after_start && cell[1] == 0.0 || cell[1] > self.cell[1] {
+                continue;
+            }
+            if cell[1] < self.cell[1] {
+                self.cell = cell;
+                self.impacts.clear();
+            }
+            self.impacts.push(impact);
+        }
+        self.cell[1]
+    }
+}
+
+/// Which elements are looked at.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum OfKind {
+    Both,
+    VerticesAndTriangles,
+    Edges,
+}
+
+impl<const N: usize, S: Coordinate> Engine<N, S> {
+    /// The first contact of a motion, after its start or at any time: which elements it is of, and when. Of several at one time that are of
+    /// edges if there are no others; the first in order.
+    pub(super) fn earliest(
+        &mut self,
+        request: &Request,
+        of: OfKind,
+        after_start: bool,
+    ) -> Result<Option<(Impact, Contact)>, Error> {
+        self.common.bodies.validate(request.of)?;
+        let mut earliest = Earliest {
+            cell: [f64::INFINITY; 2],
+            impacts: Vec::new(),
+            after_start,
+        };
+        let mut statistics = Statistics::default();
+        let mut until = self.first_part(request.of);
+        loop {
+            let reach = if until < 1.0 {
+                Reach::Until(until)
+            } else {
+                Reach::End
+            };
+            if of != OfKind::Edges {
+                let kind = self.impacts_until(VertexTriangleCandidates::within, reach);
+                let asked = &mut self.vertex_triangle_impacts;
+                search(asked, &kind, &mut self.common, request, &mut earliest)?;
+                statistics += self.common.statistics;
+            }
+            if of != OfKind::VerticesAndTriangles {
+                let kind = self.impacts_until(EdgeEdgeCandidates::within, reach);
+                let asked = &mut self.edge_edge_impacts;
+                search(asked, &kind, &mut self.common, request, &mut earliest)?;
+                statistics += self.common.statistics;
+            }
+            if !earliest.impacts.is_empty() || until >= 1.0 {
+                break;
+            }
+            until = (until * LONGER).min(1.0);
+        }
+        self.common.statistics = statistics;
+        let interrupt = Interrupt::new(request.question);
+        let first = first_of(&self.common.bodies, earliest.impacts, &interrupt);
+        self.common.end(&interrupt)?;
+        Ok(first)
+    }
+
+    /// Which part of the motion is looked at first: one in which most vertices move less than an edge.
+    fn first_part(&self, of: Selection) -> f64 {
+        let is_of_it = |body: &&Body<N, S>| match of {
+            Selection::World | Selection::Everything => true,
+            Selection::Between(a, b) => body.id == a || body.id == b,
+            Selection::Within(a) => body.id == a,
+        };
+        let bodies = self.common.bodies.list.iter().filter(is_of_it);
+        let edges = bodies.fold(0.0, |most: f64, body| most.max(body.motion_in_edges()));
+        let mut part: f64 = 1.0;
+        while part > SHORTEST && part * edges > 1.0 {
+            part /= LONGER;
+        }
+        part
+    }
+
+    /// Contacts up to a time. Boxes are grown by what rounding takes away from the shape there: half a unit in the last place of the
+    /// largest coordinate, and three roundings in `f64` of at most twice that coordinate.
+    fn impacts_until<K>(&self, within: impl Fn(Margin) -> K, reach: Reach) -> Impacts<K> {
+        let rounded = match reach {
+            Reach::Until(_) => {
+                let bodies = self.common.bodies.list.iter();
+                let most = bodies.fold(0.0, |most: f64, body| most.max(body.largest_coordinate()));
+                most * S::STEP + S::LEAST
+            }
+            Reach::End | Reach::To(_) => 0.0,
+        };
+        Impacts::of(within(Margin::new(rounded)), Grid::new(SEARCHED), reach)
+    }
+
+    /// A time up to which everything may go: see [`World::collision_free_step`](crate::World::collision_free_step).
+    pub(super) fn free_step(&mut self, request: &Request) -> Result<f64, Error> {
+        let Some((_, contact)) = self.earliest(request, OfKind::Both, true)? else {
+            return Ok(1.0);
+        };
+        let [low, _] = contact.cell(Grid::new(0.0));
+        let mut statistics = self.common.statistics;
+        let mut step = 0.0;
+        for part in PARTS {
+            step = low * part;
+            let is_free = self.is_free_to(step, request)?;
+            statistics += self.common.statistics;
+            if is_free {
+                break;
+            }
+        }
+        self.common.statistics = statistics;
+        Ok(step)
+    }
+
+    /// Whether nothing meets on straight ways to the shapes at a time, rounded, but what meets at the start.
+    fn is_free_to(&mut self, time: f64, request: &Request) -> Result<bool, Error> {
+        if time == 0.0 {
+            return Ok(true);
+        }
+        let kind = self.impacts_until(VertexTriangleCandidates::within, Reach::To(time));
+        let asked = &mut self.vertex_triangle_impacts;
+        if !is_free(asked, &kind, &mut self.common, request)? {
+            return Ok(false);
+        }
+        let statistics = self.common.statistics;
+        let kind = self.impacts_until(EdgeEdgeCandidates::within, Reach::To(time));
+        let asked = &mut self.edge_edge_impacts;
+        let is_free = is_free(asked, &kind, &mut self.common, request)?;
+        self.common.statistics += statistics;
+        Ok(is_free)
+    }
+}
+
+/// Looks for contacts of one kind that are as early as the earliest, or earlier.
+fn search<const N: usize, K>(
+    asked: &mut Asked<Impacts<K>>,
+    kind: &Impacts<K>,
+    common: &mut Common<N, K::Scalar>,
+    request: &Request,
+    earliest: &mut Earliest,
+) -> Result<(), Error>
+where
+    K: Kind<Scalar: Coordinate>,
+    Impacts<K>: Kind<Scalar = K::Scalar, Hit: Into<Impact>>,
+{
+    let until = kind.until().get();
+    kind.until().set(until.min(earliest.cell[1]));
+    asked.visit(kind, common, request, &mut |found| {
+        // Contacts after the part that is looked at may not be the first of those.
+        let before = |impact: &&_| Into::<Impact>::into(**impact).high() <= until;
+        for impact in found.iter().filter(before) {
+            kind.until()
+                .set(earliest.take(std::slice::from_ref(impact)).min(until));
+        }
+        ControlFlow::Continue(())
+    })
+}
+
+/// Whether none of one kind meets after the start.
+fn is_free<const N: usize, K>(
+    asked: &mut Asked<Impacts<K>>,
+    kind: &Impacts<K>,
+    common: &mut Common<N, K::Scalar>,
+    request: &Request,
+) -> Result<bool, Error>
+where
+    K: Kind<Scalar: Coordinate>,
+    Impacts<K>: Kind<Scalar = K::Scalar, Hit: Into<Impact>>,
+{
+    let mut is_free = true;
+    asked.visit(kind, common, request, &mut |found| {
+        let is_later = |&impact: &_| Into::<Impact>::into(impact).high() > 0.0;
+        match found.iter().position(is_later) {
+            Some(place) => {
+                is_free = false;
+                ControlFlow::Break(place)
+            }
+            None => ControlFlow::Continue(()),
+        }
+    })?;
+    Ok(is_free)
+}
+
+/// Of contacts in one cell the exactly earliest, and when that is; of several, the first in order. It looks at every one, unless interrupted.
+fn first_of<const N: usize, S: Coordinate>(
+    bodies: &Bodies<N, S>,
+    mut impacts: Vec<Impact>,
+    interrupt: &Interrupt,
+) -> Option<(Impact, Contact)> {
+    impacts.sort_unstable_by_key(numbers);
+    let mut first: Option<(Impact, Contact)> = None;
+    for impact in impacts {
+        if interrupt.is_set() {
+            return None;
+        }
+        let contact = first_contact(&moving(bodies, &impact)?)?;
+        let is_earlier = first
+            .as_ref()
+            .is_none_or(|(_, known)| contact.compare(known) == Ordering::Less);
+        if is_earlier {
+            first = Some((impact, contact));
+        }
+    }
+    first
+}
+
+/// Vertices and triangles first; each in order.
+fn numbers(impact: &Impact) -> (bool, [u32; 4]) {
+    match impact {
+        Impact::VertexTriangle(impact) => (false, impact.pair.numbers()),
+        Impact::EdgeEdge(impact) => (true, impact.pair.numbers()),
+    }
+}
+
+/// The corners of two elements at both ends of the motion; of bodies that a query looked at.
+fn moving<const N: usize, S: Coordinate>(bodies: &Bodies<N, S>, impact: &Impact) -> Option<Moving> {
+    match impact {
+        Impact::VertexTriangle(impact) => moving_of(bodies, &impact.pair),
+        Impact::EdgeEdge(impact) => moving_of(bodies, &impact.pair),
+    }
+}
+
+fn moving_of<const N: usize, S: Coordinate, H>(bodies: &Bodies<N, S>, pair: &H) -> Option<Moving>
+where
+    H: MayMeet + InBodies + FourCorners,
+{
+    let [a, b] = pair.bodies().map(|id| bodies.get(id));
+    let of: [&Body<N, S>; 2] = [a.ok()?, b.ok()?];
+    let vertices = pair.vertices(of);
+    let at = |corner: fn(&Body<N, S>, u32) -> &[S; 4]| {
+        vertices.map(|(side, vertex)| {
+            let [x, y, z, _] = *corner(of[side], vertex);
+            [x, y, z].map(Real::to_f64)
+        })
+    };
+    Some(Moving {
+        are_edges: H::ARE_EDGES,
+        corners: [at(Body::corner), at(Body::corner_at_end)],
+    })
+}

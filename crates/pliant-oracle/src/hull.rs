@@ -1,51 +1,51 @@
-//! Whether the origin is in the convex hull of nine points, in integers.
+//! Whether the origin is in the convex hull of a few points, in exact numbers.
 //!
 //! By Carathéodory it is if and only if it is in a simplex of at most four of them: a point, a segment, a triangle, a tetrahedron.
-//! All 255 are looked at, from the small to the large. A simplex that is degenerate need not be recognised at its own size: the
+//! All are looked at, of nine points 255, from the small to the large. A simplex that is degenerate need not be recognised at its own size: the
 //! smaller ones in it were looked at before.
 
-use crate::integers::Integer;
+use crate::integers::{Exact, Ring};
 
 pub(crate) type Vector<I> = [I; 3];
 
-pub(crate) fn minus<I: Integer>(p: &Vector<I>, q: &Vector<I>) -> Vector<I> {
+pub(crate) fn minus<I: Ring>(p: &Vector<I>, q: &Vector<I>) -> Vector<I> {
     [0, 1, 2].map(|i| p[i].minus(&q[i]))
 }
 
-fn cross<I: Integer>(p: &Vector<I>, q: &Vector<I>) -> Vector<I> {
+pub(crate) fn cross<I: Ring>(p: &Vector<I>, q: &Vector<I>) -> Vector<I> {
     [(1, 2), (2, 0), (0, 1)].map(|(j, k)| p[j].times(&q[k]).minus(&p[k].times(&q[j])))
 }
 
-fn dot<I: Integer>(p: &Vector<I>, q: &Vector<I>) -> I {
+pub(crate) fn dot<I: Ring>(p: &Vector<I>, q: &Vector<I>) -> I {
     (p[0].times(&q[0]))
         .plus(&p[1].times(&q[1]))
         .plus(&p[2].times(&q[2]))
 }
 
-pub(crate) fn determinant<I: Integer>(p: &Vector<I>, q: &Vector<I>, r: &Vector<I>) -> I {
+pub(crate) fn determinant<I: Ring>(p: &Vector<I>, q: &Vector<I>, r: &Vector<I>) -> I {
     dot(&cross(p, q), r)
 }
 
-fn is_zero<I: Integer>(p: &Vector<I>) -> bool {
+fn is_zero<I: Exact>(p: &Vector<I>) -> bool {
     p.iter().all(|x| x.sign() == 0)
 }
 
 /// Whether non-negative numbers, not all zero, combine the points to zero.
-pub(crate) fn zero_in_hull<I: Integer>(p: &[Vector<I>; 9]) -> bool {
+pub(crate) fn zero_in_hull<const N: usize, I: Exact>(p: &[Vector<I>; N]) -> bool {
     // Most pairs of triangles are far apart: all points beyond the origin along one axis.
     let beyond = |axis: usize, sign: i8| p.iter().all(|point| point[axis].sign() == sign);
     if (0..3).any(|axis| beyond(axis, 1) || beyond(axis, -1)) {
         return false;
     }
     // A point, or a segment: zero, or in opposite directions.
-    let crosses: [[Option<Vector<I>>; 9]; 9] =
+    let crosses: [[Option<Vector<I>>; N]; N] =
         std::array::from_fn(|i| std::array::from_fn(|j| (i < j).then(|| cross(&p[i], &p[j]))));
     let cross_of = |i: usize, j: usize| crosses[i][j].as_ref().expect("i < j");
-    if pairs().any(|[i, j]| is_zero(cross_of(i, j)) && dot(&p[i], &p[j]).sign() <= 0) {
+    if pairs(N).any(|[i, j]| is_zero(cross_of(i, j)) && dot(&p[i], &p[j]).sign() <= 0) {
         return true;
     }
-    let mut sides = [[[0_i8; 9]; 9]; 9];
-    for [i, j, k] in triples() {
+    let mut sides = [[[0_i8; N]; N]; N];
+    for [i, j, k] in triples(N) {
         sides[i][j][k] = dot(cross_of(i, j), &p[k]).sign();
         if sides[i][j][k] == 0 && in_triangle([cross_of(i, j), cross_of(j, k), cross_of(i, k)]) {
             return true;
@@ -53,7 +53,7 @@ pub(crate) fn zero_in_hull<I: Integer>(p: &[Vector<I>; 9]) -> bool {
     }
     // A tetrahedron: with the origin put for one corner after the other its volume never changes its sign. The four add up to
     // the volume of the whole, so one that is not zero is enough to know that the tetrahedron is one.
-    quadruples().any(|[i, j, k, l]| {
+    quadruples(N).any(|[i, j, k, l]| {
         let parts = [
             sides[j][k][l],
             -sides[i][k][l],
@@ -66,7 +66,7 @@ pub(crate) fn zero_in_hull<I: Integer>(p: &[Vector<I>; 9]) -> bool {
 
 /// Whether a triangle in one plane with the origin holds it: p x q, q x r and r x p, which are parallel, point one way. They
 /// add up to the triangle's area, so one that is not zero is enough to know that the triangle is one.
-fn in_triangle<I: Integer>([pq, qr, pr]: [&Vector<I>; 3]) -> bool {
+fn in_triangle<I: Exact>([pq, qr, pr]: [&Vector<I>; 3]) -> bool {
     (0..3).any(|axis| {
         // r x p is -(p x r).
         let ways = [pq[axis].sign(), qr[axis].sign(), -pr[axis].sign()];
@@ -79,14 +79,14 @@ fn one_way(signs: &[i8]) -> bool {
     signs.iter().all(|&sign| sign >= 0) || signs.iter().all(|&sign| sign <= 0)
 }
 
-fn pairs() -> impl Iterator<Item = [usize; 2]> {
-    (0..9).flat_map(|i| (i + 1..9).map(move |j| [i, j]))
+pub(crate) fn pairs(count: usize) -> impl Iterator<Item = [usize; 2]> {
+    (0..count).flat_map(move |i| (i + 1..count).map(move |j| [i, j]))
 }
 
-fn triples() -> impl Iterator<Item = [usize; 3]> {
-    pairs().flat_map(|[i, j]| (j + 1..9).map(move |k| [i, j, k]))
+pub(crate) fn triples(count: usize) -> impl Iterator<Item = [usize; 3]> {
+    pairs(count).flat_map(move |[i, j]| (j + 1..count).map(move |k| [i, j, k]))
 }
 
-fn quadruples() -> impl Iterator<Item = [usize; 4]> {
-    triples().flat_map(|[i, j, k]| (k + 1..9).map(move |l| [i, j, k, l]))
+fn quadruples(count: usize) -> impl Iterator<Item = [usize; 4]> {
+    triples(count).flat_map(move |[i, j, k]| (k + 1..count).map(move |l| [i, j, k, l]))
 }

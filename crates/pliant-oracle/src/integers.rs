@@ -7,15 +7,19 @@
 use crate::hull::Vector;
 use dashu_int::IBig;
 
-/// What the oracle computes with. Exact: an implementation has room for all results, or grows.
-pub(crate) trait Integer: Clone {
+/// What is added and multiplied without rounding: an implementation has room for all results, or grows.
+pub(crate) trait Ring: Clone {
     fn minus(&self, other: &Self) -> Self;
     fn plus(&self, other: &Self) -> Self;
     fn times(&self, other: &Self) -> Self;
+}
+
+/// What the oracle decides with: an exact number, whose sign is known.
+pub(crate) trait Exact: Ring {
     fn sign(&self) -> i8;
 }
 
-impl Integer for i128 {
+impl Ring for i128 {
     fn minus(&self, other: &Self) -> Self {
         self - other
     }
@@ -25,12 +29,15 @@ impl Integer for i128 {
     fn times(&self, other: &Self) -> Self {
         self * other
     }
+}
+
+impl Exact for i128 {
     fn sign(&self) -> i8 {
         self.signum() as i8
     }
 }
 
-impl Integer for IBig {
+impl Ring for IBig {
     fn minus(&self, other: &Self) -> Self {
         self - other
     }
@@ -40,6 +47,9 @@ impl Integer for IBig {
     fn times(&self, other: &Self) -> Self {
         self * other
     }
+}
+
+impl Exact for IBig {
     fn sign(&self) -> i8 {
         i8::from(*self > IBig::ZERO) - i8::from(*self < IBig::ZERO)
     }

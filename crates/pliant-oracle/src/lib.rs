@@ -16,14 +16,19 @@ mod distance;
 mod environment;
 mod hull;
 mod integers;
+mod motion;
 mod pairs;
 
 pub use distance::{compare_distance, compare_dot, compare_length};
 pub use environment::subnormals_flushed;
+pub use motion::{
+    Elements, FirstContact, MotionClass, Moving, compare_first, first_contact, meet_until,
+    motion_fits_f32,
+};
 pub use pairs::{Class, Random, fits_f32};
 
 use hull::{Vector, determinant, minus, zero_in_hull};
-use integers::{Integer, Scaled, scale};
+use integers::{Exact, Scaled, scale};
 
 /// Three corners.
 pub type Triangle = [[f64; 3]; 3];
@@ -45,8 +50,8 @@ pub fn intersect(a: &Triangle, b: &Triangle) -> bool {
 }
 
 /// Of the convex hull of the first three and that of the others.
-fn zero_is_a_difference<I: Integer>(corners: &[Vector<I>]) -> bool {
-    zero_in_hull(&std::array::from_fn(|i| {
+fn zero_is_a_difference<I: Exact>(corners: &[Vector<I>]) -> bool {
+    zero_in_hull::<9, I>(&std::array::from_fn(|i| {
         minus(&corners[i / 3], &corners[3 + i % 3])
     }))
 }
@@ -64,7 +69,7 @@ pub fn orientation(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3], d: &[f64; 3]) -> i8
 }
 
 /// On which side of the first three the fourth lies.
-fn side<I: Integer>(points: &[Vector<I>]) -> i8 {
+fn side<I: Exact>(points: &[Vector<I>]) -> i8 {
     let [b, c, d] = [1, 2, 3].map(|i| minus(&points[i], &points[0]));
     determinant(&b, &c, &d).sign()
 }
@@ -94,7 +99,7 @@ pub fn sign_of_sum(numbers: &[f64]) -> i8 {
 }
 
 /// The sign of the sum of first coordinates.
-fn sum_of_first<I: Integer>(points: &[Vector<I>]) -> i8 {
+fn sum_of_first<I: Exact>(points: &[Vector<I>]) -> i8 {
     let sum = points
         .iter()
         .map(|point| point[0].clone())

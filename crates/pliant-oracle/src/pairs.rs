@@ -29,16 +29,16 @@ impl Random {
         (((self.bits() >> 32) * u64::from(count)) >> 32) as u32
     }
 
-    fn between(&mut self, least: i32, most: i32) -> i32 {
+    pub(crate) fn between(&mut self, least: i32, most: i32) -> i32 {
         least + self.below(most.abs_diff(least) + 1) as i32
     }
 
-    fn one_in(&mut self, count: u32) -> bool {
+    pub(crate) fn one_in(&mut self, count: u32) -> bool {
         self.below(count) == 0
     }
 
     /// In [-1, 1): 53 bits, or 24.
-    fn real(&mut self, single: bool) -> f64 {
+    pub(crate) fn real(&mut self, single: bool) -> f64 {
         let bits = if single { 24 } else { 53 };
         (self.bits() >> (64 - bits)) as f64 * power(1 - bits) - 1.0
     }
@@ -53,7 +53,7 @@ impl Random {
     }
 
     /// A few units in the last place up or down, often none.
-    fn nudged(&mut self, x: f64, single: bool) -> f64 {
+    pub(crate) fn nudged(&mut self, x: f64, single: bool) -> f64 {
         (0..self.below(3)).fold(x, |x, _| match (single, self.one_in(2)) {
             (true, true) => f64::from((x as f32).next_up()),
             (true, false) => f64::from((x as f32).next_down()),
@@ -64,7 +64,7 @@ impl Random {
 }
 
 /// 2^exponent, subnormal ones included.
-fn power(exponent: i32) -> f64 {
+pub(crate) fn power(exponent: i32) -> f64 {
     if exponent < -1022 {
         f64::from_bits(1 << (exponent + 1074))
     } else {

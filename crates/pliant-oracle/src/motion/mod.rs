@@ -1,0 +1,253 @@
+//! Whether a vertex and a triangle, or two edges, meet while their corners move on straight lines, and which of two pairs first.
+//!
+//! At a time t two primitives meet if and only if the origin is in the hull of the differences of a corner of the one and a corner of the
+//! other: three differences, or four. Each moves on a straight line too. `zero_in_hull` decides that of points at rest by
+//! the signs of coordinates, cross products, dot products and determinants; of moving points all of these are polynomials in t of
+//! degree at most 3, with integer coefficients. Between neighbouring roots of these polynomials no sign changes, hence no answer.
+//!
+//! The times of contact are a closed set: if there is contact all through an open interval, then at its ends too. So the first contact
+//! is at 0 or at a root of one of the polynomials, and it is enough to ask `zero_in_hull` at these: with polynomials for numbers, whose sign is that
+//! of their value at the root, and exact (`algebraic.rs`).
+//!
+//! One observation makes this fast. Where there is contact, the origin and the first three differences are in one plane: of three
+//! differences because the origin is in their triangle, of four because these are the corners of a parallelogram. So if the determinant of
+//! the three is not zero always, its roots are the only times to look at.
+//!
+//! Nothing is rounded, and nothing is assumed of the primitives: a degenerate one is the segment or the point that it is.
+
+mod algebraic;
+mod classes;
+mod polynomial;
+
+pub use classes::{MotionClass, motion_fits_f32};
+
+use crate::hull::{Vector, cross, determinant, dot, minus, pairs, triples, zero_in_hull};
+use crate::integers::{Exact, Ring, integers};
+use algebraic::Root;
+use polynomial::Polynomial;
+use std::cell::RefCell;
+use std::cmp::Ordering;
+
+/// Which elements four corners are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Elements {
+    /// A vertex, then a triangle.
+    VertexTriangle,
+    /// An edge, then an edge.
+    EdgeEdge,
+}
+
+/// Four corners at the start, at time 0, and at the end, at time 1.
+pub type Moving = [[[f64; 3]; 4]; 2];
+
+/// Whether they meet, as closed sets, at some time of [0, until].
+///
+/// # Panics
+///
+/// If a coordinate is not finite, or `until` is not in [0, 1].
+pub fn meet_until(elements: Elements, motion: &Moving, until: f64) -> bool {
+    assert!((0.0..=1.0).contains(&until), "{until} is not in [0, 1]");
+    first_contact(elements, motion).is_some_and(|first| first.compare(until).is_le())
+}
+
+/// Which of two motions first meets earlier; `None` if either never does in [0, 1].
+///
+/// # Panics
+///
+/// If a coordinate is not finite.
+pub fn compare_first(a: (Elements, &Moving), b: (Elements, &Moving)) -> Option<Ordering> {
+    let [a, b] = [first_contact(a.0, a.1)?, first_contact(b.0, b.1)?];
+    Some(a.0.borrow_mut().compare(&b.0.borrow()))
+}
+
+/// The time of the first contact, exactly: a root of a polynomial.
+#[derive(Clone, Debug)]
+pub struct FirstContact(RefCell<Root>);
+
+impl FirstContact {
+    /// Whether it is earlier than t, then, or later.
+    ///
+    /// # Panics
+    ///
+    /// If t is not finite.
+    pub fn compare(&self, t: f64) -> Ordering {
+        let [n, one] = &integers(&[t, 1.0])[..] else {
+            unreachable!("two numbers were given")
+        };
+        // In units of which one is a power of two.
+        let bits = one.trailing_zeros().expect("one is not zero");
+        self.0.borrow_mut().compare_with_fraction(n, bits)
+    }
+}
+
+/// The first time of [0, 1] at which they meet, as closed sets.
+///
+/// # Panics
+///
+/// If a coordinate is not finite.
+pub fn first_contact(elements: Elements, motion: &Moving) -> Option<FirstContact> {
+    let coordinates = motion.as_flattened().as_flattened();
+    assert!(coordinates.iter().all(|x| x.is_finite()));
+    if apart_along_an_axis(elements, motion) {
+        return None;
+    }
+    first_of_all(elements, motion, Times::OfOnePlane)
+}
+
+/// At which times to look.
+#[derive(Clone, Copy)]
+enum Times {
+    /// At the roots of one determinant unless it is zero.
+    OfOnePlane,
+    /// At all roots always: slower, and the same answer.
+    #[cfg(test)]
+    Every,
+}
+
+fn first_of_all(elements: Elements, motion: &Moving, times: Times) -> Option<FirstContact> {
+    let corners: [Vector<Polynomial>; 4] = paths(motion);
+    let difference = |[i, j]: [usize; 2]| minus(&corners[i], &corners[j]);
+    let root = match elements {
+        Elements::VertexTriangle => first(&[[0, 1], [0, 2], [0, 3]].map(difference), times),
+        Elements::EdgeEdge => first(&[[0, 2], [0, 3], [1, 2], [1, 3]].map(difference), times),
+    };
+    root.map(|root| FirstContact(RefCell::new(root)))
+}
+
+/// Whether all differences are on one side of zero on some axis, at both ends and so always.
+fn apart_along_an_axis(elements: Elements, motion: &Moving) -> bool {
+    let of_first = match elements {
+        Elements::VertexTriangle => 1,
+        Elements::EdgeEdge => 2,
+    };
+    (0..3).any(|axis| {
+        [Ordering::Less, Ordering::Greater].iter().any(|&side| {
+            motion.iter().all(|corners| {
+                let (one, other) = corners.split_at(of_first);
+                one.iter().all(|p| {
+                    other
+                        .iter()
+                        .all(|q| p[axis].partial_cmp(&q[axis]) == Some(side))
+                })
+            })
+        })
+    })
+}
+
+/// Coordinates of corners as functions of time, all divided by one power of two.
+fn paths(motion: &Moving) -> [Vector<Polynomial>; 4] {
+    let whole = integers(motion.as_flattened().as_flattened());
+    std::array::from_fn(|corner| {
+        std::array::from_fn(|axis| {
+            let [start, end] = [0, 12].map(|first| whole[first + 3 * corner + axis].clone());
+            let speed = end - &start;
+            Polynomial::new(vec![start, speed])
+        })
+    })
+}
+
+/// The first time at which the origin is in the hull of points.
+fn first<const N: usize>(points: &[Vector<Polynomial>; N], times: Times) -> Option<Root> {
+    let plane = determinant(&points[0], &points[1], &points[2]);
+    let of_one_plane = matches!(times, Times::OfOnePlane) && !plane.is_zero();
+    if of_one_plane {
+        // In order: the first is the first.
+        return Root::all(&plane)
+            .into_iter()
+            .find_map(|time| contact(points, time));
+    }
+    let mut first = contact(points, Root::whole(0));
+    for polynomial in signs_asked_for(points) {
+        for mut time in Root::all(&polynomial) {
+            if first.as_ref().is_none_or(|it| time.compare(it).is_lt()) {
+                first = contact(points, time).or(first);
+            }
+        }
+    }
+    first
+}
+
+/// What `zero_in_hull` decides by.
+fn signs_asked_for<const N: usize>(points: &[Vector<Polynomial>; N]) -> Vec<Polynomial> {
+    let mut all: Vec<Polynomial> = points.iter().flatten().cloned().collect();
+    for [i, j] in pairs(N) {
+        all.extend(cross(&points[i], &points[j]));
+        all.push(dot(&points[i], &points[j]));
+    }
+    all.extend(triples(N).map(|[i, j, k]| determinant(&points[i], &points[j], &points[k])));
+    all
+}
+
+/// The time, if the origin is in the hull of points then.
+fn contact<const N: usize>(points: &[Vector<Polynomial>; N], time: Root) -> Option<Root> {
+    let time = RefCell::new(time);
+    let then = points.each_ref().map(|point| {
+        point.each_ref().map(|value| AtTime {
+            value: value.clone(),
+            time: &time,
+        })
+    });
+    let meet = zero_in_hull(&then);
+    drop(then);
+    meet.then(|| time.into_inner())
+}
+
+/// The value of a polynomial at a root of another.
+#[derive(Clone)]
+struct AtTime<'a> {
+    value: Polynomial,
+    time: &'a RefCell<Root>,
+}
+
+impl AtTime<'_> {
+    fn at_same(&self, value: Polynomial) -> Self {
+        Self {
+            value,
+            time: self.time,
+        }
+    }
+}
+
+impl Ring for AtTime<'_> {
+    fn minus(&self, other: &Self) -> Self {
+        self.at_same(self.value.minus(&other.value))
+    }
+    fn plus(&self, other: &Self) -> Self {
+        self.at_same(self.value.plus(&other.value))
+    }
+    fn times(&self, other: &Self) -> Self {
+        self.at_same(self.value.times(&other.value))
+    }
+}
+
+impl Exact for AtTime<'_> {
+    fn sign(&self) -> i8 {
+        self.time.borrow_mut().sign_of(&self.value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Random;
+
+    #[test]
+    fn every_root_or_those_of_one_plane() {
+        for class in MotionClass::ALL {
+            let mut random = Random::new(2);
+            for _ in 0..300 {
+                let (elements, motion) = class.motion(&mut random);
+                let expected = first_of_all(elements, &motion, Times::Every);
+                let first = first_contact(elements, &motion);
+                let agree = match (&first, &expected) {
+                    (Some(a), Some(b)) => a.0.borrow_mut().compare(&b.0.borrow()).is_eq(),
+                    (a, b) => a.is_none() && b.is_none(),
+                };
+                assert!(
+                    agree,
+                    "{class:?} {elements:?} {motion:?}: {first:?}, {expected:?}"
+                );
+            }
+        }
+    }
+}

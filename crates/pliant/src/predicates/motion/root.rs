@@ -76,6 +76,7 @@ fn visit_between<B>(
     visit_counted(&chain, polynomial, low, high, found)
 }
 
+/// The same, of a polynomial whose chain of signed remainders with its derivative is known.
 fn visit_counted<B>(
     chain: &SignedRemainders,
     polynomial: &Polynomial,
@@ -83,27 +84,33 @@ fn visit_counted<B>(
     high: Dyadic,
     found: &mut dyn FnMut(Root) -> ControlFlow<B>,
 ) -> ControlFlow<B> {
-    match chain.lost(&low, &high) {
-        0 => ControlFlow::Continue(()),
-        1 => found(Root::Between(Alone {
-            sign_at_low: polynomial.sign_at(&low),
-            polynomial: polynomial.clone(),
-            low,
-            high,
-        })),
-        _ => {
-            let middle = low.middle(&high);
-            if polynomial.sign_at(&middle) == 0 {
-                let others = polynomial.without_root(&middle);
-                visit_between(&others, low, middle.clone(), found)?;
-                found(Root::At(middle.clone()))?;
-                visit_between(&others, middle, high, found)
-            } else {
-                visit_counted(chain, polynomial, low, middle.clone(), found)?;
-                visit_counted(chain, polynomial, middle, high, found)
+    // The later parts are below the earlier ones.
+    let mut parts = vec![[low, high]];
+    while let Some([low, high]) = parts.pop() {
+        match chain.lost(&low, &high) {
+            0 => {}
+            1 => found(Root::Between(Alone {
+                sign_at_low: polynomial.sign_at(&low),
+                polynomial: polynomial.clone(),
+                low,
+                high,
+            }))?,
+            _ => {
+                let middle = low.middle(&high);
+                if polynomial.sign_at(&middle) == 0 {
+                    // Of a lower degree: this goes no deeper than there are roots.
+                    let others = polynomial.without_root(&middle);
+                    visit_between(&others, low, middle.clone(), found)?;
+                    found(Root::At(middle.clone()))?;
+                    visit_between(&others, middle, high, found)?;
+                } else {
+                    parts.push([middle.clone(), high]);
+                    parts.push([low, middle]);
+                }
             }
         }
     }
+    ControlFlow::Continue(())
 }
 
 impl Root {

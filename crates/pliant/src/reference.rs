@@ -7,7 +7,9 @@ use crate::error::Error;
 use crate::geometry::Bounds;
 use crate::mesh::share_a_vertex;
 use crate::predicates::distance::{Primitives, are_within_distance};
+use crate::predicates::motion::{self, Grid, first_contact};
 use crate::predicates::{Exact, Triangle, are_within, triangles_intersect};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// The pairs (triangle of a, triangle of b) that intersect, sorted.
@@ -244,6 +246,102 @@ pub fn self_close_vertex_triangle_pairs<S: Scalar>(
     vertices_and_triangles(body, body, true, &close(distance))
 }
 
+/// Two elements by their numbers, and the interval of times of their first contact.
+pub type Timed = ([u32; 2], [f64; 2]);
+
+/// The pairs (vertex of a, triangle of b) that meet on the way, sorted, as
+/// [`World::vertex_triangle_impacts`](crate::World::vertex_triangle_impacts) means them. The width is finite, and at least 0.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn vertex_triangle_impacts<S: Scalar>(
+    a: &Moving<S>,
+    b: &Moving<S>,
+    width: f64,
+) -> Result<Vec<Timed>, Error> {
+    timed(width, |meet| vertices_and_triangles(a, b, false, meet))
+}
+
+/// The pairs (vertex, triangle) of one body that meet on the way, sorted.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn self_vertex_triangle_impacts<S: Scalar>(
+    body: &Moving<S>,
+    width: f64,
+) -> Result<Vec<Timed>, Error> {
+    timed(width, |meet| vertices_and_triangles(body, body, true, meet))
+}
+
+/// The pairs (edge of a, edge of b) that meet on the way, sorted, as
+/// [`World::edge_edge_impacts`](crate::World::edge_edge_impacts) means them.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn edge_edge_impacts<S: Scalar>(
+    a: &Moving<S>,
+    b: &Moving<S>,
+    width: f64,
+) -> Result<Vec<Timed>, Error> {
+    timed(width, |meet| edges_and_edges(a, b, false, meet))
+}
+
+/// The pairs (smaller edge, larger edge) of one body that meet on the way, sorted.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn self_edge_edge_impacts<S: Scalar>(
+    body: &Moving<S>,
+    width: f64,
+) -> Result<Vec<Timed>, Error> {
+    timed(width, |meet| edges_and_edges(body, body, true, meet))
+}
+
+/// A test of two elements.
+type Test<'t, S> = &'t dyn Fn(Part<S>, Part<S>) -> bool;
+
+/// The pairs that meet, with the intervals that were found on the way.
+fn timed<S: Scalar>(
+    width: f64,
+    pairs_that: impl FnOnce(Test<S>) -> Result<Vec<[u32; 2]>, Error>,
+) -> Result<Vec<Timed>, Error> {
+    let grid = Grid::new(width);
+    let cells = RefCell::new(Vec::new());
+    let pairs = pairs_that(&|a, b| {
+        let cell = elements_in_motion(a, b)
+            .and_then(|moving| first_contact(&moving))
+            .map(|contact| contact.cell(grid));
+        cells.borrow_mut().extend(cell);
+        cell.is_some()
+    })?;
+    Ok(pairs.into_iter().zip(cells.into_inner()).collect())
+}
+
+/// Two elements as the exact decision takes them, if their boxes overlap.
+fn elements_in_motion<S: Scalar>((a, of_a): Part<S>, (b, of_b): Part<S>) -> Option<motion::Moving> {
+    if !are_within(&a.box_of(of_a), &b.box_of(of_b), 0.0) {
+        return None;
+    }
+    let both = || {
+        let of_both = of_a.iter().map(|&vertex| (a, vertex));
+        of_both.chain(of_b.iter().map(|&vertex| (b, vertex)))
+    };
+    let start = both().map(|(body, vertex)| body.positions[vertex as usize]);
+    let end = both().map(|(body, vertex)| body.end.unwrap_or(body.positions)[vertex as usize]);
+    let four = |corners: Vec<[S; 3]>| -> Option<[[f64; 3]; 4]> {
+        let corners: [[S; 3]; 4] = corners.try_into().ok()?;
+        Some(corners.map(|corner| corner.map(Scalar::to_f64)))
+    };
+    Some(motion::Moving {
+        are_edges: of_a.len() == 2,
+        corners: [four(start.collect())?, four(end.collect())?],
+    })
+}
+
 /// Some vertices of a body.
 type Part<'p, 'm, S> = (&'p Moving<'m, S>, &'p [u32]);
 
@@ -279,7 +377,7 @@ fn vertices_and_triangles<S: Scalar>(
     a: &Moving<S>,
     b: &Moving<S>,
     itself: bool,
-    are_near: &dyn Fn(Part<S>, Part<S>) -> bool,
+    are_near: Test<S>,
 ) -> Result<Vec<[u32; 2]>, Error> {
     a.validate()?;
     b.validate()?;
@@ -351,7 +449,7 @@ fn edges_and_edges<S: Scalar>(
     a: &Moving<S>,
     b: &Moving<S>,
     itself: bool,
-    are_near: &dyn Fn(Part<S>, Part<S>) -> bool,
+    are_near: Test<S>,
 ) -> Result<Vec<[u32; 2]>, Error> {
     a.validate()?;
     b.validate()?;

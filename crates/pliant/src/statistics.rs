@@ -17,9 +17,9 @@ pub struct Statistics {
     /// Pairs of triangles with overlapping boxes, which were therefore decided, or near enough to be measured. Within a body, without those
     /// that share a vertex.
     pub candidate_pairs: u64,
-    /// Of moving elements, those that separating directions in single precision left open, so that they were decided one by one.
+    /// Of moving elements, those that separating directions in single precision did not keep apart, so that they were decided one by one.
     pub scalar_decisions: u64,
-    /// Candidates of which floating point left a sign open, so that exact arithmetic was needed.
+    /// Candidates of which floating point left a sign open, so that exact arithmetic was needed. Of moving elements, whether they meet.
     pub exact_decisions: u64,
     /// Pairs found.
     pub pairs: u64,

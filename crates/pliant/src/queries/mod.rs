@@ -27,7 +27,7 @@ pub(crate) use close::{
     Close, CloseKind, Measurable, Measured, NearTriangles, NearestPair, close,
     closest_of_triangles, corners_of,
 };
-pub(crate) use impacts::{Impacts, MayMeet};
+pub(crate) use impacts::{Impacts, LIMIT, MayMeet};
 pub(crate) use intersections::Intersections;
 
 /// Two triangles whose boxes overlap, of the first body and of the second.

@@ -526,7 +526,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             ..Request::new(of)
         };
         let grid = request.grid()?;
-        let first = self.earliest(&request, OfKind::Both, false)?;
+        let first = self.first_contact(&request, OfKind::Both)?;
         Ok(first.map(|(impact, contact)| impact.with_cell(contact.cell(grid))))
     }
 
@@ -700,7 +700,7 @@ macro_rules! ask_impacts {
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
                 let grid = request.grid()?;
-                let first = self.earliest(request, $of, false)?;
+                let first = self.first_contact(request, $of)?;
                 let first = first.map(|(impact, contact)| impact.with_cell(contact.cell(grid)));
                 Ok(first.and_then($hit::of))
             }

@@ -22,7 +22,7 @@ use crate::impacts::Impact;
 use crate::kernels::Coordinate;
 use crate::predicates::motion::{Contact, Grid, Moving, first_contact};
 use crate::queries::{
-    EdgeEdgeCandidates, Impacts, Kind, Margin, MayMeet, Reach, VertexTriangleCandidates,
+    EdgeEdgeCandidates, Impacts, Kind, LIMIT, Margin, MayMeet, Reach, VertexTriangleCandidates,
 };
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
@@ -87,14 +87,24 @@ pub(super) enum OfKind {
 }
 
 impl<const N: usize, S: Coordinate> Engine<N, S> {
-    /// The first contact of a motion, after its start or at any time: which elements it is of, and when. Of several at one time that are of
-    /// edges if there are no others; the first in order.
-    pub(super) fn earliest(
+    /// The first contact of a motion: which elements it is of, and when. Of several at one time that of a vertex and a triangle; the first in order.
+    pub(super) fn first_contact(
+        &mut self,
+        request: &Request,
+        of: OfKind,
+    ) -> Result<Option<(Impact, Contact)>, Error> {
+        let earliest = self.earliest(request, of, false, 0.0)?;
+        self.first_of(earliest, request)
+    }
+
+    /// The earliest contacts, of both kinds or one, after the start or at any time; or the first times at which elements come as near as a distance.
+    fn earliest(
         &mut self,
         request: &Request,
         of: OfKind,
         after_start: bool,
-    ) -> Result<Option<(Impact, Contact)>, Error> {
+        distance: f64,
+    ) -> Result<Earliest, Error> {
         self.common.bodies.validate(request.of)?;
         let mut earliest = Earliest {
             cell: [f64::INFINITY; 2],
@@ -110,13 +120,13 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
                 Reach::End
             };
             if of != OfKind::Edges {
-                let kind = self.impacts_until(VertexTriangleCandidates::within, reach);
+                let kind = self.impacts_until(VertexTriangleCandidates::within, reach, distance);
                 let asked = &mut self.vertex_triangle_impacts;
                 search(asked, &kind, &mut self.common, request, &mut earliest)?;
                 statistics += self.common.statistics;
             }
             if of != OfKind::VerticesAndTriangles {
-                let kind = self.impacts_until(EdgeEdgeCandidates::within, reach);
+                let kind = self.impacts_until(EdgeEdgeCandidates::within, reach, distance);
                 let asked = &mut self.edge_edge_impacts;
                 search(asked, &kind, &mut self.common, request, &mut earliest)?;
                 statistics += self.common.statistics;
@@ -127,10 +137,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             until = (until * LONGER).min(1.0);
         }
         self.common.statistics = statistics;
-        let interrupt = Interrupt::new(request.question);
-        let first = first_of(&self.common.bodies, earliest.impacts, &interrupt);
-        self.common.end(&interrupt)?;
-        Ok(first)
+        Ok(earliest)
     }
 
     /// Which part of the motion is looked at first: one in which most vertices move less than an edge.
@@ -149,9 +156,13 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
         part
     }
 
-    /// Contacts up to a time. Boxes are grown by what rounding takes away from the shape there: half a unit in the last place of the
-    /// largest coordinate, and three roundings in `f64` of at most twice that coordinate.
-    fn impacts_until<K>(&self, within: impl Fn(Margin) -> K, reach: Reach) -> Impacts<K> {
+    /// Contacts up to a time, or what comes as near as a distance. Boxes are grown by what rounding takes away from the shape at the time.
+    fn impacts_until<K>(
+        &self,
+        within: impl Fn(Margin) -> K,
+        reach: Reach,
+        distance: f64,
+    ) -> Impacts<K> {
         let rounded = match reach {
             Reach::Until(_) => {
                 let bodies = self.common.bodies.list.iter();
@@ -160,20 +171,28 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             }
             Reach::End | Reach::To(_) => 0.0,
         };
-        Impacts::of(within(Margin::new(rounded)), Grid::new(SEARCHED), reach)
+        // Half the distance for each of two, and a little more than the lanes look for.
+        let margin = Margin::new((rounded + distance * (LIMIT / 2.0 + 0.001)).min(f64::MAX));
+        Impacts::of(within(margin), Grid::new(SEARCHED), reach).or_near(distance)
     }
 
     /// A time up to which everything may go: see [`World::collision_free_step`](crate::World::collision_free_step).
     pub(super) fn free_step(&mut self, request: &Request) -> Result<f64, Error> {
-        let Some((_, contact)) = self.earliest(request, OfKind::Both, true)? else {
-            return Ok(1.0);
-        };
-        let [low, _] = contact.cell(Grid::new(0.0));
+        let distance = request.distance()?;
+        let earliest = self.earliest(request, OfKind::Both, distance == 0.0, distance)?;
         let mut statistics = self.common.statistics;
+        let latest = if earliest.impacts.is_empty() {
+            return Ok(1.0);
+        } else if distance > 0.0 {
+            earliest.cell[0]
+        } else {
+            let first = self.first_of(earliest, request)?;
+            first.map_or(0.0, |(_, contact)| contact.cell(Grid::new(0.0))[0])
+        };
         let mut step = 0.0;
         for part in PARTS {
-            step = low * part;
-            let is_free = self.is_free_to(step, request)?;
+            step = latest * part;
+            let is_free = self.is_free_to(step, distance, request)?;
             statistics += self.common.statistics;
             if is_free {
                 break;
@@ -183,22 +202,53 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
         Ok(step)
     }
 
-    /// Whether nothing meets on straight ways to the shapes at a time, rounded, but what meets at the start.
-    fn is_free_to(&mut self, time: f64, request: &Request) -> Result<bool, Error> {
+    /// Whether nothing meets on straight ways to the shapes at a time, rounded, but what meets at the start, or comes as near as a distance.
+    fn is_free_to(&mut self, time: f64, distance: f64, request: &Request) -> Result<bool, Error> {
+        self.common.statistics = Statistics::default();
         if time == 0.0 {
             return Ok(true);
         }
-        let kind = self.impacts_until(VertexTriangleCandidates::within, Reach::To(time));
+        let reach = Reach::To(time);
+        let kind = self.impacts_until(VertexTriangleCandidates::within, reach, distance);
         let asked = &mut self.vertex_triangle_impacts;
-        if !is_free(asked, &kind, &mut self.common, request)? {
+        if !is_free(asked, &kind, &mut self.common, request, distance > 0.0)? {
             return Ok(false);
         }
         let statistics = self.common.statistics;
-        let kind = self.impacts_until(EdgeEdgeCandidates::within, Reach::To(time));
+        let kind = self.impacts_until(EdgeEdgeCandidates::within, reach, distance);
         let asked = &mut self.edge_edge_impacts;
-        let is_free = is_free(asked, &kind, &mut self.common, request)?;
+        let is_free = is_free(asked, &kind, &mut self.common, request, distance > 0.0)?;
         self.common.statistics += statistics;
         Ok(is_free)
+    }
+
+    /// Of contacts in one cell the exactly earliest, and when that is; of several, the first in order. It looks at every one.
+    fn first_of(
+        &mut self,
+        earliest: Earliest,
+        request: &Request,
+    ) -> Result<Option<(Impact, Contact)>, Error> {
+        let interrupt = Interrupt::new(request.question);
+        let mut impacts = earliest.impacts;
+        impacts.sort_unstable_by_key(numbers);
+        let mut first: Option<(Impact, Contact)> = None;
+        for impact in impacts {
+            if interrupt.is_set() {
+                break;
+            }
+            let moving = moving(&self.common.bodies, &impact);
+            let Some(contact) = moving.and_then(|moving| first_contact(&moving)) else {
+                continue;
+            };
+            let is_earlier = first
+                .as_ref()
+                .is_none_or(|(_, known)| contact.compare(known) == Ordering::Less);
+            if is_earlier {
+                first = Some((impact, contact));
+            }
+        }
+        self.common.end(&interrupt)?;
+        Ok(first)
     }
 }
 
@@ -227,12 +277,13 @@ where
     })
 }
 
-/// Whether none of one kind meets after the start.
+/// Whether none of one kind meets after the start, or at it if that counts.
 fn is_free<const N: usize, K>(
     asked: &mut Asked<Impacts<K>>,
     kind: &Impacts<K>,
     common: &mut Common<N, K::Scalar>,
     request: &Request,
+    at_start_too: bool,
 ) -> Result<bool, Error>
 where
     K: Kind<Scalar: Coordinate>,
@@ -240,8 +291,8 @@ where
 {
     let mut is_free = true;
     asked.visit(kind, common, request, &mut |found| {
-        let is_later = |&impact: &_| Into::<Impact>::into(impact).high() > 0.0;
-        match found.iter().position(is_later) {
+        let counts = |&impact: &_| at_start_too || Into::<Impact>::into(impact).high() > 0.0;
+        match found.iter().position(counts) {
             Some(place) => {
                 is_free = false;
                 ControlFlow::Break(place)
@@ -250,29 +301,6 @@ where
         }
     })?;
     Ok(is_free)
-}
-
-/// Of contacts in one cell the exactly earliest, and when that is; of several, the first in order. It looks at every one, unless interrupted.
-fn first_of<const N: usize, S: Coordinate>(
-    bodies: &Bodies<N, S>,
-    mut impacts: Vec<Impact>,
-    interrupt: &Interrupt,
-) -> Option<(Impact, Contact)> {
-    impacts.sort_unstable_by_key(numbers);
-    let mut first: Option<(Impact, Contact)> = None;
-    for impact in impacts {
-        if interrupt.is_set() {
-            return None;
-        }
-        let contact = first_contact(&moving(bodies, &impact)?)?;
-        let is_earlier = first
-            .as_ref()
-            .is_none_or(|(_, known)| contact.compare(known) == Ordering::Less);
-        if is_earlier {
-            first = Some((impact, contact));
-        }
-    }
-    first
 }
 
 /// Vertices and triangles first; each in order.

@@ -614,9 +614,12 @@ impl<S: Scalar> World<S> {
     /// [`advance_motion`](Self::advance_motion) with. It is proven that on straight ways to the shape that this makes, rounded as it is, no vertex meets a triangle
     /// and no edge another. 1 if that is so of the whole motion; then [`finish_motion`](Self::finish_motion) does the same.
     ///
-    /// t is at least 0.9 of the exact time of the first contact if at 0.9 of that time, and before, everything is apart by 8 units in the last place of the largest
-    /// coordinate; else perhaps smaller, or 0. What meets at the start already does not count: it is in the lists of impacts with time 0. So a world that begins
-    /// without intersections, and is advanced by such steps alone, never has any.
+    /// With a `min_distance` of 0, t is at least 0.9 of the exact time of the first contact, if up to then everything is apart by 8 units in the last place
+    /// of the largest coordinate; else perhaps smaller, or 0. What meets at the start already does not count: it is in the lists of impacts, with time 0. So a world that
+    /// begins without intersections, and is advanced by such steps alone, never has any.
+    ///
+    /// Above 0 it is a Euclidean distance; and 0.9 is of the time up to which everything is further apart than 1.001 times that. Elements that are not further apart
+    /// than it at the start may come nearer, and are kept from contact alone.
     ///
     /// ```
     /// # use pliant::{Selection, World};

@@ -15,7 +15,7 @@
 //!
 //! With b bits a coordinate, a difference has b + 1, a normal 2 (b + 1) + 1 in each of three and its square 4 (b + 1) + 4, the square of a
 //! volume 6 (b + 1) + 6. Two quotients of such are compared by products of 10 (b + 1) + 10 bits, and of the square of a distance by as few,
-//! for that is only done where they are nearly equal. So up to 150 bits a coordinate nothing is allocated.
+//! for that is only done where they are nearly equal. So up to 60 bits a coordinate nothing is allocated.
 //!
 //! This is for what `kernels::closest` leaves undecided: some microseconds each. It has the least distance as a
 //! quotient, and so each of its figures with an error of a few units in the last place, however small the distance is.

@@ -57,7 +57,7 @@ const fn power(exponent: i32) -> f64 {
 }
 
 /// A polygon's corners at one time.
-type Corners = [Point; 4];
+pub(super) type Corners = [Point; 4];
 
 /// A part of the motion.
 #[derive(Clone, Copy, Default)]
@@ -71,7 +71,7 @@ struct Part {
 }
 
 /// The difference of two elements at both ends of the motion, and the largest magnitudes of each component.
-struct Polygon {
+pub(super) struct Polygon {
     count: usize,
     ends: [Corners; 2],
     most: Corners,
@@ -167,7 +167,7 @@ enum Sides {
 }
 
 impl Polygon {
-    fn new(moving: &Moving) -> Self {
+    pub(super) fn new(moving: &Moving) -> Self {
         let minus = |p: Point, q: Point| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
         let ends = moving.corners.map(|[p, a, b, c]| {
             if moving.are_edges {
@@ -212,7 +212,17 @@ impl Polygon {
         (coefficients, sum * OF_DETERMINANT + LOST_OF_DETERMINANT)
     }
 
-    fn at(&self, t: f64) -> Corners {
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// A corner at both ends of the motion, and the larger magnitudes of its components.
+    pub(super) fn corner(&self, i: usize) -> (Point, Point, Point) {
+        (self.ends[0][i], self.ends[1][i], self.most[i])
+    }
+
+    /// Where the corners are at a time; each component is off by 4 u of the larger one at both ends.
+    pub(super) fn at(&self, t: f64) -> Corners {
         let s = 1.0 - t;
         let mut at = [[0.0; 3]; 4];
         for (corner, at) in at.iter_mut().enumerate() {
@@ -223,44 +233,52 @@ impl Polygon {
         at
     }
 
+    /// Where the corners are at both ends of a part.
+    pub(super) fn part(&self, [low, high]: [f64; 2]) -> [Corners; 2] {
+        [self.at(low), self.at(high)]
+    }
+
+    /// The sign that a component of a corner has throughout a part, if that is certain and not zero.
+    pub(super) fn corner_sign(&self, [first, last]: &[Corners; 2], i: usize, axis: usize) -> i8 {
+        let error = self.most[i][axis] * OF_POINT + LOST_OF_POINT;
+        let [p, q] = [first[i][axis], last[i][axis]];
+        i8::from(p > error && q > error) - i8::from(p < -error && q < -error)
+    }
+
+    /// The sign that the component of corner i x corner i + 1 on an axis has throughout a part, if that is certain and not zero.
+    pub(super) fn cross_sign(&self, [first, last]: &[Corners; 2], i: usize, axis: usize) -> i8 {
+        let j = if i + 1 < self.count { i + 1 } else { 0 };
+        let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+        let cross = |p: &Point, q: &Point| p[x] * q[y] - p[y] * q[x];
+        let turns = [
+            cross(&first[i], &first[j]),
+            0.5 * (cross(&first[i], &last[j]) + cross(&last[i], &first[j])),
+            cross(&last[i], &last[j]),
+        ];
+        let [p, q] = [&self.most[i], &self.most[j]];
+        let error = (p[x] * q[y] + p[y] * q[x]) * OF_CROSS + LOST_OF_CROSS;
+        i8::from(turns.iter().all(|&turn| turn > error))
+            - i8::from(turns.iter().all(|&turn| turn < -error))
+    }
+
     fn sides(&self, low: f64, high: f64) -> Sides {
-        let [first, last] = [self.at(low), self.at(high)];
+        let part = self.part([low, high]);
         for axis in 0..3 {
-            let [mut are_above, mut are_below] = [true; 2];
-            for corner in 0..self.count {
-                let error = self.most[corner][axis] * OF_POINT + LOST_OF_POINT;
-                let [p, q] = [first[corner][axis], last[corner][axis]];
-                are_above &= p > error && q > error;
-                are_below &= p < -error && q < -error;
-            }
-            if are_above || are_below {
+            let first = self.corner_sign(&part, 0, axis);
+            if first != 0 && (1..self.count).all(|i| self.corner_sign(&part, i, axis) == first) {
                 return Sides::Apart;
             }
         }
-        let axis = steepest(&first, &last);
-        let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
-        let [mut are_positive, mut are_negative] = [true; 2];
-        let [mut is_one_positive, mut is_one_negative] = [false; 2];
+        let axis = steepest(&part);
+        let [mut positive, mut negative] = [0; 2];
         for i in 0..self.count {
-            let j = (i + 1) % self.count;
-            let cross = |p: &Point, q: &Point| p[x] * q[y] - p[y] * q[x];
-            let turns = [
-                cross(&first[i], &first[j]),
-                0.5 * (cross(&first[i], &last[j]) + cross(&last[i], &first[j])),
-                cross(&last[i], &last[j]),
-            ];
-            let [p, q] = [&self.most[i], &self.most[j]];
-            let error = (p[x] * q[y] + p[y] * q[x]) * OF_CROSS + LOST_OF_CROSS;
-            let is_positive = turns.iter().all(|&turn| turn > error);
-            let is_negative = turns.iter().all(|&turn| turn < -error);
-            are_positive &= is_positive;
-            are_negative &= is_negative;
-            is_one_positive |= is_positive;
-            is_one_negative |= is_negative;
+            let sign = self.cross_sign(&part, i, axis);
+            positive += usize::from(sign > 0);
+            negative += usize::from(sign < 0);
         }
-        if is_one_positive && is_one_negative {
+        if positive > 0 && negative > 0 {
             Sides::Apart
-        } else if are_positive || are_negative {
+        } else if positive == self.count || negative == self.count {
             Sides::Inside
         } else {
             Sides::Unknown
@@ -269,7 +287,7 @@ impl Polygon {
 }
 
 /// The axis on which the polygon, in the middle of a part, is seen largest, or about so.
-fn steepest(first: &Corners, last: &Corners) -> usize {
+fn steepest([first, last]: &[Corners; 2]) -> usize {
     let mut middle = [[0.0; 3]; 3];
     for (corner, middle) in middle.iter_mut().enumerate() {
         for (axis, middle) in middle.iter_mut().enumerate() {

@@ -26,11 +26,13 @@
 //! on the width of the grid alone, not on the way in which it was found.
 
 mod certain;
+mod distant;
 mod polynomial;
 mod root;
 
 use super::integer::{Integer, powers_of_all};
 use certain::{Certain, certain};
+pub(crate) use distant::distant_until;
 use polynomial::Polynomial;
 use root::{Root, visit_roots};
 use std::cmp::Ordering;
@@ -64,6 +66,8 @@ type Vector = [Polynomial; 3];
 struct Polygon {
     corners: [Vector; 4],
     count: usize,
+    /// The same in double precision, which is certain of most signs.
+    rounded: certain::Polygon,
 }
 
 /// How a pair was decided.
@@ -91,8 +95,8 @@ pub(crate) fn impact(moving: &Moving, grid: Grid, until: f64) -> (Option<[f64; 2
 pub(crate) fn first_contact(moving: &Moving) -> Option<Contact> {
     let polygon = Polygon::new(moving);
     let determinant = polygon.determinant();
-    let at_zero = |polynomial: &Polynomial| polynomial.sign_at_zero();
-    if determinant.sign_at_zero() == 0 && polygon.holds_origin(&at_zero) {
+    if determinant.sign_at_zero() == 0 && polygon.holds_origin([0.0; 2], &Polynomial::sign_at_zero)
+    {
         return Some(Contact::AtStart);
     }
     let mut first = None;
@@ -117,8 +121,10 @@ impl Polygon {
                 Polynomial::affine(start, &end)
             })
         };
+        let rounded = certain::Polygon::new(moving);
         if moving.are_edges {
             Self {
+                rounded,
                 corners: [
                     difference(0, 2),
                     difference(1, 2),
@@ -129,6 +135,7 @@ impl Polygon {
             }
         } else {
             Self {
+                rounded,
                 corners: [
                     difference(1, 0),
                     difference(2, 0),
@@ -159,16 +166,26 @@ impl Polygon {
         sum
     }
 
-    /// Whether the polygon holds the origin, by signs at a time at which the two are in one plane.
-    fn holds_origin(&self, sign: &dyn Fn(&Polynomial) -> i8) -> bool {
+    /// Whether the polygon holds the origin at a time at which the two are in one plane. The time is from the one number to the other; `sign` tells the signs
+    /// of polynomials at it, and is asked only where floating point is not certain.
+    fn holds_origin(&self, about: [f64; 2], sign: &dyn Fn(&Polynomial) -> i8) -> bool {
+        let rounded = self.rounded.part(about);
         (0..3).all(|axis| {
-            let mut sides = self.corners().iter().map(|corner| sign(&corner[axis]));
+            let mut sides = self.corners().iter().enumerate().map(|(i, corner)| {
+                match self.rounded.corner_sign(&rounded, i, axis) {
+                    0 => sign(&corner[axis]),
+                    certain => certain,
+                }
+            });
             let first = sides.next().unwrap_or(0);
             first == 0 || sides.any(|side| side != first)
         }) && (0..3).all(|axis| {
             let [mut is_any_positive, mut is_any_negative] = [false; 2];
             for i in 0..self.count {
-                let turn = sign(&self.cross(i, axis));
+                let turn = match self.rounded.cross_sign(&rounded, i, axis) {
+                    0 => sign(&self.cross(i, axis)),
+                    certain => certain,
+                };
                 is_any_positive |= turn > 0;
                 is_any_negative |= turn < 0;
                 if is_any_positive && is_any_negative {
@@ -186,7 +203,9 @@ impl Polygon {
             let is_earlier = first
                 .as_ref()
                 .is_none_or(|first| root.compare(first) == Ordering::Less);
-            if is_earlier && !self.holds_origin(&|polynomial| root.sign_of(polynomial)) {
+            let holds_origin =
+                || self.holds_origin(root.about(), &|polynomial| root.sign_of(polynomial));
+            if is_earlier && !holds_origin() {
                 return ControlFlow::Continue(());
             }
             // Those after it are later.

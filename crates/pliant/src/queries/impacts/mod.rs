@@ -11,7 +11,8 @@ use crate::hits::{EdgeEdge, Hit, VertexTriangle};
 use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
 use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
 use crate::kernels::{Buffer, Simd, dispatch};
-use crate::predicates::motion::{Decided, Grid, Moving, impact};
+use crate::predicates::distance::{Primitives, are_within_distance};
+use crate::predicates::motion::{Decided, Grid, Moving, distant_until, impact};
 use crate::statistics::Statistics;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -22,6 +23,8 @@ pub(crate) struct Impacts<K> {
     grid: Grid,
     until: Until,
     reach: Reach,
+    /// How near is as good as contact; 0 for contact itself.
+    distance: f64,
 }
 
 /// A time after which nothing is of interest.
@@ -91,6 +94,7 @@ impl<K> Impacts<K> {
     /// Of candidates whose margin is zero, but for what boxes that reach up to a time are off by.
     pub(crate) fn of(candidates: K, grid: Grid, reach: Reach) -> Self {
         Self {
+            distance: 0.0,
             candidates,
             grid,
             until: Until::new(match reach {
@@ -99,6 +103,12 @@ impl<K> Impacts<K> {
             }),
             reach,
         }
+    }
+
+    /// Not contact, but coming as near as this, which is found by [`approach`]; candidates have half of [`LIMIT`] times that for a margin. Elements that
+    /// are as near at the start are asked for contact after it.
+    pub(crate) fn or_near(self, distance: f64) -> Self {
+        Self { distance, ..self }
     }
 
     pub(crate) fn until(&self) -> &Until {
@@ -146,11 +156,13 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
         hits: &mut Buffer<TimedHit>,
         statistics: &mut Statistics,
     ) {
-        let pairs_before = statistics.pairs;
+        let before = *statistics;
         candidates.clear();
         self.candidates
             .test_runs(leaves, pairs, &mut (), candidates, statistics);
-        statistics.pairs = pairs_before;
+        // Of impacts, not of candidates.
+        statistics.pairs = before.pairs;
+        statistics.exact_decisions = before.exact_decisions;
         let until = self.until.get();
         let used = candidates.len();
         let eights = candidates.eights();
@@ -195,10 +207,12 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
             }
         }
         let until_at_least = (until as f32).next_up().min(1.0);
+        let limit = ((self.distance * LIMIT) as f32).next_up();
+        let limit = if self.distance == 0.0 { 0.0 } else { limit };
         let are_apart = if <K::Hit as MayMeet>::ARE_EDGES {
-            edges(i, &corners, until_at_least, 0.0)
+            edges(i, &corners, until_at_least, limit)
         } else {
-            vertices_and_triangles(i, &corners, until_at_least, 0.0)
+            vertices_and_triangles(i, &corners, until_at_least, limit)
         };
         let mut rest = !are_apart & (0xff >> (8 - candidates.len()));
         while rest != 0 {
@@ -208,7 +222,11 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
                 return None;
             }
             let moving = moving::<K>(&corners, lane);
-            let (cell, decided) = impact(&moving, self.grid, until);
+            let (cell, decided) = if self.distance == 0.0 {
+                impact(&moving, self.grid, until)
+            } else {
+                approach(&moving, self.distance)
+            };
             statistics.scalar_decisions += 1;
             statistics.exact_decisions += u64::from(decided == Decided::InIntegers);
             if let Some(cell) = cell {
@@ -221,6 +239,31 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
         }
         Some(())
     }
+}
+
+/// What lanes find further apart than this many times the distance is further than [`distant_until`] takes for near.
+pub(crate) const LIMIT: f64 = 1.002;
+
+/// A time up to which two elements stay further apart than a distance, twice, if that is not all the time; of those that are not at the start, one up to which
+/// they do not meet, if they meet later.
+#[cold]
+fn approach(moving: &Moving, distance: f64) -> (Option<[f64; 2]>, Decided) {
+    let until = distant_until(moving, distance);
+    let [start, _] = moving.corners;
+    let start = if moving.are_edges {
+        Primitives::EdgeEdge(start)
+    } else {
+        Primitives::VertexTriangle(start)
+    };
+    if until > 0.0 || !are_within_distance(&start, distance) {
+        return (
+            (until < 1.0).then_some([until; 2]),
+            Decided::InFloatingPoint,
+        );
+    }
+    let (cell, decided) = impact(moving, Grid::new(0.0), 1.0);
+    let later = cell.filter(|[_, high]| *high > 0.0);
+    (later.map(|[low, _]| [low; 2]), decided)
 }
 
 /// The corners of a candidate at the start of the motion and at its end.

@@ -232,3 +232,71 @@ impl Exact for AtTime<'_> {
         self.time.borrow_mut().sign_of(&self.value)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Random;
+
+    #[test]
+    fn every_root_or_those_of_one_plane() {
+        for class in MotionClass::ALL {
+            let mut random = Random::new(2);
+            for _ in 0..300 {
+                let (elements, motion) = class.motion(&mut random);
+                let expected = first_of_all(elements, &motion, Times::Every);
+                let first = first_contact(elements, &motion);
+                let agree = match (&first, &expected) {
+                    (Some(a), Some(b)) => a.compare_with(b).is_eq(),
+                    (a, b) => a.is_none() && b.is_none(),
+                };
+                assert!(
+                    agree,
+                    "{class:?} {elements:?} {motion:?}: {first:?}, {expected:?}"
+                );
+            }
+        }
+    }
+
+    /// The determinant whose roots are looked at.
+    fn volume(elements: Elements, motion: &Moving) -> Polynomial {
+        let [a, b, c, d] = paths(motion);
+        match elements {
+            Elements::VertexTriangle => determinant(&minus(&a, &b), &minus(&a, &c), &minus(&a, &d)),
+            Elements::EdgeEdge => determinant(&minus(&a, &c), &minus(&a, &d), &minus(&b, &c)),
+        }
+    }
+
+    #[test]
+    fn classes_have_the_roots_that_they_are_named_for() {
+        // Of 1,000: always in one plane; with a double root; with three roots, and of these with the first contact at a later one.
+        let count = |class: MotionClass| {
+            let mut counts = [0; 4];
+            let mut random = Random::new(4);
+            for _ in 0..1000 {
+                let (elements, motion) = class.motion(&mut random);
+                let volume = volume(elements, &motion);
+                if volume.is_zero() {
+                    counts[0] += 1;
+                    continue;
+                }
+                counts[1] += u32::from(volume.gcd(&volume.derivative()).degree() > 0);
+                let mut roots = Root::all(&volume);
+                if roots.len() == 3 {
+                    counts[2] += 1;
+                    let later = first_contact(elements, &motion)
+                        .is_some_and(|first| roots[0].compare(&first.0.borrow()).is_lt());
+                    counts[3] += u32::from(later);
+                }
+            }
+            println!("{class:?} {counts:?}");
+            counts
+        };
+        assert!(count(MotionClass::Coplanar)[0] > 700);
+        assert!(count(MotionClass::Parallel)[0] > 200);
+        assert!(count(MotionClass::DoubleRoot)[1] > 150);
+        let three = count(MotionClass::ThreeRoots);
+        assert!(three[2] > 300 && three[3] > 100);
+        assert!(count(MotionClass::Random)[..2] == [0, 0]);
+    }
+}

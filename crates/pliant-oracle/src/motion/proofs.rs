@@ -289,3 +289,40 @@ fn answers_have_proofs() {
     println!("{total:?}");
     assert!(total.iter().all(|share| share.is_at_least(90)), "{total:?}");
 }
+
+/// Where elements at rest meet, at one of many times, they have met by then.
+#[test]
+fn no_contact_is_seen_before_the_first() {
+    let mut seen = 0;
+    for class in MotionClass::ALL {
+        let mut random = Random::new(5);
+        for _ in 0..200 {
+            let (elements, motion) = class.motion(&mut random);
+            let differences = Differences::new(elements, &motion);
+            let first = first_contact(elements, &motion);
+            for n in 0..=48 {
+                // Every part of 32, and a few tiny ones from the start and from the end.
+                let time = match n {
+                    0..=32 => Time { n, bits: 5 },
+                    33..=40 => Time {
+                        n: n - 32,
+                        bits: 20,
+                    },
+                    _ => Time {
+                        n: (1 << 20) - (n - 40),
+                        bits: 20,
+                    },
+                };
+                if differences.meet_at(time) {
+                    let first = first.as_ref().expect("there is contact");
+                    assert!(
+                        first.compare(time.to_f64()).is_le(),
+                        "{class:?} {elements:?} {motion:?}"
+                    );
+                    seen += 1;
+                }
+            }
+        }
+    }
+    assert!(seen > 5_000, "{seen}");
+}

@@ -163,3 +163,129 @@ impl Root {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Random;
+    use crate::integers::Ring;
+
+    fn polynomial(coefficients: &[i32]) -> Polynomial {
+        Polynomial::new(coefficients.iter().map(|&x| x.into()).collect())
+    }
+
+    #[test]
+    fn roots_that_are_known() {
+        // Coefficients of 1, t, t^2, t^3; how many roots there are in [0, 1]; those that are fractions with the denominator 16.
+        for (coefficients, count, fractions) in [
+            (&[][..], 0, &[][..]),
+            (&[3], 0, &[]),
+            (&[0, 5], 1, &[0]),
+            (&[-1, 1], 1, &[16]),
+            (&[-1, 3], 1, &[]),
+            (&[1, 3], 0, &[]),
+            (&[-1, 0, 2], 1, &[]),
+            (&[1, -6, 7], 2, &[]),
+            (&[1, -4, 4], 1, &[8]),
+            (&[0, 0, 1], 1, &[0]),
+            (&[1, 0, 1], 0, &[]),
+            (&[0, -1, 1], 2, &[0, 16]),
+            // (2t - 1) (3t - 1) (5t - 4), (2t - 1)^3, (4t - 1)^2 (4t - 3), t (t - 1) (2t - 1), t^2 (t - 1).
+            (&[4, -25, 49, -30], 3, &[8]),
+            (&[-1, 6, -12, 8], 1, &[8]),
+            (&[-3, 28, -80, 64], 2, &[4, 12]),
+            (&[0, 1, -3, 2], 3, &[0, 8, 16]),
+            (&[0, 0, -1, 1], 2, &[0, 16]),
+        ] {
+            let of = polynomial(coefficients);
+            let mut roots = Root::all(&of);
+            assert_eq!(roots.len(), count, "{of:?} {roots:?}");
+            for root in &mut roots {
+                assert_eq!(root.sign_of(&of), 0);
+            }
+            for pair in roots.windows(2) {
+                let [mut a, mut b] = [pair[0].clone(), pair[1].clone()];
+                assert_eq!(a.compare(&b), Ordering::Less);
+                assert_eq!(b.compare(&a), Ordering::Greater);
+            }
+            let found = (0..=16).filter(|&n| {
+                let is = |root: &mut Root| root.compare_with_fraction(&n.into(), 4).is_eq();
+                roots.iter_mut().any(is)
+            });
+            assert_eq!(found.collect::<Vec<_>>(), fractions, "{of:?}");
+        }
+    }
+
+    /// Products of lines with roots in a list, times what has none.
+    #[test]
+    fn roots_of_products() {
+        let mut random = Random::new(6);
+        for _ in 0..2000 {
+            let count = random.between(1, 3);
+            // Fractions over one denominator, some outside [0, 1].
+            let denominator = [3, 7, 12, 1000][random.below(4) as usize];
+            let mut over: Vec<i32> = (0..count)
+                .map(|_| random.between(-denominator / 2, 3 * denominator / 2))
+                .collect();
+            let scale = random.between(1, 5);
+            let of = over.iter().fold(polynomial(&[scale]), |of, &n| {
+                of.times(&polynomial(&[-n, denominator]))
+            });
+            over.retain(|&n| (0..=denominator).contains(&n));
+            over.sort_unstable();
+            over.dedup();
+            let mut roots = Root::all(&of);
+            assert_eq!(roots.len(), over.len(), "{of:?}");
+            for (root, &n) in roots.iter_mut().zip(&over) {
+                assert_eq!(root.sign_of(&polynomial(&[-n, denominator])), 0);
+                // A little less, and the polynomial of another that has the same root.
+                assert_eq!(
+                    root.sign_of(&polynomial(&[1 - 1000 * n, 1000 * denominator])),
+                    1
+                );
+                assert_eq!(
+                    root.sign_of(&polynomial(&[-1 - 1000 * n, 1000 * denominator])),
+                    -1
+                );
+                let other = polynomial(&[-n, denominator]).times(&polynomial(&[1, 0, 1]));
+                assert_eq!(root.compare(&Root::all(&other)[0]), Ordering::Equal);
+                assert_eq!(Root::all(&other)[0].compare(root), Ordering::Equal);
+            }
+        }
+    }
+
+    #[test]
+    fn roots_that_are_close() {
+        // 2^k t = 1, and (2^k t)^2 = 1 + 2^-k in integers: apart by about 2^-(2 k + 1).
+        for k in [4, 20, 100, 1000] {
+            let one = |bits: usize| IBig::ONE << bits;
+            let line = Polynomial::new(vec![-one(0), one(k)]);
+            let curve = Polynomial::new(vec![-one(k) - one(0), IBig::ZERO, one(3 * k)]);
+            let [mut a, mut b] = [&line, &curve].map(|of| Root::all(of).remove(0));
+            assert_eq!(a.compare(&b), Ordering::Less);
+            assert_eq!(b.compare(&a), Ordering::Greater);
+            assert_eq!((a.sign_of(&curve), b.sign_of(&line)), (-1, 1));
+        }
+    }
+
+    #[test]
+    fn a_root_refined_stays_in_its_interval() {
+        // 1000 t^3 + t - 7, and t^2 - 1/2, whose roots are no fractions.
+        for of in [polynomial(&[-7, 1, 0, 1000]), polynomial(&[-1, 0, 2])] {
+            let mut root = Root::all(&of).remove(0);
+            let mut width = 1.0;
+            let mut times = 0;
+            while width > 1e-30 {
+                let signs = [&root.low, &root.high].map(|n| of.sign_at(n, root.bits));
+                assert_eq!(signs, [-1, 1]);
+                root.refine();
+                let now = (&root.high - &root.low).to_f64().value() / 2f64.powi(root.bits as i32);
+                assert!(now < width);
+                width = now;
+                times += 1;
+            }
+            // By halves it would be a hundred.
+            assert!(times < 25, "{times}");
+        }
+    }
+}

@@ -511,14 +511,10 @@ impl Maker<'_> {
             start[first..].copy_from_slice(&end[first..]);
         }
         let motion = self.at_some_size([start, end], -60, 60);
-        if self.random.one_in(2) {
-            self.nudged_at(motion, 1)
-        } else {
-            motion
-        }
+        self.nudged_at(motion, 1)
     }
 
-    /// One coordinate at one end moved a little.
+    /// One coordinate at one end moved a little, or not.
     fn nudged_at(&mut self, motion: Moving, end: usize) -> Moving {
         let mut motion = self.rounded(motion);
         let [corner, axis] = [4, 3].map(|count| self.random.below(count) as usize);
@@ -530,7 +526,13 @@ impl Maker<'_> {
     fn double_root(&mut self) -> Moving {
         let whole = self.some_whole();
         let boundary = self.random.one_in(4);
-        let weights = self.weights(whole, boundary);
+        let mut weights = self.weights(whole, boundary);
+        if self.random.one_in(5) {
+            // Beyond an end of an edge, or of a side of the triangle.
+            let more = f64::from(self.random.between(1, whole));
+            weights[2] += more;
+            weights[3] -= more;
+        }
         let range = [3, 20][self.random.below(2) as usize];
         // In the plane z = 0 all four, and the heights of the two points of contact change alike: so the volume, which is their difference times
         // an area, has a double root.
@@ -544,12 +546,12 @@ impl Maker<'_> {
         }
         let (numerator, bits) = self.time();
         let motion = Self::through(places, moves, numerator, bits);
-        let motion = self.oblique(motion);
+        let mut motion = self.oblique(motion);
         if self.random.one_in(2) {
-            self.nudged(motion)
-        } else {
-            motion
+            let end = self.random.below(2) as usize;
+            motion = self.nudged_at(motion, end);
         }
+        self.nudged(motion)
     }
 
     fn boundary(&mut self) -> Moving {
@@ -580,10 +582,15 @@ impl Maker<'_> {
                 rows[1][row][column] = from + slope;
             }
         }
-        // Which of the three is which.
-        let turn = self.random.below(3) as usize;
-        for rows in &mut rows {
-            rows.rotate_left(turn);
+        // Multiples of a row added to another change no determinant, and turn where the origin lies when it is zero.
+        for _ in 0..4 {
+            let [from, to] = [(); 2].map(|()| self.random.below(3) as usize);
+            let times = self.whole(2);
+            for rows in rows.iter_mut().filter(|_| from != to) {
+                for column in 0..3 {
+                    rows[to][column] += times * rows[from][column];
+                }
+            }
         }
         let path = [(); 2].map(|()| self.wholes(20));
         let corners = |end: usize| -> Corners {
@@ -793,19 +800,15 @@ impl Maker<'_> {
 
     fn early(&mut self) -> Moving {
         let whole = self.some_whole();
-        let boundary = self.random.one_in(3);
+        let boundary = self.random.one_in(2);
         let weights = self.weights(whole, boundary);
         let places = self.meeting(weights, f64::from(whole), 9);
         let moves = [(); 4].map(|()| self.wholes(9));
-        // Few bits in all: integers in their first, and so the time is exact in most.
+        // Integers in the first bits and the part of the step in the last: few enough for the time to be exact.
         let bits = self.random.between(4, if self.single { 18 } else { 44 });
         let numerator = self.random.between(1, 3);
         let motion = Self::through(places, moves, numerator, bits);
-        if self.random.one_in(2) {
-            self.nudged_at(motion, 0)
-        } else {
-            self.rounded(motion)
-        }
+        self.nudged_at(motion, 0)
     }
 
     fn any_bits(&mut self) -> Moving {

@@ -18,6 +18,8 @@
 mod algebraic;
 mod classes;
 mod polynomial;
+#[cfg(test)]
+mod proofs;
 
 pub use classes::{MotionClass, motion_fits_f32};
 
@@ -56,8 +58,7 @@ pub fn meet_until(elements: Elements, motion: &Moving, until: f64) -> bool {
 ///
 /// If a coordinate is not finite.
 pub fn compare_first(a: (Elements, &Moving), b: (Elements, &Moving)) -> Option<Ordering> {
-    let [a, b] = [first_contact(a.0, a.1)?, first_contact(b.0, b.1)?];
-    Some(a.0.borrow_mut().compare(&b.0.borrow()))
+    Some(first_contact(a.0, a.1)?.compare_with(&first_contact(b.0, b.1)?))
 }
 
 /// The time of the first contact, exactly: a root of a polynomial.
@@ -77,6 +78,12 @@ impl FirstContact {
         // In units of which one is a power of two.
         let bits = one.trailing_zeros().expect("one is not zero");
         self.0.borrow_mut().compare_with_fraction(n, bits)
+    }
+
+    /// Whether it is earlier than the first contact of another motion, at the same time, or later.
+    pub fn compare_with(&self, other: &Self) -> Ordering {
+        let other = other.0.borrow().clone();
+        self.0.borrow_mut().compare(&other)
     }
 }
 
@@ -240,7 +247,7 @@ mod tests {
                 let expected = first_of_all(elements, &motion, Times::Every);
                 let first = first_contact(elements, &motion);
                 let agree = match (&first, &expected) {
-                    (Some(a), Some(b)) => a.0.borrow_mut().compare(&b.0.borrow()).is_eq(),
+                    (Some(a), Some(b)) => a.compare_with(b).is_eq(),
                     (a, b) => a.is_none() && b.is_none(),
                 };
                 assert!(
@@ -249,5 +256,47 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// The determinant whose roots are looked at.
+    fn volume(elements: Elements, motion: &Moving) -> Polynomial {
+        let [a, b, c, d] = paths(motion);
+        match elements {
+            Elements::VertexTriangle => determinant(&minus(&a, &b), &minus(&a, &c), &minus(&a, &d)),
+            Elements::EdgeEdge => determinant(&minus(&a, &c), &minus(&a, &d), &minus(&b, &c)),
+        }
+    }
+
+    #[test]
+    fn classes_have_the_roots_that_they_are_named_for() {
+        // Of 1,000: always in one plane; with a double root; with three roots, and of these with the first contact at a later one.
+        let count = |class: MotionClass| {
+            let mut counts = [0; 4];
+            let mut random = Random::new(4);
+            for _ in 0..1000 {
+                let (elements, motion) = class.motion(&mut random);
+                let volume = volume(elements, &motion);
+                if volume.is_zero() {
+                    counts[0] += 1;
+                    continue;
+                }
+                counts[1] += u32::from(volume.gcd(&volume.derivative()).degree() > 0);
+                let mut roots = Root::all(&volume);
+                if roots.len() == 3 {
+                    counts[2] += 1;
+                    let later = first_contact(elements, &motion)
+                        .is_some_and(|first| roots[0].compare(&first.0.borrow()).is_lt());
+                    counts[3] += u32::from(later);
+                }
+            }
+            println!("{class:?} {counts:?}");
+            counts
+        };
+        assert!(count(MotionClass::Coplanar)[0] > 700);
+        assert!(count(MotionClass::Parallel)[0] > 200);
+        assert!(count(MotionClass::DoubleRoot)[1] > 150);
+        let three = count(MotionClass::ThreeRoots);
+        assert!(three[2] > 300 && three[3] > 100);
+        assert!(count(MotionClass::Random)[..2] == [0, 0]);
     }
 }

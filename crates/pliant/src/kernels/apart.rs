@@ -279,3 +279,97 @@ fn minus<I: Simd>(p: Vectors<I>, q: Vectors<I>) -> Vectors<I> {
 fn dot<I: Simd>(p: Vectors<I>, q: Vectors<I>) -> f32x8<I> {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernels::{Instructions, dispatch};
+    use crate::predicates::distance::{Primitives, are_within_distance};
+    use pliant_oracle::{Elements, MotionClass, Moving, Random, first_contact, motion_fits_f32};
+    use std::cmp::Ordering;
+
+    /// Which of eight motions are surely apart; the same with all instructions.
+    fn claims<S: Coordinate>(
+        motions: &[(Elements, Moving); 8],
+        elements: Elements,
+        of: fn(f64) -> S,
+        until: f32,
+        distance: f32,
+    ) -> u8 {
+        let padded = motions.map(|(_, motion)| {
+            let corners = [motion[0], motion[1]].concat();
+            let padded = corners.iter().map(|&[x, y, z]| [x, y, z, z].map(of));
+            padded.collect::<Vec<[S; 4]>>()
+        });
+        let mut corners = MovingCorners([[&padded[0][0]; 8]; 8]);
+        for (lane, pair) in padded.iter().enumerate() {
+            for (which, corner) in pair.iter().enumerate() {
+                corners.0[which][lane] = corner;
+            }
+        }
+        let of_all = Instructions::all().into_iter().map(|instructions| {
+            dispatch!(instructions, i => match elements {
+                Elements::VertexTriangle => vertices_and_triangles(i, &corners, until, distance),
+                Elements::EdgeEdge => edges(i, &corners, until, distance),
+            })
+        });
+        let of_all: Vec<u8> = of_all.collect();
+        assert!(of_all.iter().all(|claims| *claims == of_all[0]));
+        of_all[0]
+    }
+
+    #[test]
+    fn what_is_claimed_to_be_apart_is() {
+        let mut random = Random::new(77);
+        let [mut claimed, mut claimed_far, mut total] = [0; 3];
+        for round in 0..12_000 {
+            let class = MotionClass::ALL[round % MotionClass::ALL.len()];
+            let mut motions: Vec<(Elements, Moving)> = Vec::new();
+            let elements = [Elements::VertexTriangle, Elements::EdgeEdge][round / 64 % 2];
+            while motions.len() < 8 {
+                let motion = class.motion(&mut random);
+                if motion.0 == elements {
+                    motions.push(motion);
+                }
+            }
+            let motions: [(Elements, Moving); 8] = motions.try_into().expect("eight");
+            let until = [1.0, 0.5, 0.125][round % 3];
+            let doubles = claims(&motions, elements, |x| x, until, 0.0);
+            let are_single = motions.iter().all(|(_, motion)| motion_fits_f32(motion));
+            let singles = if are_single {
+                claims(&motions, elements, |x| x as f32, until, 0.0)
+            } else {
+                0
+            };
+            // Of the size that distances in it have.
+            let distance = (motions[0].1[0][0][0] - motions[0].1[0][2][0]).abs() as f32 * 0.25;
+            let far = claims(&motions, elements, |x| x, until, distance);
+            assert_eq!(far & !doubles, 0, "further apart than a distance is apart");
+            for (lane, (_, motion)) in motions.iter().enumerate() {
+                total += 1;
+                let is = |mask: u8| mask >> lane & 1 == 1;
+                if is(doubles | singles) {
+                    claimed += 1;
+                    if let Some(first) = first_contact(elements, motion) {
+                        assert_eq!(first.compare(until.into()), Ordering::Greater, "{motion:?}");
+                    }
+                }
+                if is(far) && distance > 0.0 {
+                    claimed_far += 1;
+                    for corners in [Some(motion[0]), (until == 1.0).then_some(motion[1])] {
+                        let Some(corners) = corners else { continue };
+                        let elements = match elements {
+                            Elements::VertexTriangle => Primitives::VertexTriangle(corners),
+                            Elements::EdgeEdge => Primitives::EdgeEdge(corners),
+                        };
+                        assert!(!are_within_distance(&elements, distance.into()));
+                    }
+                }
+            }
+        }
+        assert!(
+            claimed > total / 10 && claimed_far > total / 50,
+            "{claimed} {claimed_far} of {total}"
+        );
+    }
+}

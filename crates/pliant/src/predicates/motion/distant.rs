@@ -147,3 +147,79 @@ fn nearest([a, b, c, d]: &Corners, is_parallelogram: bool) -> Point {
 fn dot(p: Point, q: Point) -> f64 {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::predicates::distance::{Primitives, are_within_distance};
+    use pliant_oracle::Random;
+
+    /// The corners at a time, exactly, if these are multiples of 2^-20 and the time of 2^-20.
+    fn at(moving: &Moving, t: f64) -> Primitives {
+        let [start, end] = moving.corners;
+        let corners = std::array::from_fn(|i| {
+            std::array::from_fn(|axis| start[i][axis] + t * (end[i][axis] - start[i][axis]))
+        });
+        if moving.are_edges {
+            Primitives::EdgeEdge(corners)
+        } else {
+            Primitives::VertexTriangle(corners)
+        }
+    }
+
+    #[test]
+    fn it_is_distant_up_to_then_and_near_soon_after() {
+        let mut random = Random::new(21);
+        let [mut reached, mut stopped] = [0; 2];
+        for round in 0..6_000 {
+            let mut x = || (random.bits() >> 44) as f64 / f64::powi(2.0, 20);
+            let mut moving = Moving {
+                are_edges: round % 2 == 0,
+                corners: [0; 2].map(|_| [0; 4].map(|_| [0; 3].map(|_| x()))),
+            };
+            if round % 3 == 0 {
+                // Sliding past each other, near.
+                for corner in 0..4 {
+                    moving.corners[1][corner][2] = moving.corners[0][corner][2];
+                }
+            }
+            let distance = [0.01, 0.1, 0.3][round % 3];
+            let known = distant_until(&moving, distance);
+            // The order of corners does not matter.
+            let [start, end] = moving.corners;
+            let turned = |[a, b, c, d]: [Point; 4]| {
+                if moving.are_edges {
+                    [d, c, a, b]
+                } else {
+                    [a, d, b, c]
+                }
+            };
+            let other = Moving {
+                corners: [turned(start), turned(end)],
+                ..moving
+            };
+            assert_eq!(distant_until(&other, distance), known);
+            let ticks = (known * 1024.0).floor() as u32;
+            for tick in 0..=ticks {
+                let t = f64::from(tick) / 1024.0;
+                if known > 0.0 {
+                    assert!(
+                        !are_within_distance(&at(&moving, t), distance),
+                        "{moving:?} {t}"
+                    );
+                }
+            }
+            if known == 1.0 {
+                reached += 1;
+                continue;
+            }
+            // It has been nearer than a thousandth more than the distance, not much later.
+            stopped += 1;
+            let nearest = (0..=1024).map(f64::from).map(|tick| tick / 1024.0);
+            let mut soon = nearest.filter(|&t| t >= known - 0.001 && t <= known + 0.003);
+            let is_near = |t: f64| are_within_distance(&at(&moving, t), distance * 1.02 + 0.012);
+            assert!(soon.any(is_near), "{moving:?} {known}");
+        }
+        assert!(reached > 500 && stopped > 500, "{reached} {stopped}");
+    }
+}

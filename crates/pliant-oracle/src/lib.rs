@@ -1,7 +1,8 @@
 //! An independent judge of the library's decisions, for tests only.
 //!
 //! [`intersect`], [`orientation`] and [`compare_distance`] compute in integers of any size, from a definition that the library does not use, and share no
-//! code with it. [`Class`] makes pairs of triangles on which the answer is hard to get right: the same ones on every machine.
+//! code with it; so do [`meet_until`], [`first_contact`] and [`compare_first`] of elements in motion. [`Class`] makes pairs of triangles on which the answer is hard to get right, and [`MotionClass`]
+//! motions: the same ones on every machine.
 //! [`subnormals_flushed`] runs code as a thread runs it in which the caller has switched subnormal numbers off.
 //!
 //! ```

@@ -45,11 +45,11 @@ const CLOSE: [(&str, (u64, usize, u64)); 5] = [
     ("arms", (0x02be_fe74_4aed_b3cf, 309, 0x94b3_429d_4d03_52bb)),
     (
         "gather",
-        (0xe313_0e7b_eec6_0772, 4946, 0xf85d_46fa_6e9e_6e81),
+        (0xe313_0e7b_eec6_0772, 4946, 0x1e04_3bd0_ba90_0331),
     ),
     (
         "cloth",
-        (0xbf77_d0fe_876c_fbec, 4418, 0xa805_6892_7dd6_e19f),
+        (0xbf77_d0fe_876c_fbec, 4418, 0xc579_0c36_9c16_7499),
     ),
 ];
 

@@ -282,7 +282,7 @@ least and the most. The aims were 8 at margin 0.1 and swept 0.1, and 4 where out
 ## What is close
 
 Vertices and triangles, and edges and edges, that are at most so far apart, measured; and how far two bodies are apart (`pliant bench close
---rounds {close_record.rounds}`, [text](records/{close.stem}.txt), [JSON](records/{close.name}); one thread, and two where it says so, of an
+--rounds {close_record.rounds}`, [text](records/{close.stem}.txt), [JSON](records/{close.name}); one thread of an
 {close_record.machine['processor']}):
 
 | aim | | our figure |

@@ -21,8 +21,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 const CANDIDATES: &str = "pliant, candidates";
 const F64: &str = "pliant, f64";
 const F64_CANDIDATES: &str = "pliant, f64, candidates";
-const TWO_THREADS: &str = "pliant, two threads";
-const METHODS: [&str; 5] = [DEFAULT, CANDIDATES, F64, F64_CANDIDATES, TWO_THREADS];
+const METHODS: [&str; 4] = [DEFAULT, CANDIDATES, F64, F64_CANDIDATES];
 
 const BY_QUERY: &str = "parry3d, its distance";
 const BY_LEAF_PAIRS: &str = "parry3d, leaf pairs";
@@ -127,7 +126,7 @@ impl Line {
 
 fn method(label: &'static str, distance: f64) -> Contender {
     let radius = distance / 2.0;
-    let mut options = Options::default();
+    let options = Options::default();
     match label {
         CANDIDATES => Contender::new(label, Ours::<f32>::new(label, options).within(radius))
             .compared_with(NearSweep::new(radius)),
@@ -137,13 +136,6 @@ fn method(label: &'static str, distance: f64) -> Contender {
             label,
             Ours::<f64>::new(label, options).closer_than(distance),
         ),
-        TWO_THREADS => {
-            options.threads = std::num::NonZeroUsize::MIN.saturating_add(1);
-            Contender::new(
-                label,
-                Ours::<f32>::new(label, options).closer_than(distance),
-            )
-        }
         _ => Contender::new(
             label,
             Ours::<f32>::new(label, options).closer_than(distance),
@@ -194,14 +186,6 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                     figure: format!("{over:.2}"),
                 });
             }
-        }
-        let threads = contest.times_faster(TWO_THREADS, DEFAULT, STEPS);
-        if threads.is_finite() {
-            claims.push(Claim {
-                claim: format!("{name}: two threads over one, times faster"),
-                verdict: Verdict::Measured,
-                figure: format!("{threads:.2}"),
-            });
         }
     }
     claims

@@ -48,7 +48,7 @@ impl Method for AllBoxes {
     fn distance(&mut self) -> Option<f64> {
         let [of_a, of_b] = &self.corners;
         let all_b = Aabb::of(of_b.as_flattened());
-        let centre = std::array::from_fn(|axis| (all_b.lo[axis] + all_b.hi[axis]) / 2.0);
+        let centre = std::array::from_fn(|axis| f32::midpoint(all_b.lo[axis], all_b.hi[axis]));
         let near_b = nearest_corner(of_a, centre)?;
         let near_a = nearest_corner(of_b, near_b)?;
         let mut least = square(near_a, near_b).sqrt();

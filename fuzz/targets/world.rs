@@ -691,7 +691,8 @@ impl<S: Scalar> Lived<S> {
         figures.for_each(|it| check_figures(it, distance));
         assert!(found.map(|it| <[u32; 4]>::from(it.pair)).eq(expected));
 
-        let expected = close_triangles(one, other, distance);
+        // Of two bodies that are named, the first is the one named first.
+        let expected = close_triangles(&self.known[a], &self.known[b], distance);
         let found = self.world.close_triangle_pairs(of, distance).all();
         let found = found.expect("both are there").iter();
         let figures = found.clone().map(|it| (it.distance, it.direction));

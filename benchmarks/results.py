@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 """Writes RESULTS.md, and the table of the README, from a record of `pliant bench all`: no figure in them is written by hand. What is
-near has records of its own, of which the newest are taken: `near-DATE.json` and what the comparison with ipctk printed, `ipctk-DATE.txt`.
+near and what is close have records of their own, of which the newest are taken, `near-DATE.json` and `close-DATE.json`, and what the
+comparisons with other libraries printed.
 
 cargo run --release -- bench all --json benchmarks/records/DATE.json > benchmarks/records/DATE.txt
 cargo run --release -- bench near --json benchmarks/records/near-DATE.json > benchmarks/records/near-DATE.txt
 target/ipctk/bin/python benchmarks/compare_with_ipctk.py > benchmarks/records/ipctk-DATE.txt
+cargo run --release -- bench close --json benchmarks/records/close-DATE.json > benchmarks/records/close-DATE.txt
+target/ipctk/bin/python benchmarks/compare_close_with_ipctk.py > benchmarks/records/close-ipctk-DATE.txt
+target/ipctk/bin/python benchmarks/compare_distance_with_fcl.py > benchmarks/records/close-fcl-DATE.txt
 python3 benchmarks/results.py DATE
 """
 
@@ -214,6 +218,14 @@ def page(record, date):
         for claim in near_record.experiments["near"]["claims"]
     )
     ipctk, header, beside = beside_ipctk()
+    close = newest("close-*.json")
+    close_record = Record(close)
+    close_aims = "\n".join(
+        f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |"
+        for claim in close_record.experiments["close"]["claims"]
+    )
+    close_ipctk, close_header, close_beside = beside_ipctk_close()
+    fcl, fcl_header, fcl_beside = beside_fcl()
     processor = record.machine["processor"]
     cores = record.machine["cores"]
     return f"""# What the paper claims, what we aim at, and what we find
@@ -267,6 +279,31 @@ least and the most. The aims were 8 at margin 0.1 and swept 0.1, and 4 where out
 |---|---|---|---|---|---|---|
 {beside}
 
+## What is close
+
+Vertices and triangles, and edges and edges, that are at most so far apart, measured; and how far two bodies are apart (`pliant bench close
+--rounds {close_record.rounds}`, [text](records/{close.stem}.txt), [JSON](records/{close.name}); one thread of an
+{close_record.machine['processor']}):
+
+| aim | | our figure |
+|---|---|---|
+{close_aims}
+
+Beside ipc-toolkit's `NormalCollisions.build` with its LBVH ([record](records/{close_ipctk}); {close_header}). It keeps closest *features*,
+each once; *ties* are left to rounding, and nothing else differs. Milliseconds; times faster are medians of rounds, with the least and the
+most. The aim was 4.
+
+| | | pairs | features | ties | ours | its | times faster |
+|---|---|---|---|---|---|---|---|
+{close_beside}
+
+The distance of two spheres beside FCL's, from Python ([record](records/{fcl}); {fcl_header}). It makes its models anew at every step, for
+want of another way in Python. Milliseconds a step; the aim was 10.
+
+| | ours | its making | its asking | times faster | than asking alone |
+|---|---|---|---|---|---|
+{fcl_beside}
+
 ## Exact contact
 
 A candidate of coplanar grids: {figure('degenerate', 'coplanar grids', 'the cost')}. Of two spheres:
@@ -289,6 +326,34 @@ def beside_ipctk():
             name, what, count, more, _, own, other, factor = words
             rows.append(f"| {name} | {what} | {count} | {more} | {own} | {other} | {factor} |")
     assert rows and lines[-1].endswith("errors, of any kind: 0"), file
+    return file.name, lines[0], "\n".join(rows)
+
+
+def beside_ipctk_close():
+    """The same of close pairs."""
+    file = newest("close-ipctk-*.txt")
+    lines = file.read_text().splitlines()
+    rows = []
+    for line in lines:
+        words = re.split(r"\s{2,}", line.strip())
+        if len(words) == 9 and words[5] == "0":
+            name, what, pairs, features, ties, _, own, other, factor = words
+            rows.append(f"| {name} | {what} | {pairs} | {features} | {ties} | {own} | {other} | {factor} |")
+    assert rows and lines[-1].endswith("errors, of any kind: 0"), file
+    return file.name, lines[0], "\n".join(rows)
+
+
+def beside_fcl():
+    """The same of distances."""
+    file = newest("close-fcl-*.txt")
+    lines = file.read_text().splitlines()
+    rows = []
+    for line in lines:
+        words = re.split(r"\s{2,}", line.strip())
+        if len(words) == 7 and words[1] == "0":
+            name, _, own, making, asking, whole, alone = words
+            rows.append(f"| {name} | {own} | {making} | {asking} | {whole} | {alone} |")
+    assert rows and lines[-1].endswith(": 0"), file
     return file.name, lines[0], "\n".join(rows)
 
 

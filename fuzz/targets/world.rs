@@ -78,6 +78,8 @@ enum Call {
     Advance(u8),
     Groups(u8, Vec<u8>),
     Near(u8, u8, u8),
+    Close(u8, u8, u8),
+    Distance(u8, u8, Option<u8>),
 }
 
 libfuzzer_sys::fuzz_target!(|life: Life| {
@@ -580,6 +582,19 @@ impl<S: Scalar> Lived<S> {
                 };
                 self.near(a, b, f64::from(radius) / 16.0);
             }
+            Call::Close(a, b, distance) => {
+                let (Some(a), Some(b)) = (self.body(a), self.body(b)) else {
+                    return;
+                };
+                self.close(a, b, f64::from(distance) / 16.0);
+            }
+            Call::Distance(a, b, cut_off) => {
+                let (Some(a), Some(b)) = (self.body(a), self.body(b)) else {
+                    return;
+                };
+                let cut_off = cut_off.map_or(f64::INFINITY, |cut_off| f64::from(cut_off) / 16.0);
+                self.distance(a, b, cut_off);
+            }
         }
     }
 
@@ -626,6 +641,86 @@ impl<S: Scalar> Lived<S> {
         let found = self.world.edge_edge_candidates(of, radius).all();
         let found = found.expect("both are there").iter();
         assert!(found.map(|&hit| <[u32; 4]>::from(hit)).eq(expected));
+    }
+
+    /// The close pairs of two bodies, or of one with itself.
+    fn close(&mut self, a: usize, b: usize, distance: f64) {
+        let (one, other) = (&self.known[a], &self.known[b]);
+        let of = if a == b {
+            Selection::Within(one.id)
+        } else {
+            Selection::Between(one.id, other.id)
+        };
+        let [moving_a, moving_b] = [one, other].map(Known::moving);
+        let mut expected = Vec::new();
+        let mut add = |(of, with): (&Known<S>, &Known<S>), pairs: Vec<[u32; 2]>| {
+            expected.extend(pairs.into_iter().map(|[i, j]| [of.id.0, i, with.id.0, j]));
+        };
+        if a == b {
+            let pairs = reference::self_close_vertex_triangle_pairs(&moving_a, distance);
+            add((one, one), pairs.expect("the body was taken"));
+        } else {
+            let pairs = reference::close_vertex_triangle_pairs(&moving_a, &moving_b, distance);
+            add((one, other), pairs.expect("the bodies were taken"));
+            let pairs = reference::close_vertex_triangle_pairs(&moving_b, &moving_a, distance);
+            add((other, one), pairs.expect("the bodies were taken"));
+        }
+        expected.sort_unstable();
+        let found = self.world.close_vertex_triangle_pairs(of, distance).all();
+        let found = found.expect("both are there").iter();
+        let figures = found.clone().map(|it| (it.distance, it.direction));
+        figures.for_each(|it| check_figures(it, distance));
+        assert!(found.map(|it| <[u32; 4]>::from(it.pair)).eq(expected));
+
+        let (one, other) = if one.id <= other.id {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let [moving_a, moving_b] = [one, other].map(Known::moving);
+        let pairs = if a == b {
+            reference::self_close_edge_edge_pairs(&moving_a, distance)
+        } else {
+            reference::close_edge_edge_pairs(&moving_a, &moving_b, distance)
+        };
+        let pairs = pairs.expect("the bodies were taken").into_iter();
+        let expected = pairs.map(|[i, j]| [one.id.0, i, other.id.0, j]);
+        let found = self.world.close_edge_edge_pairs(of, distance).all();
+        let found = found.expect("both are there").iter();
+        let figures = found.clone().map(|it| (it.distance, it.direction));
+        figures.for_each(|it| check_figures(it, distance));
+        assert!(found.map(|it| <[u32; 4]>::from(it.pair)).eq(expected));
+
+        // Of two bodies that are named, the first is the one named first.
+        let expected = close_triangles(&self.known[a], &self.known[b], distance);
+        let found = self.world.close_triangle_pairs(of, distance).all();
+        let found = found.expect("both are there").iter();
+        let figures = found.clone().map(|it| (it.distance, it.direction));
+        figures.for_each(|it| check_figures(it, distance));
+        assert!(found.map(|it| it.pair.triangles()).eq(expected));
+    }
+
+    /// How far two bodies are apart: something is as near as that, and nothing nearer.
+    fn distance(&mut self, a: usize, b: usize, cut_off: f64) {
+        let (one, other) = (&self.known[a], &self.known[b]);
+        let answer = self.world.distance(one.id, other.id, cut_off);
+        if a == b {
+            assert!(answer.is_err());
+            return;
+        }
+        let Some(found) = answer.expect("both are there") else {
+            assert!(close_triangles(one, other, cut_off).is_empty());
+            return;
+        };
+        check_figures((found.distance, found.direction), cut_off);
+        assert_eq!([found.pair.body_a, found.pair.body_b], [one.id, other.id]);
+        let slack = f64::powi(0.5, 30);
+        let above = found.distance * (1.0 + slack) + f64::MIN_POSITIVE;
+        assert!(close_triangles(one, other, above).contains(&found.pair.triangles()));
+        if found.distance > f64::MIN_POSITIVE {
+            let below = found.distance * (1.0 - 2.0 * slack);
+            assert!(close_triangles(one, other, below).is_empty());
+        }
     }
 
     fn all(&mut self) {
@@ -731,4 +826,24 @@ impl<S> Known<S> {
 fn pairs<S: Scalar>(a: &Known<S>, b: &Known<S>) -> Vec<[u32; 2]> {
     reference::intersection_pairs(&a.triangles, &a.positions, &b.triangles, &b.positions)
         .expect("the bodies were taken")
+}
+
+fn close_triangles<S: Scalar>(a: &Known<S>, b: &Known<S>, distance: f64) -> Vec<[u32; 2]> {
+    let pairs = if a.id == b.id {
+        reference::self_close_triangle_pairs(&a.triangles, &a.positions, distance)
+    } else {
+        let (of_a, of_b) = ((&a.triangles, &a.positions), (&b.triangles, &b.positions));
+        reference::close_triangle_pairs(of_a.0, of_a.1, of_b.0, of_b.1, distance)
+    };
+    pairs.expect("the bodies were taken")
+}
+
+/// A distance is as good as it is said to be, and has a direction unless it is 0.
+fn check_figures((distance, direction): (f64, Option<[f64; 3]>), within: f64) {
+    assert!(distance >= 0.0 && distance <= within * (1.0 + f64::powi(0.5, 30)));
+    assert_eq!(direction.is_none(), distance == 0.0);
+    if let Some(direction) = direction {
+        let length = direction.iter().map(|x| x * x).sum::<f64>();
+        assert!((length - 1.0).abs() < f64::powi(0.5, 40), "{direction:?}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::arrays;
 use crate::error::Refused;
-use crate::query::{All, First, Prepare, Selection, SomeAtATime, Want, go_on, stopped};
+use crate::query::{First, Prepare, Selection, SomeAtATime, Want, go_on, stopped};
 use crate::signals::interruptible;
 use crate::world::World;
 use numpy::IntoPyArray;
@@ -134,29 +134,75 @@ impl CloseQuery {
             })
         })
     }
+}
 
-    /// The arrays of some.
-    fn arrays<'py>(
-        py: Python<'py>,
-        kind: CloseKind,
-        close: &[Close],
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let pairs = arrays::rows_of(py, close.iter().map(|it| it.row).collect())?;
-        let distance: Vec<f64> = close.iter().map(|it| it.distance).collect();
-        let direction = close.iter().map(|it| it.direction.unwrap_or_default());
-        let direction = arrays::rows_of(py, direction.collect())?;
-        let all = || close.iter().map(|it| it.barycentric);
-        let barycentric = match kind {
-            CloseKind::VertexTriangle => {
-                arrays::rows_of(py, all().map(|[a, b, c, ..]| [a, b, c]).collect())?
-            }
-            CloseKind::EdgeEdge => {
-                arrays::rows_of(py, all().map(|[a, b, c, d, ..]| [a, b, c, d]).collect())?
-            }
-            CloseKind::Triangles => arrays::rows_of(py, all().collect())?,
+/// What is known of many, column by column, as arrays take it over.
+struct Columns {
+    rows: Vec<[u32; 4]>,
+    distance: Vec<f64>,
+    direction: Vec<[f64; 3]>,
+    barycentric: Barycentric,
+}
+
+/// As many numbers as a kind has.
+enum Barycentric {
+    Three(Vec<[f64; 3]>),
+    Four(Vec<[f64; 4]>),
+    Six(Vec<[f64; 6]>),
+}
+
+impl Columns {
+    fn of(kind: CloseKind, all: impl ExactSizeIterator<Item = Close>) -> Self {
+        let count = all.len();
+        let mut columns = Self {
+            rows: Vec::with_capacity(count),
+            distance: Vec::with_capacity(count),
+            direction: Vec::with_capacity(count),
+            barycentric: match kind {
+                CloseKind::VertexTriangle => Barycentric::Three(Vec::with_capacity(count)),
+                CloseKind::EdgeEdge => Barycentric::Four(Vec::with_capacity(count)),
+                CloseKind::Triangles => Barycentric::Six(Vec::with_capacity(count)),
+            },
         };
-        let distance = distance.into_pyarray(py);
+        for close in all {
+            columns.rows.push(close.row);
+            columns.distance.push(close.distance);
+            columns.direction.push(close.direction.unwrap_or_default());
+            let [a, b, c, d, ..] = close.barycentric;
+            match &mut columns.barycentric {
+                Barycentric::Three(three) => three.push([a, b, c]),
+                Barycentric::Four(four) => four.push([a, b, c, d]),
+                Barycentric::Six(six) => six.push(close.barycentric),
+            }
+        }
+        columns
+    }
+
+    /// A ClosePairs.
+    fn arrays(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        let pairs = arrays::rows_of(py, self.rows)?;
+        let direction = arrays::rows_of(py, self.direction)?;
+        let barycentric = match self.barycentric {
+            Barycentric::Three(three) => arrays::rows_of(py, three)?,
+            Barycentric::Four(four) => arrays::rows_of(py, four)?,
+            Barycentric::Six(six) => arrays::rows_of(py, six)?,
+        };
+        let distance = self.distance.into_pyarray(py);
         class(py, 0)?.call1((pairs, distance, direction, barycentric))
+    }
+}
+
+/// All, in columns; at most so many.
+struct AllColumns(CloseKind, usize);
+
+impl Want<Close, Columns> for AllColumns {
+    fn of<H: Copy + Into<Close>>(
+        self,
+        query: pliant::Query<'_, H>,
+    ) -> Result<Columns, pliant::Error> {
+        let Self(kind, most) = self;
+        let close = query.at_most(most).all()?;
+        Ok(Columns::of(kind, close.iter().map(|&close| close.into())))
     }
 }
 
@@ -184,8 +230,8 @@ impl CloseQuery {
         py: Python<'py>,
         at_most: Option<usize>,
     ) -> Result<Bound<'py, PyAny>, Refused> {
-        let close = self.ask(py, All(at_most.unwrap_or(usize::MAX)))?;
-        Ok(Self::arrays(py, self.kind, &close)?)
+        let columns = self.ask(py, AllColumns(self.kind, at_most.unwrap_or(usize::MAX)))?;
+        Ok(columns.arrays(py)?)
     }
 
     /// Some close pair, a ClosePair, or None if there is none: much cheaper than all where there are many. Which one may depend on options
@@ -203,7 +249,7 @@ impl CloseQuery {
             py,
             SomeAtATime(|close: Vec<Close>| {
                 go_on(Python::attach(|py| {
-                    let close = Self::arrays(py, kind, &close)?;
+                    let close = Columns::of(kind, close.into_iter()).arrays(py)?;
                     visit.bind(py).call1((close,))?.is_truthy()
                 }))
             }),

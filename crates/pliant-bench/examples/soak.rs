@@ -75,7 +75,7 @@ struct Memory {
 
 fn play<S: Scalar>(name: &str, mut soak: Soak<S>, steps: u64, until: Instant) -> Result<(), Wrong> {
     println!(
-        "{name:<4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12} {:>12}   {:>11} {:>7} {:>9}",
+        "{name:<4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12} {:>12} {:>12} {:>9}   {:>11} {:>7} {:>9}",
         "steps",
         "added",
         "removed",
@@ -84,6 +84,8 @@ fn play<S: Scalar>(name: &str, mut soak: Soak<S>, steps: u64, until: Instant) ->
         "compared",
         "equal pairs",
         "equal near",
+        "equal close",
+        "distances",
         "heap, bytes",
         "blocks",
         "resident"
@@ -149,7 +151,7 @@ fn line(tally: &Tally, memory: &Memory) {
         |bytes| format!("{:.1} MB", bytes as f64 / 1e6),
     );
     println!(
-        "{:>13} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12} {:>12}   {:>11} {:>7} {:>9}",
+        "{:>13} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12} {:>12} {:>12} {:>9}   {:>11} {:>7} {:>9}",
         tally.steps,
         tally.added,
         tally.removed,
@@ -158,6 +160,8 @@ fn line(tally: &Tally, memory: &Memory) {
         tally.compared,
         tally.pairs,
         tally.near,
+        tally.close,
+        tally.distances,
         memory.heap,
         memory.blocks,
         resident

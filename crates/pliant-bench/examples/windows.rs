@@ -26,9 +26,14 @@ enum Ask {
     All,
     First,
     Itself,
+    /// What is within so many mean lengths of an edge, by boxes; and what is close, measured.
+    Near(f64),
+    Close(f64),
+    /// How far two bodies are apart.
+    Distance,
 }
 
-const WINDOWS: [Window; 10] = [
+const WINDOWS: [Window; 17] = [
     ("easy", "spheres", 20_480, 1..=50, Ask::All),
     ("hard", "spheres", 20_480, 150..=200, Ask::All),
     ("deepest", "spheres", 20_480, 200..=200, Ask::All),
@@ -39,6 +44,13 @@ const WINDOWS: [Window; 10] = [
     ("small", "spheres", 1_280, 1..=200, Ask::First),
     ("large", "spheres", 327_680, 190..=200, Ask::All),
     ("largest", "spheres", 1_310_720, 196..=200, Ask::All),
+    ("near", "cloth", 79_202, 43..=45, Ask::Near(0.1)),
+    ("close", "cloth", 79_202, 43..=45, Ask::Close(0.1)),
+    ("wide", "cloth", 79_202, 43..=45, Ask::Near(0.5)),
+    ("closer", "cloth", 79_202, 43..=45, Ask::Close(0.5)),
+    ("deepnear", "spheres", 20_480, 178..=180, Ask::Near(0.5)),
+    ("deeper", "spheres", 20_480, 178..=180, Ask::Close(0.5)),
+    ("apart", "spheres", 20_480, 1..=50, Ask::Distance),
 ];
 
 fn main() {
@@ -80,6 +92,12 @@ fn options() -> pliant::Options {
 fn play((name, scene, triangles, steps, ask): Window, rounds: u32) {
     let scene = Scene::new(scene, Some(triangles), Scene::DEFAULT_SEED).expect("a scene");
     let motion = Motion::of_scene(&scene, steps);
+    // Margins are in mean lengths of an edge.
+    let ask = match ask {
+        Ask::Near(lengths) => Ask::Near(lengths * motion.mean_side()),
+        Ask::Close(lengths) => Ask::Close(lengths * motion.mean_side()),
+        other => other,
+    };
     let mut world = World::<f32>::with_options(options());
     let bodies: Vec<BodyId> = motion
         .bodies
@@ -140,6 +158,24 @@ fn one_step(
             .iter()
             .map(|&body| all(world, Selection::Within(body)))
             .sum(),
+        Ask::Near(distance) => {
+            let (of, radius) = (Selection::Everything, distance / 2.0);
+            let near = world.vertex_triangle_candidates(of, radius).all();
+            let found = near.expect("the world is there").len();
+            let near = world.edge_edge_candidates(of, radius).all();
+            found + near.expect("the world is there").len()
+        }
+        Ask::Close(distance) => {
+            let of = Selection::Everything;
+            let close = world.close_vertex_triangle_pairs(of, distance).all();
+            let found = close.expect("the world is there").len();
+            let close = world.close_edge_edge_pairs(of, distance).all();
+            found + close.expect("the world is there").len()
+        }
+        Ask::Distance => {
+            let nearest = world.distance(bodies[0], bodies[1], f64::INFINITY);
+            usize::from(nearest.expect("both are there").is_some())
+        }
     };
     (moved, start.elapsed().as_secs_f64(), found)
 }

@@ -28,6 +28,8 @@ pub enum Query {
     Itself,
     /// Vertices near triangles and edges near edges, of all bodies and of each with itself.
     Near,
+    /// How far the first two bodies are apart.
+    Distance,
 }
 
 impl Query {
@@ -38,6 +40,7 @@ impl Query {
             Self::First => "first",
             Self::Itself => "self",
             Self::Near => "near",
+            Self::Distance => "distance",
         }
     }
 }
@@ -48,6 +51,8 @@ pub struct Contender {
     pub label: String,
     /// The method.
     pub method: Box<dyn Method>,
+    /// What its answers are compared with, if it is asked something else than the others, whose time is to be seen beside its own.
+    pub truth: Option<Box<dyn Method>>,
 }
 
 impl Contender {
@@ -56,7 +61,15 @@ impl Contender {
         Self {
             label: label.to_owned(),
             method: Box::new(method),
+            truth: None,
         }
+    }
+
+    /// With a truth of its own.
+    #[must_use]
+    pub fn compared_with(mut self, truth: impl Method + 'static) -> Self {
+        self.truth = Some(Box::new(truth));
+        self
     }
 }
 
@@ -111,6 +124,9 @@ impl Contest {
             milliseconds(start, Instant::now())
         };
         build(&mut self.truth, &self.motion);
+        for truth in self.methods.iter_mut().filter_map(|it| it.truth.as_mut()) {
+            build(truth, &self.motion);
+        }
         let build_ms: Vec<f64> = self
             .methods
             .iter_mut()
@@ -132,17 +148,25 @@ impl Contest {
             };
             write(&mut shapes, frame);
             self.truth.step(&views(&shapes));
+            let distance = self.truth.distance();
             let truth = all(&mut self.truth).unwrap_or_default();
-            pairs.push(truth.len());
-            for ((Contender { method, .. }, wrong), counters) in
+            pairs.push(truth.len() + usize::from(distance.is_some()));
+            for ((contender, wrong), counters) in
                 self.methods.iter_mut().zip(&mut wrong).zip(&mut counters)
             {
+                let Contender {
+                    method, truth: own, ..
+                } = contender;
                 method.step(&views(&shapes));
-                let answer = if self.query == Query::First {
-                    let first = method.first_pair();
-                    first_is_right(first, &truth)
-                } else {
-                    compare(&all(method).unwrap_or_default(), &truth)
+                let answer = match (self.query, own) {
+                    (Query::First, _) => first_is_right(method.first_pair(), &truth),
+                    (Query::Distance, _) => is_as_far(method.distance(), distance),
+                    (_, Some(own)) => {
+                        own.step(&views(&shapes));
+                        let own = all(own).unwrap_or_default();
+                        compare(&all(method).unwrap_or_default(), &own)
+                    }
+                    _ => compare(&all(method).unwrap_or_default(), &truth),
                 };
                 counters.push(method.take_counters());
                 if let Err((missing, extra)) = answer {
@@ -193,6 +217,7 @@ impl Contest {
                 Query::First => _ = std::hint::black_box(method.first_pair()),
                 Query::Itself => _ = std::hint::black_box(method.self_pairs()),
                 Query::Near => _ = std::hint::black_box(method.candidates()),
+                Query::Distance => _ = std::hint::black_box(method.distance()),
             }
             let end = Instant::now();
             times.push((milliseconds(start, updated), milliseconds(updated, end)));
@@ -323,6 +348,14 @@ fn compare(answer: &[Pair], truth: &[Pair]) -> Result<(), (usize, usize)> {
     let extra = sets[1].difference(&sets[0]).count();
     // Neither: the same pairs, but not sorted or some of them twice.
     Err((missing, extra.max(usize::from(missing == 0))))
+}
+
+/// Distances that were computed in `f32` are taken for right within a thousandth.
+fn is_as_far(found: Option<f64>, truth: Option<f64>) -> Result<(), (usize, usize)> {
+    match (found, truth) {
+        (Some(found), Some(truth)) if (found - truth).abs() <= truth * 1e-3 => Ok(()),
+        _ => Err((1, 0)),
+    }
 }
 
 fn first_is_right(first: Option<Pair>, truth: &[Pair]) -> Result<(), (usize, usize)> {

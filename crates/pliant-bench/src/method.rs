@@ -42,8 +42,14 @@ pub trait Method {
     }
 
     /// Vertices near triangles, then edges near edges, all bodies and each with itself: rows as the library's, either kind sorted.
-    /// `None` for a method that has no such mode; how near is near it was told when it was made.
+    /// `None` for a method that has no such mode; how near is near, and whether of boxes or of the elements themselves, it was told when it
+    /// was made.
     fn candidates(&mut self) -> Option<&[Pair]> {
+        None
+    }
+
+    /// How far the surfaces of the first two bodies are apart, which do not intersect. `None` for a method that has no such mode.
+    fn distance(&mut self) -> Option<f64> {
         None
     }
 

@@ -54,6 +54,28 @@ fn replay(scene: &Scene, options: Options, steps: &[u32]) {
                 ControlFlow::<()>::Continue(())
             });
             assert!(flow.unwrap().is_continue());
+            for of in [Selection::World, Selection::Within(ids[0])] {
+                let close = world.close_vertex_triangle_pairs(of, 0.02);
+                pairs += close.all().unwrap().len();
+                let close = world.close_edge_edge_pairs(of, 0.02);
+                pairs += close.all().unwrap().len();
+                let close = world.close_triangle_pairs(of, 0.01);
+                pairs += close.all().unwrap().len();
+            }
+            let shown = world.close_edge_edge_pairs(Selection::Everything, 0.01);
+            let flow = shown.visit_some(|some| {
+                pairs += some.len();
+                ControlFlow::<()>::Continue(())
+            });
+            assert!(flow.unwrap().is_continue());
+            let first = world.close_vertex_triangle_pairs(Selection::World, 0.02);
+            pairs += usize::from(first.first().unwrap().is_some());
+            let nearest = world.nearest_body(ids[0], 1.0).unwrap();
+            pairs += usize::from(nearest.is_some());
+            if let [a, .., b] = ids[..] {
+                let nearest = world.distance(a, b, f64::INFINITY).unwrap();
+                pairs += usize::from(nearest.is_some());
+            }
             world.advance_motion(0.5).unwrap();
             let everything = world.edge_edge_candidates(Selection::Everything, 0.01);
             pairs += everything.all().unwrap().len();

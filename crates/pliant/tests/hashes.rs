@@ -1,5 +1,5 @@
-//! One committed hash of the sorted pairs per scene, and one of the candidates near each other and on the way, the same for every choice
-//! that must not change an answer.
+//! One committed hash of the sorted pairs per scene, one of the candidates near each other and on the way, and of close pairs and distances
+//! with their figures, the same for every choice that must not change an answer.
 //!
 //! Whatever changes a pair, on purpose, in another configuration or on another machine, is noticed. A new choice (a number of
 //! threads, an instruction set) is one more line in `axes`.
@@ -13,6 +13,7 @@ use pliant::{
 };
 use pliant_oracle::subnormals_flushed;
 use pliant_scenes::{Asks, Scene};
+use std::fmt::Debug;
 use std::num::{NonZeroU32, NonZeroUsize};
 
 /// Scene, triangles a body, steps, and the hash over the pairs of these steps and their number.
@@ -32,6 +33,31 @@ const NEAR: [(&str, u64, usize); 5] = [
     ("gather", 0xba1b_8cf6_a022_31eb, 35_378),
     ("cloth", 0xbdca_73b3_a372_aebc, 14_851),
 ];
+
+/// Of the same scenes and steps, the hash over what is close and how much that is; and the hash over the figures of all that, and
+/// over distances of bodies.
+const CLOSE: [(&str, (u64, usize, u64)); 5] = [
+    (
+        "spheres",
+        (0x8b1f_19e5_81f1_a584, 709, 0xf9cb_335b_ac5c_5036),
+    ),
+    ("crowd", (0x4d0c_8806_a155_ff5a, 266, 0x84f9_bb76_92cf_3605)),
+    ("arms", (0x02be_fe74_4aed_b3cf, 309, 0x94b3_429d_4d03_52bb)),
+    (
+        "gather",
+        (0xe313_0e7b_eec6_0772, 4946, 0x1e04_3bd0_ba90_0331),
+    ),
+    (
+        "cloth",
+        (0xbf77_d0fe_876c_fbec, 4418, 0xc579_0c36_9c16_7499),
+    ),
+];
+
+/// How far apart is close.
+const DISTANCE: f64 = 1.0 / 64.0;
+
+/// The bodies whose distances are asked for, from the first.
+const OTHERS: usize = 6;
 
 /// The margin round each element, and the part of the way to the next of the steps.
 const RADIUS: f64 = 1.0 / 128.0;
@@ -178,6 +204,13 @@ impl Fnv {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
         }
     }
+
+    /// The bits of figures.
+    fn add_figures(&mut self, figures: &[f64]) {
+        for bits in figures.iter().map(|figure| figure.to_bits()) {
+            self.add(&[bits as u32, (bits >> 32) as u32]);
+        }
+    }
 }
 
 /// Every body at one step; all have the same triangles.
@@ -264,6 +297,69 @@ fn near_hash<S: Scalar>(
     (fnv.0, count)
 }
 
+/// What is close at all steps, in the shape of now whatever is on its way, with all figures, and how far bodies are apart. Distances are
+/// rounded to 2^-20: of several triangles that are as good as equally near it may be any. `widen` is exact.
+fn close_hash<S: Scalar>(
+    case: &Case,
+    scene: &Scene,
+    steps: &[Shapes],
+    widen: fn(f32) -> S,
+) -> (u64, usize, u64) {
+    let (mut world, bodies) = world_of(case, scene, &steps[0], widen);
+    let (mut pairs, mut count, mut figures) = (Fnv::default(), 0, Fnv::default());
+    let everything = Selection::Everything;
+    for (step, shapes) in steps.iter().enumerate() {
+        for (&body, positions) in bodies.iter().zip(shapes) {
+            world
+                .set_positions(body, &widened(positions, widen))
+                .unwrap();
+        }
+        if step == 1 {
+            let end = toward(shapes, &steps[0]);
+            world
+                .set_motion(bodies[0], &widened(&end[0], widen))
+                .unwrap();
+        }
+        let close = world.close_vertex_triangle_pairs(everything, DISTANCE);
+        for close in close.all().unwrap() {
+            pairs.add(&<[u32; 4]>::from(close.pair));
+            figures.add_figures(&[close.distance]);
+            figures.add_figures(&close.direction.unwrap_or_default());
+            figures.add_figures(&close.barycentric);
+            count += 1;
+        }
+        let close = world.close_edge_edge_pairs(everything, DISTANCE);
+        for close in close.all().unwrap() {
+            pairs.add(&<[u32; 4]>::from(close.pair));
+            figures.add_figures(&[close.distance]);
+            figures.add_figures(&close.direction.unwrap_or_default());
+            figures.add_figures(&close.barycentric_a);
+            figures.add_figures(&close.barycentric_b);
+            count += 1;
+        }
+        let close = world.close_triangle_pairs(everything, DISTANCE);
+        for close in close.all().unwrap() {
+            pairs.add(&<[u32; 4]>::from(close.pair));
+            figures.add_figures(&[close.distance]);
+            figures.add_figures(&close.direction.unwrap_or_default());
+            figures.add_figures(&close.barycentric_a);
+            figures.add_figures(&close.barycentric_b);
+            figures.add_figures(&close.point_a);
+            figures.add_figures(&close.point_b);
+            count += 1;
+        }
+        let rounded = |distance: f64| (distance * f64::from(1 << 20)).round();
+        for &other in bodies.iter().skip(1).take(OTHERS) {
+            let distance = world.distance(bodies[0], other, f64::INFINITY);
+            let nearest = distance.unwrap().expect("nothing is further apart");
+            figures.add_figures(&[rounded(nearest.distance)]);
+        }
+        let nearest = world.nearest_body(bodies[0], 8.0 * DISTANCE).unwrap();
+        figures.add_figures(&[nearest.map_or(-1.0, |nearest| rounded(nearest.distance))]);
+    }
+    (pairs.0, count, figures.0)
+}
+
 /// The hash of all steps, and the number of pairs. `widen` is exact.
 fn hash<S: Scalar>(
     case: &Case,
@@ -304,12 +400,11 @@ fn hash<S: Scalar>(
 }
 
 /// Asks in every case, and compares with what is committed.
-fn are_the_committed_ones(
-    committed: (&str, u64, usize),
-    narrow: impl Fn(&Case, &Scene, &[Shapes]) -> (u64, usize),
-    wide: impl Fn(&Case, &Scene, &[Shapes]) -> (u64, usize),
+fn are_the_committed_ones<T: PartialEq + Debug>(
+    (name, committed): (&str, T),
+    narrow: impl Fn(&Case, &Scene, &[Shapes]) -> T,
+    wide: impl Fn(&Case, &Scene, &[Shapes]) -> T,
 ) -> Result<(), String> {
-    let (name, hash_committed, count_committed) = committed;
     let of_scene = COMMITTED.iter().find(|scene| scene.0 == name);
     let &(_, triangles, steps, ..) = of_scene.unwrap();
     let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
@@ -328,9 +423,8 @@ fn are_the_committed_ones(
         } else {
             ask()
         };
-        if found != (hash_committed, count_committed) {
-            let (hash, count) = found;
-            return Err(format!("{name},{}: {hash:#018x} over {count}", case.name));
+        if found != committed {
+            return Err(format!("{name},{}: {found:#x?}", case.name));
         }
     }
     Ok(())
@@ -342,21 +436,34 @@ fn pairs_are_the_committed_ones_in_every_case() {
         let narrow = |case: &Case, scene: &Scene, steps: &[Shapes]| hash(case, scene, steps, |x| x);
         let wide =
             |case: &Case, scene: &Scene, steps: &[Shapes]| hash(case, scene, steps, f64::from);
-        are_the_committed_ones((name, hash_committed, count), narrow, wide)
+        are_the_committed_ones((name, (hash_committed, count)), narrow, wide)
     });
     assert_eq!(wrong, COMMITTED.map(|_| Ok(())));
 }
 
 #[test]
 fn what_is_near_is_the_committed_in_every_case() {
-    let wrong = NEAR.map(|committed| {
+    let wrong = NEAR.map(|(name, hash_committed, count)| {
         let narrow =
             |case: &Case, scene: &Scene, steps: &[Shapes]| near_hash(case, scene, steps, |x| x);
         let wide =
             |case: &Case, scene: &Scene, steps: &[Shapes]| near_hash(case, scene, steps, f64::from);
-        are_the_committed_ones(committed, narrow, wide)
+        are_the_committed_ones((name, (hash_committed, count)), narrow, wide)
     });
     assert_eq!(wrong, NEAR.map(|_| Ok(())));
+}
+
+#[test]
+fn what_is_close_is_the_committed_with_all_figures_in_every_case() {
+    let wrong = CLOSE.map(|committed| {
+        let narrow =
+            |case: &Case, scene: &Scene, steps: &[Shapes]| close_hash(case, scene, steps, |x| x);
+        let wide = |case: &Case, scene: &Scene, steps: &[Shapes]| {
+            close_hash(case, scene, steps, f64::from)
+        };
+        are_the_committed_ones(committed, narrow, wide)
+    });
+    assert_eq!(wrong, CLOSE.map(|_| Ok(())));
 }
 
 /// What no tree has touched; the scenes of many bodies take too long for it.
@@ -434,6 +541,65 @@ fn the_committed_candidates_are_those_of_the_reference() {
                     count += rows.len();
                     rows.iter().for_each(|row| fnv.add(row));
                 }
+            }
+        }
+        assert_eq!((fnv.0, count), (hash_committed, count_committed), "{name}");
+    }
+}
+
+#[test]
+fn the_committed_close_pairs_are_those_of_the_reference() {
+    for (name, (hash_committed, count_committed, _)) in CLOSE {
+        let of_scene = COMMITTED.iter().find(|scene| scene.0 == name);
+        let &(_, triangles, steps, ..) = of_scene.unwrap();
+        let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
+        if scene.body_count() > 2 {
+            continue;
+        }
+        let (mut fnv, mut count) = (Fnv::default(), 0);
+        for &step in steps {
+            let shapes = shapes(&scene, step);
+            let bodies: Vec<_> = (0..shapes.len())
+                .map(|body| reference::Moving {
+                    triangles: scene.triangles(body),
+                    positions: &shapes[body],
+                    end: None,
+                    groups: None,
+                })
+                .collect();
+            let mut rows: [Vec<[u32; 4]>; 3] = Default::default();
+            let mut add = |kind: usize, [a, b]: [u32; 2], pairs: Vec<[u32; 2]>| {
+                rows[kind].extend(pairs.into_iter().map(|[i, j]| [a, i, b, j]));
+            };
+            for (a, body) in (0..).zip(&bodies) {
+                let close = reference::self_close_vertex_triangle_pairs(body, DISTANCE);
+                add(0, [a, a], close.unwrap());
+                let close = reference::self_close_edge_edge_pairs(body, DISTANCE);
+                add(1, [a, a], close.unwrap());
+                let (triangles, positions) = (body.triangles, body.positions);
+                let close = reference::self_close_triangle_pairs(triangles, positions, DISTANCE);
+                add(2, [a, a], close.unwrap());
+                for (b, other) in (0..).zip(&bodies).filter(|&(b, _)| a != b) {
+                    let close = reference::close_vertex_triangle_pairs(body, other, DISTANCE);
+                    add(0, [a, b], close.unwrap());
+                    if a < b {
+                        let close = reference::close_edge_edge_pairs(body, other, DISTANCE);
+                        add(1, [a, b], close.unwrap());
+                        let close = reference::close_triangle_pairs(
+                            triangles,
+                            positions,
+                            other.triangles,
+                            other.positions,
+                            DISTANCE,
+                        );
+                        add(2, [a, b], close.unwrap());
+                    }
+                }
+            }
+            for mut rows in rows {
+                rows.sort_unstable();
+                count += rows.len();
+                rows.iter().for_each(|row| fnv.add(row));
             }
         }
         assert_eq!((fnv.0, count), (hash_committed, count_committed), "{name}");

@@ -4,6 +4,7 @@
 //! all of them. Each has a small form, for tests.
 
 mod bodies;
+mod close;
 mod cloth;
 mod degenerate;
 mod degrees;
@@ -64,7 +65,7 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order in which `all` runs them.
-pub const EXPERIMENTS: [Experiment; 11] = [
+pub const EXPERIMENTS: [Experiment; 12] = [
     experiment_1::EXPERIMENT,
     table_1::EXPERIMENT,
     experiment_3::EXPERIMENT,
@@ -76,6 +77,7 @@ pub const EXPERIMENTS: [Experiment; 11] = [
     degenerate::EXPERIMENT,
     peers::EXPERIMENT,
     near::EXPERIMENT,
+    close::EXPERIMENT,
 ];
 
 impl Experiment {

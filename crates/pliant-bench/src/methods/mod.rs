@@ -1,5 +1,6 @@
 //! One file or folder a method.
 
+mod all_boxes;
 mod answer;
 mod bodies;
 mod brute_force;
@@ -9,19 +10,21 @@ mod near;
 mod obvhs;
 mod ours;
 mod parry;
+mod plain_distance;
 mod region;
 mod smith;
 mod sweep;
 mod triangle_box;
 mod van_den_bergen;
 
+pub use all_boxes::AllBoxes;
 pub use brute_force::BruteForce;
 pub use bucket_tree::BucketTree;
 pub use floor::Floor;
 pub use near::NearSweep;
 pub use obvhs::{NearObvhs, Obvhs};
 pub use ours::Ours;
-pub use parry::{NearParry, Parry};
+pub use parry::{FarParry, NearParry, Parry};
 pub use smith::Smith;
 pub use sweep::Sweep;
 pub use van_den_bergen::{Frame, VanDenBergen};

@@ -3,11 +3,14 @@
 //! Every vertex and every edge belongs to one of its triangles, the first that has it. A pair of triangles whose grown boxes overlap is
 //! asked for its vertices against triangles and edges against edges, those that belong to them: each pair of elements comes up once.
 //! Rows and numbers of edges are the library's. Gaps are compared in `f64`, in which differences of `f32` that are not very
-//! unlike are exact.
+//! unlike are exact. Where elements themselves are to be close, and not their boxes, those that are left are measured in plain `f64`, and what
+//! is too near to the limit for that is decided by the library's reference, which is exact and has no tree.
 
 use super::bodies::Aabb;
+use super::plain_distance::{of_point_and_triangle, of_segments};
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
+use pliant::reference::{self, Moving};
 use std::collections::BTreeMap;
 
 /// The hull of some vertices, at both ends of a motion if there is one.
@@ -30,6 +33,8 @@ pub(super) fn swept_box(positions: &[[f32; 3]], ends: &[[f32; 3]], corners: &[u3
 /// The vertices, edges and triangles of all bodies, and what is found near what.
 pub(super) struct Elements {
     radius: f64,
+    /// How far elements may be apart, if that is asked.
+    distance: Option<f64>,
     bodies: Vec<Body>,
     /// Vertices near triangles, then edges near edges.
     found: [Vec<Pair>; 2],
@@ -46,6 +51,8 @@ struct Body {
     vertex_boxes: Vec<Aabb>,
     edge_boxes: Vec<Aabb>,
     triangle_boxes: Vec<Aabb>,
+    /// Where vertices are now, if elements are measured.
+    positions: Vec<[f64; 3]>,
 }
 
 impl Body {
@@ -78,7 +85,12 @@ impl Body {
             vertex_boxes: Vec::new(),
             edge_boxes: Vec::new(),
             triangle_boxes: Vec::new(),
+            positions: Vec::new(),
         }
+    }
+
+    fn points<const C: usize>(&self, corners: [u32; C]) -> [[f64; 3]; C] {
+        corners.map(|corner| self.positions[corner as usize])
     }
 }
 
@@ -87,6 +99,7 @@ impl Elements {
     pub(super) fn within(radius: f64) -> Self {
         Self {
             radius,
+            distance: None,
             bodies: Vec::new(),
             found: Default::default(),
             keys: Vec::new(),
@@ -121,6 +134,11 @@ impl Elements {
             body.triangle_boxes.clear();
             let triangles = body.triangles.iter();
             body.triangle_boxes.extend(triangles.map(|it| hull(it)));
+            if self.distance.is_some() {
+                let points = shape.world.iter().map(|point| point.map(f64::from));
+                body.positions.clear();
+                body.positions.extend(points);
+            }
         }
     }
 
@@ -161,7 +179,20 @@ impl Elements {
         }
         let box_a = &body_a.vertex_boxes[vertex as usize];
         let box_b = &body_b.triangle_boxes[triangle as usize];
-        if are_within(box_a, box_b, 2.0 * self.radius) {
+        if !are_within(box_a, box_b, 2.0 * self.radius) {
+            return;
+        }
+        let is_close = self.distance.is_none_or(|distance| {
+            let point = body_a.points([vertex]);
+            let corners = body_b.points(body_b.triangles[triangle as usize]);
+            let apart = of_point_and_triangle(point[0], corners);
+            is_at_most(apart, distance).unwrap_or_else(|| {
+                let (one, other) = (alone(&[[0; 3]], &point), alone(&[[0, 1, 2]], &corners));
+                let close = reference::close_vertex_triangle_pairs(&one, &other, distance);
+                !close.expect("these are bodies").is_empty()
+            })
+        });
+        if is_close {
             self.found[0].push([a as u32, vertex, b as u32, triangle]);
         }
     }
@@ -182,7 +213,21 @@ impl Elements {
             &body_a.edge_boxes[i as usize],
             &body_b.edge_boxes[j as usize],
         );
-        if are_within(box_a, box_b, 2.0 * self.radius) {
+        if !are_within(box_a, box_b, 2.0 * self.radius) {
+            return;
+        }
+        let is_close = self.distance.is_none_or(|distance| {
+            let (one, other) = (
+                body_a.points(body_a.edges[i as usize]),
+                body_b.points(others),
+            );
+            is_at_most(of_segments(one, other), distance).unwrap_or_else(|| {
+                let (one, other) = (alone(&[[0, 1, 1]], &one), alone(&[[0, 1, 1]], &other));
+                let close = reference::close_edge_edge_pairs(&one, &other, distance);
+                !close.expect("these are bodies").is_empty()
+            })
+        });
+        if is_close {
             let (first, second) = ([a as u32, i], [b as u32, j]);
             let ([a, i], [b, j]) = (first.min(second), first.max(second));
             self.found[1].push([a, i, b, j]);
@@ -224,6 +269,22 @@ impl Elements {
     }
 }
 
+/// A body of one triangle, perhaps degenerate.
+fn alone<'b>(triangles: &'b [[u32; 3]], positions: &'b [[f64; 3]]) -> Moving<'b, f64> {
+    Moving {
+        triangles,
+        positions,
+        end: None,
+        groups: None,
+    }
+}
+
+/// Whether something that was measured in `f64` is at most so far apart, if that is certain.
+#[inline]
+fn is_at_most(apart: f64, distance: f64) -> Option<bool> {
+    ((apart - distance).abs() > 1e-6 * distance).then_some(apart <= distance)
+}
+
 /// Whether the gap of two boxes is at most so much on every axis.
 #[inline]
 fn are_within(a: &Aabb, b: &Aabb, gap: f64) -> bool {
@@ -245,6 +306,13 @@ impl NearSweep {
             elements: Elements::within(radius),
             begins: Default::default(),
         }
+    }
+
+    /// Elements that are themselves at most so far apart.
+    pub fn closer_than(distance: f64) -> Self {
+        let mut all = Self::new(distance / 2.0);
+        all.elements.distance = Some(distance);
+        all
     }
 }
 

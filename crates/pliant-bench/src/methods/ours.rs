@@ -17,6 +17,8 @@ pub struct Ours<S: Scalar = f32> {
     counters: Counters,
     /// The margin round each element, of those who are asked what is near.
     radius: f64,
+    /// How far elements may be apart, of those who are asked which are close.
+    distance: Option<f64>,
 }
 
 /// How shapes come into a world of this precision.
@@ -51,6 +53,7 @@ impl<S: Scalar> Ours<S> {
             pairs: Vec::new(),
             counters: Counters::default(),
             radius: 0.0,
+            distance: None,
         }
     }
 
@@ -58,6 +61,15 @@ impl<S: Scalar> Ours<S> {
     #[must_use]
     pub fn within(self, radius: f64) -> Self {
         Self { radius, ..self }
+    }
+
+    /// Is asked for close pairs, at most so far apart.
+    #[must_use]
+    pub fn closer_than(self, distance: f64) -> Self {
+        Self {
+            distance: Some(distance),
+            ..self
+        }
     }
 
     /// Does at every step what the options say is done ahead of a query, whether or not a body meets another.
@@ -140,6 +152,17 @@ impl<S: Precision> Method for Ours<S> {
     fn candidates(&mut self) -> Option<&[Pair]> {
         self.pairs.clear();
         let (of, radius) = (Selection::Everything, self.radius);
+        if let Some(distance) = self.distance {
+            let found = self.world.close_vertex_triangle_pairs(of, distance).all();
+            let found = found.expect("the whole world is there").iter();
+            self.pairs.extend(found.map(|close| Pair::from(close.pair)));
+            self.count();
+            let found = self.world.close_edge_edge_pairs(of, distance).all();
+            let found = found.expect("the whole world is there").iter();
+            self.pairs.extend(found.map(|close| Pair::from(close.pair)));
+            self.count();
+            return Some(&self.pairs);
+        }
         let found = self.world.vertex_triangle_candidates(of, radius).all();
         let found = found.expect("the whole world is there").iter();
         self.pairs.extend(found.copied().map(Pair::from));
@@ -149,6 +172,15 @@ impl<S: Precision> Method for Ours<S> {
         self.pairs.extend(found.copied().map(Pair::from));
         self.count();
         Some(&self.pairs)
+    }
+
+    fn distance(&mut self) -> Option<f64> {
+        let [a, b, ..] = self.bodies[..] else {
+            return None;
+        };
+        let nearest = self.world.distance(a, b, f64::INFINITY);
+        self.count();
+        nearest.expect("both are there").map(|close| close.distance)
     }
 
     fn take_counters(&mut self) -> Counters {

@@ -22,9 +22,10 @@ use crate::decision::{Decision, Triangle};
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
 use parry3d::bounding_volume::{Aabb, BoundingVolume};
-use parry3d::math::Vector;
+use parry3d::math::{Pose, Vector};
 use parry3d::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
-use parry3d::shape::{TriMesh, TriMeshFlags};
+use parry3d::query;
+use parry3d::shape::{TriMesh, TriMeshFlags, Triangle as ParryTriangle};
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
@@ -238,5 +239,109 @@ impl Proposer for Parry {
 
     fn answer(&mut self) -> &mut Answer {
         &mut self.answer
+    }
+}
+
+/// parry3d, refitted, asked how far two bodies are apart: in one of two ways.
+pub struct FarParry {
+    meshes: Parry,
+    bounded: bool,
+    /// The triangles that were nearest the last time.
+    last: Option<(u32, u32)>,
+}
+
+impl FarParry {
+    /// By its `query::distance` of two meshes, which descends the one tree and for each of its leaves the other.
+    pub fn by_query() -> Self {
+        Self {
+            meshes: Parry::new(crate::decision::exact),
+            bounded: false,
+            last: None,
+        }
+    }
+
+    /// By its `leaf_pairs` of both trees, of which those are followed that are nearer than the nearest triangles so far, beginning with the
+    /// pair that was nearest the last time; `query::distance` of two triangles measures them.
+    pub fn by_leaf_pairs() -> Self {
+        Self {
+            bounded: true,
+            ..Self::by_query()
+        }
+    }
+}
+
+impl Method for FarParry {
+    fn name(&self) -> String {
+        let way = if self.bounded {
+            "leaf pairs nearer than the nearest"
+        } else {
+            "query::distance"
+        };
+        format!("parry3d 0.31, {way}")
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        Proposer::build(&mut self.meshes, bodies);
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        Proposer::step(&mut self.meshes, shapes);
+    }
+
+    fn all_pairs(&mut self) -> &[Pair] {
+        &[]
+    }
+
+    fn first_pair(&mut self) -> Option<Pair> {
+        None
+    }
+
+    fn distance(&mut self) -> Option<f64> {
+        let [a, b, ..] = &self.meshes.meshes[..] else {
+            return None;
+        };
+        let here = Pose::IDENTITY;
+        if !self.bounded {
+            let distance = query::distance(&here, a, &here, b).ok()?;
+            return Some(distance.distance.into());
+        }
+        let triangle = |mesh: &TriMesh, number: u32| {
+            let vertices = mesh.vertices();
+            let [a, b, c] = mesh.indices()[number as usize].map(|vertex| vertices[vertex as usize]);
+            ParryTriangle::new(a, b, c)
+        };
+        let measure = |i: u32, j: u32| {
+            let (a, b) = (triangle(a, i), triangle(b, j));
+            let distance = query::distance(&here, &a, &here, &b);
+            distance.map_or(f32::MAX, |distance| distance.distance)
+        };
+        let nearest = Cell::new(self.last.map_or(f32::MAX, |(i, j)| measure(i, j)));
+        let box_tests = Cell::new(0);
+        let leaves = a.bvh().leaf_pairs(b.bvh(), |node_a, node_b| {
+            box_tests.set(box_tests.get() + 1);
+            let zero = Vector::ZERO;
+            let gap = (node_b.mins() - node_a.maxs()).max(node_a.mins() - node_b.maxs());
+            gap.max(zero).length_squared() < nearest.get() * nearest.get()
+        });
+        for (i, j) in leaves {
+            // They were found near enough when their parents were.
+            let boxes = [(a, i), (b, j)].map(|(mesh, number)| triangle(mesh, number).local_aabb());
+            let gap = (boxes[1].mins - boxes[0].maxs).max(boxes[0].mins - boxes[1].maxs);
+            if gap.max(Vector::ZERO).length_squared() >= nearest.get() * nearest.get() {
+                continue;
+            }
+            self.meshes.answer.counters.decisions += 1;
+            let distance = measure(i, j);
+            if distance < nearest.get() {
+                nearest.set(distance);
+                self.last = Some((i, j));
+            }
+        }
+        self.meshes.answer.counters.box_tests += box_tests.get();
+        Some(nearest.get().into())
+    }
+
+    fn take_counters(&mut self) -> Counters {
+        std::mem::take(&mut self.meshes.answer.counters)
     }
 }

@@ -1,7 +1,7 @@
 //! The comparison: every answer of the world that lives against that of a world that was never anything else, and a few of
 //! them against the reference, which has no tree.
 
-use super::{FAR_APART, Soak, Wrong, rows};
+use super::{AllClose, FAR_APART, FAR_BUT_CLOSE, SIDE, Soak, Wrong, rows};
 use pliant::{
     BodyId, Degree, Options, Pair, Partition, Scalar, Selection, Update, World, reference,
 };
@@ -32,6 +32,11 @@ impl<S: Scalar> Soak<S> {
         self.compare_within(&mut fresh)?;
         self.compare_two_bodies(&mut fresh)?;
         self.compare_near(&mut fresh)?;
+        // It takes as long as all the rest.
+        if self.random.one_in(3) {
+            self.compare_close(&mut fresh)?;
+        }
+        self.compare_distances(&mut fresh)?;
         self.tally.compared += 1;
         Ok(())
     }
@@ -140,6 +145,66 @@ impl<S: Scalar> Soak<S> {
                 return self.wrong(format!("found and expected within {radius}: {counts:?}"));
             }
             self.tally.near += found.len() as u64;
+        }
+        Ok(())
+    }
+
+    /// What is close, with all figures.
+    fn compare_close(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
+        let distance = [0.0, FAR_BUT_CLOSE / 4.0, FAR_BUT_CLOSE][self.random.index(3)];
+        let expected = AllClose::of(fresh, distance);
+        let mut expected = self.good("what is close in a fresh world", expected)?;
+        let known_id = |id: &mut BodyId| *id = self.known[id.0 as usize].id;
+        for close in &mut expected.vertex_triangle {
+            known_id(&mut close.pair.vertex_body);
+            known_id(&mut close.pair.triangle_body);
+        }
+        for close in &mut expected.edge_edge {
+            known_id(&mut close.pair.body_a);
+            known_id(&mut close.pair.body_b);
+        }
+        for close in &mut expected.triangles {
+            known_id(&mut close.pair.body_a);
+            known_id(&mut close.pair.body_b);
+        }
+        let found = AllClose::of(&mut self.world, distance);
+        let found = self.good("what is close", found)?;
+        if found != expected {
+            let counts = [found.counts(), expected.counts()];
+            return self.wrong(format!(
+                "found and expected at most {distance} apart: {counts:?}, or figures differ"
+            ));
+        }
+        self.tally.close += found.counts().iter().sum::<usize>() as u64;
+        Ok(())
+    }
+
+    /// How far some bodies are apart, and one from all others.
+    fn compare_distances(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
+        for _ in 0..4 {
+            let cut_off = [f64::INFINITY, SIDE / 4.0][self.random.index(2)];
+            let [a, b] = [(); 2].map(|()| self.known[self.random.index(self.known.len())].id);
+            let [fresh_a, fresh_b] = [a, b].map(|id| self.fresh_id(id));
+            let (found, expected) = if a == b {
+                let found = self.world.nearest_body(a, cut_off);
+                (found, fresh.nearest_body(fresh_a, cut_off))
+            } else {
+                let found = self.world.distance(a, b, cut_off);
+                (found, fresh.distance(fresh_a, fresh_b, cut_off))
+            };
+            let both = [
+                self.good("a distance", found)?,
+                self.good("a distance in a fresh world", expected)?,
+            ];
+            // None is beyond the cut-off, which is no number below 0.
+            let [found, expected] = both.map(|it| it.map_or(-1.0, |close| close.distance));
+            // Of several triangles that are nearer or further by no more than 2^-30, it is some.
+            if (found - expected).abs() > expected.abs() * f64::powi(0.5, 29) {
+                return self.wrong(format!(
+                    "{a} and {b} are {found} apart, in a fresh world {expected}"
+                ));
+            }
+            self.tally.distances += 1;
         }
         Ok(())
     }

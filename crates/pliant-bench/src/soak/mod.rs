@@ -18,7 +18,10 @@ mod fresh;
 mod random;
 mod shapes;
 
-use pliant::{BodyId, Error, ErrorKind, Options, Pair, Scalar, Selection, World};
+use pliant::{
+    BodyId, CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, Error, ErrorKind, Options, Pair,
+    Scalar, Selection, World,
+};
 use random::Random;
 use shapes::Surface;
 use std::ops::ControlFlow;
@@ -32,8 +35,9 @@ const PARADE: usize = 200;
 const SIDE: f64 = 12.0;
 /// How far many bodies go at once, on each axis.
 const SHIFT: f64 = 1.0 / 8.0;
-/// The widest margin that is asked for.
+/// The widest margin that is asked for, and the longest distance of close pairs.
 const FAR_APART: f64 = 0.05;
+const FAR_BUT_CLOSE: f64 = 0.02;
 
 /// What went wrong: the step, and what was expected.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,6 +70,10 @@ pub struct Tally {
     pub pairs: u64,
     /// Candidates that were the same in both.
     pub near: u64,
+    /// Close pairs that were the same in both, with all figures.
+    pub close: u64,
+    /// Distances of bodies that were as good as the same in both.
+    pub distances: u64,
 }
 
 /// What is known of a body: enough to build it anew.
@@ -226,6 +234,8 @@ impl<S: Scalar> Soak<S> {
         }
         let near = rows(&mut self.world, FAR_APART);
         self.good("what is near", near)?;
+        let close = AllClose::of(&mut self.world, FAR_BUT_CLOSE);
+        self.good("what is close", close)?;
         self.compare_with_a_fresh_world()?;
         for (place, positions) in large.into_iter().zip(shapes) {
             self.take_over(place, &positions, false)?;
@@ -596,7 +606,7 @@ impl<S: Scalar> Soak<S> {
     /// A query between comparisons, so that boxes are true in parts when the next step comes.
     fn ask_something(&mut self) -> Result<(), Wrong> {
         let [a, b] = [(); 2].map(|()| self.known[self.random.index(self.known.len())].id);
-        let answer = match self.random.below(8) {
+        let answer = match self.random.below(12) {
             0 => self
                 .world
                 .intersections(Selection::Everything)
@@ -631,6 +641,20 @@ impl<S: Scalar> Soak<S> {
                 .intersections(Selection::Between(a, b))
                 .all()
                 .map(drop),
+            6 if a != b => self.world.distance(a, b, f64::INFINITY).map(drop),
+            7 => self.world.nearest_body(a, SIDE / 4.0).map(drop),
+            8 => {
+                let close = self
+                    .world
+                    .close_triangle_pairs(Selection::World, FAR_BUT_CLOSE);
+                close.first().map(drop)
+            }
+            9 => {
+                let close = self
+                    .world
+                    .close_edge_edge_pairs(Selection::Within(a), FAR_BUT_CLOSE);
+                close.all().map(drop)
+            }
             _ => Ok(()),
         };
         self.good("a query", answer)
@@ -660,4 +684,34 @@ fn rows<S: Scalar>(world: &mut World<S>, radius: f64) -> Result<[Vec<[u32; 4]>; 
         vertex_triangle,
         near.iter().map(|&hit| hit.into()).collect(),
     ])
+}
+
+/// All that is close, with figures.
+#[derive(PartialEq)]
+struct AllClose {
+    vertex_triangle: Vec<CloseVertexTriangle>,
+    edge_edge: Vec<CloseEdgeEdge>,
+    triangles: Vec<CloseTriangles>,
+}
+
+impl AllClose {
+    fn of<S: Scalar>(world: &mut World<S>, distance: f64) -> Result<Self, Error> {
+        let of = Selection::Everything;
+        Ok(Self {
+            vertex_triangle: world
+                .close_vertex_triangle_pairs(of, distance)
+                .all()?
+                .to_vec(),
+            edge_edge: world.close_edge_edge_pairs(of, distance).all()?.to_vec(),
+            triangles: world.close_triangle_pairs(of, distance).all()?.to_vec(),
+        })
+    }
+
+    fn counts(&self) -> [usize; 3] {
+        [
+            self.vertex_triangle.len(),
+            self.edge_edge.len(),
+            self.triangles.len(),
+        ]
+    }
 }

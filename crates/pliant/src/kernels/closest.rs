@@ -1,4 +1,5 @@
-//! Where vertices and triangles, and edges and edges, are closest: four pairs side by side, with proven bounds.
+//! Where vertices and triangles, and edges and edges, are closest: four pairs side by side in double precision, with proven bounds; and
+//! eight in single precision, where only their bounds are wanted.
 //!
 //! **Any points bound the distance from above, any direction from below.** Points of two elements are at least as far apart as these are.
 //! And for any r, however it was found, the elements are at least as far apart as their projections on it: the least of r.(p - q) over
@@ -15,14 +16,31 @@
 //! is at least 2^-200, that is nothing beside 2^-250 S, even in products of four. Where S is smaller, nothing is sure. As r is a
 //! direction only if it is no rounding error, the lower bound is none where |r| is below 20 u S.
 //!
+//! **Elements that nearly touch.** The way between points that are close to each other is a difference of numbers that are large beside it, so
+//! as a direction it is off by u S / |r|, and what ends of the elements project on it by that much of S. Where insides are nearest, the cross
+//! product of both edges, or of two sides, is off by u as a direction, whatever the distance is: `along_normal` has the lower bound
+//! that it gives. With differences that are off by u, 3 u |r| S for the dot product, and division, length and subtraction as above, 20 u S are
+//! allowed. The length of r is at least 2^-30 of its square at most, S^2: no product of four is a rounding error below the normal range.
+//!
+//! **Eight in single precision.** The same with u = 2^-24. Only t, e and f are differences of corners, in double precision where these are,
+//! and rounded to `f32`: off by (1 + 2^-28) u of themselves. Others that projections need are computed from them: each is off by at most
+//! u S for what it is made of, and 2 u S for two roundings on the way. So a projection is off by 3 u |r| S and by 3 u |r| S for the dot product,
+//! and with 6 u S for division, length and subtraction a lower bound by 12 u S; that of |r| is as above. 20 u S are allowed again. Products of
+//! two below the normal range are off by 2^-126 each, a length by 2^-62: nothing beside u S where S is at least 2^-30. Where it is
+//! at most 2^60, neither a square nor a projection is beyond `f32`; products of four may be, and then an inside is not found, or
+//! some point is. Elsewhere nothing is sure.
+//!
 //! **Triangles.** Two triangles that do not intersect are as far apart as the nearest of their fifteen pairs of elements. The way between
 //! the points of that pair bounds the distance of the triangles too, from below by the projections of all their corners: with S for the
 //! largest sum of the absolute coordinates of a difference of two of these, with as much room for rounding. Where they intersect, no
-//! direction parts them, and the bounds are apart.
+//! direction parts them, and the bounds are apart. Any direction that is known bounds them from below without a look at elements:
+//! of corners relative to one of them a projection is off by 4 u of the sum of its coordinates, so `apart_along` by less than 7 u S, with S for
+//! the sum of the largest such sums of either triangle; it allows 20 u S too.
 
+use super::Coordinate;
 use crate::geometry::{ELEMENT_PAIRS, FIRST_OF_EDGES, Real, four_corners, is_swapped};
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x4, mask64x4};
+use fearless_simd::{Select, Simd, f32x8, f64x4};
 
 /// The four corners of a pair of elements, each with padding.
 pub(crate) type Corners<'q, S> = [&'q [S; 4]; 4];
@@ -42,29 +60,74 @@ pub(crate) struct FourClosest {
     pub(crate) most: [f64; 4],
 }
 
-/// 20 u.
+/// Numbers side by side, and what is known of their rounding.
+trait Lanes<I: Simd>: SimdFloat<I> {
+    /// 20 u.
+    const ERROR: Self::Element;
+    /// Below this sum of coordinates nothing is sure, and above that.
+    const SMALLEST: Self::Element;
+    const LARGEST: Self::Element;
+    /// The insides of two edges are taken only where they are nearer than any end by more than this part of the square, which for
+    /// parallel ones they are not.
+    const NEARER: Self::Element;
+
+    /// The same number in all.
+    #[inline(always)]
+    fn all(i: I, x: Self::Element) -> Self {
+        Self::simd_from(i, x)
+    }
+}
+
+/// 20 u of double precision.
 const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
 
 /// 2^-200.
 const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
 
-/// The insides of two edges are taken only where they are nearer than any end by more than this part of the square, which for parallel
-/// ones they are not: 2^-40.
-const NEARER: f64 = 1.0 - f64::from_bits((1023 - 40) << 52);
-
-/// Three coordinates of four.
-type Lanes<I> = [f64x4<I>; 3];
-
-/// The nearest points so far: how far along, and the square of their distance.
-struct Best<I: Simd> {
-    along: [f64x4<I>; 2],
-    square: f64x4<I>,
+impl<I: Simd> Lanes<I> for f64x4<I> {
+    const ERROR: f64 = ERROR;
+    const SMALLEST: f64 = SMALLEST;
+    /// Coordinates are of the range of `f32`.
+    const LARGEST: f64 = f64::INFINITY;
+    /// By 2^-40.
+    const NEARER: f64 = 1.0 - f64::from_bits((1023 - 40) << 52);
 }
 
-impl<I: Simd> Best<I> {
+impl<I: Simd> Lanes<I> for f32x8<I> {
+    const ERROR: f32 = 20.0 * (f32::EPSILON / 2.0);
+    /// 2^-30.
+    const SMALLEST: f32 = f32::from_bits((127 - 30) << 23);
+    /// 2^60.
+    const LARGEST: f32 = f32::from_bits((127 + 60) << 23);
+    /// By 2^-12.
+    const NEARER: f32 = 1.0 - f32::from_bits((127 - 12) << 23);
+}
+
+/// Three coordinates of some.
+type Vector<V> = [V; 3];
+
+/// Where some pairs are closest, in registers: as `FourClosest` has it.
+struct Found<V> {
+    along: [V; 2],
+    way: Vector<V>,
+    distance: V,
+    least: V,
+    most: V,
+}
+
+/// The nearest points so far: how far along, and the square of their distance.
+struct Best<V> {
+    along: [V; 2],
+    square: V,
+}
+
+impl<V> Best<V> {
     /// Takes others where a mask says so.
     #[inline(always)]
-    fn take(&mut self, mask: mask64x4<I>, along: [f64x4<I>; 2], square: f64x4<I>) {
+    fn take<I: Simd>(&mut self, mask: V::Mask, along: [V; 2], square: V)
+    where
+        V: Lanes<I>,
+    {
         self.along = [
             mask.select(along[0], self.along[0]),
             mask.select(along[1], self.along[1]),
@@ -74,7 +137,10 @@ impl<I: Simd> Best<I> {
 
     /// Takes others where they are nearer.
     #[inline(always)]
-    fn take_nearer(&mut self, along: [f64x4<I>; 2], square: f64x4<I>) {
+    fn take_nearer<I: Simd>(&mut self, along: [V; 2], square: V)
+    where
+        V: Lanes<I>,
+    {
         let mask = square.simd_lt(self.square);
         self.take(mask, along, square);
     }
@@ -92,11 +158,20 @@ pub(crate) fn of_vertices_and_triangles<I: Simd, S: Real>(
         lanes(i, pairs, 2),
         lanes(i, pairs, 3),
     ];
-    let zero = f64x4::splat(i, 0.0);
-    let one = f64x4::splat(i, 1.0);
     let (e1, e2, e3) = (minus(b, a), minus(c, a), minus(c, b));
     let (t, of_b, of_c) = (minus(p, a), minus(p, b), minus(p, c));
+    vertices_and_triangles(i, [t, of_b, of_c], [e1, e2, e3]).store()
+}
 
+/// The same of differences: of the points from a, b and c; of b and c from a, and of c from b.
+#[inline(always)]
+fn vertices_and_triangles<I: Simd, V: Lanes<I>>(
+    i: I,
+    [t, of_b, of_c]: [Vector<V>; 3],
+    [e1, e2, e3]: [Vector<V>; 3],
+) -> Found<V> {
+    let zero = V::all(i, 0_u8.into());
+    let one = V::all(i, 1_u8.into());
     let (s, square) = on_segment(t, e1);
     let mut best = Best {
         along: [s, zero],
@@ -134,11 +209,21 @@ pub(crate) fn of_edges<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4]) -> FourC
         lanes(i, pairs, 2),
         lanes(i, pairs, 3),
     ];
-    let zero = f64x4::splat(i, 0.0);
-    let one = f64x4::splat(i, 1.0);
     let (e, f) = (minus(a1, a0), minus(b1, b0));
     let (t, t10, t01, t11) = (minus(a0, b0), minus(a1, b0), minus(a0, b1), minus(a1, b1));
-    let back = times(f64x4::splat(i, -1.0), e);
+    edges_and_edges(i, [t, t10, t01, t11], [e, f]).store()
+}
+
+/// The same of differences: of the ends of the first from those of the second, and of the ends of either.
+#[inline(always)]
+fn edges_and_edges<I: Simd, V: Lanes<I>>(
+    i: I,
+    [t, t10, t01, t11]: [Vector<V>; 4],
+    [e, f]: [Vector<V>; 2],
+) -> Found<V> {
+    let zero = V::all(i, 0_u8.into());
+    let one = V::all(i, 1_u8.into());
+    let back = times(V::all(i, (-1_i8).into()), e);
 
     // Ends of the first on the second, and of the second on the first.
     let (y, square) = on_segment(t, f);
@@ -161,7 +246,7 @@ pub(crate) fn of_edges<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4]) -> FourC
     let is_inside =
         whole.simd_gt(zero) & x.simd_ge(zero) & x.simd_le(one) & y.simd_ge(zero) & y.simd_le(one);
     let square = square_of(plus(plus(t, times(x, e)), times(zero - y, f)));
-    let is_nearer = square.simd_lt(best.square * f64x4::splat(i, NEARER));
+    let is_nearer = square.simd_lt(best.square * V::all(i, V::NEARER));
     best.take(is_inside & is_nearer, [x, y], square);
 
     let [x, y] = best.along;
@@ -254,11 +339,120 @@ pub(crate) fn of_triangles<I: Simd, S: Real>(
     nearest
 }
 
+/// Which of eight pairs are surely at most so far apart, and which surely further, as bits; what is in neither is for `of_edges` and
+/// `of_vertices_and_triangles`, or for exact arithmetic.
+#[inline(always)]
+pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
+    i: I,
+    are_edges: bool,
+    pairs: &[Corners<S>; 8],
+    distance: f64,
+) -> [u64; 2] {
+    let found = if are_edges {
+        let t = S::minus_eight(i, pairs, [0, 2]);
+        let (e, f) = (
+            S::minus_eight(i, pairs, [1, 0]),
+            S::minus_eight(i, pairs, [3, 2]),
+        );
+        let (t10, t01) = (plus(t, e), minus(t, f));
+        edges_and_edges(i, [t, t10, t01, minus(t10, f)], [e, f])
+    } else {
+        let t = S::minus_eight(i, pairs, [0, 1]);
+        let (e1, e2) = (
+            S::minus_eight(i, pairs, [2, 1]),
+            S::minus_eight(i, pairs, [3, 1]),
+        );
+        let differences = [t, minus(t, e1), minus(t, e2)];
+        vertices_and_triangles(i, differences, [e1, e2, minus(e2, e1)])
+    };
+    let nearest = distance as f32;
+    let is_above = f64::from(nearest) > distance;
+    let is_below = f64::from(nearest) < distance;
+    let below = if is_above {
+        nearest.next_down()
+    } else {
+        nearest
+    };
+    let above = if is_below { nearest.next_up() } else { nearest };
+    let is_close = found.most.simd_le(f32x8::splat(i, below));
+    let is_far = found.least.simd_gt(f32x8::splat(i, above));
+    [is_close.to_bitmask(), is_far.to_bitmask()]
+}
+
+/// The direction of the common normal of two elements, from the second to the first and of length 1, and how far they at least are apart along
+/// it; none where it is hardly a direction, or nothing is sure.
+pub(crate) fn along_normal<S: Real>(
+    are_edges: bool,
+    [p, q, r, s]: &Corners<S>,
+) -> Option<([f64; 3], f64)> {
+    let minus = |p: &[S; 4], q: &[S; 4]| {
+        [
+            p[0].to_f64() - q[0].to_f64(),
+            p[1].to_f64() - q[1].to_f64(),
+            p[2].to_f64() - q[2].to_f64(),
+        ]
+    };
+    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    // Two sides, and all ways from a corner of the second to one of the first.
+    let (e, f, ways) = if are_edges {
+        let ways = [minus(p, r), minus(q, r), minus(p, s), minus(q, s)];
+        (minus(q, p), minus(s, r), ways)
+    } else {
+        let ways = [minus(p, q), minus(p, r), minus(p, s), minus(p, s)];
+        (minus(r, q), minus(s, q), ways)
+    };
+    let n = [
+        e[1] * f[2] - e[2] * f[1],
+        e[2] * f[0] - e[0] * f[2],
+        e[0] * f[1] - e[1] * f[0],
+    ];
+    let sum: f64 = [ways[0], e, f].as_flattened().iter().map(|x| x.abs()).sum();
+    let length = dot(n, n).sqrt();
+    if sum < SMALLEST || length < sum * sum * f64::powi(0.5, 30) {
+        return None;
+    }
+    let sign = if dot(n, ways[0]) < 0.0 { -1.0 } else { 1.0 };
+    let projections = ways.map(|way| sign * dot(n, way));
+    let least = projections.into_iter().fold(f64::INFINITY, f64::min);
+    let direction = n.map(|x| sign * x / length);
+    Some((direction, least / length - ERROR * sum))
+}
+
+/// How far two triangles at least are apart along a direction of length 1, but for less than 2^-40 of it, from the second to the first:
+/// by their corners. Perhaps less than nothing.
+#[inline(always)]
+pub(crate) fn apart_along<S: Real>([x, y, z]: [f64; 3], a: &[&[S; 4]; 3], b: &[&[S; 4]; 3]) -> f64 {
+    let origin = b[0];
+    let [mut least, mut most] = [f64::INFINITY, 0.0_f64];
+    let mut largest = [0.0_f64; 2];
+    let mut from_origin = |p: &[S; 4], which: usize| {
+        let d = [
+            p[0].to_f64() - origin[0].to_f64(),
+            p[1].to_f64() - origin[1].to_f64(),
+            p[2].to_f64() - origin[2].to_f64(),
+        ];
+        largest[which] = largest[which].max(d[0].abs() + d[1].abs() + d[2].abs());
+        x * d[0] + y * d[1] + z * d[2]
+    };
+    for p in a {
+        least = least.min(from_origin(p, 0));
+    }
+    for q in &b[1..] {
+        most = most.max(from_origin(q, 1));
+    }
+    let sum = largest[0] + largest[1];
+    if sum < SMALLEST {
+        return f64::NEG_INFINITY;
+    }
+    let allowed = ERROR * sum;
+    (least - most - allowed) * (1.0 - f64::powi(0.5, 39))
+}
+
 /// How far along a segment from 0 to e the point is that is nearest to t, from 0 to 1; and the square of their distance.
 #[inline(always)]
-fn on_segment<I: Simd>(t: Lanes<I>, e: Lanes<I>) -> (f64x4<I>, f64x4<I>) {
+fn on_segment<I: Simd, V: Lanes<I>>(t: Vector<V>, e: Vector<V>) -> (V, V) {
     let i = t[0].token();
-    let (zero, one) = (f64x4::splat(i, 0.0), f64x4::splat(i, 1.0));
+    let (zero, one) = (V::all(i, 0_u8.into()), V::all(i, 1_u8.into()));
     let (part, whole) = (dot(t, e), dot(e, e));
     // Of a segment that is a point, both are zero.
     let inside = part.simd_lt(whole).select(part / whole, one);
@@ -268,45 +462,54 @@ fn on_segment<I: Simd>(t: Lanes<I>, e: Lanes<I>) -> (f64x4<I>, f64x4<I>) {
 
 /// Both bounds of the distance, of a way that was computed from three differences of corners, and its least projection of such.
 #[inline(always)]
-fn bounds<I: Simd>(
+fn bounds<I: Simd, V: Lanes<I>>(
     i: I,
-    along: [f64x4<I>; 2],
-    way: Lanes<I>,
-    projection: f64x4<I>,
-    differences: [Lanes<I>; 3],
-) -> FourClosest {
-    let mut sum = f64x4::splat(i, 0.0);
+    along: [V; 2],
+    way: Vector<V>,
+    projection: V,
+    differences: [Vector<V>; 3],
+) -> Found<V> {
+    let zero = V::all(i, 0_u8.into());
+    let mut sum = zero;
     for difference in differences {
         for x in difference {
             sum += x.abs();
         }
     }
-    let infinity = f64x4::splat(i, f64::INFINITY);
-    let error = sum * f64x4::splat(i, ERROR);
+    let infinity = V::all(i, 1_u8.into()) / zero;
+    let error = sum * V::all(i, V::ERROR);
     let distance = square_of(way).sqrt();
-    let is_known = sum.simd_ge(f64x4::splat(i, SMALLEST));
+    let is_known = sum.simd_ge(V::all(i, V::SMALLEST)) & sum.simd_le(V::all(i, V::LARGEST));
     let is_a_way = is_known & distance.simd_ge(error);
-    let least = is_a_way.select(
-        projection / distance - error,
-        f64x4::splat(i, 0.0) - infinity,
-    );
-    let most = is_known.select(distance + error, infinity);
-    let mut closest = FourClosest::default();
-    for which in 0..2 {
-        along[which].store_array(&mut closest.along[which]);
+    Found {
+        along,
+        way,
+        distance,
+        least: is_a_way.select(projection / distance - error, zero - infinity),
+        most: is_known.select(distance + error, infinity),
     }
-    for axis in 0..3 {
-        way[axis].store_array(&mut closest.way[axis]);
+}
+
+impl<I: Simd> Found<f64x4<I>> {
+    #[inline(always)]
+    fn store(self) -> FourClosest {
+        let mut closest = FourClosest::default();
+        for which in 0..2 {
+            self.along[which].store_array(&mut closest.along[which]);
+        }
+        for axis in 0..3 {
+            self.way[axis].store_array(&mut closest.way[axis]);
+        }
+        self.distance.store_array(&mut closest.distance);
+        self.least.store_array(&mut closest.least);
+        self.most.store_array(&mut closest.most);
+        closest
     }
-    distance.store_array(&mut closest.distance);
-    least.store_array(&mut closest.least);
-    most.store_array(&mut closest.most);
-    closest
 }
 
 /// The same corner of four pairs, side by side.
 #[inline(always)]
-fn lanes<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4], which: usize) -> Lanes<I> {
+fn lanes<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4], which: usize) -> Vector<f64x4<I>> {
     let load = |lane: usize| {
         let [x, y, z, w] = *pairs[lane][which];
         f64x4::load_array(i, [x.to_f64(), y.to_f64(), z.to_f64(), w.to_f64()])
@@ -319,27 +522,27 @@ fn lanes<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4], which: usize) -> Lanes
 }
 
 #[inline(always)]
-fn plus<I: Simd>(p: Lanes<I>, q: Lanes<I>) -> Lanes<I> {
+fn plus<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
     [p[0] + q[0], p[1] + q[1], p[2] + q[2]]
 }
 
 #[inline(always)]
-fn minus<I: Simd>(p: Lanes<I>, q: Lanes<I>) -> Lanes<I> {
+fn minus<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
     [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
 }
 
 #[inline(always)]
-fn times<I: Simd>(by: f64x4<I>, p: Lanes<I>) -> Lanes<I> {
+fn times<I: Simd, V: SimdFloat<I>>(by: V, p: Vector<V>) -> Vector<V> {
     [by * p[0], by * p[1], by * p[2]]
 }
 
 #[inline(always)]
-fn dot<I: Simd>(p: Lanes<I>, q: Lanes<I>) -> f64x4<I> {
+fn dot<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> V {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }
 
 #[inline(always)]
-fn square_of<I: Simd>(p: Lanes<I>) -> f64x4<I> {
+fn square_of<I: Simd, V: SimdFloat<I>>(p: Vector<V>) -> V {
     dot(p, p)
 }
 
@@ -350,6 +553,9 @@ mod tests {
     use crate::predicates::distance::{Primitives, closest, hard_pairs};
     use pliant_oracle::{Class, Random, compare_distance, compare_dot, compare_length};
     use std::cmp::Ordering;
+
+    /// What is promised of distances.
+    const ACCURACY: f64 = f64::from_bits((1023 - 30) << 52);
 
     /// A pair in each lane.
     fn four(i: impl Simd, all: [&Primitives; 4]) -> FourClosest {
@@ -406,6 +612,240 @@ mod tests {
             known > total / 2 && close > total / 5,
             "{known} {close} {total}"
         );
+    }
+
+    /// What single precision says of a pair at a distance, in some lane, by all instructions: whether it is surely as near as that, and
+    /// whether surely further apart.
+    fn decided<S: Coordinate>(
+        corners: &[[S; 4]; 4],
+        others: &[[S; 4]; 4],
+        are_edges: bool,
+        lane: usize,
+        distance: f64,
+    ) -> [bool; 2] {
+        let mut pairs = [others.each_ref(); 8];
+        pairs[lane] = corners.each_ref();
+        let mut of_all: Option<[u64; 2]> = None;
+        for instructions in Instructions::all() {
+            let masks = dispatch!(instructions, i => decide_eight(i, are_edges, &pairs, distance));
+            assert_eq!(*of_all.get_or_insert(masks), masks);
+        }
+        of_all
+            .expect("there are instructions")
+            .map(|mask| mask >> lane & 1 == 1)
+    }
+
+    /// Counts pairs at distances round their own: decided, which is compared with the oracle, and left open.
+    fn check_eight<S: Coordinate>(of: fn(f64) -> S, seed: u64) -> [usize; 2] {
+        let mut random = Random::new(seed);
+        let [mut decisions, mut open] = [0; 2];
+        let mut before = None;
+        for round in 0..5_000 {
+            let class = Class::ALL[round % Class::ALL.len()];
+            // Those of ordinary size at other magnitudes too, where nothing is sure.
+            let scale = match class {
+                Class::Scales
+                | Class::Subnormal
+                | Class::NearUnderflow
+                | Class::BelowUnderflow
+                | Class::AnyBits => 1.0,
+                _ => [1.0, f64::powi(0.5, 70), f64::powi(2.0, 80), 1.0][round / 16 % 4],
+            };
+            let pair = class.pair(&mut random);
+            let pair = pair.map(|it| it.map(|p| p.map(|x| of(x * scale).to_f64())));
+            for (elements, a, b) in hard_pairs(&pair) {
+                let (Primitives::VertexTriangle(four) | Primitives::EdgeEdge(four)) = elements;
+                let corners = four.map(|[x, y, z]| [x, y, z, z].map(of));
+                let others = before.replace(corners).unwrap_or(corners);
+                let are_edges = matches!(elements, Primitives::EdgeEdge(_));
+                let d = closest(&elements).distance;
+                for x in [
+                    d,
+                    d * (1.0 + 1e-7),
+                    d * (1.0 - 1e-7),
+                    d * (1.0 + 1e-5),
+                    d * (1.0 - 1e-5),
+                    d * 1.01,
+                    d * 0.99,
+                    d * 4.0,
+                    0.0,
+                    0.3 * scale,
+                ] {
+                    let [is_close, is_far] = decided(&corners, &others, are_edges, round % 8, x);
+                    assert!(!(is_close && is_far));
+                    if is_close || is_far {
+                        let is_within = compare_distance(&a, &b, x) != Ordering::Greater;
+                        assert_eq!(is_within, is_close, "{elements:?} {x}");
+                        decisions += 1;
+                    } else {
+                        open += 1;
+                    }
+                }
+            }
+        }
+        [decisions, open]
+    }
+
+    #[test]
+    fn what_single_precision_is_sure_of_is_so() {
+        for [decisions, open] in [check_eight(|x| x, 46), check_eight(|x| x as f32, 47)] {
+            assert!(decisions > 60_000 && open > 60_000, "{decisions} {open}");
+        }
+    }
+
+    #[test]
+    fn eight_well_shaped_pairs_are_decided_to_a_few_units() {
+        // Of triangles and edges a unit long and as far apart, single precision leaves open no more than its rounding.
+        let mut random = Random::new(48);
+        let mut unit = || f64::from(random.below(1 << 20)) / f64::from(1 << 20);
+        for round in 0..4_000 {
+            let near = |to: [f64; 3], unit: &mut dyn FnMut() -> f64| to.map(|x| x + unit() / 8.0);
+            let are_edges = round % 2 == 0;
+            let four = if are_edges {
+                [[0.0; 3], [1.0, 0.0, 0.0], [0.5, -0.5, 1.0], [0.5, 0.5, 1.0]]
+            } else {
+                [[0.3, 0.3, 1.0], [0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+            };
+            let four = four.map(|p| near(p, &mut unit));
+            let elements = if are_edges {
+                Primitives::EdgeEdge(four)
+            } else {
+                Primitives::VertexTriangle(four)
+            };
+            let d = closest(&elements).distance;
+            let corners = four.map(|[x, y, z]| [x, y, z, z]);
+            let at = |by: f64| decided(&corners, &corners, are_edges, round % 8, d * by);
+            assert_eq!(at(1.0 + 2f64.powi(-14)), [true, false], "{four:?}");
+            assert_eq!(at(1.0 - 2f64.powi(-14)), [false, true], "{four:?}");
+        }
+    }
+
+    #[test]
+    fn elements_are_as_far_apart_along_their_normal_as_is_said() {
+        let mut random = Random::new(50);
+        let [mut positive, mut tight] = [0; 2];
+        for round in 0..6_000 {
+            let pair = Class::ALL[round % Class::ALL.len()].pair(&mut random);
+            for (elements, a, b) in hard_pairs(&pair) {
+                let (Primitives::VertexTriangle(four) | Primitives::EdgeEdge(four)) = elements;
+                let corners = four.map(|[x, y, z]| [x, y, z, z]);
+                let are_edges = matches!(elements, Primitives::EdgeEdge(_));
+                let Some((direction, least)) = along_normal(are_edges, &corners.each_ref()) else {
+                    continue;
+                };
+                if least <= 0.0 {
+                    continue;
+                }
+                positive += 1;
+                assert_ne!(
+                    compare_distance(&a, &b, least),
+                    Ordering::Less,
+                    "{elements:?}"
+                );
+                for p in &a {
+                    for q in &b {
+                        // The direction itself is rounded.
+                        let by = compare_dot(direction, *p, *q, least * (1.0 - 1e-12));
+                        assert_ne!(by, Ordering::Less, "{elements:?} {direction:?}");
+                    }
+                }
+                let d = closest(&elements).distance;
+                tight += u32::from(d - least <= ACCURACY * d);
+            }
+        }
+        assert!(positive > 4_000 && tight > 2_000, "{positive} {tight}");
+    }
+
+    #[test]
+    fn insides_that_nearly_touch_are_measured_without_integers() {
+        // At a distance of 2^-12 to 2^-14 the way between points is often no direction that is good enough, and the normal is.
+        let mut random = Random::new(51);
+        let mut unit = || f64::from(random.below(1 << 20)) / f64::from(1 << 20);
+        let mut by_way = 0;
+        for round in 0..2_000 {
+            let apart = f64::powi(0.5, 12 + round % 3);
+            let are_edges = round % 2 == 0;
+            let points = if are_edges {
+                [
+                    [-1.0, 0.1, 0.0],
+                    [1.0, -0.2, 0.0],
+                    [0.1, -1.0, apart],
+                    [0.0, 1.0, apart],
+                ]
+            } else {
+                [
+                    [0.3, 0.2, apart],
+                    [-1.0, -1.0, 0.0],
+                    [2.0, -1.0, 0.0],
+                    [0.0, 2.0, 0.0],
+                ]
+            };
+            // The same place in any position: turned about two axes, and moved.
+            let [u, v] = [unit(), unit()].map(|x| 6.0 * x);
+            let offset = [unit(), unit(), unit()];
+            let points = points.map(|[x, y, z]: [f64; 3]| {
+                let [x, y] = [x * u.cos() - y * u.sin(), x * u.sin() + y * u.cos()];
+                let [y, z] = [y * v.cos() - z * v.sin(), y * v.sin() + z * v.cos()];
+                [x + offset[0], y + offset[1], z + offset[2]]
+            });
+            let elements = if are_edges {
+                Primitives::EdgeEdge(points)
+            } else {
+                Primitives::VertexTriangle(points)
+            };
+            let d = closest(&elements).distance;
+            let corners = points.map(|[x, y, z]| [x, y, z, z]);
+            let (_, least) = along_normal(are_edges, &corners.each_ref()).expect("a direction");
+            assert!(d - least <= ACCURACY * d, "{elements:?} {d} {least}");
+            let found = dispatch!(Instructions::widest(), i => four(i, [&elements; 4]));
+            by_way += u32::from(found.most[0] - found.least[0] <= ACCURACY * d);
+        }
+        assert!(by_way < 1_500, "{by_way}");
+    }
+
+    #[test]
+    fn triangles_are_as_far_apart_along_a_direction_as_is_said() {
+        let mut random = Random::new(49);
+        let [mut positive, mut tight] = [0; 2];
+        for round in 0..8_000 {
+            let [a, b] = Class::ALL[round % Class::ALL.len()].pair(&mut random);
+            let scale = if round % 9 == 0 { 1e-300 } else { 1.0 };
+            let [a, b] = [a, b].map(|it| it.map(|p| p.map(|x| x * scale)));
+            let padded = [a, b].map(|it| it.map(|[x, y, z]| [x, y, z, z]));
+            let [of_a, of_b] = padded.each_ref().map(<[_; 3]>::each_ref);
+            let measured = dispatch!(Instructions::widest(), i => of_triangles(i, &of_a, &of_b));
+            let [x, y, z] = measured.way;
+            // Of any direction, the one between closest points among them.
+            let length = (x * x + y * y + z * z).sqrt();
+            let directions = [
+                [x, y, z].map(|x| x / length),
+                [0.0, 0.6, -0.8],
+                [1.0, 0.0, 0.0],
+            ];
+            for (which, direction) in directions.into_iter().enumerate() {
+                if !direction.iter().all(|x| x.is_finite()) {
+                    continue;
+                }
+                let least = apart_along(direction, &of_a, &of_b);
+                if least <= 0.0 {
+                    continue;
+                }
+                positive += 1;
+                assert_ne!(
+                    compare_distance(&a, &b, least),
+                    Ordering::Less,
+                    "{a:?} {b:?}"
+                );
+                for p in &a {
+                    for q in &b {
+                        let by = compare_dot(direction, *p, *q, least);
+                        assert_ne!(by, Ordering::Less, "{a:?} {b:?} {direction:?}");
+                    }
+                }
+                tight += u32::from(which == 0 && least >= measured.least * (1.0 - 1e-9));
+            }
+        }
+        assert!(positive > 2_000 && tight > 1_000, "{positive} {tight}");
     }
 
     #[test]

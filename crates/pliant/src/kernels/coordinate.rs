@@ -38,6 +38,9 @@ pub(crate) trait Coordinate: Real {
         corners: &C,
         of: [(usize, usize); D],
     ) -> [Vectors<I>; D];
+
+    /// The same of eight rows of four points: point k less point l.
+    fn minus_eight<I: Simd>(i: I, rows: &[[&[Self; 4]; 4]; 8], of: [usize; 2]) -> Vectors<I>;
 }
 
 /// The corners of eight things, up to eight of each.
@@ -116,6 +119,15 @@ impl Coordinate for f32 {
         }
         rows
     }
+
+    #[inline(always)]
+    fn minus_eight<I: Simd>(i: I, rows: &[[&[Self; 4]; 4]; 8], [k, l]: [usize; 2]) -> Vectors<I> {
+        let mut eight = [f32x4::splat(i, 0.0); 8];
+        for lane in 0..8 {
+            eight[lane] = Self::load(i, rows[lane][k]) - Self::load(i, rows[lane][l]);
+        }
+        lanes_of(eight)
+    }
 }
 
 impl Coordinate for f64 {
@@ -178,6 +190,20 @@ impl Coordinate for f64 {
             rows[which] = lanes_of(eight);
         }
         rows
+    }
+
+    #[inline(always)]
+    fn minus_eight<I: Simd>(i: I, rows: &[[&[Self; 4]; 4]; 8], [k, l]: [usize; 2]) -> Vectors<I> {
+        let mut eight = [f32x4::splat(i, 0.0); 8];
+        for half in 0..4 {
+            let mut two = [f64x4::splat(i, 0.0); 2];
+            for next in 0..2 {
+                let row = &rows[2 * half + next];
+                two[next] = Self::load(i, row[k]) - Self::load(i, row[l]);
+            }
+            (eight[2 * half], eight[2 * half + 1]) = two[0].narrow(two[1]).split();
+        }
+        lanes_of(eight)
     }
 }
 

@@ -153,18 +153,16 @@ impl Elements {
         &self.ends
     }
 
-    /// A vertex in the order of the tree, which is that of the mesh.
-    #[inline]
-    pub(crate) fn tree_vertex(&self, order: &Order, vertex: CallerVertex) -> TreeVertex {
-        let tree_vertices = self.tree_vertices.get_or_init(|| {
+    /// For each of the caller's vertices its number in the order of the tree, which is that of the mesh.
+    pub(crate) fn tree_vertices(&self, order: &Order) -> &[TreeVertex] {
+        self.tree_vertices.get_or_init(|| {
             let of_tree = order.vertex_order();
             let mut numbers = vec![TreeVertex(0); of_tree.len()];
             for (number, &vertex) in (0..).zip(of_tree) {
                 numbers[vertex as usize] = TreeVertex(number);
             }
             numbers.into_boxed_slice()
-        });
-        tree_vertices[vertex.index()]
+        })
     }
 
     /// The caller's numbers of all edges in tree order.
@@ -243,7 +241,7 @@ mod tests {
         }
         for vertex in (0..9).map(TreeVertex) {
             let named = order.caller_vertex(vertex);
-            assert_eq!(elements.tree_vertex(&order, named), vertex);
+            assert_eq!(elements.tree_vertices(&order)[named.index()], vertex);
         }
         // What belongs to triangles one after the other is everything that is used, once.
         let mut next = [0, 0];

@@ -5,7 +5,7 @@ use super::positions::{Positions, SMALL};
 use crate::error::ErrorKind;
 use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape, denormals_are_kept};
 use crate::held::{self, Held};
-use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
+use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{self, Elements, Order, Topology};
 use crate::options::{Options, Partition};
@@ -113,6 +113,23 @@ fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
 fn is_in_range<S: Real>([x, y, z]: [S; 3]) -> bool {
     // No early exit: three comparisons without a branch.
     x.is_in_range() & y.is_in_range() & z.is_in_range()
+}
+
+/// Where the corners of a body's elements are, as the caller numbers all of it.
+pub(super) struct Places<'b, S> {
+    pub(super) triangles: &'b [[u32; 3]],
+    pub(super) edges: &'b [[u32; 2]],
+    /// For each vertex its number in tree order, in which positions are.
+    pub(super) tree_vertices: &'b [TreeVertex],
+    pub(super) positions: &'b Points<S>,
+}
+
+impl<'b, S> Places<'b, S> {
+    /// Where a vertex is, with padding.
+    #[inline(always)]
+    pub(super) fn corner(&self, vertex: u32) -> &'b [S; 4] {
+        self.positions.padded(self.tree_vertices[vertex as usize])
+    }
 }
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
@@ -339,15 +356,15 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.known_elements().map_or(&[], Elements::callers)
     }
 
-    /// Where a vertex is, as the caller numbers it, with padding; of a body that was brought into tree order.
-    #[inline]
-    pub(super) fn corner(&self, vertex: u32) -> &[S; 4] {
-        let vertex = self
-            .known_elements()
-            .map_or(TreeVertex(vertex), |elements| {
-                elements.tree_vertex(&self.order, CallerVertex(vertex))
-            });
-        self.positions.in_tree_order().padded(vertex)
+    /// Where the corners of elements are, as the caller numbers them; of a body that was brought into tree order.
+    pub(super) fn places(&self) -> Option<Places<'_, S>> {
+        let elements = self.known_elements()?;
+        Some(Places {
+            triangles: self.topology.triangles(),
+            edges: elements.callers(),
+            tree_vertices: elements.tree_vertices(&self.order),
+            positions: self.positions.in_tree_order(),
+        })
     }
 
     /// Where a vertex is at the end of the motion, or stays if there is none; the same of it.

@@ -5,7 +5,7 @@
 use super::BodyId;
 use super::asked::{Asked, Common};
 use super::bodies::Bodies;
-use super::body::Body;
+use super::body::Places;
 use super::query::Request;
 use crate::error::Error;
 use crate::held::{self, Held};
@@ -23,11 +23,8 @@ pub(super) trait InBodies: Measurable {
     /// Which bodies the first and the second are of.
     fn bodies(&self) -> [BodyId; 2];
 
-    /// The corners in these bodies, brought into tree order; in the caller's order.
-    fn corners<'b, const N: usize, S: Coordinate>(
-        &self,
-        bodies: [&'b Body<N, S>; 2],
-    ) -> Self::Corners<'b, S>;
+    /// The corners in these bodies, in the caller's order.
+    fn corners<'b, S: Coordinate>(&self, bodies: [&Places<'b, S>; 2]) -> Self::Corners<'b, S>;
 }
 
 impl InBodies for VertexTriangle {
@@ -36,11 +33,11 @@ impl InBodies for VertexTriangle {
     }
 
     #[inline]
-    fn corners<'b, const N: usize, S: Coordinate>(
+    fn corners<'b, S: Coordinate>(
         &self,
-        [of_vertex, of_triangle]: [&'b Body<N, S>; 2],
+        [of_vertex, of_triangle]: [&Places<'b, S>; 2],
     ) -> Self::Corners<'b, S> {
-        let [a, b, c] = of_triangle.topology.triangles()[self.triangle as usize];
+        let [a, b, c] = of_triangle.triangles[self.triangle as usize];
         [
             of_vertex.corner(self.vertex),
             of_triangle.corner(a),
@@ -56,12 +53,12 @@ impl InBodies for EdgeEdge {
     }
 
     #[inline]
-    fn corners<'b, const N: usize, S: Coordinate>(
+    fn corners<'b, S: Coordinate>(
         &self,
-        [of_a, of_b]: [&'b Body<N, S>; 2],
+        [of_a, of_b]: [&Places<'b, S>; 2],
     ) -> Self::Corners<'b, S> {
-        let [a0, a1] = of_a.edges()[self.edge_a as usize];
-        let [b0, b1] = of_b.edges()[self.edge_b as usize];
+        let [a0, a1] = of_a.edges[self.edge_a as usize];
+        let [b0, b1] = of_b.edges[self.edge_b as usize];
         [
             of_a.corner(a0),
             of_a.corner(a1),
@@ -77,12 +74,12 @@ impl InBodies for Pair {
     }
 
     #[inline]
-    fn corners<'b, const N: usize, S: Coordinate>(
+    fn corners<'b, S: Coordinate>(
         &self,
-        [of_a, of_b]: [&'b Body<N, S>; 2],
+        [of_a, of_b]: [&Places<'b, S>; 2],
     ) -> Self::Corners<'b, S> {
         [(of_a, self.triangle_a), (of_b, self.triangle_b)].map(|(body, triangle)| {
-            let corners = body.topology.triangles()[triangle as usize];
+            let corners = body.triangles[triangle as usize];
             corners.map(|vertex| body.corner(vertex))
         })
     }
@@ -168,52 +165,68 @@ fn measure<const N: usize, S: Coordinate, H: InBodies>(
     (instructions, executor): (Instructions, Executor),
 ) {
     measured.clear();
+    let interrupt = executor.interrupt;
+    if !executor.are_many() {
+        measured.reserve(hits.len());
+        for hits in hits.chunks(JOB) {
+            if executor.is_interrupted() {
+                return;
+            }
+            let take = |close| measured.push(close);
+            dispatch!(instructions, i => measure_some(i, bodies, hits, interrupt, take));
+        }
+        return;
+    }
     measured.extend(hits.iter().map(|&hit| hit.unmeasured()));
     let jobs = hits.chunks(JOB).zip(measured.chunks_mut(JOB));
-    let jobs = jobs.map(|(hits, measured)| Job { hits, measured });
-    let work = |_, job: &mut Job<H>| {
-        dispatch!(instructions, i => measure_some(i, bodies, job, executor.interrupt));
-    };
-    if executor.are_many() {
-        let mut jobs: Vec<Job<H>> = jobs.collect();
-        executor.run(&mut jobs, work);
-    } else {
-        // Without a list of them, which a step would allocate.
-        jobs.for_each(|mut job| executor.run(std::slice::from_mut(&mut job), work));
-    }
+    let mut jobs: Vec<_> = jobs
+        .map(|(hits, measured)| Job { hits, measured })
+        .collect();
+    executor.run(&mut jobs, |_, job: &mut Job<H>| {
+        let mut places = job.measured.iter_mut();
+        let take = |close| {
+            if let Some(place) = places.next() {
+                *place = close;
+            }
+        };
+        dispatch!(instructions, i => measure_some(i, bodies, job.hits, interrupt, take));
+    });
 }
 
+/// Measures some pairs, and shows `take` each in their order. Interrupted, it ends early.
 #[inline(always)]
 fn measure_some<I: Simd, const N: usize, S: Coordinate, H: InBodies>(
     i: I,
     bodies: &Bodies<N, S>,
-    job: &mut Job<H>,
+    hits: &[H],
     interrupt: &Interrupt,
+    mut take: impl FnMut(H::Close),
 ) {
-    let mut known: Option<([BodyId; 2], [&Body<N, S>; 2])> = None;
-    for (hits, measured) in job.hits.chunks(4).zip(job.measured.chunks_mut(4)) {
+    let mut known: Option<([BodyId; 2], [Places<S>; 2])> = None;
+    for hits in hits.chunks(4) {
         let mut pairs = None;
         for (lane, hit) in hits.iter().enumerate() {
             let ids = hit.bodies();
-            let both = match known {
-                Some((of, both)) if of == ids => both,
-                _ => {
-                    let [Ok(a), Ok(b)] = ids.map(|id| bodies.get(id)) else {
-                        return;
-                    };
-                    known = Some((ids, [a, b]));
-                    [a, b]
-                }
+            if known.as_ref().is_none_or(|(of, _)| *of != ids) {
+                let [Ok(a), Ok(b)] = ids.map(|id| bodies.get(id)) else {
+                    return;
+                };
+                let (Some(a), Some(b)) = (a.places(), b.places()) else {
+                    return;
+                };
+                known = Some((ids, [a, b]));
+            }
+            let Some((_, both)) = &known else {
+                return;
             };
-            let corners = hit.corners(both);
+            let corners = hit.corners(both.each_ref());
             pairs.get_or_insert([corners; 4])[lane] = corners;
         }
         let Some(pairs) = pairs else {
             return;
         };
-        let Some(found) = H::measure(i, hits, &pairs, interrupt) else {
+        if !H::measure(i, hits, &pairs, interrupt, &mut take) {
             return;
-        };
-        measured.copy_from_slice(&found[..hits.len()]);
+        }
     }
 }

@@ -11,7 +11,7 @@ use super::witness::{Witnesses, pair_of};
 use crate::close_pairs::CloseTriangles;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Shape;
-use crate::held::Held;
+use crate::held::{self, Held};
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
     Candidate, Intersections, Kind, NearestPair, close, closest_of_triangles, corners_of,
@@ -27,13 +27,17 @@ pub(super) struct Distances {
     scratch: NearestScratch,
     /// The triangles that were nearest the last time.
     pub(super) last: Witnesses,
+    /// Of a body that is asked how far it is from all others, these with the gaps of boxes.
+    pub(super) others: Vec<(f64, BodyId)>,
 }
 
-/// All others that may meet a body, with the square of the gap of the boxes, the nearest first.
+/// Lists all others that may meet a body, with the square of the gap of the boxes, the nearest first.
 pub(super) fn others_by_gap<const N: usize, S: Coordinate>(
     common: &mut Common<N, S>,
     id: BodyId,
-) -> Result<Vec<(f64, BodyId)>, Error> {
+    listed: &mut Vec<(f64, BodyId)>,
+) -> Result<(), Error> {
+    listed.clear();
     common.settle_origin();
     let body = common.bodies.get(id)?;
     let (origin, kind) = (common.origin.point, Intersections::default());
@@ -41,9 +45,9 @@ pub(super) fn others_by_gap<const N: usize, S: Coordinate>(
     let others = common.bodies.list.iter();
     let others = others.filter(|other| other.id != id && common.bodies.do_meet(body, other));
     let gaps = others.map(|other| (gap_square(&own, &other.box_for(&kind, origin)), other.id));
-    let mut gaps: Vec<(f64, BodyId)> = gaps.collect();
-    gaps.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    Ok(gaps)
+    listed.extend(gaps);
+    listed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    Ok(())
 }
 
 /// Triangles of two bodies that intersect, with a point in common.
@@ -148,6 +152,6 @@ pub(super) fn check(distance: f64) -> Result<(), Error> {
 
 impl Held for Distances {
     fn held(&self) -> usize {
-        self.scratch.held() + self.last.held()
+        self.scratch.held() + self.last.held() + held::list(&self.others)
     }
 }

@@ -496,22 +496,32 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
     ) -> Result<Option<CloseTriangles>, Error> {
         distance::check(cut_off)?;
         let mut statistics = self.common.done_early;
-        let (mut nearest, mut within) = (None, cut_off);
-        for (gap, other) in distance::others_by_gap(&mut self.common, id)? {
+        let (mut nearest, mut within) = (Ok(None), cut_off);
+        // Kept for the next question.
+        let mut others = std::mem::take(&mut self.distances.others);
+        let listed = distance::others_by_gap(&mut self.common, id, &mut others);
+        for &(gap, other) in &others {
             if gap > NearestPair::within(within).limit() {
                 break;
             }
             let found = self.distance([id, other], within, question);
             statistics += self.common.statistics;
-            if let Some(found) = found?
-                && (nearest.is_none() || found.distance < within)
-            {
-                within = found.distance;
-                nearest = Some(found);
+            match found {
+                Ok(Some(found)) if nearest == Ok(None) || found.distance < within => {
+                    within = found.distance;
+                    nearest = Ok(Some(found));
+                }
+                Ok(_) => {}
+                Err(error) => {
+                    nearest = Err(error);
+                    break;
+                }
             }
         }
+        self.distances.others = others;
+        listed?;
         self.common.statistics = statistics;
-        Ok(nearest)
+        nearest
     }
 
     fn first_impact(

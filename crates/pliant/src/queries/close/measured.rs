@@ -20,13 +20,14 @@ pub(crate) trait Measurable: Hit {
     /// Before it was measured.
     fn unmeasured(self) -> Self::Close;
 
-    /// With what is measured, of up to four; none if interrupted.
+    /// Shows `take` up to four with what is measured, in their order. Returns false if interrupted.
     fn measure<I: Simd, S: Coordinate>(
         i: I,
         hits: &[Self],
         corners: &[Self::Corners<'_, S>; 4],
         interrupt: &Interrupt,
-    ) -> Option<[Self::Close; 4]>;
+        take: impl FnMut(Self::Close),
+    ) -> bool;
 }
 
 /// Two elements, which have four corners together.
@@ -86,13 +87,19 @@ macro_rules! measurable {
                 hits: &[Self],
                 corners: &[Corners<'_, S>; 4],
                 interrupt: &Interrupt,
-            ) -> Option<[$close; 4]> {
-                let closest = closest_of(i, Self::ARE_EDGES, corners, hits.len(), interrupt)?;
-                let mut measured = [hits[0].unmeasured(); 4];
-                for lane in 0..hits.len() {
-                    measured[lane] = hits[lane].close(&closest[lane]);
-                }
-                Some(measured)
+                mut take: impl FnMut($close),
+            ) -> bool {
+                let are_edges = Self::ARE_EDGES;
+                closest_of(
+                    i,
+                    are_edges,
+                    corners,
+                    hits.len(),
+                    interrupt,
+                    |lane, closest| {
+                        take(hits[lane].close(closest));
+                    },
+                )
             }
         }
     };
@@ -192,10 +199,10 @@ impl<C: CloseKind> Kind for Measured<C> {
                     of_some[lane] = self.0.to_caller(ids, some[lane]);
                 }
                 let of_some = &of_some[..some.len()];
-                let Some(measured) = C::Hit::measure(i, of_some, &corners, leaves.interrupt) else {
+                let take = |close| of_caller.push(close);
+                if !C::Hit::measure(i, of_some, &corners, leaves.interrupt, take) {
                     return;
-                };
-                of_caller.extend_from_slice(&measured[..some.len()]);
+                }
             }
         });
     }

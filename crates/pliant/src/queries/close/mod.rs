@@ -1,8 +1,9 @@
 //! Close pairs: candidates whose elements are at most some distance apart, exactly; and triangles that are (`triangles`).
 //!
-//! A candidate's boxes are as near as that on every axis; whether the elements are is decided four at a time between two proven bounds
-//! (`kernels::closest`), and the few that the distance lies between by integers (`predicates::distance`). They are of the shape of now;
-//! where a body has a motion, its boxes hold the way too, and only more candidates are looked at.
+//! A candidate's boxes are as near as that on every axis; whether the elements are is decided eight at a time between two proven bounds
+//! in single precision (`kernels::closest`), the few that the distance lies between in double precision, and what is left by integers
+//! (`predicates::distance`). They are of the shape of now; where a body has a motion, its boxes hold the way too, and only more candidates
+//! are looked at.
 
 mod measured;
 mod triangles;
@@ -13,8 +14,10 @@ use super::{
 };
 use crate::geometry::{Aabb, Points, Real, Shape};
 use crate::ids::TreeVertex;
-use crate::kernels::closest::{Corners, FourClosest, of_edges, of_vertices_and_triangles};
-use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
+use crate::kernels::closest::{
+    Corners, FourClosest, along_normal, decide_eight, of_edges, of_vertices_and_triangles,
+};
+use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
 use crate::predicates::distance::{Closest, Primitives, are_within_distance, closest};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
@@ -102,8 +105,9 @@ fn primitives<S: Real>(are_edges: bool, corners: &Corners<S>) -> Primitives {
 /// What is promised of distances: 2^-30 of themselves.
 const ACCURACY: f64 = f64::from_bits((1023 - 30) << 52);
 
-/// Where the first `count` of four pairs are closest. If both bounds are as near each other as is promised, it is what was computed; the
-/// few others, slivers and what touches, are measured in integers, which takes long enough to be asked before each whether to end. None if so.
+/// Shows `take` where the first `count` of four pairs are closest, in their order. If both bounds are as near each other as is promised, it is
+/// what was computed, if need be with the normal for a direction; the few others, slivers and what touches, are measured in integers, which takes long enough to be asked before each
+/// whether to end. Returns false if so.
 #[inline(always)]
 pub(crate) fn closest_of<I: Simd, S: Real>(
     i: I,
@@ -111,24 +115,58 @@ pub(crate) fn closest_of<I: Simd, S: Real>(
     pairs: &[Corners<S>; 4],
     count: usize,
     interrupt: &Interrupt,
-) -> Option<[Closest; 4]> {
+    mut take: impl FnMut(usize, &Closest),
+) -> bool {
     let found = four_closest(i, are_edges, pairs);
-    let mut all = [Closest::default(); 4];
-    for (lane, one) in all.iter_mut().enumerate().take(count) {
+    for lane in 0..count {
         let distance = found.distance[lane];
-        *one = if found.most[lane] - found.least[lane] <= ACCURACY * distance {
+        let one = if found.most[lane] - found.least[lane] <= ACCURACY * distance {
             Closest {
                 distance,
                 along: found.along.map(|lanes| lanes[lane]),
                 direction: found.way.map(|lanes| lanes[lane] / distance),
             }
+        } else if let Some((direction, least)) = along_normal(are_edges, &pairs[lane])
+            && found.most[lane] - least <= ACCURACY * distance
+            && is_the_way(direction, found.way.map(|lanes| lanes[lane]), distance)
+        {
+            Closest {
+                distance,
+                along: found.along.map(|lanes| lanes[lane]),
+                direction,
+            }
         } else if interrupt.is_set() {
-            return None;
+            return false;
         } else {
             closest(&primitives(are_edges, &pairs[lane]))
         };
+        take(lane, &one);
     }
-    Some(all)
+    true
+}
+
+/// Whether the way between points has this direction, as nearly as is promised of its length: of elements that are nearly parallel, points
+/// may be the nearest ones by length and be some way off to the side.
+fn is_the_way(direction: [f64; 3], way: [f64; 3], distance: f64) -> bool {
+    let off = |axis: usize| (direction[axis] * distance - way[axis]).abs();
+    (0..3).all(|axis| off(axis) <= ACCURACY * distance)
+}
+
+/// Whether a pair that single precision left undecided is at most so far apart. Counts exact decisions.
+#[cold]
+fn is_close<S: Real>(
+    instructions: Instructions,
+    are_edges: bool,
+    pair: &Corners<S>,
+    distance: f64,
+    exact_decisions: &mut u64,
+) -> bool {
+    let found = dispatch!(instructions, i => four_closest(i, are_edges, &[*pair; 4]));
+    if (found.most[0] <= distance) | (found.least[0] > distance) {
+        return found.most[0] <= distance;
+    }
+    *exact_decisions += 1;
+    are_within_distance(&primitives(are_edges, pair), distance)
 }
 
 impl<K: ElementCandidates> Kind for Close<K> {
@@ -206,30 +244,34 @@ impl<K: ElementCandidates> Close<K> {
         candidates: &mut [[u32; 2]],
         exact: &mut u64,
     ) -> usize {
+        let are_edges = <K::Hit as ElementPair>::ARE_EDGES;
         let mut kept = 0;
-        for start in (0..candidates.len()).step_by(4) {
-            let count = (candidates.len() - start).min(4);
-            let mut some = [candidates[start]; 4];
+        for start in (0..candidates.len()).step_by(8) {
+            let count = (candidates.len() - start).min(8);
+            let mut some = [candidates[start]; 8];
             some[..count].copy_from_slice(&candidates[start..start + count]);
-            let [a, b, c, d] = some.map(|hit| K::corners(leaves, hit));
-            let (Some(a), Some(b), Some(c), Some(d)) = (a, b, c, d) else {
+            let Some(first) = K::corners(leaves, some[0]) else {
                 return kept;
             };
-            let pairs = [a, b, c, d];
-            let closest = four_closest(i, <K::Hit as ElementPair>::ARE_EDGES, &pairs);
-            for (lane, &candidate) in some[..count].iter().enumerate() {
-                let mut is_close = closest.most[lane] <= self.distance;
-                // One branch, hardly ever taken.
-                if !is_close & (closest.least[lane] <= self.distance) {
-                    if leaves.interrupt.is_set() {
-                        return kept;
-                    }
-                    *exact += 1;
-                    let pair = primitives(<K::Hit as ElementPair>::ARE_EDGES, &pairs[lane]);
-                    is_close = are_within_distance(&pair, self.distance);
+            let mut pairs = [first; 8];
+            for lane in 1..8 {
+                pairs[lane] = K::corners(leaves, some[lane]).unwrap_or(first);
+            }
+            let [mut close, far] = decide_eight(i, are_edges, &pairs, self.distance);
+            // Hardly ever any.
+            let mut rest = !(close | far) & ((1 << count) - 1);
+            while rest != 0 {
+                if leaves.interrupt.is_set() {
+                    return kept;
                 }
+                let lane = rest.trailing_zeros();
+                let (how, pair) = (leaves.instructions, &pairs[lane as usize]);
+                close |= u64::from(is_close(how, are_edges, pair, self.distance, exact)) << lane;
+                rest &= rest - 1;
+            }
+            for (lane, &candidate) in some[..count].iter().enumerate() {
                 candidates[kept] = candidate;
-                kept += usize::from(is_close);
+                kept += (close >> lane & 1) as usize;
             }
         }
         kept

@@ -10,7 +10,7 @@ use crate::close_pairs::CloseTriangles;
 use crate::geometry::{Aabb, Real, Shape, barycentric};
 use crate::hits::Pair;
 use crate::ids::TreeTriangle;
-use crate::kernels::closest::{TwoClosest, of_triangles};
+use crate::kernels::closest::{TwoClosest, apart_along, of_triangles};
 use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
 use crate::predicates::Triangle;
 use crate::predicates::distance::{
@@ -70,7 +70,7 @@ impl NearestPair {
     pub(crate) fn limit(&self) -> f64 {
         match &self.nearest {
             Some((_, nearest)) => {
-                let enough = nearest.distance * (1.0 - f64::powi(0.5, 31));
+                let enough = enough(nearest);
                 enough * enough
             }
             None => self.cut_off * self.cut_off * (1.0 + 4.0 * f64::EPSILON),
@@ -87,6 +87,12 @@ impl NearestPair {
         exact_decisions: &mut u64,
     ) {
         let [a, b] = corners;
+        // Mostly both bodies are on either side of a plane between the nearest triangles, and all others are known by their corners.
+        if let Some((_, nearest)) = &self.nearest
+            && apart_along(nearest.direction, a, b) >= enough(nearest)
+        {
+            return;
+        }
         let measured = dispatch!(instructions, i => of_triangles(i, a, b));
         let is_nearer = match &self.nearest {
             Some((_, nearest)) => measured.least < nearest.distance,
@@ -102,6 +108,11 @@ impl NearestPair {
             self.nearest = Some((pair, found));
         }
     }
+}
+
+/// The distance from which on others are not nearer than these by more than is promised.
+fn enough(nearest: &TrianglesClosest) -> f64 {
+    nearest.distance * (1.0 - f64::powi(0.5, 31))
 }
 
 /// Where two triangles are closest; none if interrupted.
@@ -185,13 +196,15 @@ impl Measurable for Pair {
         hits: &[Self],
         corners: &[Self::Corners<'_, S>; 4],
         interrupt: &Interrupt,
-    ) -> Option<[CloseTriangles; 4]> {
-        let mut measured = [hits[0].unmeasured(); 4];
-        for lane in 0..hits.len() {
-            let closest = closest_of_triangles(i, &corners[lane], interrupt)?;
-            measured[lane] = close(hits[lane], &corners[lane], &closest);
+        mut take: impl FnMut(CloseTriangles),
+    ) -> bool {
+        for (hit, corners) in hits.iter().zip(corners) {
+            let Some(closest) = closest_of_triangles(i, corners, interrupt) else {
+                return false;
+            };
+            take(close(*hit, corners, &closest));
         }
-        Some(measured)
+        true
     }
 }
 

@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+"""Close pairs beside ipc-toolkit's: the same sets, and how long each takes, in one process, turn by turn.
+
+    cargo build --release -p pliant-scenes --example write_obj
+    python3 -m venv target/ipctk && target/ipctk/bin/pip install ipctk==1.6.1 libigl==2.6.3 ./bindings/python
+    target/ipctk/bin/python benchmarks/compare_close_with_ipctk.py
+
+Both are asked for vertices and triangles, and edges and edges, of all bodies, each with itself too, that are at most m mean lengths of an
+edge apart, with one thread and positions of 64 bits. ipctk's way is `NormalCollisions.build` with its LBVH and the activation distance;
+ours is what a step of a simulator calls: positions, both lists, with distance, direction and closest points. Shapes are those of two
+steps, in turn. Making the meshes known is timed for neither.
+
+First the answers are compared. ipctk keeps the closest features of each pair, every one once: two vertices, a vertex and an edge, a vertex
+and a face, two edges; edges that are nearly parallel it keeps as edges whatever is closest. So the features of each of our pairs must be
+among its, or the pair itself if it is of edges; and each of its must come from one of our pairs. Left out is what rounding may change, and
+counted as *ties*: what is within 1e-9 of the limit (it takes what is nearer than that, we what is not further), and pairs for which it
+has other features at the same distance within 1e-9. Everything else is an error, and the exit code is 1. Then rounds are played in
+turn, and the figure is the median, over rounds, of its time over ours; its lists are in no order, ours are sorted.
+"""
+
+import argparse
+import importlib.metadata
+import pathlib
+import statistics
+import sys
+import tempfile
+import time
+
+import ipctk
+import numpy
+import pliant
+
+from compare_with_ipctk import CHECKOUT, REAL, SCENES, numbers, real, scene
+
+MARGINS = [0.1, 0.5]
+# How exactly its distances and ours are expected to agree, relative.
+TIE = 1e-9
+
+
+class Ours:
+    def __init__(self, bodies):
+        self.world = pliant.World()
+        self.ids = [self.world.add(faces, vertices) for faces, vertices in zip(bodies.faces, bodies.steps[0])]
+
+    def ask(self, shapes, distance):
+        for body, shape in zip(self.ids, shapes):
+            self.world.set_positions(body, shape)
+        every = pliant.Selection.EVERYTHING
+        return (
+            self.world.close_vertex_triangle_pairs(every, distance).all(),
+            self.world.close_edge_edge_pairs(every, distance).all(),
+        )
+
+    def pairs(self, bodies, found):
+        """Of either kind the vertices of the first and of the second, in the mesh of all bodies; and what each counts."""
+        place = numpy.zeros(int(max(self.ids)) + 1, dtype=numpy.int64)
+        for at, body in enumerate(self.ids):
+            place[int(body)] = at
+        edges = [self.world.edges(body).astype(numpy.int64) + bodies.first_vertex[at] for at, body in enumerate(self.ids)]
+        first_edge = numpy.cumsum([0] + [len(of_body) for of_body in edges])
+        edges = numpy.concatenate(edges)
+        rows = found[0].pairs.astype(numpy.int64)
+        vertices = bodies.first_vertex[place[rows[:, 0]]] + rows[:, 1]
+        faces = bodies.all_faces[bodies.first_face[place[rows[:, 2]]] + rows[:, 3]].astype(numpy.int64)
+        of_vertices = (vertices[:, None], faces, numpy.ones((len(rows), 1)), found[0].barycentric, found[0].distance)
+        rows = found[1].pairs.astype(numpy.int64)
+        ends = [edges[first_edge[place[rows[:, side]]] + rows[:, side + 1]] for side in (0, 2)]
+        counts = found[1].barycentric
+        of_edges = (ends[0], ends[1], counts[:, :2], counts[:, 2:], found[1].distance)
+        return of_vertices, of_edges
+
+
+class Theirs:
+    def __init__(self, bodies):
+        self.mesh = ipctk.CollisionMesh(bodies.together(0), bodies.all_edges, bodies.all_faces)
+        self.collisions = None
+
+    def ask(self, shape, distance):
+        self.collisions = ipctk.NormalCollisions()
+        self.collisions.build(self.mesh, shape, distance, 0.0, ipctk.LBVH())
+
+    def features(self):
+        """Two vertices, an edge and a vertex, a face and a vertex, two edges: as numbers of its mesh."""
+        of = self.collisions
+        return {
+            "vv": numbers((it.vertex0_id, it.vertex1_id) for it in of.vv_collisions),
+            "ev": numbers((it.edge_id, it.vertex_id) for it in of.ev_collisions),
+            "fv": numbers((it.face_id, it.vertex_id) for it in of.fv_collisions),
+            "ee": numbers((it.edge0_id, it.edge1_id) for it in of.ee_collisions),
+        }
+
+
+class Features:
+    """Names of features by their vertices: a row of four numbers, of which the first says how many are of the first element."""
+
+    def __init__(self, bodies):
+        self.edges = bodies.all_edges.astype(numpy.int64)
+        self.faces = bodies.all_faces.astype(numpy.int64)
+
+    @staticmethod
+    def name(first, second):
+        """Two sets of vertices, in no order."""
+        return frozenset((frozenset(first), frozenset(second)))
+
+    def theirs(self, found):
+        corners = {
+            "vv": lambda a, b: ((a,), (b,)),
+            "ev": lambda edge, vertex: (self.edges[edge].tolist(), (vertex,)),
+            "fv": lambda face, vertex: (self.faces[face].tolist(), (vertex,)),
+            "ee": lambda a, b: (self.edges[a].tolist(), self.edges[b].tolist()),
+        }
+        return {self.name(*corners[kind](int(a), int(b))) for kind, rows in found.items() for a, b in rows}
+
+    def ours(self, pairs):
+        """For each pair its whole elements, its closest features, and its distance."""
+        first, second, count_first, count_second, distance = pairs
+        for a, b, x, y, apart in zip(first.tolist(), second.tolist(), count_first > 0, count_second > 0, distance.tolist()):
+            near_a = [vertex for vertex, counts in zip(a, x) if counts]
+            near_b = [vertex for vertex, counts in zip(b, y) if counts]
+            yield self.name(a, b), self.name(near_a, near_b), apart
+
+
+def apart(shape, name):
+    """How far features are apart, as ipctk measures them."""
+    first, second = sorted(name, key=len, reverse=True) if len(name) == 2 else 2 * list(name)
+    p, q = ([shape[vertex] for vertex in sorted(feature)] for feature in (first, second))
+    if len(p) == 3:
+        square = ipctk.point_triangle_distance(q[0], *p)
+    elif len(p) == 2 and len(q) == 2:
+        square = ipctk.edge_edge_distance(*p, *q)
+    elif len(p) == 2:
+        square = ipctk.point_edge_distance(q[0], *p)
+    else:
+        square = ipctk.point_point_distance(p[0], q[0])
+    return square**0.5
+
+
+def parts(name):
+    """Everything that the closest features of two elements can be."""
+    first, second = (sorted(feature) for feature in (name if len(name) == 2 else 2 * list(name)))
+
+    def of(corners):
+        pairs = [(a, b) for i, a in enumerate(corners) for b in corners[i + 1 :]]
+        return [(corner,) for corner in corners] + pairs + ([tuple(corners)] if len(corners) == 3 else [])
+
+    return [Features.name(a, b) for a in of(first) for b in of(second)]
+
+
+def compare_sets(bodies, ours, found, theirs, shape, limit):
+    """How many pairs are ties, and how many are errors."""
+    names = Features(bodies)
+    its = names.theirs(theirs.features())
+    ties, errors = 0, 0
+    covered, at = set(), {}
+    for pairs in ours.pairs(bodies, found):
+        for whole, nearest, distance in names.ours(pairs):
+            covered.update((whole, nearest))
+            if nearest in its or whole in its:
+                continue
+            same = [part for part in parts(whole) if part in its and abs(apart(shape, part) - distance) <= TIE * limit]
+            covered.update(same)
+            is_tie = bool(same) or abs(distance - limit) <= TIE * limit
+            ties, errors = ties + is_tie, errors + (not is_tie)
+    for name in its - covered:
+        # Of something that we have with other features at the same distance, or at the limit.
+        if not at:
+            for pairs in ours.pairs(bodies, found):
+                for whole, _, distance in names.ours(pairs):
+                    for part in parts(whole):
+                        at.setdefault(part, []).append(distance)
+        distance = apart(shape, name)
+        known = any(abs(distance - other) <= TIE * limit for other in at.get(name, []))
+        is_tie = known or abs(distance - limit) <= TIE * limit
+        ties, errors = ties + is_tie, errors + (not is_tie)
+    return ties, errors, len(its)
+
+
+def compare(bodies, margin, rounds):
+    distance = margin * bodies.mean_edge
+    turns = [(bodies.steps[turn], bodies.together(turn)) for turn in (0, 1)]
+    ours, theirs = Ours(bodies), Theirs(bodies)
+    ties, errors, pairs, kept = 0, 0, 0, 0
+    for separate, together in turns:
+        found = ours.ask(separate, distance)
+        theirs.ask(together, distance)
+        pairs += sum(len(of_kind.pairs) for of_kind in found)
+        counts = compare_sets(bodies, ours, found, theirs, together, distance)
+        ties, errors, kept = ties + counts[0], errors + counts[1], kept + counts[2]
+    times = []
+    for _ in range(rounds):
+        pair = [0.0, 0.0]
+        for separate, together in turns:
+            for which, ask in enumerate([lambda: ours.ask(separate, distance), lambda: theirs.ask(together, distance)]):
+                begin = time.perf_counter()
+                found = ask()
+                pair[which] += (time.perf_counter() - begin) / 2
+                del found
+        times.append(pair)
+    own, other = (statistics.median(pair[which] for pair in times) * 1e3 for which in (0, 1))
+    ratios = [b / a for a, b in times]
+    factor = f"{statistics.median(ratios):5.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
+    what = f"margin {margin:g}"
+    line = f"{bodies.name:<24} {what:<11} {pairs // 2:>10,} {kept // 2:>10,} {ties:>7,} {errors:>7} {own:>9.2f} {other:>9.2f}   {factor}"
+    print(line, flush=True)
+    return errors
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj")
+    parser.add_argument("--data", type=pathlib.Path, default=CHECKOUT.parent / "shared" / "data")
+    parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--only", default="", help="of what is compared, what has this in its name")
+    arguments = parser.parse_args()
+
+    ipctk.set_num_threads(1)
+    versions = f"pliant {pliant.__version__} and ipctk {importlib.metadata.version('ipctk')}"
+    print(f"{versions}, one thread, {arguments.rounds} rounds\n")
+    head = f"{'':<24} {'':<11} {'pairs':>10} {'features':>10} {'ties':>7} {'errors':>7} {'ours, ms':>9} {'its, ms':>9}   times faster"
+    print(head)
+    errors = 0
+    with tempfile.TemporaryDirectory() as folder:
+        makers = [
+            (f"{name} {triangles:,}", lambda of=(name, triangles, step): scene(arguments.exporter, pathlib.Path(folder), *of))
+            for name, triangles, step in SCENES
+        ]
+        if arguments.data.is_dir():
+            makers += [(name, lambda of=(name, frame): real(arguments.data, *of)) for name, frame in REAL]
+        else:
+            print("no ../shared/data beside the checkout: real meshes skipped")
+        for name, make in makers:
+            if arguments.only in name:
+                bodies = make()
+                errors += sum(compare(bodies, margin, arguments.rounds) for margin in MARGINS)
+    print(f"\nfeatures: what ipctk keeps; ties: left to rounding, in either; errors, of any kind: {errors}")
+    return 1 if errors else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

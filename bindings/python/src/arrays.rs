@@ -10,6 +10,7 @@ use numpy::{
     Element, IntoPyArray, PyArray2, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray,
     PyUntypedArrayMethods, dtype,
 };
+use pliant_check::double;
 use pliant_io::Positions;
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -168,6 +169,28 @@ pub(crate) fn numbers(given: &Bound<'_, PyAny>) -> Result<Vec<u32>, Refused> {
     let rows: Vec<i128> = array.call_method0(intern!(py, "tolist"))?.extract()?;
     let number = |&number: &i128| u32::try_from(number).map_err(|_| bad(format!("hold {number}")));
     rows.iter().map(number).collect()
+}
+
+/// Copies a (k, 4, 3) array of float32 or float64, or what numpy makes one of: four corners of each pair of elements.
+pub(crate) fn pairs_of_elements(given: &Bound<'_, PyAny>) -> Result<Vec<[[f64; 3]; 4]>, Refused> {
+    let py = given.py();
+    refuse_masks(given, "corners")?;
+    let array = py
+        .import(intern!(py, "numpy"))?
+        .call_method1(intern!(py, "asarray"), (given,))?;
+    let shape = array.getattr(intern!(py, "shape"))?;
+    if !matches!(shape.extract::<Vec<usize>>()?[..], [_, 4, 3]) {
+        return Err(Refused::new(
+            "BadArray",
+            format!("corners have shape {shape}; it must be (k, 4, 3): four corners of each pair"),
+        ));
+    }
+    let rows = array.call_method1(intern!(py, "reshape"), (-1, 3))?;
+    let copied = CopiedCoordinates::of(&rows)?;
+    let mut wide = Vec::new();
+    let rows = double(copied.get()?, &mut wide);
+    let (pairs, _) = rows.as_chunks::<4>();
+    Ok(pairs.to_vec())
 }
 
 /// Three numbers, rounded to 64-bit ones.

@@ -7,6 +7,7 @@
 //! | `state.rs` | a world whose precision the first body fixes |
 //! | `world.rs`, `query.rs` | `World`, `Selection` and `Query`, as Python sees them |
 //! | `close.rs` | `CloseQuery`: close pairs, with distance, direction and closest points |
+//! | `impacts.rs` | `ImpactQuery`: which elements meet on their way, and when; and of single pairs |
 //! | `pickled.rs` | a world as pickle writes it down |
 //! | `signals.rs` | Ctrl-C while a query computes |
 //! | `options.rs` | its keyword arguments |
@@ -26,6 +27,7 @@ mod check;
 mod close;
 mod copies;
 mod error;
+mod impacts;
 mod one_liners;
 mod options;
 mod pickled;
@@ -45,6 +47,8 @@ mod _pliant {
     use crate::check::{Check, check};
     #[pymodule_export]
     use crate::close::CloseQuery;
+    #[pymodule_export]
+    use crate::impacts::{ImpactQuery, edge_edge_impacts, vertex_triangle_impacts};
     #[pymodule_export]
     use crate::one_liners::{
         intersection_pairs, reference_intersection_pairs, reference_self_intersection_pairs,

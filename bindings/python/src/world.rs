@@ -3,6 +3,7 @@
 use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedFaces};
 use crate::close::{Close, CloseKind, CloseQuery};
 use crate::error::{Refused, alone, alone_with, named_tuple};
+use crate::impacts::{Impact, ImpactKind, ImpactQuery};
 use crate::options::Keywords;
 use crate::pickled::{self, Written};
 use crate::query::{Kind, Query, Selection};
@@ -664,6 +665,64 @@ impl World {
         Ok(found.map(|it| Close::of_triangles(py, it)).transpose()?)
     }
 
+    /// Asks which vertices and triangles meet on the way to the end of a motion, and when first; edge_edge_impacts is the other half.
+    ///
+    /// Vertices move on straight lines, from where they are at time 0 to where set_motion said at time 1; a body without a motion stands still.
+    /// Whether a pair meets, as closed sets, is decided exactly. They are apart from time 0 to low, both included, and meet after that and not after high, which
+    /// are at most width apart; both are 0 if they meet at the start. Which pairs are looked at is said at vertex_triangle_candidates.
+    #[pyo3(signature = (of, width=1e-6))]
+    fn vertex_triangle_impacts(slf: Py<Self>, of: Selection, width: f64) -> ImpactQuery {
+        ImpactQuery::new(slf, ImpactKind::VertexTriangle, of, width)
+    }
+
+    /// Asks which edges meet on the way to the end of a motion, and when first, as vertex_triangle_impacts asks it of vertices and triangles.
+    /// Two that have an end in common are not looked at.
+    #[pyo3(signature = (of, width=1e-6))]
+    fn edge_edge_impacts(slf: Py<Self>, of: Selection, width: f64) -> ImpactQuery {
+        ImpactQuery::new(slf, ImpactKind::EdgeEdge, of, width)
+    }
+
+    /// The first contact on the way to the end of a motion, an Impact, of all vertex_triangle_impacts and edge_edge_impacts: that with the least
+    /// exact time; None if nothing meets. Much faster than all.
+    #[pyo3(signature = (of, width=1e-6))]
+    fn first_impact<'py>(
+        &self,
+        py: Python<'py>,
+        of: Selection,
+        width: f64,
+    ) -> Result<Option<Bound<'py, PyAny>>, Refused> {
+        let found = self.with(py, |state| {
+            interruptible(|question| {
+                with_world!(&mut state.world, world => {
+                    world.interruptible(question).first_impact(of.0, width)
+                })
+            })
+        })?;
+        Ok(found.map(|it| Impact::of(py, it)).transpose()?)
+    }
+
+    /// How far everything may go on its way to the end of a motion and stay further apart than min_distance: a time from 0 to 1 to call
+    /// advance_motion with. It is proven that on straight ways to the shape that this makes, rounded as it is, no vertex meets a triangle and no
+    /// edge another, nor comes as near as min_distance. 1 if that is so of the whole motion.
+    ///
+    /// It is at least 0.9 of the largest such time where rounding leaves room for that. What touches at the start already does not count; what is within
+    /// min_distance at the start is kept from contact alone.
+    #[pyo3(signature = (of, min_distance=0.0))]
+    fn collision_free_step(
+        &self,
+        py: Python<'_>,
+        of: Selection,
+        min_distance: f64,
+    ) -> Result<f64, Refused> {
+        self.with(py, |state| {
+            interruptible(|question| {
+                with_world!(&mut state.world, world => {
+                    world.interruptible(question).collision_free_step(of.0, min_distance)
+                })
+            })
+        })
+    }
+
     /// How far each vertex may move before anything can touch: a dictionary of bodies, with an array (n,) float64 each, at most half of
     /// cut_off. It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of, as
     /// close_vertex_triangle_pairs looks at them; rounded down by at most 1e-6 of itself. If every vertex moves less than that, in
@@ -701,6 +760,7 @@ impl World {
             ("triangle_boxes", statistics.triangle_boxes),
             ("node_pairs", statistics.node_pairs),
             ("candidate_pairs", statistics.candidate_pairs),
+            ("scalar_decisions", statistics.scalar_decisions),
             ("exact_decisions", statistics.exact_decisions),
             ("pairs", statistics.pairs),
         ];

@@ -14,8 +14,21 @@ share a vertex are left out. Surfaces only: a body wholly inside another meets n
 """
 
 from . import reference
-from ._pliant import Check, CloseQuery, Query, Selection, World, __version__, check, intersection_pairs, self_intersection_pairs
-from ._types import Body, BodyThere, ClosePair, ClosePairs, EdgeEdge, Error, Frame, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._pliant import (
+    Check,
+    CloseQuery,
+    ImpactQuery,
+    Query,
+    Selection,
+    World,
+    __version__,
+    check,
+    edge_edge_impacts,
+    intersection_pairs,
+    self_intersection_pairs,
+    vertex_triangle_impacts,
+)
+from ._types import Body, BodyThere, ClosePair, ClosePairs, EdgeEdge, Error, Frame, Impact, Impacts, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Body",
@@ -27,6 +40,9 @@ __all__ = [
     "EdgeEdge",
     "Error",
     "Frame",
+    "Impact",
+    "ImpactQuery",
+    "Impacts",
     "Life",
     "Mesh",
     "OpenMesh",
@@ -41,7 +57,9 @@ __all__ = [
     "World",
     "__version__",
     "check",
+    "edge_edge_impacts",
     "intersection_pairs",
     "reference",
     "self_intersection_pairs",
+    "vertex_triangle_impacts",
 ]

@@ -13,7 +13,8 @@ class Error(ValueError):
     """A call that was refused; the world is as it was before. Facts that do not apply are None.
 
     kind is a name of the Rust library's ErrorKind (NoTriangles, TooLarge, TooManyBodies, VertexOutOfRange, WrongLength,
-    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody, TooManyHits, BadMargin, BadDistance, BadTime), or:
+    BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody, TooManyHits, BadMargin, BadDistance, BadWidth, BadTime,
+    DifferentCounts, BadCorner), or:
 
       BadArray     not an array of three columns, or not of a type that is taken
       BadOption    an option has no such value
@@ -115,6 +116,28 @@ class ClosePair(NamedTuple):
     barycentric: tuple[float, ...]
 
 
+class Impacts(NamedTuple):
+    """Elements that meet on their way, a row each.
+
+    They are apart from time 0 to low, both included, and meet after that and not after high; both are 0 if they meet at the start.
+    """
+
+    pairs: NDArray[np.uint32]
+    """(k, 4): body, vertex, body, triangle; or body, edge, body, edge."""
+    low: NDArray[np.float64]
+    """(k,)"""
+    high: NDArray[np.float64]
+    """(k,)"""
+
+
+class Impact(NamedTuple):
+    """Two elements that meet on their way, as a row of Impacts has them."""
+
+    pair: VertexTriangle | EdgeEdge
+    low: float
+    high: float
+
+
 class TreeShape(NamedTuple):
     """The tree of a body in numbers; the structure only, which no movement changes."""
 
@@ -152,6 +175,8 @@ class Statistics(NamedTuple):
     """Pairs of nodes with overlapping boxes."""
     candidate_pairs: int
     """Pairs of triangles with overlapping boxes, which were therefore decided."""
+    scalar_decisions: int
+    """Of moving elements, those that were not known to be apart eight at a time, and were decided one by one."""
     exact_decisions: int
     """Candidates that needed exact arithmetic."""
     pairs: int
@@ -262,5 +287,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

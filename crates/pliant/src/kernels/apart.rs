@@ -66,7 +66,7 @@ pub(crate) fn vertices_and_triangles<I: Simd, S: Coordinate>(
         S::differences(i, corners, [(1, 0), (2, 0), (3, 0), (5, 4), (6, 4), (7, 4)]);
     // The first corner again in place of a fourth costs little.
     apart::<I, false>(
-        Polygon::new([a0, b0, c0, a0], [a1, b1, c1, a1]),
+        &Polygon::new([a0, b0, c0, a0], [a1, b1, c1, a1]),
         until,
         distance,
     )
@@ -95,14 +95,14 @@ pub(crate) fn edges<I: Simd, S: Coordinate>(
         ],
     );
     apart::<I, true>(
-        Polygon::new([a0, b0, c0, d0], [a1, b1, c1, d1]),
+        &Polygon::new([a0, b0, c0, d0], [a1, b1, c1, d1]),
         until,
         distance,
     )
 }
 
 #[inline(always)]
-fn apart<I: Simd, const ARE_EDGES: bool>(polygon: Polygon<I>, until: f32, distance: f32) -> u8 {
+fn apart<I: Simd, const ARE_EDGES: bool>(polygon: &Polygon<I>, until: f32, distance: f32) -> u8 {
     let i = polygon.start[0][0].token();
     let splat = |x: f32| f32x8::splat(i, x);
     let (zero, until) = (splat(0.0), splat(until));

@@ -367,18 +367,16 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         })
     }
 
-    /// Where a vertex is at the end of the motion, or stays if there is none; the same of it.
-    #[inline]
-    pub(super) fn corner_at_end(&self, vertex: u32) -> &[S; 4] {
-        let Some(motion) = self.motion() else {
-            return self.corner(vertex);
-        };
-        let vertex = self
-            .known_elements()
-            .map_or(TreeVertex(vertex), |elements| {
-                elements.tree_vertex(&self.order, CallerVertex(vertex))
-            });
-        motion.end.in_tree_order().padded(vertex)
+    /// The same at the end of the motion, where the body stays if it has none; it was brought into tree order with its motion.
+    pub(super) fn places_at_end(&self) -> Option<Places<'_, S>> {
+        let places = self.places()?;
+        Some(match self.motion() {
+            Some(motion) => Places {
+                positions: motion.end.in_tree_order(),
+                ..places
+            },
+            None => places,
+        })
     }
 
     /// By how many lengths of an edge vertices move, on the mean of some of both; 0 if there is no motion.

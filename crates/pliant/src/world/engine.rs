@@ -531,8 +531,8 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         question: Option<Question>,
     ) -> Result<Option<Impact>, Error> {
         let request = Request {
-            width,
             question,
+            width,
             ..Request::new(of)
         };
         let grid = request.grid()?;

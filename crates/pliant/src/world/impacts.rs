@@ -12,7 +12,6 @@ use super::asked::{Asked, Common};
 use super::bodies::Bodies;
 use super::body::Body;
 use super::close::InBodies;
-use super::corners::FourCorners;
 use super::engine::Engine;
 use super::query::Request;
 use crate::error::Error;
@@ -20,9 +19,11 @@ use crate::geometry::Real;
 use crate::hits::Hit;
 use crate::impacts::Impact;
 use crate::kernels::Coordinate;
+use crate::kernels::closest::Corners;
 use crate::predicates::motion::{Contact, Grid, Moving, first_contact};
 use crate::queries::{
-    EdgeEdgeCandidates, Impacts, Kind, LIMIT, Margin, MayMeet, Reach, VertexTriangleCandidates,
+    EdgeEdgeCandidates, Impacts, Kind, LIMIT, Margin, MayMeet, Measurable, Reach,
+    VertexTriangleCandidates,
 };
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
@@ -321,19 +322,15 @@ fn moving<const N: usize, S: Coordinate>(bodies: &Bodies<N, S>, impact: &Impact)
 
 fn moving_of<const N: usize, S: Coordinate, H>(bodies: &Bodies<N, S>, pair: &H) -> Option<Moving>
 where
-    H: MayMeet + InBodies + FourCorners,
+    H: MayMeet + InBodies + for<'c> Measurable<Corners<'c, S> = Corners<'c, S>>,
 {
-    let [a, b] = pair.bodies().map(|id| bodies.get(id));
-    let of: [&Body<N, S>; 2] = [a.ok()?, b.ok()?];
-    let vertices = pair.vertices(of);
-    let at = |corner: fn(&Body<N, S>, u32) -> &[S; 4]| {
-        vertices.map(|(side, vertex)| {
-            let [x, y, z, _] = *corner(of[side], vertex);
-            [x, y, z].map(Real::to_f64)
-        })
-    };
+    let [a, b] = pair.bodies().map(|id| bodies.get(id).ok());
+    let (a, b) = (a?, b?);
+    let wide = |corners: Corners<S>| corners.map(|&[x, y, z, _]| [x, y, z].map(Real::to_f64));
+    let start = pair.corners([&a.places()?, &b.places()?]);
+    let end = pair.corners([&a.places_at_end()?, &b.places_at_end()?]);
     Some(Moving {
         are_edges: H::ARE_EDGES,
-        corners: [at(Body::corner), at(Body::corner_at_end)],
+        corners: [wide(start), wide(end)],
     })
 }

@@ -11,7 +11,6 @@ mod body;
 mod body_pairs;
 mod clearance;
 mod close;
-mod corners;
 mod debug_view;
 mod distance;
 mod engine;

@@ -26,7 +26,7 @@ pub(crate) struct Request<'q> {
     pub(super) width: f64,
 }
 
-impl<'q> Request<'q> {
+impl Request<'_> {
     /// Of all hits, with nothing said but of whom.
     pub(super) fn new(of: Selection) -> Self {
         Self {

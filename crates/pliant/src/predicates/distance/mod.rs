@@ -175,7 +175,7 @@ fn feet(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet)) {
             of_insides(
                 &n,
                 &t,
-                [dot(&cross(&t, &e2), &n), dot(&cross(&e1, &t), &n)],
+                &[dot(&cross(&t, &e2), &n), dot(&cross(&e1, &t), &n)],
                 true,
                 found,
             );
@@ -189,7 +189,7 @@ fn feet(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet)) {
             let (e, f, t) = (minus(&a1, &a0), minus(&b1, &b0), minus(&a0, &b0));
             let n = cross(&e, &f);
             let along = [dot(&cross(&t, &f), &n), dot(&cross(&t, &e), &n)].map(Integer::negated);
-            of_insides(&n, &t, along, false, found);
+            of_insides(&n, &t, &along, false, found);
         }
     }
 }
@@ -234,13 +234,12 @@ fn of_end(
 fn of_insides(
     n: &Vector,
     t: &Vector,
-    along: [Integer; 2],
+    [p, q]: &[Integer; 2],
     is_triangle: bool,
     found: &mut dyn FnMut(Feet),
 ) {
     let whole = dot(n, n);
     let is_inside = |x: &Integer| x.sign() >= 0 && x.is_at_most(&whole);
-    let [p, q] = &along;
     if whole.is_zero()
         || !is_inside(p)
         || !is_inside(q)
@@ -302,7 +301,7 @@ fn scaled(m: f64, e: i32) -> f64 {
 
 /// The unit vector of a way, or zero.
 fn unit_vector(way: &Vector) -> Point {
-    let parts = way.each_ref().map(|x| x.approximately());
+    let parts = way.each_ref().map(Integer::approximately);
     let exponents = parts.iter().filter(|(m, _)| *m != 0.0).map(|&(_, e)| e);
     let Some(largest) = exponents.max() else {
         return [0.0; 3];

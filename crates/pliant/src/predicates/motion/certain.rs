@@ -53,7 +53,7 @@ const DEEPEST: usize = 44;
 const MOST_PARTS: usize = 200;
 
 const fn power(exponent: i32) -> f64 {
-    f64::from_bits(((1023 + exponent) as u64) << 52)
+    f64::from_bits((1023 + exponent).unsigned_abs() as u64 * (1 << 52))
 }
 
 /// A polygon's corners at one time.

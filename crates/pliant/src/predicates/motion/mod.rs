@@ -50,6 +50,10 @@ pub(crate) struct Moving {
 
 /// When two elements first meet.
 #[derive(Clone, Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there are two at most at a time, and memory for each would be allocated"
+)]
 pub(crate) enum Contact {
     AtStart,
     Later(Later),

@@ -49,8 +49,8 @@ impl Dyadic {
         let (odd, exponent) = (integer >> zeros, exponent + zeros as i32);
         Self {
             // Of numbers up to 1 only 1 itself has an exponent above none.
-            over: Integer::from(odd).shifted(exponent.max(0) as usize),
-            twos: (-exponent).max(0) as usize,
+            over: Integer::from(odd).shifted(exponent.max(0).unsigned_abs() as usize),
+            twos: exponent.min(0).unsigned_abs() as usize,
         }
     }
 

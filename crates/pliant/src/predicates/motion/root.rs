@@ -4,12 +4,17 @@
 //! opposite signs. The sign of another polynomial at it is mostly known from floating point, with a bound; where it is not, as where it is zero,
 //! from a sequence of signed remainders, however near other roots are. So the work is bounded.
 
+use super::super::integer::Integer;
 use super::polynomial::{Dyadic, Polynomial, SignedRemainders};
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
 /// A root.
 #[derive(Clone, Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there are three at most at a time, and memory for each would be allocated"
+)]
 pub(super) enum Root {
     At(Dyadic),
     Between(Alone),
@@ -286,7 +291,7 @@ impl Alone {
 
 /// The coefficients, divided by one power of two, so that the largest is about 1.
 fn scaled(polynomial: &Polynomial) -> [f64; 5] {
-    let parts = polynomial.coefficients().iter().map(|c| c.approximately());
+    let parts = polynomial.coefficients().iter().map(Integer::approximately);
     let largest = parts
         .clone()
         .filter(|(m, _)| *m != 0.0)

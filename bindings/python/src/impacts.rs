@@ -231,7 +231,7 @@ fn answer<'py>(
     py: Python<'py>,
     start: &Bound<'py, PyAny>,
     end: &Bound<'py, PyAny>,
-    ask: impl Fn(&[Pair], &[Pair]) -> Result<Vec<Option<[f64; 2]>>, pliant::Error> + Send,
+    ask: impl Fn(&[Pair], &[Pair]) -> Result<Vec<Option<[f64; 2]>>, pliant::Error> + Sync,
 ) -> Result<Answer<'py>, Refused> {
     let start = arrays::pairs_of_elements(start).map_err(|refused| refused.about("start"))?;
     let end = arrays::pairs_of_elements(end).map_err(|refused| refused.about("end"))?;

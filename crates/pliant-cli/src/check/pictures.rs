@@ -6,7 +6,7 @@
 use super::{Arguments, Split};
 use crate::advice;
 use crate::report::{Watcher, fact};
-use pliant_check::{AnyWorld, Baseline, Check, Found, Row, with_world};
+use pliant_check::{AnyWorld, Baseline, Check, Found, Interval, Row, with_world};
 use pliant_io::shown;
 use pliant_report::{BodyLabel, Gap};
 
@@ -64,6 +64,16 @@ impl Pictures {
             }
             None => with_world!(check.world(), world => watcher.frame(number, world, &pairs)),
         }
+    }
+
+    /// Whether they show what meets between frames.
+    pub(super) fn shows_moments(&self) -> bool {
+        false
+    }
+
+    /// Takes what meets on the way from the frame that was checked last.
+    pub(super) fn interval(&mut self, _: &Check, _: &Interval) -> anyhow::Result<()> {
+        Ok(())
     }
 
     /// Writes the page, also of a check that ended early.

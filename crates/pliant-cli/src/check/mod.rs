@@ -1,6 +1,7 @@
 //! `pliant check`: somebody's meshes, frame by frame.
 
 mod hits;
+mod moments;
 mod names;
 mod output;
 mod pictures;
@@ -271,7 +272,7 @@ fn frames(
         check.ask(first || quiet && !pictures.shows_moments(), listed);
         if let Some(interval) = check.next_interval()? {
             output.interval(check, &interval)?;
-            pictures.interval(check, &interval)?;
+            pictures.interval(check, &interval);
         }
     }
     Ok(())

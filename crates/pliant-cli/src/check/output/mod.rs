@@ -217,7 +217,7 @@ pub(super) fn annotate<T>(arguments: &Arguments, error: anyhow::Error) -> anyhow
 }
 
 /// Four digits that count: nobody types it elsewhere.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let digits = format!("{x:.3e}");
     match digits.parse::<f64>() {
         Ok(rounded) if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) => {

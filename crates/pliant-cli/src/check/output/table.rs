@@ -2,9 +2,10 @@
 
 use super::files::Files;
 use super::{Form, Tally, counted, places, short};
+use crate::check::moments::elements;
 use crate::check::{Arguments, Names};
 use crate::table::grouped;
-use pliant_check::{Baseline, BodyFacts, Check, FirstImpact, Found, Interval};
+use pliant_check::{Baseline, BodyFacts, Check, Found, Interval};
 use pliant_io::shown;
 use std::io::{self, Write};
 
@@ -186,9 +187,13 @@ impl Form for Table {
         write!(out, "{:>9}", grouped(interval.count as u64))?;
         if let Some(first) = &interval.first {
             let time = short(first.time());
-            write!(out, "  meet on the way, the first at {time}")?;
+            write!(out, "  met on the way, the first at {time}")?;
             if !self.count_only {
-                write!(out, ": {}", elements(first))?;
+                write!(
+                    out,
+                    ": {}",
+                    elements(first, |body| format!("body {body}")).join(", ")
+                )?;
             }
         }
         match interval.at_start {
@@ -197,7 +202,7 @@ impl Form for Table {
                 let before = if interval.first.is_some() { ";" } else { " " };
                 let frame = interval.frame;
                 let met = grouped(met as u64);
-                writeln!(out, "{before} {met} meet in frame {frame} already")
+                writeln!(out, "{before} in contact in frame {frame} already: {met}")
             }
         }
     }
@@ -233,20 +238,6 @@ impl Form for Table {
                 }
             }
             Some(_) => Ok(()),
-        }
-    }
-}
-
-/// Two elements, in words.
-fn elements(first: &FirstImpact) -> String {
-    match first {
-        FirstImpact::VertexTriangle(impact) => {
-            let [body_a, vertex, body_b, triangle] = impact.pair;
-            format!("vertex {vertex} of body {body_a}, triangle {triangle} of body {body_b}")
-        }
-        FirstImpact::EdgeEdge(impact) => {
-            let [body_a, a, b, body_b, c, d] = impact.pair;
-            format!("edge {a} to {b} of body {body_a}, edge {c} to {d} of body {body_b}")
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::sequence::Sequence;
 use crate::with_world;
 use pliant::{BodyId, EdgeEdge, Scalar, VertexTriangle, World};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::ops::ControlFlow;
 
 /// How wide the interval of a time is at most.
@@ -266,11 +267,11 @@ fn times<S: Scalar>(
         | Elements::EdgeEdge([body_a, _, body_b, _])) = *pair;
         let sources = [body_a, body_b].map(|body| source_of(body) as u32);
         for source in sources {
-            if !shapes.contains_key(&source) {
+            if let Entry::Vacant(new) = shapes.entry(source) {
                 let start = world.positions(BodyId(source))?;
                 let end = world.end_positions(BodyId(source))?;
                 let end = end.unwrap_or_else(|| start.clone());
-                shapes.insert(source, [start, end]);
+                new.insert([start, end]);
             }
         }
         let [a, b] = sources.map(|source| &shapes[&source]);

@@ -116,13 +116,13 @@ Examples:
   pliant check a.ply --png a.png --view top --size 800x600
   pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
   pliant check shirt.ply skin.ply --within 0.002     nothing closer than 2 mm?
-  pliant check shirt.npz skin.npz --swept            nothing jumps through either?
+  pliant check shirt.npz skin.npz --swept            nothing jumps through?
   pliant check walk.npz --swept --report walk.html   with the moments of contact
   pliant check walk.npz --quiet && echo clean
 
 With --swept all elements that meet on the way count, but those that meet in the frame before already. They are of both bodies where two share them. It looks from each frame to the next only: where a mesh changes in between, nothing moves, and that is said.
 Exit code 0: nothing intersects, is as close as that, or meets on the way. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 10 MB, however many frames there are, and 7.5 times two frames where the mesh changes from file to file; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), and of glTF bodies that move the rest positions, joints, deltas and keys.
+Memory: at most 3.5 times two frames (positions and triangles) and 10 MB, however many frames there are, 7.5 times two frames where the mesh changes from file to file, and 11 times with --swept; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), and of glTF bodies that move the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
 
 /// `A,B`.

@@ -15,6 +15,7 @@ const MOST_PIECES: usize = 20;
 /// So many places have a line.
 const MOST_PLACES: usize = 20;
 
+#[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 pub(super) struct Table {
     count_only: bool,
     itself: bool,

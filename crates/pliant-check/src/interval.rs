@@ -303,3 +303,46 @@ fn times<S: Scalar>(
     });
     Ok(times.collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_very_many_equally_early_ones_the_lowest_are_compared() {
+        let mut taker = ImpactTaker::new(0, 1, false, false, 0);
+        let count = 5 * MOST_COMPARED as u32;
+        let pair = |number: u32| Elements::EdgeEdge([0, number, 1, 0]);
+        // A later one first, then all in an order in which the lowest are neither first nor last.
+        assert!(taker.take(pair(0), [0.75, 1.0]).is_continue());
+        for number in 0..count {
+            let number = (number * 7 + count / 2) % count;
+            assert!(taker.take(pair(number), [0.5, 0.75]).is_continue());
+            assert!(taker.earliest.len() < 2 * MOST_COMPARED);
+        }
+        taker.earliest.sort_unstable();
+        let lowest = (0..MOST_COMPARED as u32).map(pair);
+        assert!(
+            taker
+                .earliest
+                .iter()
+                .copied()
+                .take(MOST_COMPARED)
+                .eq(lowest)
+        );
+        assert_eq!(taker.found.count, count as usize + 1);
+        assert!(taker.found.edge_edge.is_empty());
+    }
+
+    #[test]
+    fn no_more_is_counted_than_anybody_waits_for() {
+        let mut taker = ImpactTaker::new(0, 1, false, false, 0);
+        taker.found.at_start = MOST_COUNTED - 1;
+        let pair = Elements::VertexTriangle([0; 4]);
+        assert!(taker.take(pair, [0.0, 0.5]).is_continue());
+        assert_eq!(
+            taker.take(pair, [0.0; 2]),
+            ControlFlow::Break(Stop::Endless)
+        );
+    }
+}

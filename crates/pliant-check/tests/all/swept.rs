@@ -95,6 +95,48 @@ fn times_are_exact_and_what_touches_in_a_frame_is_news_once() {
 }
 
 #[test]
+fn the_first_is_the_first_to_the_last_bit() {
+    // Of three corners each is a little lower than the one before: all meet the floor within a millionth of the way.
+    let corners = |by: f64| {
+        let heights = [0.0, 1e-9, 2e-9].map(|lower| 3.0 - by - lower);
+        let [a, b, c] = heights;
+        format!("v 0 0 {a}\nv 1 0 {b}\nv 0 1 {c}\nf 1 2 3\n")
+    };
+    let folder = folder(&[
+        ("leaf_0.obj", corners(0.0)),
+        ("leaf_1.obj", corners(10.0)),
+        ("floor.obj", floor()),
+    ]);
+    let bodies = ["leaf_*.obj", "floor.obj"];
+    for (first, listed, split) in [
+        (false, true, None),
+        (false, false, None),
+        (true, true, None),
+        // The world alone does not know it.
+        (true, true, Some(Split::Components)),
+    ] {
+        let settings = Settings {
+            first,
+            listed,
+            split,
+            ..swept()
+        };
+        let found = intervals(folder.path(), &bodies, &settings);
+        assert!(
+            matches!(
+                &found[0].first,
+                Some(FirstImpact::VertexTriangle(Impact { pair: [0, 2, 1, 0], low, high }))
+                    if *low < 0.3 && 0.3 < *high && high - low <= 1e-6
+            ),
+            "{found:?}"
+        );
+        assert_eq!(found[0].count, if first { 1 } else { 3 });
+        let all = &found[0].vertex_triangle;
+        assert!(all.iter().all(|it| it.high == all[0].high));
+    }
+}
+
+#[test]
 fn intervals_go_from_a_frame_that_is_checked_to_the_next() {
     let folder = with_floor(&[3.0, -7.0, 2.0, 1.0, -8.0]);
     let of = |start, step, count| {

@@ -589,3 +589,43 @@ test('what is close has a colour of its own, and lines to what it is close to', 
     return { number, pairs, red, near, gaps };
   }
 });
+
+test('what jumps through between two frames is shown at the moment of contact', { skip }, async () => {
+  const square = 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n';
+  // Above the square, all of it below, above again, and still there.
+  const tip = (z) => `v 0.5 0 ${z}\nv 0.4 0.3 ${z + 1}\nv 0.6 -0.3 ${z + 1}\nf 1 2 3\n`;
+  [0.5, -3, 1, 1].forEach((z, frame) => writeFileSync(join(folder, `jump_${frame}.obj`), tip(z)));
+  writeFileSync(join(folder, 'square.obj'), square);
+  pliant('check', 'jump_*.obj', 'square.obj', '--swept', '--report', 'jump.html', '--force');
+  const { page, state, arrived, drawn, pixels, close } = await open('jump.html');
+  const status = () => page.locator('.status').textContent();
+  const found = () => state().then(({ number, pairs, red, gaps, places }) => ({ number: +number.toFixed(4), pairs, red, gaps, places }));
+  assert.equal(await page.locator('h1').textContent(), 'Nothing intersects in any of 4 frames. On the way from a frame to the next something meets in 2 of 3, first after 0.1429 of the way from frame 0 to 1.');
+  // Opens on the first contact: the tip's corner, as a cross, in a triangle.
+  await arrived(-1);
+  const first = { number: 0.1429, pairs: 0, red: 2, gaps: 6, places: 1 };
+  assert.deepEqual(await found(), first);
+  assert.equal(await status(), 'between frames 0 and 1, after 0.1429 of the way: the first of 3 contacts, vertex 0 of jump_*.obj, triangle 0 of square.obj');
+  assert.equal(await page.locator('.aside h2').first().textContent(), 'First contact');
+  assert.equal(await page.locator('.places button b').textContent(), 'After 0.1429');
+  assert.match(await page.locator('.places button').textContent(), /3 contacts.*frame 0 to 1/);
+  assert.ok((await pixels()).count.red > 1000);
+  await page.screenshot({ path: join(shots, 'moment.png') });
+  assert.equal(await page.locator('.strip .moments').getAttribute('d'), 'M200,0 V100 M600,0 V100');
+  // Frames are what they are, and hits lead from moment to moment.
+  await page.keyboard.press('ArrowRight');
+  assert.deepEqual([await found(), await status()], [{ number: 1, pairs: 0, red: 0, gaps: 0, places: 0 }, 'frame 1: nothing intersects']);
+  assert.equal(await page.locator('.aside h2').first().textContent(), 'No place');
+  await page.keyboard.press('n');
+  assert.match(await status(), /^between frames 1 and 2, after 0.5 of the way: the first of 3 contacts/);
+  await page.keyboard.press('n');
+  assert.match(await status(), /^between frames 1 and 2/, 'there is no other');
+  await page.keyboard.press('f');
+  assert.deepEqual(await found(), first);
+  assert.equal(await page.getByRole('button', { name: 'Most pairs' }).isDisabled(), true);
+  await page.keyboard.press('End');
+  assert.equal(await status(), 'frame 3: nothing intersects');
+  await drawn();
+  assert.match(await page.locator('.notes').textContent(), /every corner moves on a straight line/);
+  await close();
+});

@@ -1,5 +1,8 @@
 // What pliant packed, unpacked: the counterpart of crates/pliant-report/src/pack.rs.
 
+/** The number of the place where something meets on the way between two frames: places of frames count from 0. */
+export const CONTACT = -1;
+
 /** Reads numbers one after the other. */
 class Reader {
   constructor(bytes) {
@@ -107,10 +110,15 @@ export async function unpack(facts, base64) {
     const near = reader.words(reader.word());
     const gaps = reader.gaps(reader.word());
     const made = reader.slice(Math.ceil(bits / 8));
+    // The first contact on the way to the next frame: what was found in the frame is not said of it.
+    const moment = facts.moments[at];
+    const number = facts.numbers[place];
     return {
       place,
-      number: facts.numbers[place],
-      pairs: facts.pairs[place],
+      moment,
+      number: moment ? number + moment.time * (moment.until - number) : number,
+      from: number,
+      pairs: moment ? 0 : facts.pairs[place],
       shapes,
       partners: arePairs ? { a, b } : null,
       // All triangles of pairs; those in `near` are close to others and intersect none.
@@ -118,11 +126,16 @@ export async function unpack(facts, base64) {
       near,
       gaps,
       made,
-      places: facts.places[at].map(([number, count, lower, upper, label]) => ({ number, count, lower, upper, label })),
+      places: facts.places[at].map(([number, count, lower, upper, label]) => ({ number: moment ? CONTACT : number, count, lower, upper, label })),
       placeCount: facts.placeCounts[at],
     };
   });
   return { bodies, frames, numbers: facts.numbers, pairs: facts.pairs };
+}
+
+/** Whether anything intersects in a frame, or meets in a moment between two. */
+export function isHit({ pairs, moment }) {
+  return pairs > 0 || moment !== null;
 }
 
 /** The numbers in both lists, each once, ascending. */

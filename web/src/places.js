@@ -17,7 +17,7 @@ export class PlaceList {
   /** Which frames that are shown have each place. */
   load(motion) {
     this.lives = new Map();
-    for (const { number: frame, places } of motion.frames) {
+    for (const { number: frame, places } of motion.frames.filter(({ moment }) => !moment)) {
       for (const { number } of places) {
         const [first] = this.lives.get(number) ?? [frame];
         this.lives.set(number, [first, frame]);
@@ -27,15 +27,16 @@ export class PlaceList {
 
   /** Another frame, or another place that is looked at. */
   show(frame, along, focus) {
-    const { places, placeCount } = frame;
-    this.title.textContent = placeCount === 0 ? 'No place' : counted(placeCount, 'place');
+    const { places, placeCount, moment } = frame;
+    this.title.textContent = moment ? 'First contact' : placeCount === 0 ? 'No place' : counted(placeCount, 'place');
     const had = this.list.contains(document.activeElement) ? document.activeElement.dataset.number : null;
     this.list.replaceChildren(...places.slice(0, LISTED).map(({ number, count, label }) => {
-      const [first, last] = this.lives.get(number);
-      const lives = first === last ? `${along} ${first}` : `${along}s ${first} to ${last}`;
+      const [first, last] = moment ? [frame.from, moment.until] : this.lives.get(number);
+      const lives = moment ? `${along} ${first} to ${last}` : first === last ? `${along} ${first}` : `${along}s ${first} to ${last}`;
+      const [title, size] = moment ? [`After ${+moment.time.toPrecision(4)}`, counted(count, 'contact')] : [`Place ${number}`, counted(count, 'pair')];
       return element('li', {}, element('button', {
         type: 'button', 'aria-pressed': String(number === focus), 'data-number': number, onclick: () => this.chosen(number),
-      }, element('b', {}, `Place ${number}`), element('span', {}, counted(count, 'pair')), element('small', { title: label }, element('bdi', {}, short(label))), element('small', {}, lives)));
+      }, element('b', {}, title), element('span', {}, size), element('small', { title: label }, element('bdi', {}, short(label))), element('small', {}, lives)));
     }));
     if (placeCount > places.length) this.list.append(element('li', { className: 'hint' }, `and ${grouped(placeCount - places.length)} more`));
     if (had !== null) this.list.querySelector(`[data-number="${+had}"]`)?.focus();

@@ -1,5 +1,6 @@
 // Which frame is shown: play, pause, scrub, jump; and the strip that says where something intersects.
 
+import { isHit } from './data.js';
 import { counted, element, grouped } from './dom.js';
 
 export class Player {
@@ -37,16 +38,22 @@ export class Player {
     this.slider.max = this.frames.length - 1;
     this.slider.disabled = this.frames.length < 2;
     this.playButton.disabled = this.frames.length < 2;
-    const none = !this.frames.some((frame) => frame.pairs > 0);
+    const none = !this.frames.some(isHit);
     for (const jump of Object.values(this.jumps)) jump.disabled = none;
+    this.jumps.most.disabled = !this.frames.some((frame) => frame.pairs > 0);
     const most = Math.max(1, ...this.frames.map((frame) => frame.pairs));
     const last = Math.max(1, this.frames.length - 1);
-    const points = this.frames.map((frame, i) => `${(1000 * i) / last},${100 - (96 * frame.pairs) / most}`);
+    const x = (i) => (1000 * i) / last;
+    const points = this.frames.flatMap((frame, i) => (frame.moment ? [] : `${x(i)},${100 - (96 * frame.pairs) / most}`));
+    // Contacts between frames stand above the pairs of frames.
+    const moments = this.frames.flatMap((frame, i) => (frame.moment ? `M${x(i)},0 V100` : []));
     this.strip.setAttribute('viewBox', '0 0 1000 100');
-    this.strip.innerHTML = '<path/>';
+    this.strip.innerHTML = '<path/><path class="moments"/>';
     this.strip.firstChild.setAttribute('d', `M0,100 L${points.join(' L')} L1000,100 Z`);
+    this.strip.lastChild.setAttribute('d', moments.join(' '));
     this.place = undefined;
     if (none) this.go(0);
+    else if (this.jumps.most.disabled) this.firstContact();
     else this.most();
   }
 
@@ -59,9 +66,9 @@ export class Player {
     if (now === this.place) return;
     this.place = now;
     this.slider.value = now;
-    const { number, pairs } = this.frame;
+    const { number, pairs, moment } = this.frame;
     const red = this.shown(this.frame);
-    const text = `${this.along} ${number}: ${this.found(pairs, red, this.frame.near.length)}`;
+    const text = moment ? this.way(this.frame) : `${this.along} ${number}: ${this.found(pairs, red, this.frame.near.length)}`;
     this.slider.setAttribute('aria-valuetext', text);
     this.status.textContent = text;
   }
@@ -75,6 +82,12 @@ export class Player {
     return [counted(pairs, 'pair'), ...some.filter(Boolean)].join(', ');
   }
 
+  /** What meets on the way from a frame to the next, in words. */
+  way({ from, moment: { until, time, count, label } }) {
+    const others = count === 1 ? 'the one contact' : `the first of ${grouped(count)} contacts`;
+    return `between ${this.along}s ${from} and ${until}, after ${+time.toPrecision(4)} of the way: ${others}, ${label}`;
+  }
+
   /** To a frame by its number, or to the one before it that is shown. */
   goToNumber(number) {
     let place = this.frames.findIndex((frame) => frame.number > number);
@@ -85,7 +98,7 @@ export class Player {
 
   firstContact() {
     this.pause();
-    this.go(this.frames.findIndex((frame) => frame.pairs > 0));
+    this.go(this.frames.findIndex(isHit));
   }
 
   most() {
@@ -98,7 +111,7 @@ export class Player {
   hit(direction) {
     this.pause();
     for (let place = this.place + direction; place in this.frames; place += direction) {
-      if (this.frames[place].pairs > 0) return this.go(place);
+      if (isHit(this.frames[place])) return this.go(place);
     }
   }
 

@@ -112,6 +112,24 @@ impl AnyWorld {
         }
         Ok(())
     }
+
+    /// [`World::set_motion`]. `widened` is scratch.
+    ///
+    /// # Errors
+    ///
+    /// Those of the library, or that positions would be rounded.
+    pub fn set_motion(
+        &mut self,
+        body: BodyId,
+        end: Positions<'_>,
+        widened: &mut Vec<[f64; 3]>,
+    ) -> Result<(), NotTaken> {
+        match self {
+            Self::F32(world) => world.set_motion(body, single(end)?)?,
+            Self::F64(world) => world.set_motion(body, double(end, widened))?,
+        }
+        Ok(())
+    }
 }
 
 /// Positions in single precision, if they are.

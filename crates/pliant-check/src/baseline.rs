@@ -30,10 +30,13 @@ struct WrittenBody {
 
 #[derive(Deserialize)]
 struct WrittenFrame {
-    count: usize,
+    /// None on the way between frames whose meshes differ.
+    count: Option<usize>,
     complete: Option<bool>,
     pairs: Option<Vec<Row>>,
     changed: Option<serde::de::IgnoredAny>,
+    /// Of what meets on the way to another frame.
+    until: Option<serde::de::IgnoredAny>,
 }
 
 /// Reads the pairs, sorted, as the bodies are numbered now. The file may have so many bytes.
@@ -104,11 +107,14 @@ fn parse(path: &Path, most: u64) -> Result<Written, String> {
     if text.len() as u64 > most {
         return Err("it is larger than is allowed".into());
     }
-    let written: Written = serde_json::from_slice(&text)
+    let mut written: Written = serde_json::from_slice(&text)
         .map_err(|error| format!("it is not what a check writes as JSON ({error})"))?;
     drop(text);
+    // What meets on the way between frames is no pair of triangles.
+    written.frames.retain(|frame| frame.until.is_none());
     let has_all = |frame: &WrittenFrame| {
-        frame.complete != Some(false) && frame.pairs.as_ref().map_or(0, Vec::len) == frame.count
+        frame.complete != Some(false)
+            && frame.pairs.as_ref().map(Vec::len).or(Some(0)) == frame.count
     };
     if written.format != 1 {
         return Err(format!(

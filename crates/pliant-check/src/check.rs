@@ -3,9 +3,11 @@
 use crate::any_world::AnyWorld;
 use crate::baseline;
 use crate::bodies::{Bodies, BodyFacts};
+use crate::elements::Elements as Owners;
 use crate::error::Error;
 use crate::filter::Filter;
 use crate::found::{Closeness, Found, Gap, MOST_COUNTED, Row, Stop, Taker};
+use crate::interval::{Elements, Impact, ImpactTaker, Interval, WIDTH};
 use crate::lives::{Life, Lives};
 use crate::one_point;
 use crate::opened::Opened;
@@ -38,6 +40,10 @@ pub struct Check {
     lives: Lives,
     /// The meshes of the sources in the frame found last.
     told: Vec<MeshNumber>,
+    /// Of each source whose its elements are, where it is not one body, once that is known.
+    owners: Vec<Option<Owners>>,
+    /// The frame found last, if it was not yet said what meets on the way from there.
+    from: Option<usize>,
     failed: bool,
 }
 
@@ -223,6 +229,18 @@ impl Check {
             Some(_) if asked.itself => return Err(Error::WithinItself),
             _ => {}
         }
+        if asked.swept {
+            match &asked {
+                _ if frames.count < 2 => return Err(Error::SweptOneFrame),
+                Settings {
+                    within: Some(_), ..
+                } => return Err(Error::SweptWithin),
+                Settings {
+                    baseline: Some(_), ..
+                } => return Err(Error::SweptBaseline),
+                _ => {}
+            }
+        }
         Ok(Self {
             asked,
             frames,
@@ -233,6 +251,8 @@ impl Check {
             failed: false,
             of: Selection::World,
             told: sequence.meshes.clone(),
+            owners: Vec::new(),
+            from: None,
             sequence,
             bodies,
             filter,
@@ -340,6 +360,7 @@ impl Check {
         }
         // Set first, so that an error on any way out leaves it set.
         self.failed = true;
+        self.from = None;
         if let Some(Baseline {
             frame, pairs: None, ..
         }) = self.baseline
@@ -378,8 +399,83 @@ impl Check {
         self.told.clone_from(meshes);
         self.frames.start = frame.saturating_add(self.frames.step);
         self.frames.count -= 1;
+        self.from = Some(frame);
         self.failed = false;
         Ok(Some(found))
+    }
+
+    /// What meets on the way from the frame found last to the next that is checked, if [`Settings::swept`] is asked; `None` before the first
+    /// frame, behind the last, and when it was said already. A check whose intervals are not asked for does not look for them.
+    ///
+    /// ```
+    /// # let folder = std::env::temp_dir().join(format!("pliant-check-swept-{}", std::process::id()));
+    /// # std::fs::create_dir_all(&folder)?;
+    /// # for (name, z) in [("leaf_0.obj", 2), ("leaf_1.obj", -2)] {
+    /// #     let corners = format!("v 1 1 {z}\nv 2 1 {z}\nv 1 2 {z}\n");
+    /// #     std::fs::write(folder.join(name), corners + "f 1 2 3\n")?;
+    /// # }
+    /// # std::fs::write(folder.join("floor.obj"), "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n")?;
+    /// # let arguments = ["leaf_*.obj", "floor.obj"].map(|name| folder.join(name).display().to_string());
+    /// use pliant_check::{Check, Settings};
+    /// use pliant_io::OpenOptions;
+    ///
+    /// // "leaf_*.obj", which is above "floor.obj" in the first frame and below it in the second.
+    /// let mut settings = Settings::default();
+    /// settings.swept = true;
+    /// let mut check = Check::open(&arguments, &OpenOptions::default(), &settings)?;
+    /// while let Some(found) = check.next_frame()? {
+    ///     assert_eq!(found.count, 0);
+    ///     if let Some(interval) = check.next_interval()? {
+    ///         // Its three corners meet the floor half way.
+    ///         assert_eq!((interval.frame, interval.until, interval.count), (0, 1, 3));
+    ///         assert_eq!(interval.first.map(|first| first.time()), Some(0.5));
+    ///     }
+    /// }
+    /// # std::fs::remove_dir_all(&folder)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// The sources then have the positions of the next frame; the world is in the frame found last, with a motion to the next, unless a mesh is
+    /// another there.
+    ///
+    /// # Errors
+    ///
+    /// As [`next_frame`](Self::next_frame).
+    pub fn next_interval(&mut self) -> Result<Option<Interval>, Error> {
+        self.next_interval_unless(None)
+    }
+
+    /// As [`next_interval`](Self::next_interval), unless `stop` says so.
+    ///
+    /// # Errors
+    ///
+    /// As `next_interval`, or [`Error::Interrupted`]: after that alone the same interval can be asked for again.
+    pub fn next_interval_unless(
+        &mut self,
+        stop: Option<&(dyn Fn() -> bool + Sync)>,
+    ) -> Result<Option<Interval>, Error> {
+        if self.failed {
+            return Err(Error::AfterError);
+        }
+        let wanted = self.asked.swept && self.frames.count > 0;
+        let Some(frame) = self.from.filter(|_| wanted) else {
+            return Ok(None);
+        };
+        self.failed = true;
+        let until = self.frames.start;
+        let changed = self.sequence.move_to(until)?;
+        let interval = if changed.is_empty() {
+            let interval = self.find_impacts(frame, until, stop);
+            self.failed = !matches!(interval, Err(Error::Interrupted { .. }));
+            interval?
+        } else {
+            let changed = changed.into_iter();
+            let bodies = changed.flat_map(|source| self.bodies.of_source(source));
+            Interval::none(frame, until, bodies.collect())
+        };
+        self.from = None;
+        self.failed = false;
+        Ok(Some(interval))
     }
 
     /// The pairs of a frame, which is read.
@@ -481,6 +577,145 @@ impl Check {
             }
             ControlFlow::Continue(()) | ControlFlow::Break(Stop::First) => Ok(found),
         }
+    }
+
+    /// What meets on the way between two frames, of the world in the one with a motion to the other.
+    fn find_impacts(
+        &mut self,
+        frame: usize,
+        until: usize,
+        stop: Option<Question>,
+    ) -> Result<Interval, Error> {
+        let Settings {
+            first,
+            listed,
+            max_list,
+            ..
+        } = self.asked;
+        let most = max_list / size_of::<Impact<6>>() as u64;
+        let most = usize::try_from(most).unwrap_or(usize::MAX);
+        let mut taker = ImpactTaker::new(frame, until, first, listed, most);
+        let taken = self.take_impacts(&mut taker, stop);
+        match taken.map_err(|error| self.refused(frame, error))? {
+            ControlFlow::Break(Stop::Full) => {
+                return Err(Error::TooManyImpacts { frame, until, most });
+            }
+            ControlFlow::Break(_) => {
+                let most = MOST_COUNTED;
+                return Err(Error::EndlessImpacts { frame, until, most });
+            }
+            ControlFlow::Continue(()) => {}
+        }
+        let interval = taker.end(&self.sequence, |body| self.bodies.source_of(body));
+        interval.map_err(|error| self.refused(frame, error))
+    }
+
+    /// Shows `taker` all elements of bodies that meet on the way; the first alone, where only that is asked for and the world knows it.
+    fn take_impacts(
+        &mut self,
+        taker: &mut ImpactTaker,
+        question: Option<Question>,
+    ) -> Result<ControlFlow<Stop>, pliant::Error> {
+        let of = self.of;
+        let is_all_asked = !self.bodies.are_split() && !self.asked.skip_degenerate;
+        if self.asked.first && is_all_asked {
+            let first = with_world!(&mut self.sequence.world, world => match question {
+                Some(question) => world.interruptible(question).first_impact(of, WIDTH),
+                None => world.first_impact(of, WIDTH),
+            })?;
+            match first {
+                None => return Ok(ControlFlow::Continue(())),
+                Some(first) if first.high() > 0.0 => {
+                    return Ok(taker.take(first.into(), [first.low(), first.high()]));
+                }
+                // Behind what meets in the frame already it does not look.
+                Some(_) => {}
+            }
+        }
+        if self.owners.is_empty() || self.asked.skip_degenerate {
+            self.owners = self.owners_now()?;
+        }
+        let Self {
+            sequence,
+            bodies,
+            filter,
+            owners,
+            asked: Settings { itself, .. },
+            ..
+        } = self;
+        let bodies_of = (0..owners.len()).map(|source| bodies.of_source(source).start);
+        let bodies_of: Vec<u32> = bodies_of.collect();
+        let is_asked = |&[a, b]: &[u32; 2]| (a != b || *itself) && filter.meet(a, b);
+        let mut take = |pair: Elements, cell: [f64; 2]| {
+            let (Elements::VertexTriangle([source_a, a, source_b, b])
+            | Elements::EdgeEdge([source_a, a, source_b, b])) = pair;
+            let of_element = |source: u32, of: &dyn Fn(&Owners) -> &[u32]| {
+                let source = source as usize;
+                let whole = || std::slice::from_ref(&bodies_of[source]);
+                owners[source].as_ref().map_or_else(whole, of)
+            };
+            // What lies between two bodies is of both: of those that may meet the lowest stand for all.
+            let pair = if let Elements::VertexTriangle(_) = pair {
+                let of_a = of_element(source_a, &|it| it.of_vertex(a));
+                let of_b = of_element(source_b, &|it| it.of_triangle(b));
+                let mut pairs = of_a.iter().flat_map(|&a| of_b.iter().map(move |&b| [a, b]));
+                let row = pairs.find(is_asked);
+                row.map(|[body_a, body_b]| Elements::VertexTriangle([body_a, a, body_b, b]))
+            } else {
+                let of_a = of_element(source_a, &|it| it.of_edge(a));
+                let of_b = of_element(source_b, &|it| it.of_edge(b));
+                let pairs = of_a.iter().flat_map(|&a| of_b.iter().map(move |&b| [a, b]));
+                let rows = pairs.filter(is_asked).map(|[body_a, body_b]| {
+                    let (one, other) = ((body_a, a), (body_b, b));
+                    let ((body_a, a), (body_b, b)) = (one.min(other), one.max(other));
+                    [body_a, a, body_b, b]
+                });
+                rows.min().map(Elements::EdgeEdge)
+            };
+            pair.map_or(ControlFlow::Continue(()), |pair| taker.take(pair, cell))
+        };
+        with_world!(&mut sequence.world, world => {
+            let vertices = unless(question, world.vertex_triangle_impacts(of)).width(WIDTH);
+            let taken = vertices.visit(|it| take(it.pair.into(), [it.low, it.high]))?;
+            if taken.is_break() {
+                return Ok(taken);
+            }
+            let edges = unless(question, world.edge_edge_impacts(of)).width(WIDTH);
+            edges.visit(|it| take(it.pair.into(), [it.low, it.high]))
+        })
+    }
+
+    /// Whose the elements of sources are that are not one body, or not all of one, on the way that the world is on.
+    fn owners_now(&self) -> Result<Vec<Option<Owners>>, pliant::Error> {
+        let skip = self.asked.skip_degenerate;
+        let Sequence {
+            sources,
+            world,
+            ids,
+            ..
+        } = &self.sequence;
+        let owners = sources.iter().zip(ids).enumerate();
+        let owners = owners.map(|(number, (source, &id))| {
+            if !skip && !self.bodies.is_split(number) {
+                return Ok(None);
+            }
+            let triangles = source.triangles();
+            let body = |triangle| self.bodies.of_triangle(number as u32, triangle);
+            with_world!(world, world => {
+                let start = if skip { world.positions(id)? } else { Vec::new() };
+                let end = source.positions();
+                let counts = |&triangle: &u32| {
+                    let corners = triangles[triangle as usize];
+                    let before = corners.map(|it| start[it as usize].map(f64::from));
+                    !pliant::is_degenerate(before)
+                        || !pliant::is_degenerate(corners.map(|it| end.get(it)))
+                };
+                let body = |triangle| body(triangle).filter(|_| !skip || counts(&triangle));
+                let edges = world.edges(id)?;
+                Ok(Some(Owners::of(triangles, source.vertex_count(), edges, body)))
+            })
+        });
+        owners.collect()
     }
 
     /// Any pair will do: the world knows a shorter way.

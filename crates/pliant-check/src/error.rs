@@ -31,6 +31,21 @@ pub enum Error {
         "neighbouring triangles of a body always are close to each other: a distance is kept between two bodies or more, and not with themselves"
     )]
     WithinItself,
+    /// It is asked what meets between frames, and only one is checked.
+    #[error(
+        "one frame alone is checked: there is no other to move to, and nothing to meet on the way"
+    )]
+    SweptOneFrame,
+    /// It is asked what meets between frames, and how close triangles are.
+    #[error(
+        "on the way from frame to frame it is known who meets, not who comes close: both cannot be asked at once"
+    )]
+    SweptWithin,
+    /// It is asked what meets between frames, and pairs are to be left out.
+    #[error(
+        "a baseline has pairs of triangles, and on the way from frame to frame vertices meet triangles and edges meet edges: which of them are known cannot be said"
+    )]
+    SweptBaseline,
     /// Sources move, but not together.
     #[error(
         "frame counts must be equal or 1: {} has {frames} frames, {} has {other_frames}",
@@ -80,6 +95,30 @@ pub enum Error {
     Endless {
         /// The frame.
         frame: usize,
+        /// So many are counted.
+        most: usize,
+    },
+    /// A list of what meets between two frames would take more memory than it may.
+    #[error(
+        "from frame {frame} to {until}: more than {most} pairs of elements meet, and their list needs more memory than is allowed"
+    )]
+    TooManyImpacts {
+        /// The frame.
+        frame: usize,
+        /// The next.
+        until: usize,
+        /// So many may be listed.
+        most: usize,
+    },
+    /// More meets between two frames than anybody would wait for, or look at.
+    #[error(
+        "from frame {frame} to {until}: more than {most} pairs of elements meet, and the rest is not looked for"
+    )]
+    EndlessImpacts {
+        /// The frame.
+        frame: usize,
+        /// The next.
+        until: usize,
         /// So many are counted.
         most: usize,
     },

@@ -50,6 +50,7 @@
 //! | `bodies.rs`, `pieces.rs` | what an answer calls a body; pieces of a mesh |
 //! | `filter.rs` | names and groups; who may meet whom |
 //! | `found.rs`, `remarks.rs` | the pairs of one frame; what is to be said of them |
+//! | `interval.rs`, `elements.rs` | what meets on the way from a frame to the next; whose vertices and edges are |
 //! | `places.rs`, `lives.rs` | hits that hang together, the same from frame to frame; their lives |
 //! | `baseline.rs` | the pairs of an earlier check, which are left out |
 //! | `one_point.rs` | what cannot be checked for the number of pairs |
@@ -59,9 +60,11 @@ mod any_world;
 mod baseline;
 mod bodies;
 mod check;
+mod elements;
 mod error;
 mod filter;
 mod found;
+mod interval;
 mod lives;
 mod one_point;
 mod opened;
@@ -76,6 +79,7 @@ pub use bodies::BodyFacts;
 pub use check::Check;
 pub use error::Error;
 pub use found::{Found, Gap, Row};
+pub use interval::{FirstImpact, Impact, Interval};
 pub use lives::{Life, Lives};
 pub use places::{BodyThere, Meshes, Place, Places};
 pub use remarks::AtSeams;

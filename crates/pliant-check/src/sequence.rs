@@ -2,6 +2,9 @@
 //! shape and the one before it, whose memory the next is written into); where a source is widened to f64, that too.
 //!
 //! The mesh of a source may change from file to file. The world is then given the mesh, unless it is the one that it has.
+//!
+//! Where it is asked what meets between two frames, the world is given the later one as the end of a motion, and finishes that when the frame
+//! itself is asked for: each frame is read once.
 
 use crate::any_world::{AnyWorld, NotTaken};
 use crate::error::Error;
@@ -27,10 +30,12 @@ pub(crate) struct Sequence {
     /// The mesh of each source in the world: [`FIRST`], or a number that no earlier one had.
     pub(crate) meshes: Vec<MeshNumber>,
     changes: MeshNumber,
-    /// The frame behind the one read last.
+    /// The frame behind the one read last, which the sources are in.
     next: usize,
     /// The frame that the world is in.
     shown: Option<usize>,
+    /// The frame that its bodies have a motion to.
+    moves_to: Option<usize>,
 }
 
 impl Sequence {
@@ -62,6 +67,7 @@ impl Sequence {
             ids: Vec::new(),
             next: 0,
             shown: None,
+            moves_to: None,
         })
     }
 
@@ -70,35 +76,88 @@ impl Sequence {
         if self.shown == Some(frame) {
             return Ok(());
         }
+        self.shown = None;
+        if self.moves_to.take() == Some(frame) {
+            with_world!(&mut self.world, world => world.finish_motion());
+        } else {
+            self.read_to(frame)?;
+            self.give(frame)?;
+        }
+        self.shown = Some(frame);
+        Ok(())
+    }
+
+    /// Gives the world, which is in a frame, a motion to a later one. Where the mesh of a source is another one there, nothing moves: returns
+    /// the numbers of these sources.
+    pub(crate) fn move_to(&mut self, frame: usize) -> Result<Vec<usize>, Error> {
+        if self.moves_to == Some(frame) {
+            return Ok(Vec::new());
+        }
+        self.read_to(frame)?;
+        let keeps_mesh = |&place: &usize| {
+            let (source, mesh) = (&self.sources[place], self.meshes[place]);
+            if source.has_first_mesh() {
+                return mesh == FIRST;
+            }
+            mesh != FIRST && is_mesh_of(&self.world, self.ids[place], source)
+        };
+        let changed = (0..self.sources.len()).filter(|place| !keeps_mesh(place));
+        let changed: Vec<usize> = changed.collect();
+        if !changed.is_empty() {
+            return Ok(changed);
+        }
+        for (place, source) in self.sources.iter().enumerate() {
+            if source.frame_count() == 1 {
+                continue;
+            }
+            let taken =
+                self.world
+                    .set_motion(self.ids[place], source.positions(), &mut self.widened);
+            taken.map_err(|why| not_taken(why, source, frame))?;
+        }
+        self.moves_to = Some(frame);
+        Ok(changed)
+    }
+
+    /// Reads a frame of every source, unless they are in it.
+    fn read_to(&mut self, frame: usize) -> Result<(), Error> {
+        if self.next == frame + 1 {
+            return Ok(());
+        }
         if frame < self.next {
             for source in self.sources.iter_mut().filter(|it| it.frame_count() > 1) {
                 source.rewind()?;
             }
             self.next = 0;
         }
-        self.shown = None;
-        for source in self.sources.iter_mut().filter(|it| it.frame_count() > 1) {
-            source.skip(frame - self.next);
+        let begins = self.ids.is_empty();
+        for source in &mut self.sources {
+            let stands = source.frame_count() == 1;
+            if stands && !begins {
+                continue;
+            }
+            if !stands {
+                source.skip(frame - self.next);
+            }
+            if source.next_frame()?.is_none() {
+                let source_name = source.name().to_owned();
+                let frame = if stands { 0 } else { frame };
+                return Err(Error::Missing { source_name, frame });
+            }
         }
-        self.read(frame)?;
         self.next = frame + 1;
-        self.shown = Some(frame);
         Ok(())
     }
 
-    /// Reads a frame, the next one, of every source that moves, and gives it to the world. The first makes the bodies.
-    fn read(&mut self, frame: usize) -> Result<(), Error> {
-        for (place, source) in self.sources.iter_mut().enumerate() {
+    /// Gives the world the frame that the sources are in. The first makes the bodies.
+    fn give(&mut self, frame: usize) -> Result<(), Error> {
+        for (place, source) in self.sources.iter().enumerate() {
             let makes = self.ids.len() == place;
             let stands = source.frame_count() == 1;
             if !makes && stands {
                 continue;
             }
             let frame = if stands { 0 } else { frame };
-            if source.next_frame()?.is_none() {
-                let source_name = source.name().to_owned();
-                return Err(Error::Missing { source_name, frame });
-            }
             let had_first_mesh = self.meshes[place] == FIRST;
             if source.has_first_mesh() {
                 self.meshes[place] = FIRST;
@@ -118,23 +177,23 @@ impl Sequence {
             } else {
                 world.set_mesh(self.ids[place], triangles, positions, widened)
             };
-            match taken {
-                Ok(()) => {}
-                Err(NotTaken::Refused(error)) => {
-                    return Err(Error::Refused {
-                        source_name: source.name().to_owned(),
-                        frame,
-                        error,
-                    });
-                }
-                // A world is of double precision if any source is.
-                Err(NotTaken::WouldBeRounded) => {
-                    let source_name = source.name().to_owned();
-                    return Err(Error::Missing { source_name, frame });
-                }
-            }
+            taken.map_err(|why| not_taken(why, source, frame))?;
         }
         Ok(())
+    }
+}
+
+/// Why a frame of a source is not in the world.
+fn not_taken(why: NotTaken, source: &Source, frame: usize) -> Error {
+    let source_name = source.name().to_owned();
+    match why {
+        NotTaken::Refused(error) => Error::Refused {
+            source_name,
+            frame,
+            error,
+        },
+        // A world is of double precision if any source is.
+        NotTaken::WouldBeRounded => Error::Missing { source_name, frame },
     }
 }
 

@@ -15,12 +15,17 @@ pub struct Settings {
     /// Where pairs of [`within`](Self::within) are listed, so are the points in which they are closest: [`Found::gaps`](crate::Found). A
     /// pair then takes 88 bytes of [`max_list`](Self::max_list).
     pub closest_points: bool,
-    /// No more than one pair in each frame; with [`within`](Self::within) the nearest.
+    /// Besides what intersects in a frame, what meets on the way from it to the next that is checked:
+    /// [`Check::next_interval`](crate::Check::next_interval). Of one frame alone it cannot be asked, nor with [`within`](Self::within) or
+    /// [`baseline`](Self::baseline), whose pairs are pairs of triangles.
+    pub swept: bool,
+    /// No more than one pair in each frame; with [`within`](Self::within) the nearest. Of what meets on the way to
+    /// the next, the first.
     pub first: bool,
     /// Pairs are kept in a list; if not, they are only counted.
     pub listed: bool,
     /// The most bytes that a list of pairs may take, and again the list of those of [`baseline`](Self::baseline); a pair
-    /// takes 16.
+    /// takes 16, two elements that meet on the way to the next frame take 40.
     pub max_list: u64,
     /// What is a body, if not each source.
     pub split: Option<Split>,
@@ -34,7 +39,8 @@ pub struct Settings {
     pub ignore: Vec<[String; 2]>,
     /// Pairs that are left out in all frames, wherever both bodies have the mesh that they have there.
     pub baseline: Option<Baseline>,
-    /// Pairs with a triangle that has no area are left out.
+    /// Pairs with a triangle that has no area are left out. Of what meets on the way to the next frame, triangles that have none in
+    /// either frame are, and vertices and edges of such triangles only.
     pub skip_degenerate: bool,
     /// The pairs of a frame are joined into places, which have the same numbers from frame to frame: [`Found::places`](crate::Found).
     /// Not in frames of which only the first pair is asked for; such a frame is as if it had been passed over.
@@ -91,6 +97,7 @@ impl Default for Settings {
         Self {
             itself: false,
             within: None,
+            swept: false,
             closest_points: false,
             first: false,
             listed: true,

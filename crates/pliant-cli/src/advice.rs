@@ -94,10 +94,15 @@ fn checking(error: &CheckError) -> Option<&'static str> {
         CheckError::WithinItself => Some(
             "name a second body, or make the pieces of this one bodies with `--split`, and leave out `--self`",
         ),
+        CheckError::SweptOneFrame => Some("name a sequence of frames, or leave out `--swept`"),
+        CheckError::SweptWithin => Some("leave out `--within` or `--swept`, and check twice"),
+        CheckError::SweptBaseline => Some("leave out `--baseline` or `--swept`, and check twice"),
         CheckError::EmptyGroup { .. } => Some("write NAME=BODY,BODY"),
-        CheckError::Endless { .. } => Some("ask for less with `--first`, or mend the mesh"),
+        CheckError::Endless { .. } | CheckError::EndlessImpacts { .. } => {
+            Some("ask for less with `--first`, or mend the mesh")
+        }
         CheckError::OnePoint { .. } => Some("mend it, or export it without them"),
-        CheckError::TooManyPairs { .. } => {
+        CheckError::TooManyPairs { .. } | CheckError::TooManyImpacts { .. } => {
             Some("allow more with `--max-memory`, or ask for less with `--count` or `--first`")
         }
         _ => None,

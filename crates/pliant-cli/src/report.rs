@@ -10,7 +10,7 @@ use pliant::{BodyId, Scalar, World};
 use pliant_check::{Meshes, Place, Places};
 use pliant_io::shown_within;
 use pliant_report::picture::{self, Picture, Shot, View};
-use pliant_report::{BodyLabel, Chart, Gap, Motion, Play, Recorder, Report, Series, Spot};
+use pliant_report::{BodyLabel, Chart, Gap, Moment, Motion, Play, Recorder, Report, Series, Spot};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -97,6 +97,8 @@ pub(crate) struct Watcher {
     along: String,
     /// How close pairs are, if they are not those that intersect.
     within: Option<f64>,
+    /// What else was found, in a sentence.
+    also: Option<String>,
     /// Of a play whose places nobody else finds.
     places: Places,
 }
@@ -170,6 +172,7 @@ impl Watcher {
             options,
             along: along.to_owned(),
             within: None,
+            also: None,
             places: Places::new(),
         })
     }
@@ -178,6 +181,23 @@ impl Watcher {
     pub(crate) fn within(mut self, within: Option<f64>) -> Self {
         self.within = within;
         self
+    }
+
+    /// Whether there is to be a page.
+    pub(crate) fn has_page(&self) -> bool {
+        self.recorder.is_some()
+    }
+
+    /// A sentence more about what was found.
+    pub(crate) fn also_found(&mut self, sentence: String) {
+        self.also = Some(sentence);
+    }
+
+    /// Takes the first contact on the way from the frame taken last, of a world in that frame with a motion to the next.
+    pub(crate) fn moment<S: Scalar>(&mut self, world: &World<S>, moment: &Moment) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.moment(world, moment);
+        }
     }
 
     /// Whether the pairs of this frame are.
@@ -258,6 +278,9 @@ impl Watcher {
         let motion = recorder.finish();
         let mut report = Report::new(&asked());
         report.found = found(&motion, along, self.within);
+        if let Some(also) = &self.also {
+            report.found = format!("{} {also}", report.found);
+        }
         let mut play = Play::new(name, along);
         play.within = self.within;
         play.facts = facts(&motion, along);

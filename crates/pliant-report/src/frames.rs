@@ -50,6 +50,34 @@ pub(crate) struct Frame {
     pub(crate) spots: Vec<Spot>,
     /// How many there are.
     pub(crate) all_spots: usize,
+    /// What meets, of a frame that is none, but lies between this one and the next.
+    pub(crate) moment: Option<MomentShown>,
+}
+
+/// The first contact on the way from a frame to the next.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    /// The number of the next frame.
+    pub until: u32,
+    /// When it is, from 0, in the frame, to 1, in the next.
+    pub time: f64,
+    /// How many pairs of elements meet on the way.
+    pub count: usize,
+    /// Body and vertex of the corners of the one element, and of the other: one of a vertex, two of an edge, three of a triangle.
+    pub corners: [Vec<[u32; 2]>; 2],
+    /// The triangles that have the one, with those that have the other: body, triangle, body, triangle.
+    pub pairs: Vec<[u32; 4]>,
+    /// Which elements they are. Anything may be in it.
+    pub label: String,
+}
+
+/// What a page says of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct MomentShown {
+    pub(crate) until: u32,
+    pub(crate) time: f64,
+    pub(crate) count: usize,
+    pub(crate) label: String,
 }
 
 /// Where hits hang together.
@@ -120,8 +148,9 @@ impl Motion {
     }
 
     /// The frames that can be shown, by their numbers.
-    pub fn shown(&self) -> impl ExactSizeIterator<Item = u32> {
-        self.frames.iter().map(|frame| self.numbers[frame.place])
+    pub fn shown(&self) -> impl Iterator<Item = u32> {
+        let frames = self.frames.iter().filter(|frame| frame.moment.is_none());
+        frames.map(|frame| self.numbers[frame.place])
     }
 
     /// The number of the first frame in which something intersects.
@@ -192,8 +221,9 @@ impl Frame {
             Hits::Triangles(triangles) => 4 * triangles.len(),
         };
         let spots = self.spots.iter().map(|spot| 100 + spot.label.len());
+        let moment = self.moment.iter().map(|moment| 100 + moment.label.len());
         let near = 4 * self.near.len() + 56 * self.gaps.len();
-        6 * vertices + hits + near + self.made.len() / 8 + spots.sum::<usize>()
+        6 * vertices + hits + near + self.made.len() / 8 + spots.chain(moment).sum::<usize>()
     }
 }
 

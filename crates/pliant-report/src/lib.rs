@@ -44,6 +44,6 @@ mod recorder;
 mod report;
 
 pub use chart::{Chart, Series};
-pub use frames::{Gap, Motion, Spot};
+pub use frames::{Gap, Moment, Motion, Spot};
 pub use recorder::{BodyLabel, Recorder};
 pub use report::{Play, Report};

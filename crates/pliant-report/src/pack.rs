@@ -336,6 +336,7 @@ mod tests {
                 .collect(),
             spots: Vec::new(),
             all_spots: 0,
+            moment: None,
             hits: match frame % 3 {
                 0 => Hits::Pairs(vec![[0, 3], [0, 70_000], [1, 2], [258, 259]]),
                 1 => Hits::Triangles(vec![0, 2, 3]),

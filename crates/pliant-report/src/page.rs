@@ -83,7 +83,7 @@ impl Report {
 
 /// What the picture leaves out.
 fn thinned(motion: &Motion, along: &str) -> Option<String> {
-    let (shown, all) = (motion.frames.len(), motion.numbers.len());
+    let (shown, all) = (motion.shown().count(), motion.numbers.len());
     if motion.too_large {
         Some(
             "The bodies are too large to be drawn in a page; what was found is complete."
@@ -118,8 +118,19 @@ fn motion(motion: &Motion) -> Value {
         "places": motion.frames.iter().map(|frame| spots(frame, view)).collect::<Value>(),
         "placeCounts": motion.frames.iter().map(|frame| frame.all_spots).collect::<Value>(),
         "frames": motion.frames.iter().map(|frame| frame.place).collect::<Value>(),
+        "moments": motion.frames.iter().map(moment).collect::<Value>(),
         "bodies": bodies.collect::<Value>(),
     })
+}
+
+/// What lies between two frames.
+fn moment(frame: &Frame) -> Value {
+    match &frame.moment {
+        None => Value::Null,
+        Some(it) => {
+            json!({ "until": it.until, "time": it.time, "count": it.count, "label": it.label })
+        }
+    }
 }
 
 /// Places of a frame, as the page puts its motion: number, pairs, smallest and largest coordinates, whose.

@@ -2,12 +2,14 @@
 //!
 //! However many frames come, and however many triangles meet, what is kept stays within [`BUDGET`]: when it is full, every
 //! second frame that is kept is let go, again and again. The first frame with a contact, the one with the most pairs and the
-//! last are kept whatever happens. Numbers (pairs in each frame) are kept for all frames.
+//! last are kept whatever happens. Moments between frames are kept with the frame before them, and the first, where there is room. Numbers (pairs in each frame) are kept for all frames.
 //!
 //! A body that gets another mesh has a record more from that frame on, and each frame says which record it shows. Once the meshes
 //! alone take half of what a page can hold, frames with further ones are counted and not drawn.
 
-use crate::frames::{BodyRecord, Frame, Gap, GapShown, Hits, Motion, Shape, Spot};
+use crate::frames::{
+    BodyRecord, Frame, Gap, GapShown, Hits, Moment, MomentShown, Motion, Shape, Spot,
+};
 use pliant::{BodyId, Scalar, World};
 
 /// The most bytes of frames that go into a page, before they are compressed: positions rounded to two bytes, pairs as eight.
@@ -56,6 +58,7 @@ pub struct Recorder {
     first_contact: Option<Frame>,
     worst: Option<Frame>,
     last: Option<Frame>,
+    first_moment: Option<Frame>,
     too_large: bool,
 }
 
@@ -87,6 +90,7 @@ impl Recorder {
             first_contact: None,
             worst: None,
             last: None,
+            first_moment: None,
             too_large: false,
         }
     }
@@ -127,11 +131,85 @@ impl Recorder {
         if count as u64 > self.worst.as_ref().map_or(0, most) {
             self.worst = Some(frame.clone());
         }
-        if place.is_multiple_of(self.stride) {
+        self.keep(&frame);
+        self.last = Some(frame);
+        self.thin();
+    }
+
+    /// Takes the first contact on the way from the frame taken last to another: the world is in that frame, and its bodies have motions to the
+    /// other. The page shows the bodies as they are at that time.
+    pub fn moment<S: Scalar>(&mut self, world: &World<S>, moment: &Moment) {
+        // Where the frame is not drawn neither is what follows.
+        let Some(place) = self.numbers.len().checked_sub(1) else {
+            return;
+        };
+        if self.last.as_ref().is_none_or(|last| last.place != place) {
+            return;
+        }
+        let mut frame = self.look(place, world, &moment.pairs, &[]);
+        // Boxes are of the shape of the frame.
+        frame.made.fill(false);
+        let mut moved: Vec<(u32, Vec<[f64; 3]>)> = Vec::new();
+        for (body, shape) in self.bodies.iter().zip(&mut frame.shapes) {
+            if shape.is_some()
+                && let Some(positions) = positions_at(world, body.id, moment.time)
+            {
+                *shape = Some(Shape::of(&positions));
+                moved.push((body.id.0, positions));
+            }
+        }
+        let position = |&[body, vertex]: &[u32; 2]| {
+            let (_, positions) = moved.iter().find(|(id, _)| *id == body)?;
+            positions.get(vertex as usize).copied()
+        };
+        let corners = moment.corners.each_ref();
+        let corners = corners.map(|of| of.iter().filter_map(position).collect::<Vec<_>>());
+        let all = || corners.iter().flatten();
+        let lower = all().fold([f64::INFINITY; 3], |low, at| least(low, *at, f64::min));
+        let upper = all().fold([f64::NEG_INFINITY; 3], |high, at| {
+            least(high, *at, f64::max)
+        });
+        let size = (0..3)
+            .map(|axis| upper[axis] - lower[axis])
+            .fold(0.0, f64::max);
+        if let Hits::Pairs(pairs) = &frame.hits
+            && let Some(&triangles) = pairs.first()
+        {
+            let lines = corners.iter().flat_map(|of| outline(of, size / 8.0));
+            let lines = lines.map(|points| GapShown { triangles, points });
+            frame.gaps = lines.collect();
+            frame.spots = vec![Spot {
+                number: 0,
+                count: moment.count,
+                lower,
+                upper,
+                label: moment.label.clone(),
+            }];
+            frame.all_spots = 1;
+        }
+        frame.moment = Some(MomentShown {
+            until: moment.until,
+            time: moment.time,
+            count: moment.count,
+            label: moment.label.clone(),
+        });
+        // Beside the four frames that have room whatever happens.
+        if self.first_moment.is_none() && self.fixed + 5 * frame.cost() <= self.budget {
+            self.first_moment = Some(frame.clone());
+        }
+        self.keep(&frame);
+        self.thin();
+    }
+
+    fn keep(&mut self, frame: &Frame) {
+        if frame.place.is_multiple_of(self.stride) {
             self.cost += frame.cost();
             self.kept.push(frame.clone());
         }
-        self.last = Some(frame);
+    }
+
+    /// Lets go what does not fit.
+    fn thin(&mut self) {
         while self.cost + self.fixed > self.budget && self.kept.len() > 1 {
             self.stride *= 2;
             let stride = self.stride;
@@ -144,12 +222,13 @@ impl Recorder {
     pub fn finish(self) -> Motion {
         let mut frames = self.kept;
         frames.extend(
-            [self.first_contact, self.worst, self.last]
+            [self.first_contact, self.worst, self.last, self.first_moment]
                 .into_iter()
                 .flatten(),
         );
-        frames.sort_by_key(|frame| frame.place);
-        frames.dedup_by_key(|frame| frame.place);
+        // A moment comes behind its frame.
+        frames.sort_by_key(|frame| (frame.place, frame.moment.is_some()));
+        frames.dedup_by_key(|frame| (frame.place, frame.moment.is_some()));
         Motion {
             sizes: self.sizes,
             bodies: self.bodies,
@@ -328,7 +407,43 @@ impl Recorder {
             made,
             spots: Vec::new(),
             all_spots: 0,
+            moment: None,
         }
+    }
+}
+
+/// Where the vertices of a body are on their way.
+fn positions_at<S: Scalar>(world: &World<S>, id: BodyId, time: f64) -> Option<Vec<[f64; 3]>> {
+    let start = world.positions(id).ok()?;
+    let start: Vec<[f64; 3]> = start.iter().map(|at| at.map(S::to_f64)).collect();
+    let Some(end) = world.end_positions(id).ok()? else {
+        return Some(start);
+    };
+    let moved = start.iter().zip(&end).map(|(from, to)| {
+        std::array::from_fn(|axis| from[axis] + time * (to[axis].to_f64() - from[axis]))
+    });
+    Some(moved.collect())
+}
+
+/// The smaller, or the larger, of each coordinate.
+fn least(a: [f64; 3], b: [f64; 3], of: fn(f64, f64) -> f64) -> [f64; 3] {
+    std::array::from_fn(|axis| of(a[axis], b[axis]))
+}
+
+/// Lines round an element: a cross of this size of a vertex, an edge, the sides of a triangle.
+fn outline(corners: &[[f64; 3]], size: f64) -> Vec<[[f64; 3]; 2]> {
+    match *corners {
+        [at] => (0..3)
+            .map(|axis| {
+                let mut ends = [at; 2];
+                ends[0][axis] -= size;
+                ends[1][axis] += size;
+                ends
+            })
+            .collect(),
+        [a, b] => vec![[a, b]],
+        [a, b, c] => vec![[a, b], [b, c], [c, a]],
+        _ => Vec::new(),
     }
 }
 
@@ -362,7 +477,7 @@ mod tests {
         // The first contact, the most pairs, and as many once more.
         (counts[37], counts[71], counts[83]) = (1, 2, 2);
         let all = 20 + 18 * 100 + 8 * 5;
-        assert_eq!(record(all, &counts).shown().len(), 100);
+        assert_eq!(record(all, &counts).shown().count(), 100);
         for (budget, stride) in [(all - 1, 2), (20 + 18 * 30, 4), (20 + 18 * 20, 8)] {
             let mut expected: Vec<u32> = (0..100).step_by(stride).chain([37, 71, 99]).collect();
             expected.sort_unstable();
@@ -381,9 +496,89 @@ mod tests {
     }
 
     #[test]
+    fn a_moment_has_the_shape_of_its_time_and_comes_behind_its_frame() {
+        let shape = |z: f32| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
+        let mut world = World::<f32>::new();
+        let [still, moves] = [0.0, 2.0].map(|z| world.add(&[[0, 1, 2]], &shape(z)).unwrap());
+        let mut recorder = Recorder::new(Vec::new());
+        let moment = Moment {
+            until: 8,
+            time: 0.25,
+            count: 3,
+            corners: [vec![[1, 2]], vec![[0, 0], [0, 1], [0, 2]]],
+            pairs: vec![[0, 0, 1, 0]],
+            label: "both".to_owned(),
+        };
+        // There is no frame yet.
+        recorder.moment(&world, &moment);
+        recorder.frame(5, &world, &[]);
+        world.set_motion(moves, &shape(-6.0)).unwrap();
+        recorder.moment(&world, &moment);
+        world.finish_motion();
+        recorder.frame(8, &world, &[]);
+        let motion = recorder.finish();
+        let places: Vec<_> = motion
+            .frames
+            .iter()
+            .map(|it| (it.place, it.moment.is_some()))
+            .collect();
+        assert_eq!(places, [(0, false), (0, true), (1, false)]);
+        assert!(motion.shown().eq([5, 8]) && motion.pairs() == [0, 0]);
+        let frame = &motion.frames[1];
+        let heights = |id: BodyId| {
+            let place = motion.bodies.iter().position(|it| it.id == id).unwrap();
+            frame.shapes[place].as_ref().unwrap().lower[2]
+        };
+        assert_eq!((heights(still), heights(moves)), (0.0, 0.0));
+        // A cross and a triangle; the box round both.
+        assert_eq!(frame.gaps.len(), 6);
+        let [spot] = &frame.spots[..] else {
+            panic!("{:?}", frame.spots)
+        };
+        assert_eq!(
+            (spot.count, spot.lower, spot.upper),
+            (3, [0.0; 3], [1.0, 1.0, 0.0])
+        );
+        assert!(matches!(&frame.hits, Hits::Pairs(pairs) if *pairs == [[0, 1]]));
+        assert!(!motion.pack().is_empty());
+    }
+
+    #[test]
+    fn the_first_moment_is_kept_where_there_is_room() {
+        let flat = [[0.0_f32; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let mut world = World::new();
+        world.add(&[[0, 1, 2]], &flat).unwrap();
+        let moments = |budget: usize| -> Vec<usize> {
+            let mut recorder = Recorder::within(Vec::new(), budget);
+            for number in 0..64 {
+                recorder.frame(number, &world, &[]);
+                let moment = Moment {
+                    until: number + 1,
+                    time: 0.5,
+                    count: 1,
+                    corners: Default::default(),
+                    pairs: Vec::new(),
+                    label: String::new(),
+                };
+                if number > 4 {
+                    recorder.moment(&world, &moment);
+                }
+                assert!(recorder.cost + recorder.fixed <= budget || recorder.kept.len() == 1);
+            }
+            let frames = recorder.finish().frames;
+            let moments = frames.iter().filter(|it| it.moment.is_some());
+            moments.map(|it| it.place).collect()
+        };
+        assert_eq!(moments(1 << 20), (5..64).collect::<Vec<_>>());
+        // A moment costs 118 bytes.
+        assert_eq!(moments(20 + 5 * 118), [5, 16, 32, 48]);
+        assert_eq!(moments(20 + 5 * 118 - 1), [16, 32, 48]);
+    }
+
+    #[test]
     fn bodies_that_no_page_can_hold_are_not_drawn() {
         let motion = record(20 + 4 * 18 - 1, &[0, 1, 0]);
-        assert!(motion.too_large && motion.shown().len() == 0);
+        assert!(motion.too_large && motion.shown().count() == 0);
         assert_eq!(
             (motion.first_contact(), motion.sizes()),
             (Some(1), [1, 3, 1])
@@ -490,7 +685,7 @@ mod tests {
             assert!(recorder.fixed <= 2000);
         }
         let motion = recorder.finish();
-        assert_eq!((motion.pairs().len(), motion.shown().len()), (50, 13));
+        assert_eq!((motion.pairs().len(), motion.shown().count()), (50, 13));
     }
 
     #[test]

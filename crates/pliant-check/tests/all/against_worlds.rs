@@ -2,7 +2,9 @@
 //! every pair.
 
 use pliant::{Pair, Selection, World};
-use pliant_check::{Baseline, Check, Error, Found, Group, Row, Settings, Split};
+use pliant_check::{
+    Baseline, Check, Error, FirstImpact, Found, Frames, Group, Row, Settings, Split,
+};
 use pliant_io::OpenOptions;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -116,6 +118,68 @@ fn by_hand(
     }
     rows.sort_unstable_by_key(|&(row, _)| row);
     rows
+}
+
+/// Two elements: 0 and body, vertex, body, triangle; or 1 and body, vertex, vertex, body, vertex, vertex.
+type Elements = (u8, Vec<u32>);
+
+/// When they first meet: between two numbers, and to the last bit.
+type Times = ([f64; 2], f64);
+
+/// All elements of any bodies that meet on the way from a frame to another.
+fn on_the_way_by_hand(
+    sources: &[SourceMade],
+    split: bool,
+    [from, to]: [usize; 2],
+) -> BTreeMap<Elements, Times> {
+    let mut world = World::<f64>::new();
+    let mut bodies = Vec::new();
+    for source in sources {
+        let all = source.triangles();
+        let whole = vec![(0..all.len()).collect()];
+        for piece in if split { source.pieces() } else { whole } {
+            let triangles = piece.iter().map(|&t| all[t].map(|corner| corner as u32));
+            let triangles: Vec<_> = triangles.collect();
+            let id = world.add(&triangles, &source.positions(from)).unwrap();
+            world.set_motion(id, &source.positions(to)).unwrap();
+            bodies.push(piece);
+        }
+    }
+    let ids: Vec<_> = world.bodies().collect();
+    let within = ids.iter().map(|&id| Selection::Within(id));
+    let mut met: BTreeMap<Elements, Vec<[f64; 2]>> = BTreeMap::new();
+    for of in within.chain([Selection::World]) {
+        // A check's intervals are a millionth wide.
+        for width in [1e-6, 0.0] {
+            let impacts = world.vertex_triangle_impacts(of).width(width);
+            for it in impacts.all().unwrap() {
+                let [a, v, b, t]: [u32; 4] = it.pair.into();
+                let t = bodies[b as usize][t as usize] as u32;
+                met.entry((0, vec![a, v, b, t]))
+                    .or_default()
+                    .push([it.low, it.high]);
+            }
+            let impacts = world.edge_edge_impacts(of).width(width);
+            for it in impacts.all().unwrap().to_vec() {
+                let [a, e, b, f]: [u32; 4] = it.pair.into();
+                let edges = [(a, e), (b, f)].map(|(body, edge)| {
+                    let [p, q] = world.edges(ids[body as usize]).unwrap()[edge as usize];
+                    [body, p, q]
+                });
+                let [one, other] = edges;
+                let pair = [one.min(other), one.max(other)].concat();
+                met.entry((1, pair)).or_default().push([it.low, it.high]);
+            }
+        }
+    }
+    let met = met.into_iter();
+    met.map(|(pair, cells)| {
+        let [wide, narrow] = cells[..] else {
+            panic!("{cells:?}")
+        };
+        (pair, (wide, narrow[1]))
+    })
+    .collect()
 }
 
 fn all_frames(mut check: Check) -> Vec<Found> {
@@ -242,5 +306,88 @@ proptest! {
                 prop_assert_eq!(found.pairs.len(), if listed { found.count } else { 0 });
             }
         }
+    }
+
+    #[test]
+    fn what_is_asked_of_the_way_is_what_is_found(
+        sources in prop::collection::vec(source(), 1..4),
+        split: bool,
+        itself: bool,
+        first: bool,
+        listed: bool,
+        start in 0..2_usize,
+        step in 1..3_usize,
+        rules in prop::collection::vec((0..30_u32, 0..30_u32), 0..3),
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut arguments = Vec::new();
+        for (number, source) in sources.iter().enumerate() {
+            let name = format!("s{number}");
+            source.write(folder.path(), &name);
+            arguments.push(folder.path().join(name + "_*.obj").display().to_string());
+        }
+        let count_of = |source: &SourceMade| if split { source.pieces().len() } else { 1 };
+        let count = sources.iter().map(count_of).sum::<usize>() as u32;
+        let rules: Vec<[u32; 2]> = rules.iter().map(|&(a, b)| [a % count, b % count]).collect();
+        let frames: Vec<usize> = (start..FRAMES).step_by(step).collect();
+        let settings = Settings {
+            itself,
+            first,
+            listed,
+            swept: true,
+            split: split.then_some(Split::Components),
+            ignore: rules.iter().map(|rule| rule.map(|body| body.to_string())).collect(),
+            frames: Some(Frames { start, step, count: frames.len() }),
+            ..Settings::default()
+        };
+        let reading = OpenOptions { weld: false, ..OpenOptions::default() };
+        let check = Check::open(&arguments, &reading, &settings);
+        if frames.len() < 2 {
+            prop_assert!(matches!(check, Err(Error::SweptOneFrame)));
+            return Ok(());
+        }
+        let mut check = check.unwrap();
+        prop_assert!(check.next_interval().unwrap().is_none());
+        for (place, &frame) in frames.iter().enumerate() {
+            prop_assert_eq!(check.next_frame().unwrap().unwrap().frame, frame);
+            let Some(interval) = check.next_interval().unwrap() else {
+                prop_assert_eq!(place, frames.len() - 1);
+                continue;
+            };
+            prop_assert!(check.next_interval().unwrap().is_none());
+            let until = frames[place + 1];
+            prop_assert_eq!([interval.frame, interval.until], [frame, until]);
+            prop_assert_eq!((interval.complete, &interval.changed), (!first, &vec![]));
+            let mut expected = on_the_way_by_hand(&sources, split, [frame, until]);
+            expected.retain(|(_, pair), _| {
+                let (a, b) = (pair[0], pair[pair.len() / 2]);
+                (a != b || itself || count == 1) && !rules.contains(&[a, b]) && !rules.contains(&[b, a])
+            });
+            let all = expected.len();
+            expected.retain(|_, ([_, high], _)| *high > 0.0);
+            prop_assert_eq!(interval.at_start, all - expected.len());
+            let earliest = expected.iter().min_by(|(_, (_, a)), (_, (_, b))| a.total_cmp(b));
+            let earliest = earliest.map(|(pair, &(cell, _))| (pair.clone(), cell));
+            let found = interval.first.map(|first| match first {
+                FirstImpact::VertexTriangle(it) => ((0, it.pair.to_vec()), [it.low, it.high]),
+                FirstImpact::EdgeEdge(it) => ((1, it.pair.to_vec()), [it.low, it.high]),
+            });
+            prop_assert_eq!(&found, &earliest);
+            let vertices = interval.vertex_triangle.iter().map(|it| ((0, it.pair.to_vec()), [it.low, it.high]));
+            let edges = interval.edge_edge.iter().map(|it| ((1, it.pair.to_vec()), [it.low, it.high]));
+            let lists: Vec<_> = vertices.chain(edges).collect();
+            if first {
+                prop_assert_eq!(interval.count, expected.len().min(1));
+                let one: Vec<_> = earliest.into_iter().filter(|_| listed).collect();
+                prop_assert_eq!(lists, one);
+            } else {
+                prop_assert_eq!(interval.count, expected.len());
+                let all = expected.into_iter().map(|(pair, (cell, _))| (pair, cell));
+                let all: Vec<_> = all.filter(|_| listed).collect();
+                prop_assert_eq!(lists, all);
+            }
+        }
+        prop_assert!(check.next_frame().unwrap().is_none());
+        prop_assert!(check.next_interval().unwrap().is_none());
     }
 }

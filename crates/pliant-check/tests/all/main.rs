@@ -8,3 +8,4 @@ mod groups;
 mod messages;
 mod places;
 mod settings;
+mod swept;

@@ -1,6 +1,7 @@
 //! `pliant check`: somebody's meshes, frame by frame.
 
 mod hits;
+mod moments;
 mod names;
 mod output;
 mod pictures;
@@ -9,7 +10,7 @@ pub(crate) mod size;
 use crate::Outcome;
 use crate::report::PictureOptions;
 use crate::tree_options::at_least_one;
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum, ValueHint};
 use hits::Hits;
 use output::Output;
@@ -36,10 +37,13 @@ pub(crate) struct Arguments {
     /// Instead of what intersects, the triangles of different bodies that are at most D apart, in the unit of the files; those that intersect are 0 apart. Of one body neighbours always are that close: not with --self
     #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = distance, conflicts_with = "png")]
     within: Option<f64>,
+    /// Besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line: a vertex and a triangle, or two edges, and when first. Not with --within, --baseline, --hits, --format lines or github
+    #[arg(long)]
+    swept: bool,
     /// Only how many pairs, not which
     #[arg(long)]
     count: bool,
-    /// Stop at the first pair of each frame; with --within the nearest pair
+    /// Stop at the first pair of each frame; with --within the nearest pair; with --swept the first to meet on the way to the next, too
     #[arg(long)]
     first: bool,
     /// Make every connected piece of a file a body: FILE#1, FILE#2, ...; or every group of an OBJ file: FILE#NAME; in the order of their lowest triangle. Triangles keep their numbers, and those that share a vertex of the file are left out
@@ -112,10 +116,13 @@ Examples:
   pliant check a.ply --png a.png --view top --size 800x600
   pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
   pliant check shirt.ply skin.ply --within 0.002     nothing closer than 2 mm?
+  pliant check shirt.npz skin.npz --swept            nothing jumps through?
+  pliant check walk.npz --swept --report walk.html   with the moments of contact
   pliant check walk.npz --quiet && echo clean
 
-Exit code 0: nothing intersects, or is as close as that. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 10 MB, however many frames there are, and 7.5 times two frames where the mesh changes from file to file; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), and of glTF bodies that move the rest positions, joints, deltas and keys.
+With --swept all elements that meet on the way count, but those that meet in the frame before already. They are of both bodies where two share them. It looks from each frame to the next only: where a mesh changes in between, nothing moves, and that is said.
+Exit code 0: nothing intersects, is as close as that, or meets on the way. 1: something does. 2: it could not be checked; standard error says why.
+Memory: at most 3.5 times two frames (positions and triangles) and 10 MB, however many frames there are, 7.5 times two frames where the mesh changes from file to file, and 11 times with --swept; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), and of glTF bodies that move the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
 
 /// `A,B`.
@@ -144,6 +151,7 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
             shown(&pattern)
         ));
     }
+    can_be_swept(arguments).or_else(|error| output::annotate(arguments, error))?;
     let mut check = open(arguments).or_else(|error| {
         let error = advise_names(arguments, error);
         output::annotate(arguments, error)
@@ -174,6 +182,20 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(outcome)
 }
 
+/// Refuses what has no form for what meets between two frames.
+fn can_be_swept(arguments: &Arguments) -> anyhow::Result<()> {
+    let other = match (&arguments.hits, arguments.format) {
+        _ if !arguments.swept => return Ok(()),
+        (Some(_), _) => "--hits writes the triangles that intersect in a frame",
+        (_, Format::Lines) => "--format lines has a line for each pair of triangles",
+        (_, Format::Github) => "--format github annotates places of frames",
+        _ => return Ok(()),
+    };
+    bail!(
+        "--swept: {other}, and has no room for what meets between two; leave out one of them, or use `--format table` or `--format json`"
+    )
+}
+
 fn open(arguments: &Arguments) -> Result<Check, Error> {
     let reading = OpenOptions {
         weld: !arguments.no_weld,
@@ -187,6 +209,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
     let settings = Settings {
         itself: arguments.itself,
         within: arguments.within,
+        swept: arguments.swept,
         closest_points: arguments.pictures.any(),
         max_list: arguments.max_memory,
         split: arguments.split.map(|split| match split {
@@ -245,6 +268,12 @@ fn frames(
             hits.frame(check, &found)?;
         }
         pictures.frame(check, &found)?;
+        let listed = printed && format == Format::Json;
+        check.ask(first || quiet && !pictures.shows_moments(), listed);
+        if let Some(interval) = check.next_interval()? {
+            output.interval(check, &interval)?;
+            pictures.interval(check, &interval);
+        }
     }
     Ok(())
 }

@@ -3,32 +3,75 @@
 //! A picture has the sources as its bodies, with the triangles' own numbers; pieces and groups of a source are not told apart in it, and groups that
 //! were not asked for are in it too.
 
-use super::{Arguments, Split};
+use super::output::short;
+use super::{Arguments, Split, moments};
 use crate::advice;
 use crate::report::{Watcher, fact};
-use pliant_check::{AnyWorld, Baseline, Check, Found, Row, with_world};
+use crate::table::grouped;
+use pliant_check::{AnyWorld, Baseline, Check, Found, Interval, Row, with_world};
 use pliant_io::shown;
 use pliant_report::{BodyLabel, Gap};
 
 /// Looks at the frames of one check.
-pub(super) struct Pictures(Watcher);
+pub(super) struct Pictures {
+    watcher: Watcher,
+    way: Way,
+}
+
+/// What all intervals between frames come to.
+#[derive(Default)]
+struct Way {
+    looked_at: usize,
+    meeting: usize,
+    skipped: usize,
+    /// The frames of the first in which something meets, and when.
+    first: Option<([usize; 2], f64)>,
+}
+
+impl Way {
+    fn take(&mut self, interval: &Interval) {
+        if !interval.changed.is_empty() {
+            self.skipped += 1;
+            return;
+        }
+        self.looked_at += 1;
+        self.meeting += usize::from(interval.count > 0);
+        if let (None, Some(first)) = (self.first, &interval.first) {
+            self.first = Some(([interval.frame, interval.until], first.time()));
+        }
+    }
+
+    /// In a sentence.
+    fn found(&self) -> String {
+        let [meeting, all] = [self.meeting, self.looked_at].map(|n| grouped(n as u64));
+        match self.first {
+            None => "On the way from frame to frame nothing meets.".to_owned(),
+            Some(([frame, until], time)) => format!(
+                "On the way from a frame to the next something meets in {meeting} of {all}, first after {} of the way from frame {frame} to {until}.",
+                short(time)
+            ),
+        }
+    }
+}
 
 impl Pictures {
     pub(super) fn new(arguments: &Arguments, check: &Check) -> anyhow::Result<Self> {
         let numbers = 0..u32::try_from(check.frame_count()).unwrap_or(u32::MAX);
-        Watcher::new(&arguments.pictures, || labels(check), "frame", numbers)
-            .map(|watcher| Self(watcher.within(arguments.within)))
+        Watcher::new(&arguments.pictures, || labels(check), "frame", numbers).map(|watcher| Self {
+            watcher: watcher.within(arguments.within),
+            way: Way::default(),
+        })
     }
 
     /// Whether they need all pairs of this frame.
     pub(super) fn looks_at(&self, frame: usize) -> bool {
-        self.0.looks_at(frame as u32)
+        self.watcher.looks_at(frame as u32)
     }
 
     /// Takes the frame that was checked last.
     pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
         let number = found.frame as u32;
-        if !self.0.looks_at(number) {
+        if !self.watcher.looks_at(number) {
             return Ok(());
         }
         let pairs: Vec<Row> = found
@@ -56,13 +99,29 @@ impl Pictures {
             Some(body) if check.body_count() > 1 => shown(body.name),
             _ => String::new(),
         };
-        let watcher = &mut self.0;
+        let watcher = &mut self.watcher;
         // Of a first pair nobody has found a place.
         match &found.places {
             Some(_) => {
                 with_world!(check.world(), world => watcher.frame_with(number, world, &pairs, places, &gaps, name))
             }
             None => with_world!(check.world(), world => watcher.frame(number, world, &pairs)),
+        }
+    }
+
+    /// Whether they show what meets between frames.
+    pub(super) fn shows_moments(&self) -> bool {
+        self.watcher.has_page()
+    }
+
+    /// Takes what meets on the way from the frame that was checked last.
+    pub(super) fn interval(&mut self, check: &Check, interval: &Interval) {
+        if !self.shows_moments() {
+            return;
+        }
+        self.way.take(interval);
+        if let Some(moment) = moments::moment(check, interval) {
+            with_world!(check.world(), world => self.watcher.moment(world, &moment));
         }
     }
 
@@ -73,7 +132,18 @@ impl Pictures {
         check: &Check,
         checked: &anyhow::Result<()>,
     ) -> anyhow::Result<()> {
-        self.0.finish("check", "frame", |_, play| {
+        let Self { mut watcher, way } = self;
+        if arguments.swept {
+            watcher.also_found(way.found());
+        }
+        watcher.finish("check", "frame", |_, play| {
+            if arguments.swept {
+                play.facts.push(fact("ways with contacts", way.meeting.to_string()));
+                play.notes.push("Between two frames every corner moves on a straight line. Where something meets on the way, and not in the frame already, the picture has a frame more: the bodies at the first contact, with the triangles there in red, and the vertex (as a cross), the edges or the triangle that meet drawn over everything.".to_owned());
+                if way.skipped > 0 {
+                    play.notes.push(format!("Where a mesh changes between two frames nothing was looked for: {} of them.", way.skipped));
+                }
+            }
             let precision = match check.world() {
                 AnyWorld::F32(_) => "f32",
                 AnyWorld::F64(_) => "f64",

@@ -20,5 +20,6 @@ mod strange_places;
 mod strangers;
 mod streams;
 mod surfaces;
+mod swept;
 mod who_meets;
 mod within;

@@ -20,6 +20,9 @@ const MULTIPLE: f64 = 3.5;
 /// The same where the mesh changes from file to file.
 const CHANGING: f64 = 7.5;
 
+/// The same of what meets on the way from frame to frame: the boxes of two shapes, edges, and whose they are.
+const SWEPT: f64 = 11.0;
+
 /// What the program itself takes at most. Built for tests, most of it unoptimised, its code takes 4 MB more.
 const PROGRAM: u64 = if cfg!(debug_assertions) { 14 } else { 10 } << 20;
 
@@ -126,6 +129,21 @@ fn memory_is_a_multiple_of_two_frames() {
         let multiple = multiple(peak, PROGRAM, surface);
         println!("{what}: {multiple:.2} times two frames");
         assert!(multiple < MULTIPLE, "{what}: {multiple}");
+    }
+}
+
+/// However much comes near: nothing is kept of what does not meet.
+#[test]
+fn memory_of_what_meets_on_the_way() {
+    let folder = tempfile::tempdir().unwrap();
+    for (what, surface) in surfaces(300, 3) {
+        fs::write(folder.path().join("a.npz"), surface.file()).unwrap();
+        let Some(peak) = peak(folder.path(), &["a.npz", "--swept"]) else {
+            return;
+        };
+        let multiple = multiple(peak, PROGRAM, surface);
+        println!("{what}: {multiple:.2} times two frames");
+        assert!(multiple < SWEPT, "{what}: {multiple}");
     }
 }
 

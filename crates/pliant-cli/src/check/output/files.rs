@@ -52,6 +52,11 @@ impl Files {
         self.cell(&self.name(check, frame))
     }
 
+    /// Where no file is.
+    pub(super) fn blank(&self) -> String {
+        self.cell("")
+    }
+
     fn cell(&self, text: &str) -> String {
         format!("  {text:<width$}", width = self.width)
     }

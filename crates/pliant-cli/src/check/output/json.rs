@@ -30,12 +30,27 @@
 //! With `--within`, which is repeated, pairs are those of triangles of different bodies that are so close, and a frame has `distance`: that
 //! of the nearest of its pairs, or `null` where it has none. With `--first` the nearest is the one pair.
 //!
+//! With `--swept`, which is repeated, the frames have between them what meets on the way from each to the next: all numbers count from 0, and
+//! vertices are those of the file.
+//!
+//! ```json
+//! {"frame":0,"until":1,"count":1,"at_start":0,"first":{"time":0.5,"kind":"vertex_triangle","pair":[0,7,1,3]},
+//!  "vertex_triangle":[[0,7,1,3,0.49999904632568359,0.5]],"edge_edge":[]}
+//! ```
+//!
+//! `until` is the frame that follows. `vertex_triangle` has body, vertex, body, triangle, `edge_edge` body, vertex, vertex, body, vertex, vertex, the
+//! smaller first in an edge and of the two, sorted; behind them two times from 0, in the frame, to 1, in the next: up to the first they are
+//! apart, at the second they have met. They are those that are apart in the frame, `count` is how many, and `first` (or `null`) the one of
+//! them that meets first, `time` the second of its times; `at_start` is how many others meet in the frame already. With `--count` there are
+//! no lists, with `--first` no more in them than the first, and `"complete": false`. Where the mesh of a body is another one in the next
+//! frame nothing is looked for: `count`, `at_start` and `first` are `null`, and `changed` has the numbers of these bodies.
+//!
 //! `degenerate` says how many pairs have a triangle without area, where there are any: of those counted, or with
 //! `"skip_degenerate": true` of those that were left out for it.
 
 use super::{Form, Tally};
 use crate::check::{Arguments, Names, Split};
-use pliant_check::{Baseline, Check, Found, Group, Life, Place};
+use pliant_check::{Baseline, Check, FirstImpact, Found, Group, Impact, Interval, Life, Place};
 use pliant_io::Body as Source;
 use serde::Serialize;
 use serde_json::json;
@@ -50,6 +65,7 @@ pub(super) struct Json {
     baseline: Option<Baseline>,
     skip_degenerate: bool,
     within: Option<f64>,
+    swept: bool,
     has_frames: bool,
     lists_places: bool,
 }
@@ -118,6 +134,44 @@ struct FrameEntry<'a> {
     pairs: Option<&'a [[u32; 4]]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     places: Option<Vec<PlaceEntry>>,
+}
+
+#[derive(Serialize)]
+struct IntervalEntry<'a> {
+    frame: usize,
+    until: usize,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    changed: &'a [u32],
+    count: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    complete: Option<bool>,
+    at_start: Option<usize>,
+    first: Option<FirstEntry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    vertex_triangle: Option<Vec<(u32, u32, u32, u32, f64, f64)>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    edge_edge: Option<Vec<(u32, u32, u32, u32, u32, u32, f64, f64)>>,
+}
+
+#[derive(Serialize)]
+struct FirstEntry {
+    time: f64,
+    kind: &'static str,
+    pair: Vec<u32>,
+}
+
+impl FirstEntry {
+    fn of(first: &FirstImpact) -> Self {
+        let (kind, pair) = match first {
+            FirstImpact::VertexTriangle(impact) => ("vertex_triangle", &impact.pair[..]),
+            FirstImpact::EdgeEdge(impact) => ("edge_edge", &impact.pair[..]),
+        };
+        Self {
+            time: first.time(),
+            kind,
+            pair: pair.to_vec(),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -209,6 +263,7 @@ impl Json {
             baseline: arguments.baseline.clone(),
             skip_degenerate: arguments.skip_degenerate,
             within: arguments.within,
+            swept: arguments.swept,
             has_frames: false,
             lists_places: !arguments.count && !arguments.first,
         }
@@ -270,6 +325,9 @@ impl Form for Json {
         if let Some(within) = self.within {
             write!(out, r#","within":{}"#, json!(within))?;
         }
+        if self.swept {
+            write!(out, r#","swept":true"#)?;
+        }
         write!(out, r#","frames":["#)
     }
 
@@ -294,6 +352,33 @@ impl Form for Json {
         let separator = if self.has_frames { "," } else { "" };
         self.has_frames = true;
         writeln!(out, "{separator}")?;
+        Ok(serde_json::to_writer(out, &entry)?)
+    }
+
+    fn interval(&mut self, out: &mut dyn Write, _: &Check, interval: &Interval) -> io::Result<()> {
+        let was_looked_at = interval.changed.is_empty();
+        let is_listed = was_looked_at && !self.count_only;
+        let vertices = |&Impact { pair, low, high }: &Impact<4>| {
+            let [body_a, vertex, body_b, triangle] = pair;
+            (body_a, vertex, body_b, triangle, low, high)
+        };
+        let edges = |&Impact { pair, low, high }: &Impact<6>| {
+            let [body_a, a, b, body_b, c, d] = pair;
+            (body_a, a, b, body_b, c, d, low, high)
+        };
+        let entry = IntervalEntry {
+            frame: interval.frame,
+            until: interval.until,
+            changed: &interval.changed,
+            count: was_looked_at.then_some(interval.count),
+            complete: (!interval.complete).then_some(false),
+            at_start: was_looked_at.then_some(interval.at_start),
+            first: interval.first.as_ref().map(FirstEntry::of),
+            vertex_triangle: is_listed
+                .then(|| interval.vertex_triangle.iter().map(vertices).collect()),
+            edge_edge: is_listed.then(|| interval.edge_edge.iter().map(edges).collect()),
+        };
+        writeln!(out, ",")?;
         Ok(serde_json::to_writer(out, &entry)?)
     }
 

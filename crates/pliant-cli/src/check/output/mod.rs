@@ -11,7 +11,7 @@ use super::{Arguments, Format};
 use crate::Outcome;
 use crate::table::grouped;
 use anyhow::Context;
-use pliant_check::{Check, Found};
+use pliant_check::{Check, Found, Interval};
 use std::io::{self, BufWriter, Stdout, Write};
 
 /// What a failing write is the failure of.
@@ -31,6 +31,10 @@ trait Form {
     fn head(&mut self, out: &mut dyn Write, check: &Check) -> io::Result<()>;
     /// One frame.
     fn frame(&mut self, out: &mut dyn Write, check: &Check, found: &Found) -> io::Result<()>;
+    /// What meets on the way from the frame to the next; of forms that are refused where this is asked, nothing.
+    fn interval(&mut self, _: &mut dyn Write, _: &Check, _: &Interval) -> io::Result<()> {
+        Ok(())
+    }
     /// The end, of a check that was completed or of one that could not be.
     fn end(
         &mut self,
@@ -54,6 +58,10 @@ struct Tally {
     worst: Option<(usize, usize)>,
     /// Pairs with a triangle that has no area, counted or left out.
     degenerate: usize,
+    /// Intervals between frames that were looked at, and those in which something meets.
+    intervals: [usize; 2],
+    /// The frames of the first that was not, for a mesh changes in it, and how many were not.
+    skipped: Option<([usize; 2], usize)>,
 }
 
 impl Tally {
@@ -69,6 +77,36 @@ impl Tally {
         if found.complete && found.count > self.worst.map_or(0, |(_, most)| most) {
             self.worst = Some((found.frame, found.count));
         }
+    }
+
+    fn count_interval(&mut self, interval: &Interval) {
+        if interval.changed.is_empty() {
+            self.intervals[0] += 1;
+            self.intervals[1] += usize::from(interval.count > 0);
+        } else {
+            let (_, count) = self
+                .skipped
+                .get_or_insert(([interval.frame, interval.until], 0));
+            *count += 1;
+        }
+    }
+
+    /// One line for people about what meets between frames, if that was asked.
+    fn swept(&self) -> Option<String> {
+        let [looked_at, meeting] = self.intervals.map(|n| grouped(n as u64));
+        let not = match self.skipped {
+            None if self.intervals[0] == 0 => return None,
+            None => String::new(),
+            Some((_, count)) => {
+                format!(
+                    "; {} not looked at, for a mesh changes",
+                    grouped(count as u64)
+                )
+            }
+        };
+        Some(format!(
+            "on the way from a frame to the next something meets in {meeting} of {looked_at}{not}"
+        ))
     }
 
     /// One line for people.
@@ -121,6 +159,16 @@ impl Output {
         Ok(())
     }
 
+    /// Prints what meets on the way to the next frame.
+    pub(super) fn interval(&mut self, check: &Check, interval: &Interval) -> anyhow::Result<()> {
+        self.print(|form, out, _| {
+            form.interval(out, check, interval)?;
+            out.flush()
+        })?;
+        self.tally.count_interval(interval);
+        Ok(())
+    }
+
     /// Prints the end, of a check that was completed or of one that could not be.
     pub(super) fn end(
         mut self,
@@ -134,7 +182,14 @@ impl Output {
         });
         // If both went wrong, what stopped the check comes first.
         checked.and(printed)?;
-        Ok(if self.tally.intersecting > 0 {
+        let [_, meeting] = self.tally.intervals;
+        if let (Some(([frame, until], count)), Some(_)) = (self.tally.skipped, &self.form) {
+            let count = counted((count, "interval", "intervals"));
+            crate::complain(&format!(
+                "note: {count} between frames not looked at, for a mesh changes there: the first from frame {frame} to {until}"
+            ));
+        }
+        Ok(if self.tally.intersecting > 0 || meeting > 0 {
             Outcome::Intersects
         } else {
             Outcome::Clear
@@ -162,7 +217,7 @@ pub(super) fn annotate<T>(arguments: &Arguments, error: anyhow::Error) -> anyhow
 }
 
 /// Four digits that count: nobody types it elsewhere.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     let digits = format!("{x:.3e}");
     match digits.parse::<f64>() {
         Ok(rounded) if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) => {

@@ -2,9 +2,10 @@
 
 use super::files::Files;
 use super::{Form, Tally, counted, places, short};
+use crate::check::moments::elements;
 use crate::check::{Arguments, Names};
 use crate::table::grouped;
-use pliant_check::{Baseline, BodyFacts, Check, Found};
+use pliant_check::{Baseline, BodyFacts, Check, Found, Interval};
 use pliant_io::shown;
 use std::io::{self, Write};
 
@@ -14,6 +15,7 @@ const MOST_PIECES: usize = 20;
 /// So many places have a line.
 const MOST_PLACES: usize = 20;
 
+#[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 pub(super) struct Table {
     count_only: bool,
     itself: bool,
@@ -21,6 +23,7 @@ pub(super) struct Table {
     baseline: Option<Baseline>,
     skip_degenerate: bool,
     within: Option<f64>,
+    swept: bool,
     /// Known from the head on.
     files: Option<Files>,
 }
@@ -34,6 +37,7 @@ impl Table {
             baseline: arguments.baseline.clone(),
             skip_degenerate: arguments.skip_degenerate,
             within: arguments.within,
+            swept: arguments.swept,
             files: None,
         }
     }
@@ -67,7 +71,12 @@ impl Table {
         let within = self.within.map_or_else(String::new, |within| {
             format!(", triangles at most {within} apart")
         });
-        format!("{bodies}{within}{ignored}{left_out}")
+        let swept = if self.swept {
+            ", and what meets on the way from frame to frame"
+        } else {
+            ""
+        };
+        format!("{bodies}{within}{swept}{ignored}{left_out}")
     }
 }
 
@@ -162,6 +171,43 @@ impl Form for Table {
         writeln!(out)
     }
 
+    fn interval(&mut self, out: &mut dyn Write, _: &Check, interval: &Interval) -> io::Result<()> {
+        let to = format!("to {}", interval.until);
+        let files = self.files.as_ref();
+        let file = files.map_or_else(String::new, Files::blank);
+        write!(out, "{to:>8}{file} ")?;
+        if !interval.changed.is_empty() {
+            let bodies: Vec<_> = interval.changed.iter().map(u32::to_string).collect();
+            let (of, change) = match bodies.len() {
+                1 => ("mesh of body", "changes"),
+                _ => ("meshes of bodies", "change"),
+            };
+            let bodies = bodies.join(", ");
+            return writeln!(out, "{:>9}  not looked at: the {of} {bodies} {change}", "-");
+        }
+        write!(out, "{:>9}", grouped(interval.count as u64))?;
+        if let Some(first) = &interval.first {
+            let time = short(first.time());
+            write!(out, "  met on the way, the first at {time}")?;
+            if !self.count_only {
+                write!(
+                    out,
+                    ": {}",
+                    elements(first, |body| format!("body {body}")).join(", ")
+                )?;
+            }
+        }
+        match interval.at_start {
+            0 => writeln!(out),
+            met => {
+                let before = if interval.first.is_some() { ";" } else { " " };
+                let frame = interval.frame;
+                let met = grouped(met as u64);
+                writeln!(out, "{before} in contact in frame {frame} already: {met}")
+            }
+        }
+    }
+
     fn end(
         &mut self,
         out: &mut dyn Write,
@@ -175,6 +221,9 @@ impl Form for Table {
         match error {
             None => {
                 writeln!(out, "\n{}", tally.summary())?;
+                if let Some(swept) = tally.swept() {
+                    writeln!(out, "{swept}")?;
+                }
                 if tally.degenerate == 0 {
                     return Ok(());
                 }

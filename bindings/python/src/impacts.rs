@@ -78,7 +78,7 @@ fn class(py: Python<'_>, place: usize) -> PyResult<&Bound<'_, PyType>> {
 }
 
 /// An Impacts.
-fn columns(py: Python<'_>, impacts: Vec<Impact>) -> PyResult<Bound<'_, PyAny>> {
+fn columns<'py>(py: Python<'py>, impacts: &[Impact]) -> PyResult<Bound<'py, PyAny>> {
     let pairs: Vec<[u32; 4]> = impacts.iter().map(|impact| impact.row).collect();
     let low: Vec<f64> = impacts.iter().map(|impact| impact.low).collect();
     let high: Vec<f64> = impacts.iter().map(|impact| impact.high).collect();
@@ -144,7 +144,7 @@ impl ImpactQuery {
         at_most: Option<usize>,
     ) -> Result<Bound<'py, PyAny>, Refused> {
         let impacts = self.ask(py, crate::query::All(at_most.unwrap_or(usize::MAX)))?;
-        Ok(columns(py, impacts)?)
+        Ok(columns(py, &impacts)?)
     }
 
     /// The impact with the least exact time, an Impact; of several, the first in order. None if nothing meets. Much faster than all.
@@ -161,7 +161,7 @@ impl ImpactQuery {
             py,
             SomeAtATime(|impacts: Vec<Impact>| {
                 go_on(Python::attach(|py| {
-                    visit.bind(py).call1((columns(py, impacts)?,))?.is_truthy()
+                    visit.bind(py).call1((columns(py, &impacts)?,))?.is_truthy()
                 }))
             }),
         )?;

@@ -1,7 +1,7 @@
 //! A world that lives long, in memory that stays flat: see `pliant_bench::soak`.
 //!
 //! ```sh
-//! cargo run --release -p pliant-bench --example soak -- --steps 10000 --seconds 600
+//! cargo run --release -p pliant-bench --example soak -- --steps 10000 --seconds 2400
 //! ```
 //!
 //! Twice: with 32-bit and with 64-bit coordinates, each for half of the time at most. After every tenth of the steps there is

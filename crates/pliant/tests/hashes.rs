@@ -1,5 +1,5 @@
 //! One committed hash of the sorted pairs per scene, one of the candidates near each other and on the way, and of close pairs and distances
-//! with their figures, the same for every choice that must not change an answer.
+//! with their figures, and one of what meets on the way with the times at which it does, the same for every choice that must not change an answer.
 //!
 //! Whatever changes a pair, on purpose, in another configuration or on another machine, is noticed. A new choice (a number of
 //! threads, an instruction set) is one more line in `axes`.
@@ -53,6 +53,15 @@ const CLOSE: [(&str, (u64, usize, u64)); 5] = [
     ),
 ];
 
+/// Of the same scenes and steps, the hash over what meets on the way towards the next, when, and how far everything may go; and how much that is.
+const MEET: [(&str, u64, usize); 5] = [
+    ("spheres", 0, 0),
+    ("crowd", 0, 0),
+    ("arms", 0, 0),
+    ("gather", 0, 0),
+    ("cloth", 0, 0),
+];
+
 /// How far apart is close.
 const DISTANCE: f64 = 1.0 / 64.0;
 
@@ -62,6 +71,8 @@ const OTHERS: usize = 6;
 /// The margin round each element, and the part of the way to the next of the steps.
 const RADIUS: f64 = 1.0 / 128.0;
 const PART: f32 = 1.0 / 64.0;
+/// The part of the way on which things meet.
+const LONGER_PART: f32 = 1.0 / 16.0;
 
 /// One way to ask.
 #[derive(Clone, Default)]
@@ -250,9 +261,9 @@ fn world_of<S: Scalar>(
 }
 
 /// A part of the way from one step to another.
-fn toward(from: &Shapes, to: &Shapes) -> Shapes {
+fn toward(from: &Shapes, to: &Shapes, part: f32) -> Shapes {
     let point = |(from, to): (&[f32; 3], &[f32; 3])| {
-        std::array::from_fn(|axis| from[axis] + PART * (to[axis] - from[axis]))
+        std::array::from_fn(|axis| from[axis] + part * (to[axis] - from[axis]))
     };
     let body = |(from, to): (&Vec<_>, &Vec<_>)| from.iter().zip(to).map(point).collect();
     from.iter().zip(to).map(body).collect()
@@ -276,7 +287,7 @@ fn near_hash<S: Scalar>(
         let next = &steps[(step + 1) % steps.len()];
         for on_the_way in [false, true] {
             if on_the_way {
-                for (&body, end) in bodies.iter().zip(&toward(shapes, next)) {
+                for (&body, end) in bodies.iter().zip(&toward(shapes, next, PART)) {
                     world.set_motion(body, &widened(end, widen)).unwrap();
                 }
             }
@@ -315,7 +326,7 @@ fn close_hash<S: Scalar>(
                 .unwrap();
         }
         if step == 1 {
-            let end = toward(shapes, &steps[0]);
+            let end = toward(shapes, &steps[0], PART);
             world
                 .set_motion(bodies[0], &widened(&end[0], widen))
                 .unwrap();
@@ -358,6 +369,41 @@ fn close_hash<S: Scalar>(
         figures.add_figures(&[nearest.map_or(-1.0, |nearest| rounded(nearest.distance))]);
     }
     (pairs.0, count, figures.0)
+}
+
+/// What meets on the way from each step towards the next, with times to the last bit, and how far everything may go. `widen` is exact.
+fn meet_hash<S: Scalar>(
+    case: &Case,
+    scene: &Scene,
+    steps: &[Shapes],
+    widen: fn(f32) -> S,
+) -> (u64, usize) {
+    let (mut world, bodies) = world_of(case, scene, &steps[0], widen);
+    let (mut fnv, mut count) = (Fnv::default(), 0);
+    let everything = Selection::Everything;
+    for (step, shapes) in steps.iter().enumerate() {
+        let end = toward(shapes, &steps[(step + 1) % steps.len()], LONGER_PART);
+        for ((&body, positions), end) in bodies.iter().zip(shapes).zip(&end) {
+            world
+                .set_positions(body, &widened(positions, widen))
+                .unwrap();
+            world.set_motion(body, &widened(end, widen)).unwrap();
+        }
+        for impact in world.vertex_triangle_impacts(everything).all().unwrap() {
+            fnv.add(&<[u32; 4]>::from(impact.pair));
+            fnv.add_figures(&[impact.low, impact.high]);
+            count += 1;
+        }
+        for impact in world.edge_edge_impacts(everything).all().unwrap() {
+            fnv.add(&<[u32; 4]>::from(impact.pair));
+            fnv.add_figures(&[impact.low, impact.high]);
+            count += 1;
+        }
+        let first = world.first_impact(everything, 0.0).unwrap();
+        fnv.add_figures(&first.map_or([2.0; 2], |first| [first.low(), first.high()]));
+        fnv.add_figures(&[world.collision_free_step(everything, 0.0).unwrap()]);
+    }
+    (fnv.0, count)
 }
 
 /// The hash of all steps, and the number of pairs. `widen` is exact.
@@ -466,6 +512,18 @@ fn what_is_close_is_the_committed_with_all_figures_in_every_case() {
     assert_eq!(wrong, CLOSE.map(|_| Ok(())));
 }
 
+#[test]
+fn what_meets_is_the_committed_in_every_case() {
+    let wrong = MEET.map(|(name, hash_committed, count)| {
+        let narrow =
+            |case: &Case, scene: &Scene, steps: &[Shapes]| meet_hash(case, scene, steps, |x| x);
+        let wide =
+            |case: &Case, scene: &Scene, steps: &[Shapes]| meet_hash(case, scene, steps, f64::from);
+        are_the_committed_ones((name, (hash_committed, count)), narrow, wide)
+    });
+    assert_eq!(wrong, MEET.map(|_| Ok(())));
+}
+
 /// What no tree has touched; the scenes of many bodies take too long for it.
 #[test]
 fn the_committed_pairs_are_those_of_the_reference() {
@@ -508,7 +566,7 @@ fn the_committed_candidates_are_those_of_the_reference() {
         let steps: Vec<Shapes> = steps.iter().map(|&step| shapes(&scene, step)).collect();
         let (mut fnv, mut count) = (Fnv::default(), 0);
         for (step, shapes) in steps.iter().enumerate() {
-            let ends = toward(shapes, &steps[(step + 1) % steps.len()]);
+            let ends = toward(shapes, &steps[(step + 1) % steps.len()], PART);
             for (ends, radius) in [(None, RADIUS), (Some(&ends), 0.0)] {
                 let bodies: Vec<_> = (0..shapes.len())
                     .map(|body| reference::Moving {

@@ -15,7 +15,7 @@ share a vertex are left out. Surfaces only: a body wholly inside another meets n
 
 from . import reference
 from ._pliant import Check, CloseQuery, Query, Selection, World, __version__, check, intersection_pairs, self_intersection_pairs
-from ._types import Body, BodyThere, ClosePair, ClosePairs, EdgeEdge, Error, Frame, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._types import Body, BodyThere, ClosePair, ClosePairs, EdgeEdge, Error, FirstImpact, Frame, Interval, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Body",
@@ -26,7 +26,9 @@ __all__ = [
     "CloseQuery",
     "EdgeEdge",
     "Error",
+    "FirstImpact",
     "Frame",
+    "Interval",
     "Life",
     "Mesh",
     "OpenMesh",

@@ -36,7 +36,7 @@ export class PlaceList {
       const [title, size] = moment ? [`After ${+moment.time.toPrecision(4)}`, counted(count, 'contact')] : [`Place ${number}`, counted(count, 'pair')];
       return element('li', {}, element('button', {
         type: 'button', 'aria-pressed': String(number === focus), 'data-number': number, onclick: () => this.chosen(number),
-      }, element('b', {}, title), element('span', {}, size), element('small', { title: label }, element('bdi', {}, short(label))), element('small', {}, lives)));
+      }, element('b', {}, title), element('span', {}, size), element('small', { title: label }, element('bdi', {}, moment ? label : short(label))), element('small', {}, lives)));
     }));
     if (placeCount > places.length) this.list.append(element('li', { className: 'hint' }, `and ${grouped(placeCount - places.length)} more`));
     if (had !== null) this.list.querySelector(`[data-number="${+had}"]`)?.focus();

@@ -1,13 +1,14 @@
 //! Files, frame by frame: what `pliant check --format json` says, as an iterator of frames. The loop is the program's.
 
 use crate::arrays;
-use crate::error::{Fact, Refused, after_checking, alone_with, caught, named_tuple};
+use crate::error::{Fact, Refused, after_checking, alone, alone_with, caught, named_tuple};
 use crate::options::with_threads;
 use crate::signals::interruptible;
 use crate::usd::{self, Raised};
 use numpy::{IntoPyArray, PyArray1};
 use pliant_check::{
-    Baseline, BodyFacts, Error, Found, Frames, Group, Life, Place, Settings, Split,
+    Baseline, BodyFacts, Error, FirstImpact, Found, Frames, Group, Interval, Life, Place, Settings,
+    Split,
 };
 use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
@@ -24,6 +25,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct Check {
     running: Mutex<pliant_check::Check>,
+    /// A frame that was checked and not handed out, for what meets on the way from there was interrupted.
+    waiting: Mutex<Option<Checked>>,
     /// One for each path, or for each piece or group that it is split into.
     #[pyo3(get)]
     bodies: Py<PyTuple>,
@@ -47,6 +50,9 @@ struct Changed {
     faces: Option<Vec<u32>>,
     welded: usize,
 }
+
+/// A frame, and the bodies that have another mesh in it.
+type Checked = (Found, Vec<(u32, Changed)>);
 
 impl Changed {
     fn of(check: &pliant_check::Check, number: u32) -> Option<Self> {
@@ -97,7 +103,9 @@ impl Name {
 /// seen, or those at or below a prim ("walk.usdc#/scene/shirt"). Returns an iterator of frames, each read and checked when it is asked for.
 ///
 ///   itself    check each body against itself too; one body alone always is
-///   first     stop at the first pair of each frame
+///   swept     besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line:
+///             Frame.interval; not with baseline. A frame is then handed out when the next has been read
+///   first     stop at the first pair of each frame; of what meets on the way to the next, the first
 ///   weld      weld vertices where boundary edges coincide in frame 0; else seams are intersections
 ///   split     "components": each connected piece of a file is a body, "cloth.ply#1", "cloth.ply#2", ... in the order of their
 ///             lowest triangle; "groups": each group of an OBJ file, by o and g, is one, "scan.obj#arm", and what has none one body;
@@ -116,7 +124,7 @@ impl Name {
 ///   fps       frames a second at which animations of glTF files are evaluated
 ///   threads   how many share the work of a frame; no number changes an answer
 #[pyfunction]
-#[pyo3(signature = (*paths, itself=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0, threads=1))]
+#[pyo3(signature = (*paths, itself=false, swept=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0, threads=1))]
 #[expect(
     clippy::too_many_arguments,
     clippy::fn_params_excessive_bools,
@@ -126,6 +134,7 @@ pub(crate) fn check(
     py: Python<'_>,
     paths: Vec<PathBuf>,
     itself: bool,
+    swept: bool,
     first: bool,
     weld: bool,
     weld_tolerance: f64,
@@ -149,6 +158,7 @@ pub(crate) fn check(
     let two = |(a, b): (Name, Name)| Ok::<_, Refused>([a.into_text()?, b.into_text()?]);
     let settings = Settings {
         itself,
+        swept,
         first,
         split: split.map(split_named).transpose()?,
         groups: (groups.into_iter().flatten().map(group)).collect::<Result<_, _>>()?,
@@ -208,6 +218,7 @@ pub(crate) fn check(
         frame_count: running.frame_count(),
         is_warned: AtomicBool::new(false),
         running: Mutex::new(running),
+        waiting: Mutex::new(None),
         raised,
     })
 }
@@ -220,20 +231,31 @@ impl Check {
 
     fn __next__<'py>(&self, py: Python<'py>) -> Result<Option<Bound<'py, PyAny>>, Refused> {
         let next = |running: &mut pliant_check::Check| {
-            let found = interruptible(|question| running.next_frame_unless(Some(question)))?;
-            Ok(found.map(|found| {
-                let changed = found.changed.iter();
-                let meshes = changed.filter_map(|&body| Some((body, Changed::of(running, body)?)));
-                let meshes: Vec<_> = meshes.collect();
-                (found, meshes)
-            }))
+            let mut waiting = alone(&self.waiting)?;
+            if waiting.is_none() {
+                let found = interruptible(|question| running.next_frame_unless(Some(question)))?;
+                *waiting = found.map(|found| {
+                    let changed = found.changed.iter();
+                    let meshes =
+                        changed.filter_map(|&body| Some((body, Changed::of(running, body)?)));
+                    let meshes: Vec<_> = meshes.collect();
+                    (found, meshes)
+                });
+            }
+            let ask =
+                |question: &(dyn Fn() -> bool + Sync)| running.next_interval_unless(Some(question));
+            let interval = match &*waiting {
+                None => None,
+                Some(_) => interruptible(ask)?,
+            };
+            Ok(waiting.take().map(|checked| (checked, interval)))
         };
         let found = alone_with(py, &self.running, next);
         let Some(found) = self.raised.rather(found)? else {
             self.warn_of_seams(py)?;
             return Ok(None);
         };
-        let (found, meshes) = found;
+        let ((found, meshes), interval) = found;
         let changed = PyDict::new(py);
         for (
             number,
@@ -270,6 +292,8 @@ impl Check {
         fields.set_item("changed", changed)?;
         fields.set_item("pairs", arrays::rows_of(py, pairs)?)?;
         fields.set_item("places", places.transpose()?)?;
+        let interval = interval.map(|interval| way(py, interval));
+        fields.set_item("interval", interval.transpose()?)?;
         Ok(Some(named_tuple(py, "Frame", &fields)?))
     }
 
@@ -389,6 +413,49 @@ fn fact<'py>(
     fields.set_item("source", body.source)?;
     fields.set_item("first_triangle", body.first_triangle)?;
     named_tuple(py, "Body", &fields)
+}
+
+/// What meets on the way from a frame to the next.
+fn way(py: Python<'_>, interval: Interval) -> PyResult<Bound<'_, PyAny>> {
+    let Interval {
+        frame,
+        until,
+        changed,
+        count,
+        at_start,
+        first,
+        vertex_triangle,
+        edge_edge,
+        complete,
+    } = interval;
+    let first = first.map(|first| {
+        let (kind, pair) = match &first {
+            FirstImpact::VertexTriangle(impact) => ("vertex_triangle", &impact.pair[..]),
+            FirstImpact::EdgeEdge(impact) => ("edge_edge", &impact.pair[..]),
+        };
+        let fields = PyDict::new(py);
+        fields.set_item("time", first.time())?;
+        fields.set_item("kind", kind)?;
+        fields.set_item("pair", PyTuple::new(py, pair)?)?;
+        named_tuple(py, "FirstImpact", &fields)
+    });
+    let of_vertices: Vec<_> = vertex_triangle.iter().map(|it| [it.low, it.high]).collect();
+    let of_edges: Vec<_> = edge_edge.iter().map(|it| [it.low, it.high]).collect();
+    let vertices: Vec<[u32; 4]> = vertex_triangle.into_iter().map(|it| it.pair).collect();
+    let edges: Vec<[u32; 6]> = edge_edge.into_iter().map(|it| it.pair).collect();
+    let fields = PyDict::new(py);
+    fields.set_item("frame", frame)?;
+    fields.set_item("until", until)?;
+    fields.set_item("changed", PyTuple::new(py, changed)?)?;
+    fields.set_item("count", count)?;
+    fields.set_item("at_start", at_start)?;
+    fields.set_item("first", first.transpose()?)?;
+    fields.set_item("vertex_triangle", arrays::rows_of(py, vertices)?)?;
+    fields.set_item("vertex_triangle_times", arrays::rows_of(py, of_vertices)?)?;
+    fields.set_item("edge_edge", arrays::rows_of(py, edges)?)?;
+    fields.set_item("edge_edge_times", arrays::rows_of(py, of_edges)?)?;
+    fields.set_item("complete", complete)?;
+    named_tuple(py, "Interval", &fields)
 }
 
 /// A place of a frame.

@@ -161,9 +161,12 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         Error::NamedTwice { .. } => Some("name it once"),
         Error::NoClip => Some("leave out clip="),
         Error::EmptyGroup { .. } => Some("give each group a list of its bodies"),
-        Error::TooManyPairs { .. } | Error::Endless { .. } => {
-            Some("ask for one pair of each frame with first=True")
-        }
+        Error::SweptOneFrame => Some("name a sequence of frames, or leave out swept="),
+        Error::SweptBaseline => Some("leave out baseline= or swept=, and check twice"),
+        Error::TooManyPairs { .. }
+        | Error::Endless { .. }
+        | Error::TooManyImpacts { .. }
+        | Error::EndlessImpacts { .. } => Some("ask for one pair of each frame with first=True"),
         Error::OnePoint { .. } => Some("export the mesh without them"),
         _ => None,
     }

@@ -469,3 +469,65 @@ def test_a_mesh_may_change_from_file_to_file(tmp_path: Path) -> None:
     assert (changed.name, changed.vertices, changed.triangles, changed.faces) == (pattern, 7, 2, None)
     with pytest.raises(pliant.Error, match="frame 1: has another mesh than before.*split="):
         list(pliant.check(pattern, split="components"))
+
+
+@pytest.fixture
+def jumping(tmp_path: Path) -> tuple[Path, Path]:
+    """A triangle that is above a floor, below it, and touches it with a corner."""
+    corners = np.array([[0, 0, 0], [1, 0, 5], [0, 1, 5]], np.float64)
+    heights = np.array([3, -7, 0, 0])
+    frames = corners + heights[:, None, None] * np.array([0, 0, 1])
+    np.savez(tmp_path / "leaf.npz", vertices=frames, faces=[[0, 1, 2]])
+    obj(tmp_path / "floor.obj", np.array([[-9.0, -9, 0], [9, -9, 0], [0, 9, 0]]), np.array([[0, 1, 2]]))
+    return tmp_path / "leaf.npz", tmp_path / "floor.obj"
+
+
+def test_what_meets_on_the_way(jumping: tuple[Path, Path]) -> None:
+    frames = list(pliant.check(*jumping, swept=True))
+    assert [frame.count for frame in frames] == [0, 0, 1, 1]
+    intervals = [frame.interval for frame in frames]
+    assert intervals[3] is None
+    facts = [(way.frame, way.until, way.count, way.at_start, way.changed, way.complete) for way in intervals if way]
+    assert facts == [(0, 1, 3, 0, (), True), (1, 2, 3, 0, (), True), (2, 3, 0, 1, (), True)]
+    way = intervals[0]
+    assert way is not None and way.first is not None
+    low, high = way.vertex_triangle_times[0]
+    assert low < 0.3 < high <= low + 1e-6
+    assert (way.first.time, way.first.kind, way.first.pair) == (high, "vertex_triangle", (0, 0, 1, 0))
+    assert way.vertex_triangle.tolist() == [[0, vertex, 1, 0] for vertex in range(3)]
+    assert way.vertex_triangle.dtype == np.uint32 and way.vertex_triangle_times.dtype == np.float64
+    assert (way.edge_edge.shape, way.edge_edge_times.shape) == ((0, 6), (0, 2))
+
+    for frame, full in zip(pliant.check(*jumping, swept=True, first=True), intervals):
+        if full:
+            assert frame.interval is not None
+            assert (frame.interval.count, frame.interval.complete) == (min(1, full.count), False)
+            assert frame.interval.first == full.first
+    assert [frame.interval for frame in pliant.check(*jumping)] == [None] * 4
+
+
+def test_what_has_no_way_is_refused(jumping: tuple[Path, Path]) -> None:
+    refused: list[tuple[tuple[Path, ...], dict[str, object], str]] = [
+        (jumping[1:], {}, "one frame alone is checked: .*; name a sequence of frames, or leave out swept=$"),
+        (jumping, {"frames": range(1, 2)}, "one frame alone is checked"),
+        (jumping, {"baseline": 0}, "a baseline has pairs of triangles, .*; leave out baseline= or swept=, and check twice$"),
+    ]
+    for paths, more, message in refused:
+        with pytest.raises(pliant.Error, match=message):
+            pliant.check(*paths, swept=True, **more)  # type: ignore[arg-type]
+
+
+def test_the_program_says_the_same_of_the_way(jumping: tuple[Path, Path]) -> None:
+    """Where PLIANT names the program."""
+    program = os.environ.get("PLIANT")
+    if program is None:
+        pytest.skip("the environment variable PLIANT names no program `pliant` to compare with")
+    said = subprocess.run([program, "check", *jumping, "--swept", "--format", "json"], capture_output=True, check=False)
+    written = [frame for frame in json.loads(said.stdout)["frames"] if "until" in frame]
+    for frame, way in zip(pliant.check(*jumping, swept=True), written):
+        assert frame.interval is not None
+        rows = [[*pair, *times] for pair, times in zip(frame.interval.vertex_triangle.tolist(), frame.interval.vertex_triangle_times.tolist())]
+        assert rows == way["vertex_triangle"]
+        first = frame.interval.first
+        expected = None if first is None else {"time": first.time, "kind": first.kind, "pair": list(first.pair)}
+        assert (expected, frame.interval.count, frame.interval.at_start) == (way["first"], way["count"], way["at_start"])

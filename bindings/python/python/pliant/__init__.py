@@ -28,7 +28,7 @@ from ._pliant import (
     self_intersection_pairs,
     vertex_triangle_impacts,
 )
-from ._types import Body, BodyThere, ClosePair, ClosePairs, EdgeEdge, Error, Frame, Impact, Impacts, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._types import Body, BodyThere, ClosePair, ClosePairs, EdgeEdge, Error, FirstImpact, Frame, Impact, Impacts, Interval, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Body",
@@ -39,10 +39,12 @@ __all__ = [
     "CloseQuery",
     "EdgeEdge",
     "Error",
+    "FirstImpact",
     "Frame",
     "Impact",
     "ImpactQuery",
     "Impacts",
+    "Interval",
     "Life",
     "Mesh",
     "OpenMesh",

@@ -166,6 +166,7 @@ class Check:
 def check(
     *paths: str | PathLike[str],
     itself: bool = False,
+    swept: bool = False,
     first: bool = False,
     weld: bool = True,
     weld_tolerance: float = 0.0,

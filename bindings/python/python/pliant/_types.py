@@ -245,6 +245,46 @@ class Life:
     """What it is there."""
 
 
+@dataclass(frozen=True)
+class FirstImpact:
+    """What meets first on the way from a frame to the next."""
+
+    time: float
+    """When they have met, from 0, in the frame, to 1, in the next; at most a millionth late."""
+    kind: str
+    """"vertex_triangle" or "edge_edge"."""
+    pair: tuple[int, ...]
+    """Which they are, as a row of Interval.vertex_triangle or Interval.edge_edge."""
+
+
+@dataclass(frozen=True, eq=False)
+class Interval:
+    """What meets on the way from a frame to the next that is checked: what is apart in the frame and meets before the next, or in it."""
+
+    frame: int
+    """The frame."""
+    until: int
+    """The next that is checked."""
+    changed: tuple[int, ...]
+    """The bodies that have another mesh there; where there are any nothing was looked for."""
+    count: int
+    """How many pairs of elements; at most one if only the first was asked for."""
+    at_start: int
+    """How many others meet in the frame already."""
+    first: FirstImpact | None
+    """The one of them that meets first."""
+    vertex_triangle: NDArray[np.uint32]
+    """(k, 4): body, vertex, body, triangle, sorted; vertices are those of the file."""
+    vertex_triangle_times: NDArray[np.float64]
+    """(k, 2): each is apart up to the first time and has met at the second, at most a millionth later."""
+    edge_edge: NDArray[np.uint32]
+    """(k, 6): body and two vertices, twice, the smaller first in an edge and of the two; sorted."""
+    edge_edge_times: NDArray[np.float64]
+    """(k, 2)."""
+    complete: bool
+    """Whether these are all; not if only the first was asked for."""
+
+
 @dataclass(frozen=True, eq=False)
 class Frame:
     """A frame that was checked."""
@@ -267,6 +307,8 @@ class Frame:
     number triangles as in the mesh of their frame."""
     places: tuple[Place, ...] | None
     """What the pairs join into, most pairs first; None where places were not asked for, and with first."""
+    interval: Interval | None = None
+    """What meets on the way to the next frame; None of the last, and where that was not asked."""
 
 
 class Mesh(Protocol):
@@ -287,5 +329,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

@@ -4,21 +4,25 @@ use pliant_check::{Check, FirstImpact, Interval};
 use pliant_io::shown;
 use pliant_report::Moment;
 
-/// The two elements, in words; `name` says what a body is called.
+/// The two elements, in words; `name` says what a body is called, nothing where nobody needs to be told.
 pub(super) fn elements(first: &FirstImpact, name: impl Fn(u32) -> String) -> [String; 2] {
+    let of = |element: String, body: u32| match name(body) {
+        name if name.is_empty() => element,
+        name => format!("{element} of {name}"),
+    };
     match first {
         FirstImpact::VertexTriangle(impact) => {
             let [body_a, vertex, body_b, triangle] = impact.pair;
             [
-                format!("vertex {vertex} of {}", name(body_a)),
-                format!("triangle {triangle} of {}", name(body_b)),
+                of(format!("vertex {vertex}"), body_a),
+                of(format!("triangle {triangle}"), body_b),
             ]
         }
         FirstImpact::EdgeEdge(impact) => {
             let [body_a, a, b, body_b, c, d] = impact.pair;
             [
-                format!("edge {a} to {b} of {}", name(body_a)),
-                format!("edge {c} to {d} of {}", name(body_b)),
+                of(format!("edge {a} to {b}"), body_a),
+                of(format!("edge {c} to {d}"), body_b),
             ]
         }
     }

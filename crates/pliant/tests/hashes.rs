@@ -55,11 +55,11 @@ const CLOSE: [(&str, (u64, usize, u64)); 5] = [
 
 /// Of the same scenes and steps, the hash over what meets on the way towards the next, when, and how far everything may go; and how much that is.
 const MEET: [(&str, u64, usize); 5] = [
-    ("spheres", 0, 0),
-    ("crowd", 0, 0),
-    ("arms", 0, 0),
-    ("gather", 0, 0),
-    ("cloth", 0, 0),
+    ("spheres", 0x3e8d_9f30_a3f9_238c, 229),
+    ("crowd", 0x2699_b706_3327_26f1, 54),
+    ("arms", 0xdec8_b3e9_1017_2297, 83),
+    ("gather", 0xcd59_bed8_3da8_83c7, 3093),
+    ("cloth", 0x316e_7e60_cb8e_6042, 167),
 ];
 
 /// How far apart is close.

@@ -268,7 +268,7 @@ fn mesh(random: &mut Lcg) -> (Vec<[u32; 3]>, usize) {
 fn live<S: Scalar>(options: Options, seed: u32, from_f64: fn(f64) -> S) {
     let mut random = Lcg(u64::from(seed));
     let mut world = World::<S>::with_options(options);
-    let is_lattice = seed % 3 == 0;
+    let is_lattice = seed.is_multiple_of(3);
     let far = [0.0, 1000.0][seed as usize / 3 % 2];
     let coordinate = |random: &mut Lcg, size: f64| {
         let x = if is_lattice {

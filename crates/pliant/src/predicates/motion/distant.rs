@@ -199,9 +199,8 @@ mod tests {
                 ..moving
             };
             assert_eq!(distant_until(&other, distance), known);
-            let ticks = (known * 1024.0).floor() as u32;
-            for tick in 0..=ticks {
-                let t = f64::from(tick) / 1024.0;
+            let ticks = (0..=1024).map(|tick| f64::from(tick) / 1024.0);
+            for t in ticks.take_while(|&t| t <= known) {
                 if known > 0.0 {
                     assert!(
                         !are_within_distance(&at(&moving, t), distance),

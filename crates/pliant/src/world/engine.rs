@@ -9,7 +9,7 @@ use super::body::{self, Body};
 use super::body_pairs::BodyPairs;
 use super::close::AskedClose;
 use super::distance::{self, Distances};
-use super::impacts::OfKind;
+use super::impacts::{AskedImpacts, OfKind};
 use super::origin::FloatingOrigin;
 use super::query::{Ask, Request};
 use super::witness::{self, Witnesses};
@@ -125,8 +125,7 @@ pub(super) struct Engine<const N: usize, S: Coordinate> {
     close_vertex_triangle: AskedClose<Close<VertexTriangleCandidates<S>>>,
     close_edge_edge: AskedClose<Close<EdgeEdgeCandidates<S>>>,
     close_triangles: AskedClose<NearTriangles<S>>,
-    pub(super) vertex_triangle_impacts: Asked<Impacts<VertexTriangleCandidates<S>>>,
-    pub(super) edge_edge_impacts: Asked<Impacts<EdgeEdgeCandidates<S>>>,
+    impacts: AskedImpacts<S>,
     witnesses: Witnesses,
     distances: Distances,
     /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
@@ -171,8 +170,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             close_vertex_triangle: AskedClose::default(),
             close_edge_edge: AskedClose::default(),
             close_triangles: AskedClose::default(),
-            vertex_triangle_impacts: Asked::default(),
-            edge_edge_impacts: Asked::default(),
+            impacts: AskedImpacts::default(),
             witnesses: Witnesses::default(),
             distances: Distances::default(),
             lent: Vec::new(),
@@ -536,7 +534,9 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             ..Request::new(of)
         };
         let grid = request.grid()?;
-        let first = self.first_contact(&request, OfKind::Both)?;
+        let first = self
+            .impacts
+            .first_contact(&mut self.common, &request, OfKind::Both)?;
         Ok(first.map(|(impact, contact)| impact.with_cell(contact.cell(grid))))
     }
 
@@ -551,7 +551,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             question,
             ..Request::new(of)
         };
-        self.free_step(&request)
+        self.impacts.free_step(&mut self.common, &request)
     }
 
     fn statistics(&self) -> &Statistics {
@@ -571,8 +571,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             + self.close_vertex_triangle.held()
             + self.close_edge_edge.held()
             + self.close_triangles.held()
-            + self.vertex_triangle_impacts.held()
-            + self.edge_edge_impacts.held()
+            + self.impacts.held()
             + self.witnesses.held()
             + self.distances.held()
             + held::list(&self.lent)
@@ -704,25 +703,30 @@ macro_rules! ask_impacts {
             fn all(&mut self, request: &Request) -> Result<&[$hit], Error> {
                 let kind = Self::all_of(request, $candidates::within)?;
                 let numbers = |impact: &$hit| impact.pair.numbers();
-                self.$asked
+                self.impacts
+                    .$asked
                     .all_by(&kind, &mut self.common, request, numbers)
             }
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
                 let grid = request.grid()?;
-                let first = self.first_contact(request, $of)?;
+                let first = self.impacts.first_contact(&mut self.common, request, $of)?;
                 let first = first.map(|(impact, contact)| impact.with_cell(contact.cell(grid)));
                 Ok(first.and_then($hit::of))
             }
 
             fn visit(&mut self, request: &Request, sink: Sink<$hit>) -> Result<(), Error> {
                 let kind = Self::all_of(request, $candidates::within)?;
-                self.$asked.visit(&kind, &mut self.common, request, sink)
+                self.impacts
+                    .$asked
+                    .visit(&kind, &mut self.common, request, sink)
             }
 
             fn prepare(&mut self, request: &Request) -> Result<(), Error> {
                 let kind = Self::all_of(request, $candidates::within)?;
-                self.$asked.prepare(&kind, &mut self.common, request)
+                self.impacts
+                    .$asked
+                    .prepare(&kind, &mut self.common, request)
             }
         }
     };
@@ -730,16 +734,11 @@ macro_rules! ask_impacts {
 
 ask_impacts!(
     VertexTriangleImpact,
-    vertex_triangle_impacts,
+    vertex_triangle,
     VertexTriangleCandidates,
     OfKind::VerticesAndTriangles
 );
-ask_impacts!(
-    EdgeEdgeImpact,
-    edge_edge_impacts,
-    EdgeEdgeCandidates,
-    OfKind::Edges
-);
+ask_impacts!(EdgeEdgeImpact, edge_edge, EdgeEdgeCandidates, OfKind::Edges);
 
 impl<const N: usize, S: Coordinate> Engine<N, S> {
     /// All impacts of a kind of candidates.

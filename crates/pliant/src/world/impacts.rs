@@ -12,10 +12,10 @@ use super::asked::{Asked, Common};
 use super::bodies::Bodies;
 use super::body::Body;
 use super::close::InBodies;
-use super::engine::Engine;
 use super::query::Request;
 use crate::error::Error;
 use crate::geometry::Real;
+use crate::held::Held;
 use crate::hits::Hit;
 use crate::impacts::Impact;
 use crate::kernels::Coordinate;
@@ -87,33 +87,51 @@ pub(super) enum OfKind {
     Edges,
 }
 
-impl<const N: usize, S: Coordinate> Engine<N, S> {
+/// What a world keeps for impacts of either kind.
+#[derive(Debug)]
+pub(super) struct AskedImpacts<S: Coordinate> {
+    pub(super) vertex_triangle: Asked<Impacts<VertexTriangleCandidates<S>>>,
+    pub(super) edge_edge: Asked<Impacts<EdgeEdgeCandidates<S>>>,
+}
+
+impl<S: Coordinate> Default for AskedImpacts<S> {
+    fn default() -> Self {
+        Self {
+            vertex_triangle: Asked::default(),
+            edge_edge: Asked::default(),
+        }
+    }
+}
+
+impl<S: Coordinate> AskedImpacts<S> {
     /// The first contact of a motion: which elements it is of, and when. Of several at one time that of a vertex and a triangle; the first in order.
-    pub(super) fn first_contact(
+    pub(super) fn first_contact<const N: usize>(
         &mut self,
+        common: &mut Common<N, S>,
         request: &Request,
         of: OfKind,
     ) -> Result<Option<(Impact, Contact)>, Error> {
-        let earliest = self.earliest(request, of, false, 0.0)?;
-        self.first_of(earliest, request)
+        let earliest = self.earliest(common, request, of, false, 0.0)?;
+        first_of(common, earliest, request)
     }
 
     /// The earliest contacts, of both kinds or one, after the start or at any time; or the first times at which elements come as near as a distance.
-    fn earliest(
+    fn earliest<const N: usize>(
         &mut self,
+        common: &mut Common<N, S>,
         request: &Request,
         of: OfKind,
         after_start: bool,
         distance: f64,
     ) -> Result<Earliest, Error> {
-        self.common.bodies.validate(request.of)?;
+        common.bodies.validate(request.of)?;
         let mut earliest = Earliest {
             cell: [f64::INFINITY; 2],
             impacts: Vec::new(),
             after_start,
         };
         let mut statistics = Statistics::default();
-        let mut until = self.first_part(request.of);
+        let mut until = first_part(common, request.of);
         loop {
             let reach = if until < 1.0 {
                 Reach::Until(until)
@@ -121,136 +139,146 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
                 Reach::End
             };
             if of != OfKind::Edges {
-                let kind = self.impacts_until(VertexTriangleCandidates::within, reach, distance);
-                let asked = &mut self.vertex_triangle_impacts;
-                search(asked, &kind, &mut self.common, request, &mut earliest)?;
-                statistics += self.common.statistics;
+                let kind = impacts_until(common, VertexTriangleCandidates::within, reach, distance);
+                let asked = &mut self.vertex_triangle;
+                search(asked, &kind, common, request, &mut earliest)?;
+                statistics += common.statistics;
             }
             if of != OfKind::VerticesAndTriangles {
-                let kind = self.impacts_until(EdgeEdgeCandidates::within, reach, distance);
-                let asked = &mut self.edge_edge_impacts;
-                search(asked, &kind, &mut self.common, request, &mut earliest)?;
-                statistics += self.common.statistics;
+                let kind = impacts_until(common, EdgeEdgeCandidates::within, reach, distance);
+                let asked = &mut self.edge_edge;
+                search(asked, &kind, common, request, &mut earliest)?;
+                statistics += common.statistics;
             }
             if !earliest.impacts.is_empty() || until >= 1.0 {
                 break;
             }
             until = (until * LONGER).min(1.0);
         }
-        self.common.statistics = statistics;
+        common.statistics = statistics;
         Ok(earliest)
     }
 
-    /// Which part of the motion is looked at first: one in which most vertices move less than an edge.
-    fn first_part(&self, of: Selection) -> f64 {
-        let is_of_it = |body: &&Body<N, S>| match of {
-            Selection::World | Selection::Everything => true,
-            Selection::Between(a, b) => body.id == a || body.id == b,
-            Selection::Within(a) => body.id == a,
-        };
-        let bodies = self.common.bodies.list.iter().filter(is_of_it);
-        let edges = bodies.fold(0.0, |most: f64, body| most.max(body.motion_in_edges()));
-        let mut part: f64 = 1.0;
-        while part > SHORTEST && part * edges > 1.0 {
-            part /= LONGER;
-        }
-        part
-    }
-
-    /// Contacts up to a time, or what comes as near as a distance. Boxes are grown by what rounding takes away from the shape at the time.
-    fn impacts_until<K>(
-        &self,
-        within: impl Fn(Margin) -> K,
-        reach: Reach,
-        distance: f64,
-    ) -> Impacts<K> {
-        let rounded = match reach {
-            Reach::Until(_) => {
-                let bodies = self.common.bodies.list.iter();
-                let most = bodies.fold(0.0, |most: f64, body| most.max(body.largest_coordinate()));
-                most * S::STEP + S::LEAST
-            }
-            Reach::End | Reach::To(_) => 0.0,
-        };
-        // Half the distance for each of two, and a little more than the lanes look for.
-        let margin = Margin::new((rounded + distance * (LIMIT / 2.0 + 0.001)).min(f64::MAX));
-        Impacts::of(within(margin), Grid::new(SEARCHED), reach).or_near(distance)
-    }
-
     /// A time up to which everything may go: see [`World::collision_free_step`](crate::World::collision_free_step).
-    pub(super) fn free_step(&mut self, request: &Request) -> Result<f64, Error> {
+    pub(super) fn free_step<const N: usize>(
+        &mut self,
+        common: &mut Common<N, S>,
+        request: &Request,
+    ) -> Result<f64, Error> {
         let distance = request.distance()?;
-        let earliest = self.earliest(request, OfKind::Both, distance == 0.0, distance)?;
-        let mut statistics = self.common.statistics;
+        let earliest = self.earliest(common, request, OfKind::Both, distance == 0.0, distance)?;
+        let mut statistics = common.statistics;
         let latest = if earliest.impacts.is_empty() {
             return Ok(1.0);
         } else if distance > 0.0 {
             earliest.cell[0]
         } else {
-            let first = self.first_of(earliest, request)?;
+            let first = first_of(common, earliest, request)?;
             first.map_or(0.0, |(_, contact)| contact.cell(Grid::new(0.0))[0])
         };
         let mut step = 0.0;
         for part in PARTS {
             step = latest * part;
-            let is_free = self.is_free_to(step, distance, request)?;
-            statistics += self.common.statistics;
+            let is_free = self.is_free_to(common, step, distance, request)?;
+            statistics += common.statistics;
             if is_free {
                 break;
             }
         }
-        self.common.statistics = statistics;
+        common.statistics = statistics;
         Ok(step)
     }
 
     /// Whether nothing meets on straight ways to the shapes at a time, rounded, but what meets at the start, or comes as near as a distance.
-    fn is_free_to(&mut self, time: f64, distance: f64, request: &Request) -> Result<bool, Error> {
-        self.common.statistics = Statistics::default();
+    fn is_free_to<const N: usize>(
+        &mut self,
+        common: &mut Common<N, S>,
+        time: f64,
+        distance: f64,
+        request: &Request,
+    ) -> Result<bool, Error> {
+        common.statistics = Statistics::default();
         if time == 0.0 {
             return Ok(true);
         }
         let reach = Reach::To(time);
-        let kind = self.impacts_until(VertexTriangleCandidates::within, reach, distance);
-        let asked = &mut self.vertex_triangle_impacts;
-        if !is_free(asked, &kind, &mut self.common, request, distance > 0.0)? {
+        let kind = impacts_until(common, VertexTriangleCandidates::within, reach, distance);
+        let asked = &mut self.vertex_triangle;
+        if !is_free(asked, &kind, common, request, distance > 0.0)? {
             return Ok(false);
         }
-        let statistics = self.common.statistics;
-        let kind = self.impacts_until(EdgeEdgeCandidates::within, reach, distance);
-        let asked = &mut self.edge_edge_impacts;
-        let is_free = is_free(asked, &kind, &mut self.common, request, distance > 0.0)?;
-        self.common.statistics += statistics;
+        let statistics = common.statistics;
+        let kind = impacts_until(common, EdgeEdgeCandidates::within, reach, distance);
+        let asked = &mut self.edge_edge;
+        let is_free = is_free(asked, &kind, common, request, distance > 0.0)?;
+        common.statistics += statistics;
         Ok(is_free)
     }
+}
 
-    /// Of contacts in one cell the exactly earliest, and when that is; of several, the first in order. It looks at every one.
-    fn first_of(
-        &mut self,
-        earliest: Earliest,
-        request: &Request,
-    ) -> Result<Option<(Impact, Contact)>, Error> {
-        let interrupt = Interrupt::new(request.question);
-        let mut impacts = earliest.impacts;
-        impacts.sort_unstable_by_key(numbers);
-        let mut first: Option<(Impact, Contact)> = None;
-        for impact in impacts {
-            if interrupt.is_set() {
-                break;
-            }
-            let moving = moving(&self.common.bodies, &impact);
-            let Some(contact) = moving.and_then(|moving| first_contact(&moving)) else {
-                continue;
-            };
-            let is_earlier = first
-                .as_ref()
-                .is_none_or(|(_, known)| contact.compare(known) == Ordering::Less);
-            if is_earlier {
-                first = Some((impact, contact));
-            }
-        }
-        self.common.end(&interrupt)?;
-        Ok(first)
+/// Which part of the motion is looked at first: one in which most vertices move less than an edge.
+fn first_part<const N: usize, S: Coordinate>(common: &Common<N, S>, of: Selection) -> f64 {
+    let is_of_it = |body: &&Body<N, S>| match of {
+        Selection::World | Selection::Everything => true,
+        Selection::Between(a, b) => body.id == a || body.id == b,
+        Selection::Within(a) => body.id == a,
+    };
+    let bodies = common.bodies.list.iter().filter(is_of_it);
+    let edges = bodies.fold(0.0, |most: f64, body| most.max(body.motion_in_edges()));
+    let mut part: f64 = 1.0;
+    while part > SHORTEST && part * edges > 1.0 {
+        part /= LONGER;
     }
+    part
+}
+
+/// Contacts up to a time, or what comes as near as a distance. Boxes are grown by what rounding takes away from the shape at the time.
+fn impacts_until<const N: usize, S: Coordinate, K>(
+    common: &Common<N, S>,
+    within: impl Fn(Margin) -> K,
+    reach: Reach,
+    distance: f64,
+) -> Impacts<K> {
+    let rounded = match reach {
+        Reach::Until(_) => {
+            let bodies = common.bodies.list.iter();
+            let most = bodies.fold(0.0, |most: f64, body| most.max(body.largest_coordinate()));
+            most * S::STEP + S::LEAST
+        }
+        Reach::End | Reach::To(_) => 0.0,
+    };
+    // Half the distance for each of two, and a little more than the lanes look for.
+    let margin = Margin::new((rounded + distance * (LIMIT / 2.0 + 0.001)).min(f64::MAX));
+    Impacts::of(within(margin), Grid::new(SEARCHED), reach).or_near(distance)
+}
+
+/// Of contacts in one cell the exactly earliest, and when that is; of several, the first in order. It looks at every one.
+fn first_of<const N: usize, S: Coordinate>(
+    common: &mut Common<N, S>,
+    earliest: Earliest,
+    request: &Request,
+) -> Result<Option<(Impact, Contact)>, Error> {
+    let interrupt = Interrupt::new(request.question);
+    let mut impacts = earliest.impacts;
+    impacts.sort_unstable_by_key(numbers);
+    let mut first: Option<(Impact, Contact)> = None;
+    for impact in impacts {
+        if interrupt.is_set() {
+            break;
+        }
+        let moving = moving(&common.bodies, &impact);
+        let Some(contact) = moving.and_then(|moving| first_contact(&moving)) else {
+            continue;
+        };
+        let is_earlier = first
+            .as_ref()
+            .is_none_or(|(_, known)| contact.compare(known) == Ordering::Less);
+        if is_earlier {
+            first = Some((impact, contact));
+        }
+    }
+    common.end(&interrupt)?;
+    Ok(first)
 }
 
 /// Looks for contacts of one kind that are as early as the earliest, or earlier.
@@ -333,4 +361,10 @@ where
         are_edges: H::ARE_EDGES,
         corners: [wide(start), wide(end)],
     })
+}
+
+impl<S: Coordinate> Held for AskedImpacts<S> {
+    fn held(&self) -> usize {
+        self.vertex_triangle.held() + self.edge_edge.held()
+    }
 }

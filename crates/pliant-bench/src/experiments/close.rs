@@ -13,7 +13,7 @@ use pliant::Options;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "close",
-    about: "close pairs over candidates, and the distance of two bodies, with parry3d",
+    about: "close pairs over candidates, and distances, with parry3d",
     plan,
     claims,
 };

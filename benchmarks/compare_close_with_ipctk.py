@@ -18,19 +18,15 @@ has other features at the same distance within 1e-9. Everything else is an error
 turn, and the figure is the median, over rounds, of its time over ours; its lists are in no order, ours are sorted.
 """
 
-import argparse
-import importlib.metadata
-import pathlib
 import statistics
 import sys
-import tempfile
 import time
 
 import ipctk
 import numpy
 import pliant
 
-from compare_with_ipctk import CHECKOUT, REAL, SCENES, numbers, real, scene
+from compare_with_ipctk import all_bodies, arguments_of, numbers
 
 MARGINS = [0.1, 0.5]
 # How exactly its distances and ours are expected to agree, relative.
@@ -206,32 +202,12 @@ def compare(bodies, margin, rounds):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj")
-    parser.add_argument("--data", type=pathlib.Path, default=CHECKOUT.parent / "shared" / "data")
-    parser.add_argument("--rounds", type=int, default=9)
-    parser.add_argument("--only", default="", help="of what is compared, what has this in its name")
-    arguments = parser.parse_args()
-
-    ipctk.set_num_threads(1)
-    versions = f"pliant {pliant.__version__} and ipctk {importlib.metadata.version('ipctk')}"
-    print(f"{versions}, one thread, {arguments.rounds} rounds\n")
+    arguments = arguments_of(__doc__, 9)
     head = f"{'':<24} {'':<11} {'pairs':>10} {'features':>10} {'ties':>7} {'errors':>7} {'ours, ms':>9} {'its, ms':>9}   times faster"
     print(head)
     errors = 0
-    with tempfile.TemporaryDirectory() as folder:
-        makers = [
-            (f"{name} {triangles:,}", lambda of=(name, triangles, step): scene(arguments.exporter, pathlib.Path(folder), *of))
-            for name, triangles, step in SCENES
-        ]
-        if arguments.data.is_dir():
-            makers += [(name, lambda of=(name, frame): real(arguments.data, *of)) for name, frame in REAL]
-        else:
-            print("no ../shared/data beside the checkout: real meshes skipped")
-        for name, make in makers:
-            if arguments.only in name:
-                bodies = make()
-                errors += sum(compare(bodies, margin, arguments.rounds) for margin in MARGINS)
+    for bodies in all_bodies(arguments):
+        errors += sum(compare(bodies, margin, arguments.rounds) for margin in MARGINS)
     print(f"\nfeatures: what ipctk keeps; ties: left to rounding, in either; errors, of any kind: {errors}")
     return 1 if errors else 0
 

@@ -17,18 +17,14 @@ The first contact is compared: ours is in [low, high], 10^-6 wide; a step of ipc
 that is larger than `high` as an error, and the exit code is 1 if there is one.
 """
 
-import argparse
-import importlib.metadata
-import pathlib
 import statistics
 import sys
-import tempfile
 import time
 
 import ipctk
 import numpy
 import pliant
-from compare_with_ipctk import CHECKOUT, REAL, SCENES, Theirs, Ours, real, scene, shapes_of
+from compare_with_ipctk import Ours, Theirs, all_bodies, arguments_of, shapes_of
 
 PARTS = [0.1, 1.0]
 EVERY = pliant.Selection.EVERYTHING
@@ -115,34 +111,15 @@ def compare(bodies, part, rounds):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj")
-    parser.add_argument("--data", type=pathlib.Path, default=CHECKOUT.parent / "shared" / "data")
-    parser.add_argument("--rounds", type=int, default=7)
-    parser.add_argument("--only", default="", help="of what is compared, what has this in its name")
-    arguments = parser.parse_args()
-
-    ipctk.set_num_threads(1)
-    print(f"pliant {pliant.__version__} and ipctk {importlib.metadata.version('ipctk')}, one thread, {arguments.rounds} rounds\n")
+    arguments = arguments_of(__doc__, 7)
     print(f"{'':<24} {'':<4} {'':>10} {'':>7} {'step':>9} {'':>9} {'':>9} {'':>6} {'whole step, ms':>28}   {'a candidate, ns':>23}")
     print(
         f"{'':<24} {'part':<4} {'candidates':>10} {'impacts':>7} {'ours':>9} {'Tight-I.':>9} {'additive':>9} {'misses':>6} "
         f"{'ours':>8} {'Tight-I.':>9} {'additive':>9}   {'ours':>6} {'Tight-I.':>8} {'add.':>7}"
     )
     errors = 0
-    with tempfile.TemporaryDirectory() as folder:
-        makers = [
-            (f"{name} {triangles:,}", lambda of=(name, triangles, step): scene(arguments.exporter, pathlib.Path(folder), *of))
-            for name, triangles, step in SCENES
-        ]
-        if arguments.data.is_dir():
-            makers += [(name, lambda of=(name, frame): real(arguments.data, *of)) for name, frame in REAL]
-        else:
-            print("no ../shared/data beside the checkout: real meshes skipped")
-        for name, make in makers:
-            if arguments.only in name:
-                bodies = make()
-                errors += sum(compare(bodies, part, arguments.rounds) for part in PARTS)
+    for bodies in all_bodies(arguments):
+        errors += sum(compare(bodies, part, arguments.rounds) for part in PARTS)
     print(f"\nmisses: steps of ipctk's beyond the first contact; errors, steps of ours that are: {errors}")
     return 1 if errors else 0
 

@@ -209,18 +209,20 @@ def compare(bodies, kind, amount, rounds):
     return errors
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+def arguments_of(what, rounds):
+    parser = argparse.ArgumentParser(description=what.split("\n")[0])
     parser.add_argument("--exporter", type=pathlib.Path, default=CHECKOUT / "target/release/examples/write_obj")
     parser.add_argument("--data", type=pathlib.Path, default=CHECKOUT.parent / "shared" / "data")
-    parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--rounds", type=int, default=rounds)
     parser.add_argument("--only", default="", help="of what is compared, what has this in its name")
     arguments = parser.parse_args()
-
     ipctk.set_num_threads(1)
     print(f"pliant {pliant.__version__} and ipctk {importlib.metadata.version('ipctk')}, one thread, {arguments.rounds} rounds\n")
-    print(f"{'':<24} {'':<11} {'candidates':>10} {'more':>7} {'errors':>7} {'ours, ms':>9} {'its, ms':>9}   times faster")
-    errors = 0
+    return arguments
+
+
+def all_bodies(arguments):
+    """Those of our scenes and the real meshes, one after the other."""
     with tempfile.TemporaryDirectory() as folder:
         makers = [
             (f"{name} {triangles:,}", lambda of=(name, triangles, step): scene(arguments.exporter, pathlib.Path(folder), *of))
@@ -232,8 +234,15 @@ def main():
             print("no ../shared/data beside the checkout: real meshes skipped")
         for name, make in makers:
             if arguments.only in name:
-                bodies = make()
-                errors += sum(compare(bodies, kind, amount, arguments.rounds) for kind, amount in CASES)
+                yield make()
+
+
+def main():
+    arguments = arguments_of(__doc__, 9)
+    print(f"{'':<24} {'':<11} {'candidates':>10} {'more':>7} {'errors':>7} {'ours, ms':>9} {'its, ms':>9}   times faster")
+    errors = 0
+    for bodies in all_bodies(arguments):
+        errors += sum(compare(bodies, kind, amount, arguments.rounds) for kind, amount in CASES)
     print(f"\nmore: candidates that ipctk has alone, within its rounding; errors, of any kind: {errors}")
     return 1 if errors else 0
 

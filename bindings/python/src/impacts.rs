@@ -193,9 +193,9 @@ type Answer<'py> = (
 /// When vertices first meet triangles that move: start and end (k, 4, 3) float64, of each pair the vertex and the three corners of the
 /// triangle, at the start and at the end of the motion. Corners move on straight lines.
 ///
-/// Returns (hit, low, high): bool (k,), float64 (k,), float64 (k,). Whether a pair meets, as closed sets, is decided exactly; they are apart from time 0 to
-/// low, both included, and meet after that and not after high; both are 0 if they meet at the start, and NaN where there is no hit. high - low is
-/// at most width; with 0 they are neighbouring numbers.
+/// Returns (hit, low, high): bool (k,), float64 (k,), float64 (k,). Whether a pair meets, as closed sets, is decided exactly; they are
+/// apart from time 0 to low, both included, and meet after that and not after high; both are 0 if they meet at the start, and NaN where
+/// there is no hit. high - low is at most width; with 0 they are neighbouring numbers.
 #[pyfunction]
 #[pyo3(signature = (start, end, width=1e-6))]
 pub(crate) fn vertex_triangle_impacts<'py>(
@@ -209,8 +209,8 @@ pub(crate) fn vertex_triangle_impacts<'py>(
     })
 }
 
-/// When edges first meet edges that move: start and end (k, 4, 3) float64, of each pair both ends of the one edge and both of the other, at the
-/// start and at the end of the motion. The answer is that of vertex_triangle_impacts.
+/// When edges first meet edges that move: start and end (k, 4, 3) float64, of each pair both ends of the one edge and both of the other, at
+/// the start and at the end of the motion. The answer is that of vertex_triangle_impacts.
 #[pyfunction]
 #[pyo3(signature = (start, end, width=1e-6))]
 pub(crate) fn edge_edge_impacts<'py>(

@@ -619,8 +619,8 @@ impl World {
         CloseQuery::new(slf, CloseKind::EdgeEdge, of, distance)
     }
 
-    /// Asks which triangles are close to each other, in the shape of now: those at most distance apart, with their closest points; those that
-    /// intersect are, at distance 0. Within a body, those that share a vertex of the mesh are left out.
+    /// Asks which triangles are close to each other, in the shape of now: those at most distance apart, with their closest points; those
+    /// that intersect are, at distance 0. Within a body, those that share a vertex of the mesh are left out.
     #[pyo3(signature = (of, distance))]
     fn close_triangle_pairs(slf: Py<Self>, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(slf, CloseKind::Triangles, of, distance)
@@ -667,23 +667,24 @@ impl World {
 
     /// Asks which vertices and triangles meet on the way to the end of a motion, and when first; edge_edge_impacts is the other half.
     ///
-    /// Vertices move on straight lines, from where they are at time 0 to where set_motion said at time 1; a body without a motion stands still.
-    /// Whether a pair meets, as closed sets, is decided exactly. They are apart from time 0 to low, both included, and meet after that and not after high, which
-    /// are at most width apart; both are 0 if they meet at the start. Which pairs are looked at is said at vertex_triangle_candidates.
+    /// Vertices move on straight lines, from where they are at time 0 to where set_motion said at time 1; a body without a motion stands
+    /// still. Whether a pair meets, as closed sets, is decided exactly. They are apart from time 0 to low, both included, and meet after
+    /// that and not after high, which are at most width apart; both are 0 if they meet at the start. Which pairs are looked at is said at
+    /// vertex_triangle_candidates.
     #[pyo3(signature = (of, width=1e-6))]
     fn vertex_triangle_impacts(slf: Py<Self>, of: Selection, width: f64) -> ImpactQuery {
         ImpactQuery::new(slf, ImpactKind::VertexTriangle, of, width)
     }
 
-    /// Asks which edges meet on the way to the end of a motion, and when first, as vertex_triangle_impacts asks it of vertices and triangles.
-    /// Two that have an end in common are not looked at.
+    /// Asks which edges meet on the way to the end of a motion, and when first, as vertex_triangle_impacts asks it of vertices and
+    /// triangles. Two that have an end in common are not looked at.
     #[pyo3(signature = (of, width=1e-6))]
     fn edge_edge_impacts(slf: Py<Self>, of: Selection, width: f64) -> ImpactQuery {
         ImpactQuery::new(slf, ImpactKind::EdgeEdge, of, width)
     }
 
-    /// The first contact on the way to the end of a motion, an Impact, of all vertex_triangle_impacts and edge_edge_impacts: that with the least
-    /// exact time; None if nothing meets. Much faster than all.
+    /// The first contact on the way to the end of a motion, an Impact, of all vertex_triangle_impacts and edge_edge_impacts: that with the
+    /// least exact time; None if nothing meets. Much faster than all.
     #[pyo3(signature = (of, width=1e-6))]
     fn first_impact<'py>(
         &self,
@@ -702,11 +703,11 @@ impl World {
     }
 
     /// How far everything may go on its way to the end of a motion and stay further apart than min_distance: a time from 0 to 1 to call
-    /// advance_motion with. It is proven that on straight ways to the shape that this makes, rounded as it is, no vertex meets a triangle and no
-    /// edge another, nor comes as near as min_distance. 1 if that is so of the whole motion.
+    /// advance_motion with. It is proven that on straight ways to the shape that this makes, rounded as it is, no vertex meets a triangle
+    /// and no edge another, nor comes as near as min_distance. 1 if that is so of the whole motion.
     ///
-    /// It is at least 0.9 of the largest such time where rounding leaves room for that. What touches at the start already does not count; what is within
-    /// min_distance at the start is kept from contact alone.
+    /// It is at least 0.9 of the largest such time where rounding leaves room for that. What touches at the start already does not count;
+    /// what is within min_distance at the start is kept from contact alone.
     #[pyo3(signature = (of, min_distance=0.0))]
     fn collision_free_step(
         &self,

@@ -4,9 +4,9 @@ use crate::hits::{EdgeEdge, VertexTriangle};
 
 /// A vertex and a triangle, of which it is no corner, that meet during a motion.
 ///
-/// Time is 0 at the start of the motion and 1 at its end. The two are apart at all times from 0 to `low`, both included, and meet at some time after that which is not after
-/// `high`. Elements that meet at the start already have 0 for both. Which numbers these are depends on the exact time of the first contact and on the width that
-/// was asked for, and on nothing else: see [`Query::width`](crate::Query::width).
+/// Time is 0 at the start of the motion and 1 at its end. The two are apart at all times from 0 to `low`, both included, and meet at some
+/// time after that which is not after `high`. Elements that meet at the start already have 0 for both. Which numbers these are depends on
+/// the exact time of the first contact and on the width that was asked for, and on nothing else: see [`Query::width`](crate::Query::width).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexTriangleImpact {
     /// Which they are.

@@ -1,6 +1,7 @@
 //! When single pairs of elements first meet, for who has a search of their own.
 //!
-//! The decision is that of [`World::vertex_triangle_impacts`](crate::World::vertex_triangle_impacts), eight pairs side by side where that is enough.
+//! The decision is that of [`World::vertex_triangle_impacts`](crate::World::vertex_triangle_impacts), eight pairs side by side where that
+//! is enough.
 
 use crate::error::{Error, ErrorKind};
 use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
@@ -10,9 +11,10 @@ use crate::world::Scalar;
 
 /// When vertices first meet triangles that move: of each pair the vertex and the three corners, at the start and at the end of the motion.
 ///
-/// Corners move on straight lines, in real arithmetic. The answer for a pair is `None` if they never meet, as closed sets, from time 0 to time 1, which is decided
-/// exactly; else [low, high]: they are apart from 0 to low, both included, and meet after that and not after high; or [0, 0] if they meet at the start. It is
-/// at most `width` wide, which is finite and at least 0, as [`Query::width`](crate::Query::width) says; 10^-6 is a good one.
+/// Corners move on straight lines, in real arithmetic. The answer for a pair is `None` if they never meet, as closed sets, from time 0 to
+/// time 1, which is decided exactly; else [low, high]: they are apart from 0 to low, both included, and meet after that and not after high;
+/// or [0, 0] if they meet at the start. It is at most `width` wide, which is finite and at least 0, as
+/// [`Query::width`](crate::Query::width) says; 10^-6 is a good one.
 ///
 /// ```
 /// let triangle = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
@@ -26,8 +28,8 @@ use crate::world::Scalar;
 /// # Ok::<(), pliant::Error>(())
 /// ```
 ///
-/// Cost: some tens of nanoseconds a pair that does not meet, less than a microsecond for most others; tens of microseconds for what only exact
-/// arithmetic can tell. One thread.
+/// Cost: some tens of nanoseconds a pair that does not meet, less than a microsecond for most others; tens of microseconds for what only
+/// exact arithmetic can tell. One thread.
 ///
 /// # Errors
 ///
@@ -42,8 +44,8 @@ pub fn vertex_triangle_impacts<S: Scalar>(
     impacts(false, start, end, width)
 }
 
-/// When edges first meet edges that move: of each pair both ends of the one and both of the other, at the start and at the end of the motion; as
-/// [`vertex_triangle_impacts`] says.
+/// When edges first meet edges that move: of each pair both ends of the one and both of the other, at the start and at the end of the
+/// motion; as [`vertex_triangle_impacts`] says.
 ///
 /// # Errors
 ///

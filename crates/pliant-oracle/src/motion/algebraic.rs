@@ -74,8 +74,8 @@ impl Root {
 
     /// The sign of a polynomial at this number.
     pub(super) fn sign_of(&mut self, other: &Polynomial) -> i8 {
-        /// In how short an interval, as a fraction of one of the same form, to ask whether it is zero: that takes longer than to see in a short
-        /// interval that it is not.
+        /// In how short an interval, as a fraction of one of the same form, to ask whether it is zero: that takes longer than to see in a
+        /// short interval that it is not.
         const SHORT: usize = 24;
         if other.degree() == 0 {
             return other.sign_of_constant();

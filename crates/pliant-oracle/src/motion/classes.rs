@@ -23,8 +23,8 @@ pub enum MotionClass {
     Aimed,
     /// Corners on a small lattice at both ends: every degenerate contact there is.
     Lattice,
-    /// Elements that are smaller than they should be (edges that are points, triangles that are segments or points) at the start, at the end, at
-    /// both, or for a moment between.
+    /// Elements that are smaller than they should be (edges that are points, triangles that are segments or points) at the start, at the
+    /// end, at both, or for a moment between.
     Degenerate,
     /// All corners in one plane always, parallel to axes or oblique, at rest or moving.
     Coplanar,
@@ -534,8 +534,8 @@ impl Maker<'_> {
             weights[3] -= more;
         }
         let range = [3, 20][self.random.below(2) as usize];
-        // In the plane z = 0 all four, and the heights of the two points of contact change alike: so the volume, which is their difference times
-        // an area, has a double root.
+        // In the plane z = 0 all four, and the heights of the two points of contact change alike: so the volume, which is their difference
+        // times an area, has a double root.
         let mut places = self.meeting(weights, f64::from(whole), range);
         for p in &mut places {
             p[2] = 0.0;

@@ -5,16 +5,16 @@
 //! the signs of coordinates, cross products, dot products and determinants; of moving points all of these are polynomials in t of
 //! degree at most 3, with integer coefficients. Between neighbouring roots of these polynomials no sign changes, hence no answer.
 //!
-//! The times of contact are a closed set: if there is contact all through an open interval, then at its ends too. So the first contact
-//! is at 0 or at a root of one of the polynomials, and it is enough to ask `zero_in_hull` at these: with polynomials for numbers, whose sign is that
-//! of their value at the root, and exact (`algebraic.rs`).
+//! The times of contact are a closed set: if there is contact all through an open interval, then at its ends too. So the first contact is
+//! at 0 or at a root of one of the polynomials, and it is enough to ask `zero_in_hull` at these: with polynomials for numbers, whose sign
+//! is that of their value at the root, and exact (`algebraic.rs`).
 //!
 //! One observation makes this fast. Where there is contact, the origin and the first three differences are in one plane: of three
 //! differences because the origin is in their triangle, of four because these are the corners of a parallelogram. So if the determinant of
 //! the three is not zero always, its roots are the only times to look at.
 //!
-//! The tests of this folder look at all roots, too, and find the same (`Times::Every`); and they prove most answers by means that know no roots
-//! (`proofs.rs`).
+//! The tests of this folder look at all roots, too, and find the same (`Times::Every`); and they prove most answers by means that know no
+//! roots (`proofs.rs`).
 //!
 //! Nothing is rounded, and nothing is assumed of the primitives: a degenerate one is the segment or the point that it is.
 
@@ -64,8 +64,8 @@ pub fn compare_first(a: (Elements, &Moving), b: (Elements, &Moving)) -> Option<O
     Some(first_contact(a.0, a.1)?.compare_with(&first_contact(b.0, b.1)?))
 }
 
-/// The time of the first contact, exactly: a root of a polynomial. To compare one with several numbers takes less time than to ask [`meet_until`]
-/// for each.
+/// The time of the first contact, exactly: a root of a polynomial. To compare one with several numbers takes less time than to ask
+/// [`meet_until`] for each.
 #[derive(Clone, Debug)]
 pub struct FirstContact(RefCell<Root>);
 

@@ -1,9 +1,8 @@
 //! Answers about motion checked by means that have nothing to do with roots of polynomials.
 //!
-//! **Apart.** If a direction has a positive product with all differences of corners at two times, then at all times between, as these products
-//! change linearly; and the origin is not in their hull. So a list of intervals, each with a direction, that cover [0, t] is a
-//! proof that there is no contact. It is looked for by bisection, with directions computed in `f64`, and checked in
-//! integers.
+//! **Apart.** If a direction has a positive product with all differences of corners at two times, then at all times between, as these
+//! products change linearly; and the origin is not in their hull. So a list of intervals, each with a direction, that cover [0, t] is a
+//! proof that there is no contact. It is looked for by bisection, with directions computed in `f64`, and checked in integers.
 //!
 //! **In contact.** Let the four corners change their orientation between two times: at some time between they are in one plane, and the
 //! origin in that of the differences, which are the corners of a triangle or of a parallelogram. If the products of some direction with all
@@ -12,8 +11,8 @@
 //!
 //! At a time which is a fraction, everything is decided as for elements at rest.
 //!
-//! Motions that touch in a single point, or leave the plane to where they came from, have no such proof unless the time is a fraction. They are
-//! counted: few are left.
+//! Motions that touch in a single point, or leave the plane to where they came from, have no such proof unless the time is a fraction. They
+//! are counted: few are left.
 
 use super::*;
 use crate::Random;

@@ -1,20 +1,24 @@
 //! Whether elements that move stay apart: eight pairs side by side, by separating directions.
 //!
-//! Corners move on straight lines. So for any direction n that stands still, the projection n . q(t) of the difference q of two corners is affine in t; and elements are
-//! hulls of their corners at every time. If at two times all projections of corners of the one less corners of the other are above zero, the
-//! elements are apart at all times between them. This is a proof for every n, however it was found. Here n is the way between the closest points at the time
-//! up to which a pair is known to be apart, from plain arithmetic; a time is gained up to which the projections stay above zero, and from there again.
-//! Most pairs are known to be apart all the way after one direction, be they tangential, parting or near.
+//! Corners move on straight lines. So for any direction n that stands still, the projection n . q(t) of the difference q of two corners is
+//! affine in t; and elements are hulls of their corners at every time. If at two times all projections of corners of the one less corners
+//! of the other are above zero, the elements are apart at all times between them. This is a proof for every n, however it was found. Here n
+//! is the way between the closest points at the time up to which a pair is known to be apart, from plain arithmetic; a time is gained up to
+//! which the projections stay above zero, and from there again. Most pairs are known to be apart all the way after one direction, be they
+//! tangential, parting or near.
 //!
-//! **Rounding.** Let u = 2^-24. Differences of corners are off by one rounding to f32 (those of f64 by a second, 2^29 times smaller); a projection by another of each product and two sums,
-//! one between two times by three more: seven roundings on every path, each of a number of at most the sum s of |n| |q| over the axes, with the larger |q| of both ends. The bound allows
-//! 10 u s. What is lost below the normal range, even where subnormal numbers are flushed to zero, is less than 2^-126 times a component of n in a
-//! difference, and 2^-126 in a product: where the components of n are below 2^60, all of it is less than 2^-62, and the bound allows 2^-60. Other lanes, and those in which
-//! something is infinite, are not known to be apart.
+//! **Rounding.** Let u = 2^-24. Differences of corners are off by one rounding to f32 (those of f64 by a second, 2^29 times smaller); a
+//! projection by another of each product and two sums, one between two times by three more: seven roundings on every path, each of a number
+//! of at most the sum s of |n| |q| over the axes, with the larger |q| of both ends. The bound allows 10 u s. What is lost below the normal
+//! range, even where subnormal numbers are flushed to zero, is less than 2^-126 times a component of n in a difference, and 2^-126 in a
+//! product: where the components of n are below 2^60, all of it is less than 2^-62, and the bound allows 2^-60. Other lanes, and those in
+//! which something is infinite, are not known to be apart.
 //!
-//! Affine functions are compared with their values at both ends of what is left of the motion, less the bound. So up to a part a / (a - b) of it, where these are a > 0 and b, they
-//! are above zero in exact arithmetic; a thousandth less is taken, which is more than the rounding of times if the gain is at least 2^-12. Smaller gains do not count.
+//! Affine functions are compared with their values at both ends of what is left of the motion, less the bound. So up to a part a / (a - b)
+//! of it, where these are a > 0 and b, they are above zero in exact arithmetic; a thousandth less is taken, which is more than the rounding
+//! of times if the gain is at least 2^-12. Smaller gains do not count.
 
+use super::closest::{dot, minus, plus, times};
 use super::coordinate::{Coordinate, CornersOfEight, Vectors};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, mask32x8};
@@ -33,8 +37,8 @@ const LEAST_GAIN: f32 = 1.0 / (1_u64 << 12) as f32;
 /// So many directions are tried.
 const DIRECTIONS: usize = 3;
 
-/// The corners of eight pairs of elements at the start of a motion, 0 to 3, and at its end, 4 to 7: a vertex and the corners of a triangle; or
-/// both ends of either edge.
+/// The corners of eight pairs of elements at the start of a motion, 0 to 3, and at its end, 4 to 7: a vertex and the corners of a triangle;
+/// or both ends of either edge.
 pub(crate) struct MovingCorners<'p, S>(pub(crate) [[&'p [S; 4]; 8]; 8]);
 
 impl<S> CornersOfEight<S> for MovingCorners<'_, S> {
@@ -267,17 +271,7 @@ fn foot<I: Simd>(p: Vectors<I>, e: Vectors<I>, f: Vectors<I>) -> (f32x8<I>, f32x
 
 #[inline(always)]
 fn along<I: Simd>(p: Vectors<I>, t: f32x8<I>, e: Vectors<I>) -> Vectors<I> {
-    [p[0] + t * e[0], p[1] + t * e[1], p[2] + t * e[2]]
-}
-
-#[inline(always)]
-fn minus<I: Simd>(p: Vectors<I>, q: Vectors<I>) -> Vectors<I> {
-    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
-}
-
-#[inline(always)]
-fn dot<I: Simd>(p: Vectors<I>, q: Vectors<I>) -> f32x8<I> {
-    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+    plus(p, times(t, e))
 }
 
 #[cfg(test)]

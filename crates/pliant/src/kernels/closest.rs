@@ -522,22 +522,22 @@ fn lanes<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4], which: usize) -> Vecto
 }
 
 #[inline(always)]
-fn plus<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
+pub(super) fn plus<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
     [p[0] + q[0], p[1] + q[1], p[2] + q[2]]
 }
 
 #[inline(always)]
-fn minus<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
+pub(super) fn minus<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
     [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
 }
 
 #[inline(always)]
-fn times<I: Simd, V: SimdFloat<I>>(by: V, p: Vector<V>) -> Vector<V> {
+pub(super) fn times<I: Simd, V: SimdFloat<I>>(by: V, p: Vector<V>) -> Vector<V> {
     [by * p[0], by * p[1], by * p[2]]
 }
 
 #[inline(always)]
-fn dot<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> V {
+pub(super) fn dot<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> V {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }
 

@@ -1,8 +1,8 @@
 //! Integers of any size, for what floating point leaves undecided. Nothing is rounded.
 //!
-//! Every coordinate is an integer of units of 2^-1074 and below 2^128, so it has 1202 bits; but the coordinates of one question are all counted
-//! in the largest power of two that they are multiples of, and mostly have less than 60. So most numbers that come up have room in place,
-//! and only the longest are allocated.
+//! Every coordinate is an integer of units of 2^-1074 and below 2^128, so it has 1202 bits; but the coordinates of one question are all
+//! counted in the largest power of two that they are multiples of, and mostly have less than 60. So most numbers that come up have room in
+//! place, and only the longest are allocated.
 
 use std::cmp::Ordering;
 

@@ -1,11 +1,12 @@
 //! When bodies first meet on their way: all pairs of elements that do, the first of them, and how far everything may go.
 //!
-//! **The first** is looked for on the first part of the motion, then on a longer one, until something meets: boxes that hold a short way are small. What has
-//! met before limits what is still looked at. Times are compared by cells of a fine grid, and exactly where cells are equal.
+//! **The first** is looked for on the first part of the motion, then on a longer one, until something meets: boxes that hold a short way
+//! are small. What has met before limits what is still looked at. Times are compared by cells of a fine grid, and exactly where cells are
+//! equal.
 //!
-//! **A step that is free of contact** goes somewhat less far than the first contact. There every corner is rounded, so that the straight motion to the
-//! rounded shape is another one; it is decided whether anything meets on that, exactly, and if so a shorter step is tried. What meets at the start of
-//! a motion is no contact of the step.
+//! **A step that is free of contact** goes somewhat less far than the first contact. There every corner is rounded, so that the straight
+//! motion to the rounded shape is another one; it is decided whether anything meets on that, exactly, and if so a shorter step is tried.
+//! What meets at the start of a motion is no contact of the step.
 
 use super::Selection;
 use super::asked::{Asked, Common};
@@ -104,7 +105,8 @@ impl<S: Coordinate> Default for AskedImpacts<S> {
 }
 
 impl<S: Coordinate> AskedImpacts<S> {
-    /// The first contact of a motion: which elements it is of, and when. Of several at one time that of a vertex and a triangle; the first in order.
+    /// The first contact of a motion: which elements it is of, and when. Of several at one time that of a vertex and a triangle; the first
+    /// in order.
     pub(super) fn first_contact<const N: usize>(
         &mut self,
         common: &mut Common<N, S>,
@@ -115,7 +117,8 @@ impl<S: Coordinate> AskedImpacts<S> {
         first_of(common, earliest, request)
     }
 
-    /// The earliest contacts, of both kinds or one, after the start or at any time; or the first times at which elements come as near as a distance.
+    /// The earliest contacts, of both kinds or one, after the start or at any time; or the first times at which elements come as near as a
+    /// distance.
     fn earliest<const N: usize>(
         &mut self,
         common: &mut Common<N, S>,
@@ -189,7 +192,8 @@ impl<S: Coordinate> AskedImpacts<S> {
         Ok(step)
     }
 
-    /// Whether nothing meets on straight ways to the shapes at a time, rounded, but what meets at the start, or comes as near as a distance.
+    /// Whether nothing meets on straight ways to the shapes at a time, rounded, but what meets at the start, or comes as near as a
+    /// distance.
     fn is_free_to<const N: usize>(
         &mut self,
         common: &mut Common<N, S>,

@@ -1,9 +1,9 @@
 //! The world: bodies, their shapes, and the questions that users ask.
 //!
 //! `World` is what users see; behind it an `engine` of some degree is the one place where the phases meet. `bodies` are there, each a
-//! `body` whose `positions` are in the caller's order or in the tree's; `body_pairs` says who may meet whom in a `selection`, `asked` answers a
-//! `query` of some kind, pair by pair (`step`) or many pairs at once (`scheduler`); `witness` is the last first pair, `origin` what
-//! boxes are relative to. `debug_view` and `tree_cut` are for those who look at trees, `validate` looks at every invariant.
+//! `body` whose `positions` are in the caller's order or in the tree's; `body_pairs` says who may meet whom in a `selection`, `asked`
+//! answers a `query` of some kind, pair by pair (`step`) or many pairs at once (`scheduler`); `witness` is the last first pair, `origin`
+//! what boxes are relative to. `debug_view` and `tree_cut` are for those who look at trees, `validate` looks at every invariant.
 
 mod asked;
 mod bodies;
@@ -469,9 +469,9 @@ impl<S: Scalar> World<S> {
         Query::<EdgeEdge>::new(&mut *self.engine, of).within(radius)
     }
 
-    /// Asks which vertices are close to which triangles, in the shape of now: those at most `distance` apart, with their closest points. See
-    /// [`close_edge_edge_pairs`](Self::close_edge_edge_pairs) for the other half. It is what penalty, barrier and position-based solvers
-    /// push apart.
+    /// Asks which vertices are close to which triangles, in the shape of now: those at most `distance` apart, with their closest points.
+    /// See [`close_edge_edge_pairs`](Self::close_edge_edge_pairs) for the other half. It is what penalty, barrier and position-based
+    /// solvers push apart.
     ///
     /// Whether a pair is that close is decided exactly, in real arithmetic on the numbers given. Distance, direction and closest points are
     /// as good as [`CloseVertexTriangle`] says. Which pairs are looked at is said at
@@ -553,12 +553,13 @@ impl<S: Scalar> World<S> {
     }
 
     /// Asks which vertices and triangles meet on the way to the end of a motion, and when first. See
-    /// [`edge_edge_impacts`](Self::edge_edge_impacts) for the other half: surfaces that are apart first meet where a vertex meets a triangle or two edges meet.
+    /// [`edge_edge_impacts`](Self::edge_edge_impacts) for the other half: surfaces that are apart first meet where a vertex meets a
+    /// triangle or two edges meet.
     ///
     /// Vertices move on straight lines, in real arithmetic, from where they are at time 0 to where [`set_motion`](Self::set_motion) said at
-    /// time 1; a body without a motion stands still. Whether a pair meets is decided exactly: as closed sets, degenerate triangles, motion in one
-    /// plane, touching at the start and at the end included. When, is an interval ([`VertexTriangleImpact`]), as narrow as [`Query::width`] says. [`Query::first`] is
-    /// that with the least exact time, and much faster than all.
+    /// time 1; a body without a motion stands still. Whether a pair meets is decided exactly: as closed sets, degenerate triangles, motion
+    /// in one plane, touching at the start and at the end included. When, is an interval ([`VertexTriangleImpact`]), as narrow as
+    /// [`Query::width`] says. [`Query::first`] is that with the least exact time, and much faster than all.
     ///
     /// Which pairs are looked at is said at [`vertex_triangle_candidates`](Self::vertex_triangle_candidates): no corner of a triangle
     /// meets it, vertex groups and filters count. They are not listed on the way: memory is for what meets.
@@ -599,8 +600,8 @@ impl<S: Scalar> World<S> {
     }
 
     /// The first contact on the way to the end of a motion: that with the least exact time of all
-    /// [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) and [`edge_edge_impacts`](Self::edge_edge_impacts); of several at one time
-    /// a vertex and a triangle rather than edges, the first in order. Its interval is at most `width` wide: see [`Query::width`].
+    /// [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) and [`edge_edge_impacts`](Self::edge_edge_impacts); of several at one
+    /// time a vertex and a triangle rather than edges, the first in order. Its interval is at most `width` wide: see [`Query::width`].
     ///
     /// # Errors
     ///
@@ -610,15 +611,16 @@ impl<S: Scalar> World<S> {
     }
 
     /// How far everything may go on its way to the end of a motion and stay further apart than `min_distance`: a time t from 0 to 1 to call
-    /// [`advance_motion`](Self::advance_motion) with. It is proven that on straight ways to the shape that this makes, rounded as it is, no vertex meets a triangle
-    /// and no edge another. 1 if that is so of the whole motion; then [`finish_motion`](Self::finish_motion) does the same.
+    /// [`advance_motion`](Self::advance_motion) with. It is proven that on straight ways to the shape that this makes, rounded as it is, no
+    /// vertex meets a triangle and no edge another. 1 if that is so of the whole motion; then [`finish_motion`](Self::finish_motion) does
+    /// the same.
     ///
-    /// With a `min_distance` of 0, t is at least 0.9 of the exact time of the first contact, if up to then everything is apart by 8 units in the last place
-    /// of the largest coordinate; else perhaps smaller, or 0. What meets at the start already does not count: it is in the lists of impacts, with time 0. So a world that
-    /// begins without intersections, and is advanced by such steps alone, never has any.
+    /// With a `min_distance` of 0, t is at least 0.9 of the exact time of the first contact, if up to then everything is apart by 8 units
+    /// in the last place of the largest coordinate; else perhaps smaller, or 0. What meets at the start already does not count: it is in
+    /// the lists of impacts, with time 0. So a world that begins without intersections, and is advanced by such steps alone, never has any.
     ///
-    /// Above 0 it is a Euclidean distance; and 0.9 is of the time up to which everything is further apart than 1.001 times that. Elements that are not further apart
-    /// than it at the start may come nearer, and are kept from contact alone.
+    /// Above 0 it is a Euclidean distance; and 0.9 is of the time up to which everything is further apart than 1.001 times that. Elements
+    /// that are not further apart than it at the start may come nearer, and are kept from contact alone.
     ///
     /// ```
     /// # use pliant::{Selection, World};
@@ -676,13 +678,13 @@ impl<S: Scalar> World<S> {
     /// How far the surfaces of two bodies are apart, in the shape of now: their closest triangles, with the closest points, the first of
     /// the first body; none if they are further apart than `cut_off`, which may be infinite.
     ///
-    /// The distance is 0 exactly if any of their triangles intersect, or are closer than any number, and whether it is at most the cut-off is
-    /// decided exactly; it is as good as [`CloseTriangles`] says. Where several triangles are the closest, or others nearer by no more than
-    /// 2^-31 of it, it is some of them. Surfaces only: a body wholly inside another is as far from it as its surface is. Filters are not
-    /// looked at, and a motion is not.
+    /// The distance is 0 exactly if any of their triangles intersect, or are closer than any number, and whether it is at most the cut-off
+    /// is decided exactly; it is as good as [`CloseTriangles`] says. Where several triangles are the closest, or others nearer by no more
+    /// than 2^-31 of it, it is some of them. Surfaces only: a body wholly inside another is as far from it as its surface is. Filters are
+    /// not looked at, and a motion is not.
     ///
-    /// Cost: what a query for intersections does ahead, and the nodes and triangles whose boxes are nearer to each other than the bodies are.
-    /// The triangles that were the closest the last time are measured first.
+    /// Cost: what a query for intersections does ahead, and the nodes and triangles whose boxes are nearer to each other than the bodies
+    /// are. The triangles that were the closest the last time are measured first.
     ///
     /// ```
     /// # use pliant::World;

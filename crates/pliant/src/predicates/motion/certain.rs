@@ -1,8 +1,8 @@
 //! The same decision in double precision, where rounding cannot change it: most pairs, in some hundred nanoseconds.
 //!
-//! [0, 1] is halved, the earlier half first, until each part is known to have no contact or to have one. On a part [a, b] a polynomial is a mean
-//! of its Bernstein coefficients there, with weights that are not negative; so where all have one sign, it has it throughout. Of a part it is enough to know
-//! one of these (see `motion` for the signs that decide):
+//! [0, 1] is halved, the earlier half first, until each part is known to have no contact or to have one. On a part [a, b] a polynomial is a
+//! mean of its Bernstein coefficients there, with weights that are not negative; so where all have one sign, it has it throughout. Of a
+//! part it is enough to know one of these (see `motion` for the signs that decide):
 //!
 //! ```text
 //! the determinant has one sign, and is not zero                                        no contact
@@ -12,19 +12,21 @@
 //! has opposite signs at a and b                                                        contact between a and b
 //! ```
 //!
-//! Parts are cut at fractions of two, as the cells of a grid are; a part with a contact that is within one cell names the cell, and all that is earlier was
-//! free of contact. Ends at which a sign is not certain, and what has taken many parts, are left to integers.
+//! Parts are cut at fractions of two, as the cells of a grid are; a part with a contact that is within one cell names the cell, and all
+//! that is earlier was free of contact. Ends at which a sign is not certain, and what has taken many parts, are left to integers.
 //!
 //! # What is certain
 //!
-//! Let u = 2^-53, and M the larger magnitude of a component of a corner q of the polygon at both ends of the motion. Components are differences of coordinates, off by
-//! u of themselves. a and 1 - a are exact, so q(a) = (1 - a) q(0) + a q(1) is off by less than 4 u M. With that, each Bernstein coefficient of an axis of
-//! p x q, products of such, is off by less than 12 u (M_px M_qy + M_py M_qx), to first order. Let P be the sum of the six products of components of three
-//! corners that make a determinant, of their M. A determinant at ends of the motion is off by 8 u P (three differences, a product and a difference, a product and two sums), a
-//! coefficient, the mean of three such, by 11 u P, and one of a part by 3 u P more for each halving; after at most 44 of them by 143 u P. Beyond first order these are less than 2^-40 of themselves larger.
+//! Let u = 2^-53, and M the larger magnitude of a component of a corner q of the polygon at both ends of the motion. Components are
+//! differences of coordinates, off by u of themselves. a and 1 - a are exact, so q(a) = (1 - a) q(0) + a q(1) is off by less than 4 u M.
+//! With that, each Bernstein coefficient of an axis of p x q, products of such, is off by less than 12 u (M_px M_qy + M_py M_qx), to first
+//! order. Let P be the sum of the six products of components of three corners that make a determinant, of their M. A determinant at ends of
+//! the motion is off by 8 u P (three differences, a product and a difference, a product and two sums), a coefficient, the mean of three
+//! such, by 11 u P, and one of a part by 3 u P more for each halving; after at most 44 of them by 143 u P. Beyond first order these are
+//! less than 2^-40 of themselves larger.
 //!
-//! What is lost below the normal range, even where subnormal numbers are flushed to zero, is at most 2^-1021 a step, times components below 2^130: the
-//! allowances end with a constant that is far above that.
+//! What is lost below the normal range, even where subnormal numbers are flushed to zero, is at most 2^-1021 a step, times components below
+//! 2^130: the allowances end with a constant that is far above that.
 
 use super::{Grid, Moving};
 

@@ -1,15 +1,17 @@
 //! How long two moving elements surely stay further apart than a distance: conservative advancement by separating directions.
 //!
-//! For any direction n the projections of the polygon's corners (see `motion`) are affine in t, and as long as all of them are above d |n| every point of it is further from the origin
-//! than d. From a time up to which that is known, n is the way to the point of the polygon that is nearest then; it is known up to the time at which the first projection has
-//! fallen to d |n|, less a 2^-20th of the gain; and so on. It ends when the pair is within 1.001 d and little is gained. So a pair that is further apart than
-//! that up to some time is known to be so up to that time: each step then gains a 0.001 d over its largest speed at least.
+//! For any direction n the projections of the polygon's corners (see `motion`) are affine in t, and as long as all of them are above d |n|
+//! every point of it is further from the origin than d. From a time up to which that is known, n is the way to the point of the polygon
+//! that is nearest then; it is known up to the time at which the first projection has fallen to d |n|, less a 2^-20th of the gain; and so
+//! on. It ends when the pair is within 1.001 d and little is gained. So a pair that is further apart than that up to some time is known to
+//! be so up to that time: each step then gains a 0.001 d over its largest speed at least.
 //!
-//! **Rounding.** With u = 2^-53 and M as in `certain`, a projection at a time is off by less than 4 u n.M from that of its corner, and 3 u n.M from products and sums: the allowance is 8 u, and
-//! more than what can be lost below the normal range. A length is off by 3 u of itself. A gain is rounded to 2^-53 of the new time; gains below
-//! 2^-32 of it do not count.
+//! **Rounding.** With u = 2^-53 and M as in `certain`, a projection at a time is off by less than 4 u n.M from that of its corner, and 3 u
+//! n.M from products and sums: the allowance is 8 u, and more than what can be lost below the normal range. A length is off by 3 u of
+//! itself. A gain is rounded to 2^-53 of the new time; gains below 2^-32 of it do not count.
 //!
-//! The nearest point is found by arithmetic that depends on the order of corners; they are put in an order of their own first, so that the answer does not.
+//! The nearest point is found by arithmetic that depends on the order of corners; they are put in an order of their own first, so that the
+//! answer does not.
 
 use super::Moving;
 use super::certain::{Corners, Polygon};

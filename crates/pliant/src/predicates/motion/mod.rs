@@ -1,9 +1,9 @@
 //! Whether and when two elements first meet that move during a step: a vertex and a triangle, or two edges. Exact.
 //!
 //! Corners move on straight lines, from where they are at time 0 to where they are at time 1. The elements meet where the origin is a
-//! difference of their points; these differences are a polygon Q with corners q_i that are affine in t: a triangle (its corners less the vertex), or a parallelogram
-//! (an end of the one edge less an end of the other, in order around). Of a polygon in one plane with the origin the question is planar, and has an answer by signs
-//! alone, for degenerate ones too (`holds_origin`):
+//! difference of their points; these differences are a polygon Q with corners q_i that are affine in t: a triangle (its corners less the
+//! vertex), or a parallelogram (an end of the one edge less an end of the other, in order around). Of a polygon in one plane with the
+//! origin the question is planar, and has an answer by signs alone, for degenerate ones too (`holds_origin`):
 //!
 //! ```text
 //! the origin is in Q   if and only if   det(q_0, q_1, q_2) = 0,
@@ -11,16 +11,18 @@
 //!                                       and on no axis two of the q_i x q_(i+1) have opposite signs
 //! ```
 //!
-//! Proof of the last two for a plane through the origin. Let the q_i x q_(i+1) be l_i n. If Q has area, its normal is not zero on some axis, on which these have
-//! the signs of the l_i or all the opposite; the origin is in a convex polygon if and only if the l_i have no opposite signs. (And if it is in it, all q_i are on one side on no axis.)
-//! If Q is a segment or a point whose line or direction does not go through the origin, the l_i add up to zero, for they are what Q's area is seen from there: either
-//! two have opposite signs, or all are zero, and Q is a point. If all q_i are on one line with the origin, it is in their hull if and only if they are not all beyond it on one
+//! Proof of the last two for a plane through the origin. Let the q_i x q_(i+1) be l_i n. If Q has area, its normal is not zero on some
+//! axis, on which these have the signs of the l_i or all the opposite; the origin is in a convex polygon if and only if the l_i have no
+//! opposite signs. (And if it is in it, all q_i are on one side on no axis.) If Q is a segment or a point whose line or direction does not
+//! go through the origin, the l_i add up to zero, for they are what Q's area is seen from there: either two have opposite signs, or all are
+//! zero, and Q is a point. If all q_i are on one line with the origin, it is in their hull if and only if they are not all beyond it on one
 //! side; which an axis shows that is not normal to the line.
 //!
-//! The determinant D is a polynomial in t of degree 3, the other signs are those of polynomials of degree 2 and 1. If D is not zero, the elements
-//! meet at those of its roots at which the polygon holds the origin: at most three questions at algebraic numbers (`root`). If D is zero for all t, the answer
-//! changes only where one of the other polynomials has a root, and is that of a closed set: the first time is 0 or one of these. All is
-//! computed in integers: no tolerance, no search without end. Tens of microseconds a pair; for the few that floating point leaves undecided.
+//! The determinant D is a polynomial in t of degree 3, the other signs are those of polynomials of degree 2 and 1. If D is not zero, the
+//! elements meet at those of its roots at which the polygon holds the origin: at most three questions at algebraic numbers (`root`). If D
+//! is zero for all t, the answer changes only where one of the other polynomials has a root, and is that of a closed set: the first time is
+//! 0 or one of these. All is computed in integers: no tolerance, no search without end. Tens of microseconds a pair; for the few that
+//! floating point leaves undecided.
 //!
 //! What is told of a time is a *cell* ([`Contact::cell`]): neighbours of a grid around it. So what is told depends on the exact time and
 //! on the width of the grid alone, not on the way in which it was found.
@@ -81,7 +83,8 @@ pub(crate) enum Decided {
     InIntegers,
 }
 
-/// The cell of a grid in which two elements first meet, if they do in [0, 1]; and how that was decided. What begins after `until` may be left out.
+/// The cell of a grid in which two elements first meet, if they do in [0, 1]; and how that was decided. What begins after `until` may be
+/// left out.
 #[inline]
 pub(crate) fn impact(moving: &Moving, grid: Grid, until: f64) -> (Option<[f64; 2]>, Decided) {
     match certain(moving, grid, until) {
@@ -170,8 +173,8 @@ impl Polygon {
         sum
     }
 
-    /// Whether the polygon holds the origin at a time at which the two are in one plane. The time is from the one number to the other; `sign` tells the signs
-    /// of polynomials at it, and is asked only where floating point is not certain.
+    /// Whether the polygon holds the origin at a time at which the two are in one plane. The time is from the one number to the other;
+    /// `sign` tells the signs of polynomials at it, and is asked only where floating point is not certain.
     fn holds_origin(&self, about: [f64; 2], sign: &dyn Fn(&Polynomial) -> i8) -> bool {
         let rounded = self.rounded.part(about);
         (0..3).all(|axis| {

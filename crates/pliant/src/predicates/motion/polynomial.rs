@@ -281,9 +281,10 @@ impl Polynomial {
 
 /// Signed remainders: of two polynomials, each further one the negative remainder of the two before it, to the last that is not zero.
 ///
-/// Between two fractions that are no roots of the first, its sequence with its derivative loses as many changes of sign as there are roots, each counted once (Sturm);
-/// that with its derivative times another loses as many more where the other is positive than where it is negative (Tarski; Basu, Pollack,
-/// Roy, Algorithms in Real Algebraic Geometry, theorems 2.61 and 2.73; the product may be replaced by its remainder).
+/// Between two fractions that are no roots of the first, its sequence with its derivative loses as many changes of sign as there are roots,
+/// each counted once (Sturm); that with its derivative times another loses as many more where the other is positive than where it is
+/// negative (Tarski; Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry, theorems 2.61 and 2.73; the product may be replaced by its
+/// remainder).
 #[derive(Clone, Debug)]
 pub(super) struct SignedRemainders {
     len: usize,

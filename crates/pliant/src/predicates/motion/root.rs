@@ -1,8 +1,8 @@
 //! Roots of polynomials in (0, 1], in order, and signs of other polynomials there: all exact, with no number that is rounded in an answer.
 //!
 //! A root is a fraction of two, or alone in an open interval between two such at which its polynomial, which has no multiple roots, has
-//! opposite signs. The sign of another polynomial at it is mostly known from floating point, with a bound; where it is not, as where it is zero,
-//! from a sequence of signed remainders, however near other roots are. So the work is bounded.
+//! opposite signs. The sign of another polynomial at it is mostly known from floating point, with a bound; where it is not, as where it is
+//! zero, from a sequence of signed remainders, however near other roots are. So the work is bounded.
 
 use super::super::integer::Integer;
 use super::polynomial::{Dyadic, Polynomial, SignedRemainders};
@@ -262,10 +262,10 @@ impl Alone {
 
     /// The sign, if floating point is certain of it.
     ///
-    /// Let S be the sum of the magnitudes of the coefficients, each of which has an error of 2^-51 of itself. Horner's rule with t from 0 to 1 rounds
-    /// twice for each power, up to the third, each time a number of at most S: both are less than 2^-49 S. The root is within w / 2 + 2^-51
-    /// of the middle, where w is the width that is computed, and there the value changes by at most 3 S times that. In all less than
-    /// (2 w + 2^-48) S; twice that is allowed for, with what this line itself rounds.
+    /// Let S be the sum of the magnitudes of the coefficients, each of which has an error of 2^-51 of itself. Horner's rule with t from 0
+    /// to 1 rounds twice for each power, up to the third, each time a number of at most S: both are less than 2^-49 S. The root is within w
+    /// / 2 + 2^-51 of the middle, where w is the width that is computed, and there the value changes by at most 3 S times that. In all less
+    /// than (2 w + 2^-48) S; twice that is allowed for, with what this line itself rounds.
     fn certain_sign_of(&self, other: &Polynomial) -> Option<i8> {
         let coefficients = scaled(other);
         let [low, high] = [&self.low, &self.high].map(Dyadic::approximately);

@@ -1,8 +1,8 @@
 //! Impacts: candidates of a motion whose elements meet on the way, and when first.
 //!
-//! Candidates are decided as soon as a batch of them is found, and never listed: eight at a time by separating directions in single precision (`kernels::apart`),
-//! which leaves few; each of these in double precision where rounding cannot matter, else in integers (`predicates::motion`). What is found of a pair is
-//! its cell of a grid of times, which depends on nothing but the pair.
+//! Candidates are decided as soon as a batch of them is found, and never listed: eight at a time by separating directions in single
+//! precision (`kernels::apart`), which leaves few; each of these in double precision where rounding cannot matter, else in integers
+//! (`predicates::motion`). What is found of a pair is its cell of a grid of times, which depends on nothing but the pair.
 
 use super::close::ElementCandidates;
 use super::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves, Reach};
@@ -105,8 +105,8 @@ impl<K> Impacts<K> {
         }
     }
 
-    /// Not contact, but coming as near as this, which is found by [`approach`]; candidates have half of [`LIMIT`] times that for a margin. Elements that
-    /// are as near at the start are asked for contact after it.
+    /// Not contact, but coming as near as this, which is found by [`approach`]; candidates have half of [`LIMIT`] times that for a margin.
+    /// Elements that are as near at the start are asked for contact after it.
     pub(crate) fn or_near(self, distance: f64) -> Self {
         Self { distance, ..self }
     }
@@ -244,8 +244,8 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
 /// What lanes find further apart than this many times the distance is further than [`distant_until`] takes for near.
 pub(crate) const LIMIT: f64 = 1.002;
 
-/// A time up to which two elements stay further apart than a distance, twice, if that is not all the time; of those that are not at the start, one up to which
-/// they do not meet, if they meet later.
+/// A time up to which two elements stay further apart than a distance, twice, if that is not all the time; of those that are not at the
+/// start, one up to which they do not meet, if they meet later.
 #[cold]
 fn approach(moving: &Moving, distance: f64) -> (Option<[f64; 2]>, Decided) {
     let until = distant_until(moving, distance);

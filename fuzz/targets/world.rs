@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 
 use arbitrary::Arbitrary;
-use pliant::reference::Moving;
+use pliant::reference::{Moving, Timed};
 use pliant::{
     BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Selection, Update, World,
     reference,
@@ -80,6 +80,7 @@ enum Call {
     Near(u8, u8, u8),
     Close(u8, u8, u8),
     Distance(u8, u8, Option<u8>),
+    Meet(u8, u8, u8, u8),
 }
 
 libfuzzer_sys::fuzz_target!(|life: Life| {
@@ -595,6 +596,18 @@ impl<S: Scalar> Lived<S> {
                 let cut_off = cut_off.map_or(f64::INFINITY, |cut_off| f64::from(cut_off) / 16.0);
                 self.distance(a, b, cut_off);
             }
+            Call::Meet(a, b, width, gap) => {
+                let (Some(a), Some(b)) = (self.body(a), self.body(b)) else {
+                    return;
+                };
+                // 1, a half, a quarter ... and neighbouring numbers.
+                let width = if width == u8::MAX {
+                    0.0
+                } else {
+                    f64::powi(0.5, i32::from(width % 64))
+                };
+                self.meet(a, b, width, f64::from(gap / 64) / 16.0);
+            }
         }
     }
 
@@ -698,6 +711,106 @@ impl<S: Scalar> Lived<S> {
         let figures = found.clone().map(|it| (it.distance, it.direction));
         figures.for_each(|it| check_figures(it, distance));
         assert!(found.map(|it| it.pair.triangles()).eq(expected));
+    }
+
+    /// What meets on the way, of two bodies or of one with itself; what meets first; and a step that lets nothing through.
+    fn meet(&mut self, a: usize, b: usize, width: f64, gap: f64) {
+        let (one, other) = (&self.known[a], &self.known[b]);
+        let of = if a == b {
+            Selection::Within(one.id)
+        } else {
+            Selection::Between(one.id, other.id)
+        };
+        let [moving_a, moving_b] = [one, other].map(Known::moving);
+        let mut expected = Vec::new();
+        let mut add = |(of, with): (&Known<S>, &Known<S>), met: Vec<Timed>| {
+            let rows = met.into_iter();
+            expected.extend(rows.map(|([i, j], cell)| ([of.id.0, i, with.id.0, j], cell)));
+        };
+        if a == b {
+            let met = reference::self_vertex_triangle_impacts(&moving_a, width);
+            add((one, one), met.expect("the body was taken"));
+        } else {
+            let met = reference::vertex_triangle_impacts(&moving_a, &moving_b, width);
+            add((one, other), met.expect("the bodies were taken"));
+            let met = reference::vertex_triangle_impacts(&moving_b, &moving_a, width);
+            add((other, one), met.expect("the bodies were taken"));
+        }
+        expected.sort_unstable_by_key(|&(row, _)| row);
+        let found = self.world.vertex_triangle_impacts(of).width(width).all();
+        let found = found.expect("both are there").iter();
+        let rows = found.map(|it| (<[u32; 4]>::from(it.pair), [it.low, it.high]));
+        assert!(rows.eq(expected.iter().copied()));
+        let mut earliest = expected.iter().map(|&(_, cell)| cell).collect::<Vec<_>>();
+
+        let (one, other) = if one.id <= other.id {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let [moving_a, moving_b] = [one, other].map(Known::moving);
+        let met = if a == b {
+            reference::self_edge_edge_impacts(&moving_a, width)
+        } else {
+            reference::edge_edge_impacts(&moving_a, &moving_b, width)
+        };
+        let met = met.expect("the bodies were taken").into_iter();
+        let expected = met.map(|([i, j], cell)| ([one.id.0, i, other.id.0, j], cell));
+        let expected = expected.collect::<Vec<_>>();
+        let found = self.world.edge_edge_impacts(of).width(width).all();
+        let found = found.expect("both are there").iter();
+        let rows = found.map(|it| (<[u32; 4]>::from(it.pair), [it.low, it.high]));
+        assert!(rows.eq(expected.iter().copied()));
+
+        earliest.extend(expected.iter().map(|&(_, cell)| cell));
+        let earliest = earliest.into_iter().min_by(|p, q| p[1].total_cmp(&q[1]));
+        let first = self.world.first_impact(of, width).expect("both are there");
+        assert_eq!(first.map(|it| [it.low(), it.high()]), earliest);
+
+        // Nothing meets on the way to the shape that a step makes but what does at its start.
+        let step = self
+            .world
+            .collision_free_step(of, gap)
+            .expect("both are there");
+        assert!((0.0..=1.0).contains(&step));
+        assert!(gap > 0.0 || first.is_some() || step == 1.0);
+        let mut there = World::<S>::new();
+        let moved = [a, b].map(|body| {
+            let known = &self.known[body];
+            let id = there
+                .add(&known.triangles, &known.positions)
+                .expect("it was taken");
+            if let Some(end) = &known.end {
+                there.set_motion(id, end).expect("it was taken");
+            }
+            id
+        });
+        there.advance_motion(step).expect("a part of the step");
+        let ends = moved.map(|id| there.positions(id).expect("it was taken"));
+        for ((id, body), end) in moved.into_iter().zip([a, b]).zip(&ends) {
+            let known = &self.known[body];
+            there
+                .set_positions(id, &known.positions)
+                .expect("it was taken");
+            there.set_motion(id, end).expect("it was taken");
+        }
+        let of = if a == b {
+            Selection::Within(moved[0])
+        } else {
+            Selection::Between(moved[0], moved[1])
+        };
+        for (body, id) in [a, b].into_iter().zip(moved) {
+            there
+                .set_vertex_groups(id, &self.known[body].groups)
+                .expect("it was taken");
+        }
+        let met = there
+            .vertex_triangle_impacts(of)
+            .all()
+            .expect("both are there");
+        assert!(met.iter().all(|it| it.high == 0.0));
+        let met = there.edge_edge_impacts(of).all().expect("both are there");
+        assert!(met.iter().all(|it| it.high == 0.0));
     }
 
     /// How far two bodies are apart: something is as near as that, and nothing nearer.

@@ -74,11 +74,27 @@ def test_cloth_on_ball_keeps_its_thickness() -> None:
     assert abs(simulation.height() - RADIUS - THICK) < 0.03
 
 
+def test_nothing_gets_through_in_free_steps() -> None:
+    """What the Rust test says of the Rust example: no frame intersects, and nothing ever comes nearer than the gap."""
+    import pliant
+    from cloth_on_ball import FREE_STEPS_A_SECOND, GAP, RADIUS, THICK, Simulation
+
+    simulation, most = Simulation(), 0
+    for step in range(2 * FREE_STEPS_A_SECOND):
+        most = max(most, simulation.step_free())
+        assert simulation.world.intersections(pliant.Selection.EVERYTHING).first() is None, step
+        assert simulation.gap() > GAP, step
+    assert most > 1  # some steps were too long to be free at once
+    assert abs(simulation.height() - RADIUS - THICK) < 0.02
+
+
 def test_cloth_on_ball_prints(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     said = run("cloth_on_ball.py", 1, monkeypatch=monkeypatch, capsys=capsys).splitlines()
     assert len(said) == 4 and said[-1].startswith(" 1.00 s: ")
     said = run("cloth_on_ball.py", 1, "apart", monkeypatch=monkeypatch, capsys=capsys).splitlines()
     assert len(said) == 4 and said[-1].endswith(" mm apart")
+    said = run("cloth_on_ball.py", 1, "free", monkeypatch=monkeypatch, capsys=capsys).splitlines()
+    assert len(said) == 4 and said[-1].endswith(" plans")
 
 
 class TestTrimeshManager:

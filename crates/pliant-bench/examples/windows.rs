@@ -31,9 +31,12 @@ enum Ask {
     Close(f64),
     /// How far two bodies are apart.
     Distance,
+    /// What meets on the way to the next step; and only the first.
+    Meet,
+    Earliest,
 }
 
-const WINDOWS: [Window; 17] = [
+const WINDOWS: [Window; 21] = [
     ("easy", "spheres", 20_480, 1..=50, Ask::All),
     ("hard", "spheres", 20_480, 150..=200, Ask::All),
     ("deepest", "spheres", 20_480, 200..=200, Ask::All),
@@ -51,6 +54,10 @@ const WINDOWS: [Window; 17] = [
     ("deepnear", "spheres", 20_480, 178..=180, Ask::Near(0.5)),
     ("deeper", "spheres", 20_480, 178..=180, Ask::Close(0.5)),
     ("apart", "spheres", 20_480, 1..=50, Ask::Distance),
+    ("meet", "cloth", 79_202, 43..=45, Ask::Meet),
+    ("meeting", "crowd", 5_120, 118..=120, Ask::Meet),
+    ("earliest", "cloth", 79_202, 43..=45, Ask::Earliest),
+    ("earlier", "spheres", 20_480, 118..=120, Ask::Earliest),
 ];
 
 fn main() {
@@ -91,7 +98,10 @@ fn options() -> pliant::Options {
 
 fn play((name, scene, triangles, steps, ask): Window, rounds: u32) {
     let scene = Scene::new(scene, Some(triangles), Scene::DEFAULT_SEED).expect("a scene");
-    let motion = Motion::of_scene(&scene, steps);
+    let mut motion = Motion::of_scene(&scene, steps);
+    if matches!(ask, Ask::Meet | Ask::Earliest) {
+        motion = motion.on_the_way(&scene, 1.0);
+    }
     // Margins are in mean lengths of an edge.
     let ask = match ask {
         Ask::Near(lengths) => Ask::Near(lengths * motion.mean_side()),
@@ -146,6 +156,9 @@ fn one_step(
         world
             .set_positions(body, &placed.world)
             .expect("good shapes");
+        if let Some(end) = &placed.end {
+            world.set_motion(body, end).expect("good shapes");
+        }
     }
     let moved = start.elapsed().as_secs_f64();
     let found = match ask {
@@ -175,6 +188,17 @@ fn one_step(
         Ask::Distance => {
             let nearest = world.distance(bodies[0], bodies[1], f64::INFINITY);
             usize::from(nearest.expect("both are there").is_some())
+        }
+        Ask::Meet => {
+            let of = Selection::Everything;
+            let met = world.vertex_triangle_impacts(of).all();
+            let found = met.expect("the world is there").len();
+            let met = world.edge_edge_impacts(of).all();
+            found + met.expect("the world is there").len()
+        }
+        Ask::Earliest => {
+            let first = world.first_impact(Selection::Everything, 1e-6);
+            usize::from(first.expect("the world is there").is_some())
         }
     };
     (moved, start.elapsed().as_secs_f64(), found)

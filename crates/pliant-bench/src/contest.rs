@@ -28,6 +28,8 @@ pub enum Query {
     Itself,
     /// Vertices near triangles and edges near edges, of all bodies and of each with itself.
     Near,
+    /// Vertices and triangles, and edges and edges, that meet on their way.
+    When,
     /// How far the first two bodies are apart.
     Distance,
 }
@@ -40,6 +42,7 @@ impl Query {
             Self::First => "first",
             Self::Itself => "self",
             Self::Near => "near",
+            Self::When => "when",
             Self::Distance => "distance",
         }
     }
@@ -143,7 +146,7 @@ impl Contest {
         for (&step, frame) in self.motion.steps.iter().zip(&self.motion.frames) {
             let all = |method: &mut Box<dyn Method>| match self.query {
                 Query::Itself => method.self_pairs().map(<[Pair]>::to_vec),
-                Query::Near => method.candidates().map(<[Pair]>::to_vec),
+                Query::Near | Query::When => method.candidates().map(<[Pair]>::to_vec),
                 _ => Some(method.all_pairs().to_vec()),
             };
             write(&mut shapes, frame);
@@ -216,7 +219,7 @@ impl Contest {
                 Query::All => _ = std::hint::black_box(method.all_pairs()),
                 Query::First => _ = std::hint::black_box(method.first_pair()),
                 Query::Itself => _ = std::hint::black_box(method.self_pairs()),
-                Query::Near => _ = std::hint::black_box(method.candidates()),
+                Query::Near | Query::When => _ = std::hint::black_box(method.candidates()),
                 Query::Distance => _ = std::hint::black_box(method.distance()),
             }
             let end = Instant::now();

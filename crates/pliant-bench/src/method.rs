@@ -42,8 +42,8 @@ pub trait Method {
     }
 
     /// Vertices near triangles, then edges near edges, all bodies and each with itself: rows as the library's, either kind sorted.
-    /// `None` for a method that has no such mode; how near is near, and whether of boxes or of the elements themselves, it was told when it
-    /// was made.
+    /// `None` for a method that has no such mode; how near is near, and whether of boxes, of the elements themselves or of those that meet on
+    /// their way, it was told when it was made.
     fn candidates(&mut self) -> Option<&[Pair]> {
         None
     }

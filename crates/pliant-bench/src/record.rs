@@ -60,7 +60,7 @@ pub struct ContestRecord {
     pub bodies: usize,
     /// Triangles of a body.
     pub triangles: usize,
-    /// `all`, `first`, `self` or `near`.
+    /// `all`, `first`, `self`, `near`, `when` or `distance`.
     pub query: String,
     /// The numbers of the steps played.
     pub steps: Vec<u32>,

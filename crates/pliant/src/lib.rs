@@ -68,7 +68,7 @@
 //! | single or double precision | [`Scalar`] |
 //! | the answer without any tree, to compare with | [`reference`](mod@reference) |
 //! | what a body looks like, for pictures | [`World::triangles`], [`positions`](World::positions), [`tree_boxes`](World::tree_boxes), [`NodeBox`] |
-//! | a whole simulation | `crates/pliant/examples/cloth_on_ball.rs` in the repository: a cloth that falls on a moving ball and reacts to what is found |
+//! | a whole simulation | `crates/pliant/examples/cloth_on_ball` in the repository: a cloth that falls on a moving ball and reacts to what is found |
 //!
 //! Words of the paper (Larsson and Akenine-Möller, *Collision Detection for Continuously Deforming Bodies*, 2001), and where they
 //! are chosen: initial shape tree and mesh connectivity tree, [`Partition`]; bottom-up, top-down and hybrid update, [`Update`];

@@ -76,6 +76,17 @@ fn replay(scene: &Scene, options: Options, steps: &[u32]) {
                 let nearest = world.distance(a, b, f64::INFINITY).unwrap();
                 pairs += usize::from(nearest.is_some());
             }
+            let met = world.vertex_triangle_impacts(Selection::Everything);
+            pairs += met.all().unwrap().len();
+            let met = world.edge_edge_impacts(Selection::Everything);
+            pairs += met.all().unwrap().len();
+            let first = world.first_impact(Selection::Everything, 1e-6).unwrap();
+            pairs += usize::from(first.is_some());
+            for gap in [0.0, 0.001] {
+                let step = world.collision_free_step(Selection::World, gap);
+                world.set_motion(ids[0], &shapes[0]).unwrap();
+                assert!((0.0..=1.0).contains(&step.unwrap()));
+            }
             world.advance_motion(0.5).unwrap();
             let everything = world.edge_edge_candidates(Selection::Everything, 0.01);
             pairs += everything.all().unwrap().len();

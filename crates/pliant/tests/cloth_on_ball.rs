@@ -1,10 +1,10 @@
 //! The loop of the paper's figure 1, as the example runs it: a cloth that reacts to the pairs reported stays on a moving ball.
 
-#[path = "../examples/cloth_on_ball.rs"]
-#[allow(dead_code, reason = "its main is not called")]
-mod cloth_on_ball;
+#[path = "../examples/cloth_on_ball/simulation/mod.rs"]
+#[allow(dead_code, reason = "it writes no files here")]
+mod simulation;
 
-use cloth_on_ball::{RADIUS, STEPS_A_SECOND, Simulation, THICK};
+use simulation::{FREE_STEPS_A_SECOND, GAP, RADIUS, STEPS_A_SECOND, Simulation, THICK};
 
 #[test]
 fn the_cloth_stays_on_the_ball_and_outside_it() {
@@ -35,6 +35,23 @@ fn the_cloth_keeps_its_thickness() {
     }
     println!("met in {met} steps, at least {least} m apart");
     assert!(met > STEPS_A_SECOND, "it met the ball in {met} steps");
+    let height = simulation.height() - RADIUS - THICK;
+    assert!(height.abs() < 0.02, "{height} m above where it lies");
+}
+
+#[test]
+fn nothing_gets_through_in_free_steps() {
+    let mut simulation = Simulation::new().unwrap();
+    let (mut most, mut least) = (0, f64::INFINITY);
+    for _ in 0..4 * FREE_STEPS_A_SECOND {
+        most = most.max(simulation.step_free().unwrap());
+        let step = simulation.steps;
+        assert!(!simulation.intersects().unwrap(), "step {step}");
+        least = least.min(simulation.gap().unwrap());
+        assert!(least > GAP, "step {step}: {least} m apart");
+    }
+    println!("at most {most} plans a step, at least {least} m apart");
+    assert!(most > 1, "every step was free at once: none was too long");
     let height = simulation.height() - RADIUS - THICK;
     assert!(height.abs() < 0.02, "{height} m above where it lies");
 }

@@ -16,6 +16,7 @@ mod peers;
 mod response;
 mod splits;
 mod table_1;
+mod when;
 
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::exact;
@@ -65,7 +66,7 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order in which `all` runs them.
-pub const EXPERIMENTS: [Experiment; 12] = [
+pub const EXPERIMENTS: [Experiment; 13] = [
     experiment_1::EXPERIMENT,
     table_1::EXPERIMENT,
     experiment_3::EXPERIMENT,
@@ -78,6 +79,7 @@ pub const EXPERIMENTS: [Experiment; 12] = [
     peers::EXPERIMENT,
     near::EXPERIMENT,
     close::EXPERIMENT,
+    when::EXPERIMENT,
 ];
 
 impl Experiment {

@@ -4,7 +4,8 @@
 //! asked for its vertices against triangles and edges against edges, those that belong to them: each pair of elements comes up once.
 //! Rows and numbers of edges are the library's. Gaps are compared in `f64`, in which differences of `f32` that are not very
 //! unlike are exact. Where elements themselves are to be close, and not their boxes, those that are left are measured in plain `f64`, and what
-//! is too near to the limit for that is decided by the library's reference, which is exact and has no tree.
+//! is too near to the limit for that is decided by the library's reference, which is exact and has no tree. Whether elements meet on their
+//! way is always left to that.
 
 use super::bodies::Aabb;
 use super::plain_distance::{of_point_and_triangle, of_segments};
@@ -30,14 +31,37 @@ pub(super) fn swept_box(positions: &[[f32; 3]], ends: &[[f32; 3]], corners: &[u3
     hull
 }
 
+/// What is looked for among elements whose boxes are near each other.
+#[derive(Clone, Copy, Debug)]
+enum Sought {
+    /// All of them.
+    Near,
+    /// Those that are at most so far apart themselves.
+    CloserThan(f64),
+    /// Those that meet on their way.
+    Meeting,
+}
+
+/// How what was found is told.
+#[derive(Clone, Copy, Debug)]
+enum Told {
+    /// All rows.
+    Rows,
+    /// One row of two numbers: how many of either kind there are.
+    Count,
+    /// The row of the earliest meeting, if there is one.
+    Earliest,
+}
+
 /// The vertices, edges and triangles of all bodies, and what is found near what.
 pub(super) struct Elements {
     radius: f64,
-    /// How far elements may be apart, if that is asked.
-    distance: Option<f64>,
+    sought: Sought,
     bodies: Vec<Body>,
     /// Vertices near triangles, then edges near edges.
     found: [Vec<Pair>; 2],
+    /// When it is, its kind, and which they are, of those that meet.
+    earliest: Option<(f64, usize, Pair)>,
     keys: Vec<u64>,
     all: Vec<Pair>,
     pub(super) counters: Counters,
@@ -51,8 +75,8 @@ struct Body {
     vertex_boxes: Vec<Aabb>,
     edge_boxes: Vec<Aabb>,
     triangle_boxes: Vec<Aabb>,
-    /// Where vertices are now, if elements are measured.
-    positions: Vec<[f64; 3]>,
+    /// Where vertices are now, and at the end of their way, unless boxes are all that counts.
+    positions: [Vec<[f64; 3]>; 2],
 }
 
 impl Body {
@@ -85,12 +109,21 @@ impl Body {
             vertex_boxes: Vec::new(),
             edge_boxes: Vec::new(),
             triangle_boxes: Vec::new(),
-            positions: Vec::new(),
+            positions: Default::default(),
         }
     }
 
     fn points<const C: usize>(&self, corners: [u32; C]) -> [[f64; 3]; C] {
-        corners.map(|corner| self.positions[corner as usize])
+        corners.map(|corner| self.positions[0][corner as usize])
+    }
+
+    /// Where corners are now, and at the end of their way.
+    fn way<const C: usize>(&self, corners: [u32; C]) -> [[[f64; 3]; C]; 2] {
+        let [_, ends] = &self.positions;
+        [
+            self.points(corners),
+            corners.map(|corner| ends[corner as usize]),
+        ]
     }
 }
 
@@ -99,9 +132,10 @@ impl Elements {
     pub(super) fn within(radius: f64) -> Self {
         Self {
             radius,
-            distance: None,
+            sought: Sought::Near,
             bodies: Vec::new(),
             found: Default::default(),
+            earliest: None,
             keys: Vec::new(),
             all: Vec::new(),
             counters: Counters::default(),
@@ -134,16 +168,19 @@ impl Elements {
             body.triangle_boxes.clear();
             let triangles = body.triangles.iter();
             body.triangle_boxes.extend(triangles.map(|it| hull(it)));
-            if self.distance.is_some() {
-                let points = shape.world.iter().map(|point| point.map(f64::from));
-                body.positions.clear();
-                body.positions.extend(points);
+            if !matches!(self.sought, Sought::Near) {
+                let ends = shape.end.unwrap_or(shape.world);
+                for (positions, given) in body.positions.iter_mut().zip([shape.world, ends]) {
+                    positions.clear();
+                    positions.extend(given.iter().map(|point| point.map(f64::from)));
+                }
             }
         }
     }
 
     pub(super) fn begin(&mut self) {
         self.found.iter_mut().for_each(Vec::clear);
+        self.earliest = None;
     }
 
     /// Finds what is near among the elements that belong to two triangles, of two bodies in order or of one.
@@ -182,18 +219,39 @@ impl Elements {
         if !are_within(box_a, box_b, 2.0 * self.radius) {
             return;
         }
-        let is_close = self.distance.is_none_or(|distance| {
-            let point = body_a.points([vertex]);
-            let corners = body_b.points(body_b.triangles[triangle as usize]);
-            let apart = of_point_and_triangle(point[0], corners);
-            is_at_most(apart, distance).unwrap_or_else(|| {
-                let (one, other) = (alone(&[[0; 3]], &point), alone(&[[0, 1, 2]], &corners));
-                let close = reference::close_vertex_triangle_pairs(&one, &other, distance);
-                !close.expect("these are bodies").is_empty()
-            })
-        });
-        if is_close {
-            self.found[0].push([a as u32, vertex, b as u32, triangle]);
+        let row = [a as u32, vertex, b as u32, triangle];
+        let corners = body_b.triangles[triangle as usize];
+        match self.sought {
+            Sought::Near => self.found[0].push(row),
+            Sought::CloserThan(distance) => {
+                let (point, corners) = (body_a.points([vertex]), body_b.points(corners));
+                let apart = of_point_and_triangle(point[0], corners);
+                let is_close = is_at_most(apart, distance).unwrap_or_else(|| {
+                    let (one, other) = (alone(&[[0; 3]], &point), alone(&[[0, 1, 2]], &corners));
+                    let close = reference::close_vertex_triangle_pairs(&one, &other, distance);
+                    !close.expect("these are bodies").is_empty()
+                });
+                if is_close {
+                    self.found[0].push(row);
+                }
+            }
+            Sought::Meeting => {
+                let (point, corners) = (body_a.way([vertex]), body_b.way(corners));
+                let one = on_the_way(&[[0; 3]], &point);
+                let other = on_the_way(&[[0, 1, 2]], &corners);
+                let met = reference::vertex_triangle_impacts(&one, &other, 0.0);
+                self.meeting(0, row, &met.expect("these are bodies"));
+            }
+        }
+    }
+
+    /// Keeps two elements if the reference says that they meet.
+    fn meeting(&mut self, kind: usize, row: Pair, met: &[reference::Timed]) {
+        for &(_, [low, _]) in met {
+            self.found[kind].push(row);
+            let known = self.earliest.unwrap_or((f64::INFINITY, 0, row));
+            let own = (low, kind, row);
+            self.earliest = Some(if own < known { own } else { known });
         }
     }
 
@@ -216,21 +274,32 @@ impl Elements {
         if !are_within(box_a, box_b, 2.0 * self.radius) {
             return;
         }
-        let is_close = self.distance.is_none_or(|distance| {
-            let (one, other) = (
-                body_a.points(body_a.edges[i as usize]),
-                body_b.points(others),
-            );
-            is_at_most(of_segments(one, other), distance).unwrap_or_else(|| {
-                let (one, other) = (alone(&[[0, 1, 1]], &one), alone(&[[0, 1, 1]], &other));
-                let close = reference::close_edge_edge_pairs(&one, &other, distance);
-                !close.expect("these are bodies").is_empty()
-            })
-        });
-        if is_close {
-            let (first, second) = ([a as u32, i], [b as u32, j]);
+        let (first, second) = ([a as u32, i], [b as u32, j]);
+        let row = {
             let ([a, i], [b, j]) = (first.min(second), first.max(second));
-            self.found[1].push([a, i, b, j]);
+            [a, i, b, j]
+        };
+        let ends = body_a.edges[i as usize];
+        match self.sought {
+            Sought::Near => self.found[1].push(row),
+            Sought::CloserThan(distance) => {
+                let (one, other) = (body_a.points(ends), body_b.points(others));
+                let is_close = is_at_most(of_segments(one, other), distance).unwrap_or_else(|| {
+                    let (one, other) = (alone(&[[0, 1, 1]], &one), alone(&[[0, 1, 1]], &other));
+                    let close = reference::close_edge_edge_pairs(&one, &other, distance);
+                    !close.expect("these are bodies").is_empty()
+                });
+                if is_close {
+                    self.found[1].push(row);
+                }
+            }
+            Sought::Meeting => {
+                let (one, other) = (body_a.way(ends), body_b.way(others));
+                let one = on_the_way(&[[0, 1, 1]], &one);
+                let other = on_the_way(&[[0, 1, 1]], &other);
+                let met = reference::edge_edge_impacts(&one, &other, 0.0);
+                self.meeting(1, row, &met.expect("these are bodies"));
+            }
         }
     }
 
@@ -279,6 +348,17 @@ fn alone<'b>(triangles: &'b [[u32; 3]], positions: &'b [[f64; 3]]) -> Moving<'b,
     }
 }
 
+/// A body of one triangle, perhaps degenerate, that moves.
+fn on_the_way<'b, const C: usize>(
+    triangles: &'b [[u32; 3]],
+    [start, end]: &'b [[[f64; 3]; C]; 2],
+) -> Moving<'b, f64> {
+    Moving {
+        end: Some(end),
+        ..alone(triangles, start)
+    }
+}
+
 /// Whether something that was measured in `f64` is at most so far apart, if that is certain.
 #[inline]
 fn is_at_most(apart: f64, distance: f64) -> Option<bool> {
@@ -295,6 +375,7 @@ fn are_within(a: &Aabb, b: &Aabb, gap: f64) -> bool {
 /// Everything near everything by a sweep along one axis: no tree, and no pair of triangles.
 pub struct NearSweep {
     elements: Elements,
+    told: Told,
     /// Where each begins on the axis, its body and its number: vertices, edges, triangles.
     begins: [Vec<(f32, usize, u32)>; 3],
 }
@@ -304,6 +385,7 @@ impl NearSweep {
     pub fn new(radius: f64) -> Self {
         Self {
             elements: Elements::within(radius),
+            told: Told::Rows,
             begins: Default::default(),
         }
     }
@@ -311,8 +393,33 @@ impl NearSweep {
     /// Elements that are themselves at most so far apart.
     pub fn closer_than(distance: f64) -> Self {
         let mut all = Self::new(distance / 2.0);
-        all.elements.distance = Some(distance);
+        all.elements.sought = Sought::CloserThan(distance);
         all
+    }
+
+    /// Elements that meet on their way.
+    pub fn meeting() -> Self {
+        let mut all = Self::new(0.0);
+        all.elements.sought = Sought::Meeting;
+        all
+    }
+
+    /// Of what meets only the earliest; of several at one time a vertex and a triangle rather than edges, the first in order.
+    #[must_use]
+    pub fn earliest(self) -> Self {
+        Self {
+            told: Told::Earliest,
+            ..self
+        }
+    }
+
+    /// Only how many there are: one row of two numbers, of vertices and triangles and of edges, and two zeros.
+    #[must_use]
+    pub fn counted(self) -> Self {
+        Self {
+            told: Told::Count,
+            ..self
+        }
     }
 }
 
@@ -338,7 +445,11 @@ impl Method for NearSweep {
     }
 
     fn candidates(&mut self) -> Option<&[Pair]> {
-        let Self { elements, begins } = self;
+        let Self {
+            elements,
+            told,
+            begins,
+        } = self;
         elements.begin();
         for (kind, list) in begins.iter_mut().enumerate() {
             list.clear();
@@ -402,7 +513,17 @@ impl Method for NearSweep {
                 elements.edge_edge([a, b], i, j);
             }
         }
-        Some(elements.sorted())
+        match told {
+            Told::Rows => return Some(elements.sorted()),
+            Told::Count => {
+                let [of_vertices, of_edges] = &elements.found;
+                elements.all = vec![[of_vertices.len() as u32, of_edges.len() as u32, 0, 0]];
+            }
+            Told::Earliest => {
+                elements.all = elements.earliest.map(|(.., row)| row).into_iter().collect();
+            }
+        }
+        Some(&elements.all)
     }
 
     fn take_counters(&mut self) -> Counters {

@@ -2,7 +2,8 @@
 
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
-use pliant::{BodyId, Options, Scalar, Selection, World};
+use pliant::{BodyId, Impact, Options, Scalar, Selection, World};
+use std::ops::ControlFlow;
 
 /// A world of the library, of either precision.
 pub struct Ours<S: Scalar = f32> {
@@ -15,14 +16,32 @@ pub struct Ours<S: Scalar = f32> {
     positions: Vec<[S; 3]>,
     pairs: Vec<Pair>,
     counters: Counters,
-    /// The margin round each element, of those who are asked what is near.
-    radius: f64,
-    /// How far elements may be apart, of those who are asked which are close.
-    distance: Option<f64>,
+    /// What is asked of vertices and triangles and of edges.
+    asked: Asked,
 }
 
-/// How shapes come into a world of this precision.
-trait Precision: Scalar {
+/// What a world may be asked of its vertices, triangles and edges.
+#[derive(Clone, Copy, Debug)]
+enum Asked {
+    /// Which are near each other, with this margin round each.
+    Candidates(f64),
+    /// The same, but only how many.
+    Count(f64),
+    /// Which are at most so far apart.
+    ClosePairs(f64),
+    /// Which meet on their way.
+    Impacts,
+    /// The first contact on the way.
+    FirstImpact,
+    /// Which triangles intersect now, of all bodies and of each with itself.
+    Intersections,
+}
+
+/// How exactly a contact's time is wanted.
+const WIDTH: f64 = 1e-6;
+
+/// A precision, and how shapes come into a world of it.
+pub trait Precision: Scalar {
     /// The positions themselves, or as they are in `buffer`, if they have to be widened.
     fn of<'p>(positions: &'p [[f32; 3]], buffer: &'p mut Vec<[Self; 3]>) -> &'p [[Self; 3]];
 }
@@ -52,24 +71,48 @@ impl<S: Scalar> Ours<S> {
             positions: Vec::new(),
             pairs: Vec::new(),
             counters: Counters::default(),
-            radius: 0.0,
-            distance: None,
+            asked: Asked::Candidates(0.0),
         }
     }
 
-    /// With a margin round each vertex, edge and triangle.
+    /// Is asked what is near, with a margin round each vertex, edge and triangle.
     #[must_use]
     pub fn within(self, radius: f64) -> Self {
-        Self { radius, ..self }
+        self.asked(Asked::Candidates(radius))
+    }
+
+    /// Is shown what is near and counts it: the one row is how many vertices with triangles, how many edges with edges, and two zeros.
+    #[must_use]
+    pub fn counting(self, radius: f64) -> Self {
+        self.asked(Asked::Count(radius))
     }
 
     /// Is asked for close pairs, at most so far apart.
     #[must_use]
     pub fn closer_than(self, distance: f64) -> Self {
-        Self {
-            distance: Some(distance),
-            ..self
-        }
+        self.asked(Asked::ClosePairs(distance))
+    }
+
+    /// Is asked what meets on its way.
+    #[must_use]
+    pub fn impacts(self) -> Self {
+        self.asked(Asked::Impacts)
+    }
+
+    /// Is asked what meets first on its way.
+    #[must_use]
+    pub fn first_impact(self) -> Self {
+        self.asked(Asked::FirstImpact)
+    }
+
+    /// Is asked which triangles intersect where vertices and edges are asked of others.
+    #[must_use]
+    pub fn intersections(self) -> Self {
+        self.asked(Asked::Intersections)
+    }
+
+    fn asked(self, asked: Asked) -> Self {
+        Self { asked, ..self }
     }
 
     /// Does at every step what the options say is done ahead of a query, whether or not a body meets another.
@@ -151,25 +194,68 @@ impl<S: Precision> Method for Ours<S> {
 
     fn candidates(&mut self) -> Option<&[Pair]> {
         self.pairs.clear();
-        let (of, radius) = (Selection::Everything, self.radius);
-        if let Some(distance) = self.distance {
-            let found = self.world.close_vertex_triangle_pairs(of, distance).all();
-            let found = found.expect("the whole world is there").iter();
-            self.pairs.extend(found.map(|close| Pair::from(close.pair)));
-            self.count();
-            let found = self.world.close_edge_edge_pairs(of, distance).all();
-            let found = found.expect("the whole world is there").iter();
-            self.pairs.extend(found.map(|close| Pair::from(close.pair)));
-            self.count();
-            return Some(&self.pairs);
+        let of = Selection::Everything;
+        let there = "the whole world is there";
+        match self.asked {
+            Asked::Candidates(radius) => {
+                let found = self.world.vertex_triangle_candidates(of, radius).all();
+                let found = found.expect(there).iter();
+                self.pairs.extend(found.copied().map(Pair::from));
+                self.count();
+                let found = self.world.edge_edge_candidates(of, radius).all();
+                let found = found.expect(there).iter();
+                self.pairs.extend(found.copied().map(Pair::from));
+            }
+            Asked::Count(radius) => {
+                let mut counts = [0; 2];
+                let found = self.world.vertex_triangle_candidates(of, radius);
+                let seen = found.visit_some(|some| {
+                    counts[0] += some.len() as u32;
+                    ControlFlow::<()>::Continue(())
+                });
+                let _ = seen.expect(there);
+                self.count();
+                let found = self.world.edge_edge_candidates(of, radius);
+                let seen = found.visit_some(|some| {
+                    counts[1] += some.len() as u32;
+                    ControlFlow::<()>::Continue(())
+                });
+                let _ = seen.expect(there);
+                self.pairs.push([counts[0], counts[1], 0, 0]);
+            }
+            Asked::ClosePairs(distance) => {
+                let found = self.world.close_vertex_triangle_pairs(of, distance).all();
+                let found = found.expect(there).iter();
+                self.pairs.extend(found.map(|close| Pair::from(close.pair)));
+                self.count();
+                let found = self.world.close_edge_edge_pairs(of, distance).all();
+                let found = found.expect(there).iter();
+                self.pairs.extend(found.map(|close| Pair::from(close.pair)));
+            }
+            Asked::Impacts => {
+                let found = self.world.vertex_triangle_impacts(of).width(WIDTH).all();
+                let found = found.expect(there).iter();
+                self.pairs
+                    .extend(found.map(|impact| Pair::from(impact.pair)));
+                self.count();
+                let found = self.world.edge_edge_impacts(of).width(WIDTH).all();
+                let found = found.expect(there).iter();
+                self.pairs
+                    .extend(found.map(|impact| Pair::from(impact.pair)));
+            }
+            Asked::FirstImpact => {
+                let first = self.world.first_impact(of, WIDTH).expect(there);
+                self.pairs.extend(first.map(|impact| match impact {
+                    Impact::VertexTriangle(impact) => Pair::from(impact.pair),
+                    Impact::EdgeEdge(impact) => Pair::from(impact.pair),
+                }));
+            }
+            Asked::Intersections => {
+                let found = self.world.intersections(of).all();
+                let found = found.expect(there).iter();
+                self.pairs.extend(found.copied().map(Pair::from));
+            }
         }
-        let found = self.world.vertex_triangle_candidates(of, radius).all();
-        let found = found.expect("the whole world is there").iter();
-        self.pairs.extend(found.copied().map(Pair::from));
-        self.count();
-        let found = self.world.edge_edge_candidates(of, radius).all();
-        let found = found.expect("the whole world is there").iter();
-        self.pairs.extend(found.copied().map(Pair::from));
         self.count();
         Some(&self.pairs)
     }

@@ -12,7 +12,7 @@ use super::answer::{Answer, Proposer, self_pair};
 use super::bodies::{Aabb, Bodies, share_a_vertex};
 use super::region::{Region, gather_overlap};
 use crate::decision::Decision;
-
+use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
 use std::ops::ControlFlow;
 
@@ -33,6 +33,56 @@ impl Sweep {
             sorted: Default::default(),
             answer: Answer::new(decision),
         }
+    }
+}
+
+/// The same, where vertices and edges are asked of others: triangles of different bodies and of each body with itself.
+pub struct Everywhere {
+    sweep: Sweep,
+    pairs: Vec<Pair>,
+}
+
+impl Everywhere {
+    /// The sweep with this decision.
+    pub fn new(decision: Decision) -> Self {
+        Self {
+            sweep: Sweep::new(decision),
+            pairs: Vec::new(),
+        }
+    }
+}
+
+impl Method for Everywhere {
+    fn name(&self) -> String {
+        Method::name(&self.sweep)
+    }
+
+    fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        Method::build(&mut self.sweep, bodies);
+    }
+
+    fn step(&mut self, shapes: &[Shape<'_>]) {
+        Method::step(&mut self.sweep, shapes);
+    }
+
+    fn all_pairs(&mut self) -> &[Pair] {
+        self.sweep.all_pairs()
+    }
+
+    fn first_pair(&mut self) -> Option<Pair> {
+        self.sweep.first_pair()
+    }
+
+    fn candidates(&mut self) -> Option<&[Pair]> {
+        self.pairs.clear();
+        self.pairs.extend(self.sweep.all_pairs());
+        self.pairs.extend(self.sweep.self_pairs()?);
+        self.pairs.sort_unstable();
+        Some(&self.pairs)
+    }
+
+    fn take_counters(&mut self) -> Counters {
+        self.sweep.take_counters()
     }
 }
 

@@ -1,9 +1,10 @@
 //! The comparison: every answer of the world that lives against that of a world that was never anything else, and a few of
 //! them against the reference, which has no tree.
 
-use super::{AllClose, FAR_APART, FAR_BUT_CLOSE, SIDE, Soak, Wrong, rows};
+use super::{AllClose, FAR_APART, FAR_BUT_CLOSE, Met, SIDE, Soak, Wrong, rows};
 use pliant::{
-    BodyId, Degree, Options, Pair, Partition, Scalar, Selection, Update, World, reference,
+    BodyId, Degree, EdgeEdgeImpact, Impact, Options, Pair, Partition, Scalar, Selection, Update,
+    VertexTriangleImpact, World, reference,
 };
 use std::num::NonZeroU32;
 
@@ -36,6 +37,7 @@ impl<S: Scalar> Soak<S> {
         if self.random.one_in(3) {
             self.compare_close(&mut fresh)?;
         }
+        self.compare_met(&mut fresh)?;
         self.compare_distances(&mut fresh)?;
         self.tally.compared += 1;
         Ok(())
@@ -176,6 +178,41 @@ impl<S: Scalar> Soak<S> {
             ));
         }
         self.tally.close += found.counts().iter().sum::<usize>() as u64;
+        Ok(())
+    }
+
+    /// What meets on the way, with its times, what meets first, and how far everything may go.
+    fn compare_met(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
+        let width = [0.0, 1e-6, 1.0][self.random.index(3)];
+        let distance = [0.0, FAR_BUT_CLOSE / 8.0][self.random.index(2)];
+        let expected = Met::of(fresh, width, distance);
+        let mut expected = self.good("what meets in a fresh world", expected)?;
+        let known_id = |id: &mut BodyId| *id = self.known[id.0 as usize].id;
+        let name_vertex = |impact: &mut VertexTriangleImpact| {
+            known_id(&mut impact.pair.vertex_body);
+            known_id(&mut impact.pair.triangle_body);
+        };
+        let name_edges = |impact: &mut EdgeEdgeImpact| {
+            known_id(&mut impact.pair.body_a);
+            known_id(&mut impact.pair.body_b);
+        };
+        expected.vertex_triangle.iter_mut().for_each(name_vertex);
+        expected.edge_edge.iter_mut().for_each(name_edges);
+        match &mut expected.first {
+            Some(Impact::VertexTriangle(impact)) => name_vertex(impact),
+            Some(Impact::EdgeEdge(impact)) => name_edges(impact),
+            None => {}
+        }
+        let found = Met::of(&mut self.world, width, distance);
+        let found = self.good("what meets", found)?;
+        if found != expected {
+            return self.wrong(format!(
+                "found and expected on the way, {distance} apart: {}, {}",
+                found.summary(),
+                expected.summary()
+            ));
+        }
+        self.tally.met += (found.vertex_triangle.len() + found.edge_edge.len()) as u64;
         Ok(())
     }
 

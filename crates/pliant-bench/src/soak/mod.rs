@@ -19,8 +19,8 @@ mod random;
 mod shapes;
 
 use pliant::{
-    BodyId, CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, Error, ErrorKind, Options, Pair,
-    Scalar, Selection, World,
+    BodyId, CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, EdgeEdgeImpact, Error, ErrorKind,
+    Impact, Options, Pair, Scalar, Selection, VertexTriangleImpact, World,
 };
 use random::Random;
 use shapes::Surface;
@@ -72,6 +72,8 @@ pub struct Tally {
     pub near: u64,
     /// Close pairs that were the same in both, with all figures.
     pub close: u64,
+    /// Impacts that were the same in both, with their times.
+    pub met: u64,
     /// Distances of bodies that were as good as the same in both.
     pub distances: u64,
 }
@@ -236,6 +238,8 @@ impl<S: Scalar> Soak<S> {
         self.good("what is near", near)?;
         let close = AllClose::of(&mut self.world, FAR_BUT_CLOSE);
         self.good("what is close", close)?;
+        let met = Met::of(&mut self.world, 1e-6, 0.0);
+        self.good("what meets", met)?;
         self.compare_with_a_fresh_world()?;
         for (place, positions) in large.into_iter().zip(shapes) {
             self.take_over(place, &positions, false)?;
@@ -713,5 +717,40 @@ impl AllClose {
             self.edge_edge.len(),
             self.triangles.len(),
         ]
+    }
+}
+
+/// All that meets on the way, and how far everything may go.
+#[derive(PartialEq)]
+struct Met {
+    vertex_triangle: Vec<VertexTriangleImpact>,
+    edge_edge: Vec<EdgeEdgeImpact>,
+    first: Option<Impact>,
+    step: f64,
+}
+
+impl Met {
+    fn of<S: Scalar>(world: &mut World<S>, width: f64, distance: f64) -> Result<Self, Error> {
+        let of = Selection::Everything;
+        Ok(Self {
+            vertex_triangle: world
+                .vertex_triangle_impacts(of)
+                .width(width)
+                .all()?
+                .to_vec(),
+            edge_edge: world.edge_edge_impacts(of).width(width).all()?.to_vec(),
+            first: world.first_impact(of, width)?,
+            step: world.collision_free_step(of, distance)?,
+        })
+    }
+
+    fn summary(&self) -> String {
+        format!(
+            "{} vertices, {} edges, first {:?}, a step of {}",
+            self.vertex_triangle.len(),
+            self.edge_edge.len(),
+            self.first,
+            self.step
+        )
     }
 }

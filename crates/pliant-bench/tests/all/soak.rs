@@ -40,6 +40,7 @@ fn check<S: pliant::Scalar>(soak: Soak<S>) {
     assert!(least.iter().all(|&count| count >= 5), "{tally:?}");
     assert!(tally.moved > 1000 && tally.pairs > 10_000, "{tally:?}");
     assert!(tally.close > 10_000 && tally.distances >= 32, "{tally:?}");
+    assert!(tally.met > 1_000, "{tally:?}");
 }
 
 #[test]

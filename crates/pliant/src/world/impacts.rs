@@ -16,7 +16,7 @@ use super::close::InBodies;
 use super::query::Request;
 use crate::error::Error;
 use crate::geometry::Real;
-use crate::held::Held;
+use crate::held::{self, Held};
 use crate::hits::Hit;
 use crate::impacts::Impact;
 use crate::kernels::Coordinate;
@@ -93,6 +93,8 @@ pub(super) enum OfKind {
 pub(super) struct AskedImpacts<S: Coordinate> {
     pub(super) vertex_triangle: Asked<Impacts<VertexTriangleCandidates<S>>>,
     pub(super) edge_edge: Asked<Impacts<EdgeEdgeCandidates<S>>>,
+    /// Room for the earliest contacts.
+    earliest: Vec<Impact>,
 }
 
 impl<S: Coordinate> Default for AskedImpacts<S> {
@@ -100,6 +102,7 @@ impl<S: Coordinate> Default for AskedImpacts<S> {
         Self {
             vertex_triangle: Asked::default(),
             edge_edge: Asked::default(),
+            earliest: Vec::new(),
         }
     }
 }
@@ -113,8 +116,10 @@ impl<S: Coordinate> AskedImpacts<S> {
         request: &Request,
         of: OfKind,
     ) -> Result<Option<(Impact, Contact)>, Error> {
-        let earliest = self.earliest(common, request, of, false, 0.0)?;
-        first_of(common, earliest, request)
+        let mut earliest = self.earliest(common, request, of, false, 0.0)?;
+        let first = first_of(common, &mut earliest, request);
+        self.earliest = earliest.impacts;
+        first
     }
 
     /// The earliest contacts, of both kinds or one, after the start or at any time; or the first times at which elements come as near as a
@@ -130,9 +135,10 @@ impl<S: Coordinate> AskedImpacts<S> {
         common.bodies.validate(request.of)?;
         let mut earliest = Earliest {
             cell: [f64::INFINITY; 2],
-            impacts: Vec::new(),
+            impacts: std::mem::take(&mut self.earliest),
             after_start,
         };
+        earliest.impacts.clear();
         let mut statistics = Statistics::default();
         let mut until = first_part(common, request.of);
         loop {
@@ -169,15 +175,20 @@ impl<S: Coordinate> AskedImpacts<S> {
         request: &Request,
     ) -> Result<f64, Error> {
         let distance = request.distance()?;
-        let earliest = self.earliest(common, request, OfKind::Both, distance == 0.0, distance)?;
+        let mut earliest =
+            self.earliest(common, request, OfKind::Both, distance == 0.0, distance)?;
         let mut statistics = common.statistics;
         let latest = if earliest.impacts.is_empty() {
-            return Ok(1.0);
+            Ok(None)
         } else if distance > 0.0 {
-            earliest.cell[0]
+            Ok(Some(earliest.cell[0]))
         } else {
-            let first = first_of(common, earliest, request)?;
-            first.map_or(0.0, |(_, contact)| contact.cell(Grid::new(0.0))[0])
+            let time = |(_, contact): (_, Contact)| contact.cell(Grid::new(0.0))[0];
+            first_of(common, &mut earliest, request).map(|first| Some(first.map_or(0.0, time)))
+        };
+        self.earliest = earliest.impacts;
+        let Some(latest) = latest? else {
+            return Ok(1.0);
         };
         let mut step = 0.0;
         for part in PARTS {
@@ -259,14 +270,19 @@ fn impacts_until<const N: usize, S: Coordinate, K>(
 /// Of contacts in one cell the exactly earliest, and when that is; of several, the first in order. It looks at every one.
 fn first_of<const N: usize, S: Coordinate>(
     common: &mut Common<N, S>,
-    earliest: Earliest,
+    earliest: &mut Earliest,
     request: &Request,
 ) -> Result<Option<(Impact, Contact)>, Error> {
     let interrupt = Interrupt::new(request.question);
-    let mut impacts = earliest.impacts;
+    let impacts = &mut earliest.impacts;
     impacts.sort_unstable_by_key(numbers);
+    // That cell is one time.
+    if earliest.cell[1] == 0.0 {
+        common.end(&interrupt)?;
+        return Ok(impacts.first().map(|&impact| (impact, Contact::AtStart)));
+    }
     let mut first: Option<(Impact, Contact)> = None;
-    for impact in impacts {
+    for &impact in impacts.iter() {
         if interrupt.is_set() {
             break;
         }
@@ -369,6 +385,6 @@ where
 
 impl<S: Coordinate> Held for AskedImpacts<S> {
     fn held(&self) -> usize {
-        self.vertex_triangle.held() + self.edge_edge.held()
+        self.vertex_triangle.held() + self.edge_edge.held() + held::list(&self.earliest)
     }
 }

@@ -70,6 +70,20 @@ pub(crate) fn distant_until(moving: &Moving, distance: f64) -> f64 {
     known
 }
 
+/// Whether two corners are surely at most `distance` apart at the start: most pairs that are nearer than it need no exact decision.
+///
+/// With u = 2^-53 a component of a difference is off by u of itself, a square of a length by 6 u of itself: 16 u are allowed. What is lost
+/// below the normal range, at most 2^-1018 of the distance, is less than the rest of that if the square of the distance is above 2^-900.
+pub(crate) fn starts_surely_within(moving: &Moving, distance: f64) -> bool {
+    let square = distance * distance;
+    let limit = square * (1.0 - 16.0 * (f64::EPSILON / 2.0));
+    let polygon = Polygon::new(moving);
+    let [start, _] = polygon.part([0.0, 1.0]);
+    let mut corners = start[..polygon.count()].iter();
+    let is_normal = square > f64::powi(0.5, 900) && square.is_finite();
+    is_normal && corners.any(|&corner| dot(corner, corner) <= limit)
+}
+
 /// The same two elements, their corners in an order that does not depend on that in which they came.
 fn in_order(moving: &Moving) -> Moving {
     let [start, end] = moving.corners;
@@ -222,5 +236,60 @@ mod tests {
             assert!(soon.any(is_near), "{moving:?} {known}");
         }
         assert!(reached > 500 && stopped > 500, "{reached} {stopped}");
+    }
+
+    #[test]
+    fn what_starts_surely_within_a_distance_does() {
+        let mut random = Random::new(22);
+        let [mut surely, mut just_not] = [0; 2];
+        for round in 0..40_000 {
+            let mut x = || (random.bits() >> 11) as f64 / f64::powi(2.0, 53);
+            let mut start = [0; 4].map(|_| [0; 3].map(|_| x()));
+            let scale = f64::powi(2.0, round % 900 - 450);
+            let are_edges = round % 2 == 0;
+            // The distance of two corners, or some numbers more or less.
+            let [p, q] = [start[0], start[if are_edges { 2 } else { 1 }]];
+            let far = [0, 1, 2].map(|axis| p[axis] - q[axis]);
+            let mut distance = dot(far, far).sqrt();
+            for _ in 0..round % 32 {
+                distance = if round % 64 < 32 {
+                    distance.next_up()
+                } else {
+                    distance.next_down()
+                };
+            }
+            start = start.map(|corner| corner.map(|x| x * scale));
+            distance *= scale;
+            let moving = Moving {
+                are_edges,
+                corners: [start; 2],
+            };
+            let exact = if are_edges {
+                Primitives::EdgeEdge(start)
+            } else {
+                Primitives::VertexTriangle(start)
+            };
+            if starts_surely_within(&moving, distance) {
+                surely += 1;
+                assert!(
+                    are_within_distance(&exact, distance),
+                    "{moving:?} {distance}"
+                );
+            } else {
+                just_not += 1;
+            }
+        }
+        assert!(surely > 5_000 && just_not > 5_000, "{surely} {just_not}");
+        // Where squares are lost or too large, nothing is sure.
+        let apart = Moving {
+            are_edges: true,
+            corners: [[[0.0; 3], [0.0; 3], [1e300, 0.0, 0.0], [1e300, 0.0, 0.0]]; 2],
+        };
+        assert!(!starts_surely_within(&apart, 1e299) && !starts_surely_within(&apart, 1e301));
+        let same = Moving {
+            corners: [[[0.0; 3]; 4]; 2],
+            ..apart
+        };
+        assert!(starts_surely_within(&same, 1e-100) && !starts_surely_within(&same, 1e-200));
     }
 }

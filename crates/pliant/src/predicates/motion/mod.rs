@@ -34,7 +34,7 @@ mod root;
 
 use super::integer::{Integer, powers_of_all};
 use certain::{Certain, certain};
-pub(crate) use distant::distant_until;
+pub(crate) use distant::{distant_until, starts_surely_within};
 use polynomial::Polynomial;
 use root::{Root, visit_roots};
 use std::cmp::Ordering;
@@ -48,6 +48,20 @@ pub(crate) struct Moving {
     /// Whether they are two edges, by the ends of either; else they are a vertex and the corners of a triangle.
     pub(crate) are_edges: bool,
     pub(crate) corners: [[Point; 4]; 2],
+}
+
+impl Moving {
+    /// Whether a corner of the one is at the start where one of the other is: common where surfaces are not joined along a seam. Compared
+    /// bit by bit, so that it does not depend on how subnormal numbers are treated; a zero of the other sign is left to the decision.
+    pub(crate) fn begins_with_a_corner_in_common(&self) -> bool {
+        let [start, _] = self.corners;
+        let [a, b, c, d] = start.map(|corner| corner.map(f64::to_bits));
+        if self.are_edges {
+            a == c || a == d || b == c || b == d
+        } else {
+            a == b || a == c || a == d
+        }
+    }
 }
 
 /// When two elements first meet.
@@ -87,6 +101,9 @@ pub(crate) enum Decided {
 /// left out.
 #[inline]
 pub(crate) fn impact(moving: &Moving, grid: Grid, until: f64) -> (Option<[f64; 2]>, Decided) {
+    if moving.begins_with_a_corner_in_common() {
+        return (Some([0.0; 2]), Decided::InFloatingPoint);
+    }
     match certain(moving, grid, until) {
         Certain::Never => (None, Decided::InFloatingPoint),
         Certain::Within(cell) => (Some(cell), Decided::InFloatingPoint),

@@ -12,7 +12,9 @@ use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
 use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
 use crate::kernels::{Buffer, Simd, dispatch};
 use crate::predicates::distance::{Primitives, are_within_distance};
-use crate::predicates::motion::{Decided, Grid, Moving, distant_until, impact};
+use crate::predicates::motion::{
+    Decided, Grid, Moving, distant_until, impact, starts_surely_within,
+};
 use crate::statistics::Statistics;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -255,7 +257,9 @@ fn approach(moving: &Moving, distance: f64) -> (Option<[f64; 2]>, Decided) {
     } else {
         Primitives::VertexTriangle(start)
     };
-    if until > 0.0 || !are_within_distance(&start, distance) {
+    let is_near =
+        || starts_surely_within(moving, distance) || are_within_distance(&start, distance);
+    if until > 0.0 || !is_near() {
         return (
             (until < 1.0).then_some([until; 2]),
             Decided::InFloatingPoint,

@@ -1,0 +1,204 @@
+//! The cloth, the ball and how they move; what is done where they meet is in three files, three ways.
+
+mod apart;
+mod by_pairs;
+mod free;
+
+pub(crate) use free::FREE_STEPS_A_SECOND;
+#[allow(unused_imports, reason = "what tests alone ask")]
+pub(crate) use free::GAP;
+
+use glam::Vec3;
+use pliant::{BodyId, Error, Selection, World};
+use std::collections::BTreeSet;
+use std::{fs, io, io::Write};
+
+pub(crate) const STEPS_A_SECOND: usize = 240;
+const STEP: f32 = 1.0 / STEPS_A_SECOND as f32;
+pub(crate) const RADIUS: f32 = 0.5;
+const SIDE: f32 = 1.6;
+/// So far from the ball the cloth is kept by [`Simulation::step_apart`], and sought to be by [`Simulation::step_free`].
+pub(crate) const THICK: f32 = 0.02;
+const FRICTION: f32 = 0.9; // how much of its sliding a point in contact loses in a step
+
+pub(crate) struct Surface {
+    body: BodyId,
+    triangles: Vec<[u32; 3]>,
+    points: Vec<Vec3>,
+    /// Where the points of the cloth were a step ago, and those of the ball at first.
+    before: Vec<Vec3>,
+}
+
+pub(crate) struct Simulation {
+    world: World<f32>,
+    pub(crate) cloth: Surface,
+    pub(crate) ball: Surface,
+    /// Two points of the cloth and their distance.
+    edges: Vec<([usize; 2], f32)>,
+    /// Those of the cloth and of the ball, as the library numbers them.
+    numbered: [Vec<[u32; 2]>; 2],
+    pub(crate) steps: usize,
+    /// Seconds.
+    time: f32,
+}
+
+impl Surface {
+    /// A surface over the unit square: so many squares on a side, each cut in two. If it is closed, each side of the square is folded in
+    /// its middle, and of two points that come together one is left.
+    fn add(
+        world: &mut World<f32>,
+        squares: u32,
+        is_closed: bool,
+        at: fn(f32, f32) -> Vec3,
+    ) -> Result<Self, Error> {
+        let (across, size) = (squares + 1, squares as f32);
+        let corner = |i| at((i % across) as f32 / size, (i / across) as f32 / size);
+        let points: Vec<_> = (0..across * across).map(corner).collect();
+        let mut triangles = Vec::new();
+        for square in 0..squares * squares {
+            let low = square / squares * across + square % squares;
+            let high = low + across;
+            triangles.extend([[low, low + 1, high + 1], [low, high + 1, high]]);
+        }
+        if is_closed {
+            let is_end = |place: u32| place == 0 || place == squares;
+            for corner in triangles.as_flattened_mut() {
+                let (mut row, mut column) = (*corner / across, *corner % across);
+                if is_end(row) {
+                    column = column.min(squares - column);
+                }
+                if is_end(column) {
+                    row = row.min(squares - row);
+                }
+                *corner = row * across + column;
+            }
+        }
+        let positions: Vec<_> = points.iter().map(Vec3::to_array).collect();
+        Ok(Self {
+            body: world.add(&triangles, &positions)?,
+            before: points.clone(),
+            triangles,
+            points,
+        })
+    }
+
+    /// Tells the library where the points are.
+    fn show(&self, world: &mut World<f32>) -> Result<(), Error> {
+        world.write_positions(self.body, |positions| {
+            for (position, point) in positions.iter_mut().zip(&self.points) {
+                *position = point.to_array();
+            }
+        })
+    }
+
+    pub(crate) fn write_obj(&self, path: String) -> io::Result<()> {
+        let mut file = io::BufWriter::new(fs::File::create(path)?);
+        for Vec3 { x, y, z } in &self.points {
+            writeln!(file, "v {x} {y} {z}")?;
+        }
+        for triangle in &self.triangles {
+            let [a, b, c] = triangle.map(|corner| corner + 1);
+            writeln!(file, "f {a} {b} {c}")?;
+        }
+        file.flush()
+    }
+}
+
+/// Where the ball is after so many seconds.
+fn centre(time: f32) -> Vec3 {
+    0.15 * Vec3::new(1.0 - (3.0 * time).cos(), (2.0 * time).sin(), 0.0)
+}
+
+/// Puts the ends of each edge where it has its length.
+fn give_length(edges: &[([usize; 2], f32)], points: &mut [Vec3]) {
+    for &([a, b], rest) in edges {
+        let apart = points[b] - points[a];
+        let half = 0.5 * (apart - rest * apart.normalize_or_zero());
+        points[a] += half;
+        points[b] -= half;
+    }
+}
+
+impl Simulation {
+    pub(crate) fn new() -> Result<Self, Error> {
+        let mut world = World::new();
+        let cloth = Surface::add(&mut world, 24, false, |u, v| {
+            Vec3::new(u - 0.5, v - 0.5, 0.4) * SIDE
+        })?;
+        let ball = Surface::add(&mut world, 40, true, |u, v| {
+            // The upper half of an octahedron, and the lower one folded out of its sides.
+            let (x, y) = (2.0 * u - 1.0, 2.0 * v - 1.0);
+            let (up, over) = (1.0 - x.abs() - y.abs(), (x.abs() + y.abs() - 1.0).max(0.0));
+            RADIUS * Vec3::new(x - over.copysign(x), y - over.copysign(y), up).normalize()
+        })?;
+        let mut edges = BTreeSet::new();
+        for triangle in &cloth.triangles {
+            let [a, b, c] = triangle.map(|corner| corner as usize);
+            edges.extend([[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]));
+        }
+        let long = |[a, b]: [usize; 2]| cloth.points[a].distance(cloth.points[b]);
+        let numbered = [
+            world.edges(cloth.body)?.to_vec(),
+            world.edges(ball.body)?.to_vec(),
+        ];
+        Ok(Self {
+            numbered,
+            edges: edges.into_iter().map(|ends| (ends, long(ends))).collect(),
+            world,
+            cloth,
+            ball,
+            steps: 0,
+            time: 0.0,
+        })
+    }
+
+    /// The application moves the bodies.
+    fn move_bodies(&mut self) -> Result<(), Error> {
+        let (cloth, ball) = (&mut self.cloth, &mut self.ball);
+        for (point, before) in cloth.points.iter_mut().zip(&mut cloth.before) {
+            let velocity = 0.999 * (*point - *before);
+            *before = *point;
+            *point += velocity - 9.81 * STEP * STEP * Vec3::Z;
+        }
+        for _ in 0..10 {
+            give_length(&self.edges, &mut cloth.points);
+        }
+        self.steps += 1;
+        self.time = self.steps as f32 * STEP;
+        for (point, from) in ball.points.iter_mut().zip(&ball.before) {
+            *point = *from + centre(self.time);
+        }
+        cloth.show(&mut self.world)?;
+        ball.show(&mut self.world)
+    }
+
+    /// How far the ball went in this step.
+    fn swing(&self) -> Vec3 {
+        centre(self.time) - centre(self.time - STEP)
+    }
+
+    /// How far the cloth is from the ball.
+    pub(crate) fn gap(&mut self) -> Result<f64, Error> {
+        let (cloth, ball) = (self.cloth.body, self.ball.body);
+        let nearest = self.world.distance(cloth, ball, f64::from(SIDE))?;
+        Ok(nearest.map_or(f64::INFINITY, |nearest| nearest.distance))
+    }
+
+    /// Whether anything intersects now, the cloth with itself too.
+    pub(crate) fn intersects(&mut self) -> Result<bool, Error> {
+        let pairs = self.world.intersections(Selection::Everything);
+        Ok(pairs.first()?.is_some())
+    }
+
+    /// How deep the deepest point of the cloth is inside the ball; negative: how far the nearest is outside.
+    pub(crate) fn depth(&self) -> f32 {
+        let inside = |point: &Vec3| RADIUS - point.distance(centre(self.time));
+        let depths = self.cloth.points.iter().map(inside);
+        depths.fold(f32::NEG_INFINITY, f32::max)
+    }
+
+    /// How far the middle of the cloth is above the middle of the ball.
+    pub(crate) fn height(&self) -> f32 {
+        self.cloth.points[self.cloth.points.len() / 2].z - centre(self.time).z
+    }
+}

@@ -7,6 +7,7 @@
 //! | `state.rs` | a world whose precision the first body fixes |
 //! | `world.rs`, `query.rs` | `World`, `Selection` and `Query`, as Python sees them |
 //! | `close.rs` | `CloseQuery`: close pairs, with distance, direction and closest points |
+//! | `contacts.rs` | `ContactQuery`: which triangles intersect, and how |
 //! | `impacts.rs` | `ImpactQuery`: which elements meet on their way, and when; and of single pairs |
 //! | `pickled.rs` | a world as pickle writes it down |
 //! | `signals.rs` | Ctrl-C while a query computes |
@@ -25,6 +26,7 @@
 mod arrays;
 mod check;
 mod close;
+mod contacts;
 mod copies;
 mod error;
 mod impacts;
@@ -47,6 +49,8 @@ mod _pliant {
     use crate::check::{Check, check};
     #[pymodule_export]
     use crate::close::CloseQuery;
+    #[pymodule_export]
+    use crate::contacts::ContactQuery;
     #[pymodule_export]
     use crate::impacts::{ImpactQuery, edge_edge_impacts, vertex_triangle_impacts};
     #[pymodule_export]

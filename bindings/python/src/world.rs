@@ -2,6 +2,7 @@
 
 use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedFaces};
 use crate::close::{Close, CloseKind, CloseQuery};
+use crate::contacts::{ContactQuery, Only};
 use crate::error::{Refused, alone, alone_with, named_tuple};
 use crate::impacts::{Impact, ImpactKind, ImpactQuery};
 use crate::options::Keywords;
@@ -582,6 +583,14 @@ impl World {
     #[pyo3(signature = (of=Selection::WORLD))]
     fn intersections(slf: Py<Self>, of: Selection) -> Query {
         Query::new(slf, Kind::Intersections, of)
+    }
+
+    /// Asks which triangles intersect, as intersections does, and how: whether they cross, overlap in one plane, or only touch. only, a
+    /// ContactKind, leaves out what is not of one kind: where surfaces lie on each other, along a cut or in a stack, it finds what goes
+    /// through.
+    #[pyo3(signature = (of=Selection::WORLD, *, only=None))]
+    fn contacts(slf: Py<Self>, of: Selection, only: Option<Only>) -> ContactQuery {
+        ContactQuery::new(slf, of, only)
     }
 
     /// Asks which vertices are near which triangles, now or on the way to the end of a motion: rows of body, vertex, body, triangle.

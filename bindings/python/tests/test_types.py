@@ -71,8 +71,8 @@ def test_worlds_and_queries_have_the_methods_of_the_rust_librarys() -> None:
     # A pool of threads is nothing of Python's, what makes a world has one name there, and signals interrupt it.
     of_world -= {"new", "with_options", "with_pool", "interruptible"}
     assert of_class(pliant.World) == of_world | {"dtype"}
-    # How much is wanted at most and how wide intervals are, are arguments, and what interrupts a query are signals.
-    of_query -= {"at_most", "interrupt_if", "width"}
+    # How much is wanted at most, how wide intervals are and of which kind, are arguments, and what interrupts a query are signals.
+    of_query -= {"at_most", "interrupt_if", "width", "only"}
     assert of_class(pliant.Query) == of_query
     assert "at_most" in inspect.signature(pliant.Query.all).parameters
 

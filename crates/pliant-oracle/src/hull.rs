@@ -64,6 +64,54 @@ pub(crate) fn zero_in_hull<const N: usize, I: Exact>(p: &[Vector<I>; N]) -> bool
     })
 }
 
+/// Whether the origin is inside the convex hull of points, and not on its boundary.
+///
+/// It is not if and only if some plane through it has all points on one closed side. If the points span space and there is one, there is one
+/// through two of them that are on no line with the origin: normals of such planes are a cone without a line, which is the hull of its
+/// edges, and an edge is where two of its sides meet.
+pub(crate) fn zero_inside<const N: usize, I: Exact>(p: &[Vector<I>; N]) -> bool {
+    let mut do_span = false;
+    for [i, j] in pairs(N) {
+        let normal = cross(&p[i], &p[j]);
+        if is_zero(&normal) {
+            continue;
+        }
+        let sides: Vec<i8> = p.iter().map(|point| dot(&normal, point).sign()).collect();
+        if one_way(&sides) {
+            return false;
+        }
+        do_span = true;
+    }
+    // Sides that are not one way are not all zero.
+    do_span
+}
+
+/// Whether all points are in the plane through the origin with this normal, which is not zero, and the origin is inside their hull there:
+/// by the same reason, no line through one of them has all on one closed side.
+pub(crate) fn zero_inside_of_plane<const N: usize, I: Exact>(
+    p: &[Vector<I>; N],
+    normal: &Vector<I>,
+) -> bool {
+    let is_in_plane = |point: &Vector<I>| dot(normal, point).sign() == 0;
+    // Seen along an axis on which the normal is not zero, nothing is flat that was not.
+    let Some(axis) = (0..3).find(|&axis| normal[axis].sign() != 0) else {
+        return false;
+    };
+    if !p.iter().all(is_in_plane) {
+        return false;
+    }
+    let mut do_span = false;
+    for point in p.iter().filter(|point| !is_zero(point)) {
+        let side = |other: &Vector<I>| cross(point, other)[axis].sign();
+        let sides: Vec<i8> = p.iter().map(side).collect();
+        if one_way(&sides) {
+            return false;
+        }
+        do_span = true;
+    }
+    do_span
+}
+
 /// Whether a triangle in one plane with the origin holds it: p x q, q x r and r x p, which are parallel, point one way. They
 /// add up to the triangle's area, so one that is not zero is enough to know that the triangle is one.
 fn in_triangle<I: Exact>([pq, qr, pr]: [&Vector<I>; 3]) -> bool {

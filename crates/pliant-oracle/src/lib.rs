@@ -28,7 +28,7 @@ pub use motion::{
 };
 pub use pairs::{Class, Random, fits_f32};
 
-use hull::{Vector, determinant, minus, zero_in_hull};
+use hull::{Vector, cross, determinant, minus, zero_in_hull, zero_inside, zero_inside_of_plane};
 use integers::{Exact, Scaled, scale};
 
 /// Three corners.
@@ -47,6 +47,52 @@ pub fn intersect(a: &Triangle, b: &Triangle) -> bool {
     match scale(&[a[0], a[1], a[2], b[0], b[1], b[2]]) {
         Scaled::Small(corners) => zero_is_a_difference(&corners),
         Scaled::Big(corners) => zero_is_a_difference(&corners),
+    }
+}
+
+/// How two closed triangles have points in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ContactKind {
+    /// They have none.
+    Apart,
+    /// They have, and neither of the others.
+    Touching,
+    /// They lie in one plane and have an area in common.
+    Overlapping,
+    /// They have after every small enough move of their corners.
+    Crossing,
+}
+
+/// How two triangles have points in common: whether the origin is inside the set of differences of their points, inside it in a plane, or
+/// on its boundary.
+///
+/// # Panics
+///
+/// If a coordinate is not finite.
+pub fn contact_kind(a: &Triangle, b: &Triangle) -> ContactKind {
+    match scale(&[a[0], a[1], a[2], b[0], b[1], b[2]]) {
+        Scaled::Small(corners) => kind_of(&corners),
+        Scaled::Big(corners) => kind_of(&corners),
+    }
+}
+
+fn kind_of<I: Exact>(corners: &[Vector<I>]) -> ContactKind {
+    let differences: [Vector<I>; 9] =
+        std::array::from_fn(|i| minus(&corners[i / 3], &corners[3 + i % 3]));
+    let normal = |a: usize| {
+        let [e, f] = [a + 1, a + 2].map(|i| minus(&corners[i], &corners[a]));
+        cross(&e, &f)
+    };
+    if !zero_is_a_difference(corners) {
+        ContactKind::Apart
+    } else if zero_inside(&differences) {
+        ContactKind::Crossing
+    } else if zero_inside_of_plane(&differences, &normal(0))
+        && zero_inside_of_plane(&differences, &normal(3))
+    {
+        ContactKind::Overlapping
+    } else {
+        ContactKind::Touching
     }
 }
 
@@ -112,6 +158,51 @@ fn sum_of_first<I: Exact>(points: &[Vector<I>]) -> i8 {
 mod tests {
     use super::*;
     use dashu_int::IBig;
+
+    #[test]
+    fn kinds_of_contact() {
+        let a = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+        for (b, kind) in [
+            (
+                [[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [9.0, 9.0, 1.0]],
+                ContactKind::Crossing,
+            ),
+            // A segment through the inside, through an edge, and up to the plane.
+            (
+                [[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [1.0, 1.0, 0.5]],
+                ContactKind::Crossing,
+            ),
+            (
+                [[2.0, 0.0, -1.0], [2.0, 0.0, 1.0], [2.0, 0.0, 0.5]],
+                ContactKind::Touching,
+            ),
+            (
+                [[1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [1.0, 1.0, 0.5]],
+                ContactKind::Touching,
+            ),
+            // Two ends of the line in common on either side: through the very edges.
+            (
+                [[2.0, 0.0, -1.0], [2.0, 0.0, 1.0], [-2.0, 4.0, 0.0]],
+                ContactKind::Crossing,
+            ),
+            (a, ContactKind::Overlapping),
+            (
+                [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [4.0, 4.0, 0.0]],
+                ContactKind::Touching,
+            ),
+            (
+                [[3.0, 0.5, 0.0], [9.0, 0.0, 0.0], [9.0, 1.0, 0.0]],
+                ContactKind::Overlapping,
+            ),
+            (
+                [[1.0, 1.0, 1.0], [4.0, 0.0, 1.0], [0.0, 4.0, 1.0]],
+                ContactKind::Apart,
+            ),
+        ] {
+            assert_eq!(contact_kind(&a, &b), kind, "{b:?}");
+            assert_eq!(contact_kind(&b, &a), kind, "{b:?}");
+        }
+    }
 
     #[test]
     fn small_and_big_integers_say_the_same() {

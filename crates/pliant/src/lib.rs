@@ -95,6 +95,7 @@
 
 mod broad_phase;
 mod close_pairs;
+mod contacts;
 mod error;
 mod geometry;
 mod held;
@@ -117,6 +118,7 @@ mod update;
 mod world;
 
 pub use close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
+pub use contacts::{Contact, ContactKind};
 pub use error::{Error, ErrorKind};
 pub use hits::{EdgeEdge, Pair, VertexTriangle};
 pub use ids::BodyId;

@@ -3,12 +3,13 @@
 //! Every configuration of [`World`](crate::World) must give these pairs. O(m^2) or O(m_a m_b) exact decisions.
 
 use crate::Scalar;
+use crate::contacts::ContactKind;
 use crate::error::Error;
 use crate::geometry::Bounds;
 use crate::mesh::share_a_vertex;
 use crate::predicates::distance::{Primitives, are_within_distance};
 use crate::predicates::motion::{self, Grid, first_contact};
-use crate::predicates::{Exact, Triangle, are_within, triangles_intersect};
+use crate::predicates::{Exact, Triangle, are_within, contact_kind, triangles_intersect};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
@@ -67,6 +68,46 @@ fn pairs_of_one(triangles: &[[u32; 3]], all: &[Triangle]) -> Vec<[u32; 2]> {
         }
     }
     pairs
+}
+
+/// The pairs (triangle of a, triangle of b) that intersect, and how, sorted by pair.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn contacts<S: Scalar>(
+    triangles_a: &[[u32; 3]],
+    positions_a: &[[S; 3]],
+    triangles_b: &[[u32; 3]],
+    positions_b: &[[S; 3]],
+) -> Result<Vec<([u32; 2], ContactKind)>, Error> {
+    let (a, b) = (
+        corners(triangles_a, positions_a)?,
+        corners(triangles_b, positions_b)?,
+    );
+    Ok(with_kinds(pairs_of_two(&a, &b), &a, &b))
+}
+
+/// The pairs (smaller triangle, larger triangle) of one body that intersect and share no vertex, and how, sorted by pair.
+///
+/// # Errors
+///
+/// Those of [`intersection_pairs`].
+pub fn self_contacts<S: Scalar>(
+    triangles: &[[u32; 3]],
+    positions: &[[S; 3]],
+) -> Result<Vec<([u32; 2], ContactKind)>, Error> {
+    let all = corners(triangles, positions)?;
+    Ok(with_kinds(pairs_of_one(triangles, &all), &all, &all))
+}
+
+fn with_kinds(
+    pairs: Vec<[u32; 2]>,
+    a: &[Triangle],
+    b: &[Triangle],
+) -> Vec<([u32; 2], ContactKind)> {
+    let kind = |[i, j]: [u32; 2]| contact_kind(&a[i as usize], &b[j as usize], &mut Exact);
+    pairs.into_iter().map(|pair| (pair, kind(pair))).collect()
 }
 
 /// The pairs (triangle of a, triangle of b) that are at most so far apart, sorted, as

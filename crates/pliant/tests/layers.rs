@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folder, or file of the crate's root, and what it may use.
-const LAYERS: [(&str, &[&str]); 23] = [
+const LAYERS: [(&str, &[&str]); 24] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -17,11 +17,12 @@ const LAYERS: [(&str, &[&str]); 23] = [
     ("error", &["ids"]),
     ("hits", &["ids"]),
     ("close_pairs", &["hits"]),
+    ("contacts", &["hits"]),
     ("impacts", &["hits"]),
     ("geometry", &["held", "ids"]),
     ("kernels", &["held", "ids", "geometry"]),
     ("mesh", &["held", "ids", "error", "threads"]),
-    ("predicates", &["geometry"]),
+    ("predicates", &["geometry", "contacts"]),
     ("sort", &["held", "hits", "threads"]),
     (
         "broad_phase",
@@ -52,6 +53,7 @@ const LAYERS: [(&str, &[&str]); 23] = [
             "ids",
             "hits",
             "close_pairs",
+            "contacts",
             "impacts",
             "statistics",
             "geometry",
@@ -87,6 +89,7 @@ const LAYERS: [(&str, &[&str]); 23] = [
             "error",
             "hits",
             "close_pairs",
+            "contacts",
             "impacts",
             "geometry",
             "kernels",
@@ -103,19 +106,28 @@ const LAYERS: [(&str, &[&str]); 23] = [
     ),
     (
         "reference",
-        &["error", "geometry", "mesh", "predicates", "world"],
+        &[
+            "contacts",
+            "error",
+            "geometry",
+            "mesh",
+            "predicates",
+            "world",
+        ],
     ),
     ("pair_impacts", &["error", "kernels", "predicates", "world"]),
     ("lib", &[]),
 ];
 
 /// What the root exports under a name of its own, and where it is from.
-const EXPORTED: [(&str, &str); 29] = [
+const EXPORTED: [(&str, &str); 31] = [
     ("BodyId", "ids"),
     ("BroadPhase", "options"),
     ("CloseEdgeEdge", "close_pairs"),
     ("CloseVertexTriangle", "close_pairs"),
     ("ClosestFeatures", "close_pairs"),
+    ("Contact", "contacts"),
+    ("ContactKind", "contacts"),
     ("Degree", "options"),
     ("EdgeEdge", "hits"),
     ("EdgeEdgeImpact", "impacts"),

@@ -7,8 +7,8 @@
 //! cargo test --release -p pliant --test oracle -- --ignored --nocapture
 //! ```
 
-use pliant::{BodyId, Scalar, Selection, World, reference};
-use pliant_oracle::{Class, Random, Triangle, fits_f32, intersect};
+use pliant::{BodyId, ContactKind, Scalar, Selection, World, reference};
+use pliant_oracle::{self as oracle, Class, Random, Triangle, contact_kind, fits_f32, intersect};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -26,8 +26,8 @@ impl<S: Scalar> Moving<S> {
         Self { world, bodies }
     }
 
-    /// What the world says of a pair, and what the reference does.
-    fn answers(&mut self, pair: [[[S; 3]; 3]; 2]) -> [bool; 2] {
+    /// What the world says of a pair, and what the reference does: whether they intersect, and how.
+    fn answers(&mut self, pair: [[[S; 3]; 3]; 2]) -> [(bool, oracle::ContactKind); 2] {
         for (&body, triangle) in self.bodies.iter().zip(&pair) {
             self.world.set_positions(body, triangle).unwrap();
         }
@@ -39,7 +39,19 @@ impl<S: Scalar> Moving<S> {
             .len();
         let reference =
             reference::intersection_pairs(&[[0, 1, 2]], &pair[0], &[[0, 1, 2]], &pair[1]).unwrap();
-        [found == 1, reference == [[0, 0]]]
+        let exact = *self.world.statistics();
+        let how = self.world.contacts(Selection::World).all().unwrap();
+        let how = how.first().map(|contact| contact.kind);
+        assert!(self.world.statistics().pairs == exact.pairs);
+        let should = reference::contacts(&[[0, 1, 2]], &pair[0], &[[0, 1, 2]], &pair[1]).unwrap();
+        let should = should.first().map(|&(_, kind)| kind);
+        let [how, should] = [how, should].map(|kind| match kind {
+            None => oracle::ContactKind::Apart,
+            Some(ContactKind::Touching) => oracle::ContactKind::Touching,
+            Some(ContactKind::Overlapping) => oracle::ContactKind::Overlapping,
+            Some(ContactKind::Crossing) => oracle::ContactKind::Crossing,
+        });
+        [(found == 1, how), (reference == [[0, 0]], should)]
     }
 }
 
@@ -48,6 +60,8 @@ impl<S: Scalar> Moving<S> {
 struct Tally {
     pairs: u64,
     meeting: u64,
+    crossing: u64,
+    overlapping: u64,
     as_f32: u64,
     by_exact_arithmetic: u64,
 }
@@ -60,10 +74,12 @@ fn compare(class: Class, seed: u64, count: u64) -> Tally {
     for index in 0..count {
         let pair = class.pair(&mut random);
         let expected = intersect(&pair[0], &pair[1]);
-        let check = |answers: [bool; 2], precision: &str| {
+        let kind = contact_kind(&pair[0], &pair[1]);
+        assert_eq!(kind != oracle::ContactKind::Apart, expected);
+        let check = |answers: [(bool, oracle::ContactKind); 2], precision: &str| {
             assert!(
-                answers == [expected; 2],
-                "{class:?}, seed {seed}, pair {index}, {precision}: the oracle says {expected}, world and reference say \
+                answers == [(expected, kind); 2],
+                "{class:?}, seed {seed}, pair {index}, {precision}: the oracle says {kind:?}, world and reference say \
                  {answers:?}\n{pair:?}\n{}",
                 in_bits(&pair),
             );
@@ -77,6 +93,8 @@ fn compare(class: Class, seed: u64, count: u64) -> Tally {
         }
         tally.pairs += 1;
         tally.meeting += u64::from(expected);
+        tally.crossing += u64::from(kind == oracle::ContactKind::Crossing);
+        tally.overlapping += u64::from(kind == oracle::ContactKind::Overlapping);
     }
     tally
 }
@@ -94,8 +112,10 @@ fn in_bits(pair: &[Triangle; 2]) -> String {
 
 #[test]
 fn thousands_of_pairs() {
+    let mut all = Tally::default();
     for class in Class::ALL {
         let tally = compare(class, 1, 600);
+        all += tally;
         assert_eq!(tally.pairs, 600);
         assert!(
             (50..580).contains(&tally.meeting),
@@ -103,6 +123,16 @@ fn thousands_of_pairs() {
             tally.meeting
         );
     }
+    println!(
+        "{} pairs, {} meet, {} cross, {} overlap",
+        all.pairs, all.meeting, all.crossing, all.overlapping
+    );
+    let touching = all.meeting - all.crossing - all.overlapping;
+    assert!(
+        [touching, all.crossing, all.overlapping]
+            .iter()
+            .all(|&of| of > 300)
+    );
 }
 
 /// Pairs that once were decided wrongly, in bits: corner by corner, the first triangle first.
@@ -138,7 +168,8 @@ fn pairs_that_once_were_wrong() {
         let corners = points.as_chunks::<3>().0;
         let pair = [0, 3].map(|first| [corners[first], corners[first + 1], corners[first + 2]]);
         let expected = intersect(&pair[0], &pair[1]);
-        assert_eq!(world.answers(pair), [expected; 2], "{pair:?}");
+        let kind = contact_kind(&pair[0], &pair[1]);
+        assert_eq!(world.answers(pair), [(expected, kind); 2], "{pair:?}");
     }
 }
 
@@ -148,19 +179,21 @@ fn pairs_that_once_were_wrong() {
 fn ten_million_pairs() {
     const SHARE: u64 = 32_000;
     println!(
-        "{:<16}{:>11}{:>11}{:>11}{:>11}{:>9}",
-        "class", "pairs", "meeting", "as f32 too", "exact", "seconds"
+        "{:<16}{:>11}{:>11}{:>11}{:>12}{:>11}{:>11}{:>9}",
+        "class", "pairs", "meeting", "crossing", "overlapping", "as f32 too", "exact", "seconds"
     );
     let print = |name: &str, tally: Tally, time: Duration| {
         let Tally {
             pairs,
             meeting,
+            crossing,
+            overlapping,
             as_f32,
             by_exact_arithmetic,
         } = tally;
         let seconds = time.as_secs_f64();
         println!(
-            "{name:<16}{pairs:>11}{meeting:>11}{as_f32:>11}{by_exact_arithmetic:>11}{seconds:>9.1}"
+            "{name:<16}{pairs:>11}{meeting:>11}{crossing:>11}{overlapping:>12}{as_f32:>11}{by_exact_arithmetic:>11}{seconds:>9.1}"
         );
     };
     let begin = Instant::now();
@@ -191,6 +224,8 @@ impl std::ops::AddAssign for Tally {
     fn add_assign(&mut self, other: Self) {
         self.pairs += other.pairs;
         self.meeting += other.meeting;
+        self.crossing += other.crossing;
+        self.overlapping += other.overlapping;
         self.as_f32 += other.as_f32;
         self.by_exact_arithmetic += other.by_exact_arithmetic;
     }

@@ -17,6 +17,7 @@ from . import reference
 from ._pliant import (
     Check,
     CloseQuery,
+    ContactQuery,
     ImpactQuery,
     Query,
     Selection,
@@ -28,7 +29,7 @@ from ._pliant import (
     self_intersection_pairs,
     vertex_triangle_impacts,
 )
-from ._types import Body, BodyThere, ClosePair, ClosePairs, EdgeEdge, Error, FirstImpact, Frame, Impact, Impacts, Interval, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._types import Body, BodyThere, ClosePair, ClosePairs, Contact, ContactKind, Contacts, EdgeEdge, Error, FirstImpact, Frame, Impact, Impacts, Interval, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Body",
@@ -37,6 +38,10 @@ __all__ = [
     "ClosePair",
     "ClosePairs",
     "CloseQuery",
+    "Contact",
+    "ContactKind",
+    "ContactQuery",
+    "Contacts",
     "EdgeEdge",
     "Error",
     "FirstImpact",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -114,6 +115,33 @@ class ClosePair(NamedTuple):
     distance: float
     direction: tuple[float, float, float] | None
     barycentric: tuple[float, ...]
+
+
+class ContactKind(IntEnum):
+    """How two triangles that intersect do so, decided exactly."""
+
+    TOUCHING = 0
+    """Neither of the others: a move of their corners, however small, could part them."""
+    OVERLAPPING = 1
+    """They lie in one plane, and have an area in common."""
+    CROSSING = 2
+    """They go through each other: after every small enough move of their corners they still intersect."""
+
+
+class Contacts(NamedTuple):
+    """Triangles that intersect, a row each, and how."""
+
+    pairs: NDArray[np.uint32]
+    """(k, 4): body, triangle, body, triangle."""
+    kind: NDArray[np.uint8]
+    """(k,): of each a ContactKind."""
+
+
+class Contact(NamedTuple):
+    """Two triangles that intersect, as a row of Contacts has them."""
+
+    pair: Pair
+    kind: ContactKind
 
 
 class Impacts(NamedTuple):
@@ -329,5 +357,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

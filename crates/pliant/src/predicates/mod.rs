@@ -9,6 +9,7 @@
 //! The paper uses the test of Möller (1997), which decides on rounded interval ends and a tolerance.
 
 mod accumulator;
+mod contact_kind;
 pub(crate) mod distance;
 mod gap;
 mod integer;
@@ -18,7 +19,9 @@ mod orientation;
 mod point;
 mod triangles;
 
+use crate::contacts::ContactKind;
 use crate::geometry::Real;
+pub(crate) use contact_kind::contact_kind;
 pub(crate) use gap::are_within;
 use lattice::{Lattice, on_lattice};
 pub(crate) use orientation::Exact;
@@ -62,4 +65,12 @@ pub(crate) fn intersect<S: Real>(a: &Triangle, b: &Triangle, exact: &mut u64) ->
     let intersect = triangles_intersect(a, b, &mut filtered);
     *exact += u64::from(filtered.was_uncertain());
     intersect
+}
+
+/// How two triangles that intersect do so; as [`intersect`] computes.
+pub(crate) fn kind_of<S: Real>(a: &Triangle, b: &Triangle) -> ContactKind {
+    match on_lattice(a, b) {
+        Some([a, b]) => contact_kind(&a, &b, &mut Lattice),
+        None => contact_kind(a, b, &mut Filtered::new(S::UNDERFLOW)),
+    }
 }

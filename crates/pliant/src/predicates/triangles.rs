@@ -51,7 +51,7 @@ pub(crate) fn triangles_intersect(
 
 /// The sides of the plane of `triangle` on which three points lie.
 #[inline]
-fn plane_signs(
+pub(super) fn plane_signs(
     [a, b, c]: &Triangle,
     points: &Triangle,
     orientation: &mut impl Orientation,

@@ -28,7 +28,7 @@ pub(crate) use close::{
     closest_of_triangles, corners_of,
 };
 pub(crate) use impacts::{Impacts, LIMIT, MayMeet};
-pub(crate) use intersections::Intersections;
+pub(crate) use intersections::{Contacts, Intersections};
 
 /// Two triangles whose boxes overlap, of the first body and of the second.
 pub(crate) type Candidate = [TreeTriangle; 2];

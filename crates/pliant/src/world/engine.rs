@@ -15,6 +15,7 @@ use super::query::{Ask, Request};
 use super::witness::{self, Witnesses};
 use super::{BodyId, NodeBox, Selection, TreeShape};
 use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
+use crate::contacts::Contact;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
@@ -23,7 +24,7 @@ use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
 use crate::queries::{
-    Close, EdgeEdgeCandidates, Impacts, Intersections, Margin, Measured, NearTriangles,
+    Close, Contacts, EdgeEdgeCandidates, Impacts, Intersections, Margin, Measured, NearTriangles,
     NearestPair, Reach, VertexTriangleCandidates,
 };
 use crate::statistics::Statistics;
@@ -34,6 +35,7 @@ use std::ops::ControlFlow;
 /// An engine of any degree. What its methods do is said where [`World`](super::World) has them.
 pub(crate) trait AnyEngine<S>:
     Ask<Pair>
+    + Ask<Contact>
     + Ask<VertexTriangle>
     + Ask<EdgeEdge>
     + Ask<CloseVertexTriangle>
@@ -120,6 +122,7 @@ pub(crate) trait AnyEngine<S>:
 pub(super) struct Engine<const N: usize, S: Coordinate> {
     pub(super) common: Common<N, S>,
     intersections: Asked<Intersections<S>>,
+    contacts: Asked<Contacts<S>>,
     vertex_triangle: Asked<VertexTriangleCandidates<S>>,
     edge_edge: Asked<EdgeEdgeCandidates<S>>,
     close_vertex_triangle: AskedClose<Close<VertexTriangleCandidates<S>>>,
@@ -165,6 +168,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
                 done_early: Statistics::default(),
             },
             intersections: Asked::default(),
+            contacts: Asked::default(),
             vertex_triangle: Asked::default(),
             edge_edge: Asked::default(),
             close_vertex_triangle: AskedClose::default(),
@@ -566,6 +570,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             + bodies.held()
             + body_pairs.held()
             + self.intersections.held()
+            + self.contacts.held()
             + self.vertex_triangle.held()
             + self.edge_edge.held()
             + self.close_vertex_triangle.held()
@@ -611,14 +616,7 @@ impl<const N: usize, S: Coordinate> Ask<Pair> for Engine<N, S> {
         {
             return Ok(Some(pair));
         }
-        let mut found = None;
-        Ask::<Pair>::visit(self, request, &mut |pairs| {
-            let Some(&pair) = pairs.first() else {
-                return ControlFlow::Continue(());
-            };
-            found = Some(pair);
-            ControlFlow::Break(0)
-        })?;
+        let found = first_seen(|sink| Ask::<Pair>::visit(self, request, sink))?;
         let bodies = found.map(|pair: Pair| [pair.body_a, pair.body_b]);
         match request.of {
             Selection::World => self.witnesses.of_world[0] = bodies,
@@ -653,16 +651,7 @@ macro_rules! ask {
             }
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
-                let mut found = None;
-                Ask::<$hit>::visit(self, request, &mut |hits| {
-                    found = hits.first().copied();
-                    if found.is_some() {
-                        ControlFlow::Break(0)
-                    } else {
-                        ControlFlow::Continue(())
-                    }
-                })?;
-                Ok(found)
+                first_seen(|sink| Ask::<$hit>::visit(self, request, sink))
             }
 
             fn visit(&mut self, $request: &Request, sink: Sink<$hit>) -> Result<(), Error> {
@@ -676,6 +665,45 @@ macro_rules! ask {
             }
         }
     };
+}
+
+impl<const N: usize, S: Coordinate> Ask<Contact> for Engine<N, S> {
+    fn all(&mut self, request: &Request) -> Result<&[Contact], Error> {
+        let kind = &Contacts::of(request.only);
+        let numbers = |contact: &Contact| contact.pair.numbers();
+        self.contacts
+            .all_by(kind, &mut self.common, request, numbers)
+    }
+
+    fn first(&mut self, request: &Request) -> Result<Option<Contact>, Error> {
+        first_seen(|sink| Ask::<Contact>::visit(self, request, sink))
+    }
+
+    fn visit(&mut self, request: &Request, sink: Sink<Contact>) -> Result<(), Error> {
+        let kind = &Contacts::of(request.only);
+        self.contacts.visit(kind, &mut self.common, request, sink)
+    }
+
+    fn prepare(&mut self, request: &Request) -> Result<(), Error> {
+        let kind = &Contacts::of(request.only);
+        self.contacts.prepare(kind, &mut self.common, request)
+    }
+}
+
+/// The first hit that a visit shows.
+fn first_seen<H: Copy>(
+    visit: impl FnOnce(Sink<H>) -> Result<(), Error>,
+) -> Result<Option<H>, Error> {
+    let mut found = None;
+    visit(&mut |hits| {
+        found = hits.first().copied();
+        if found.is_some() {
+            ControlFlow::Break(0)
+        } else {
+            ControlFlow::Continue(())
+        }
+    })?;
+    Ok(found)
 }
 
 ask!(VertexTriangle, vertex_triangle, |request| {

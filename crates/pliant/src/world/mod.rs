@@ -30,6 +30,7 @@ mod validate;
 mod witness;
 
 use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
+use crate::contacts::Contact;
 use crate::error::Error;
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::ids::BodyId;
@@ -426,6 +427,28 @@ impl<S: Scalar> World<S> {
     #[doc(alias = "self_intersections")]
     #[doc(alias = "does_self_intersect")]
     pub fn intersections(&mut self, of: Selection) -> Query<'_, Pair> {
+        Query::new(&mut *self.engine, of)
+    }
+
+    /// Asks which triangles intersect, as [`intersections`](Self::intersections) does, and how: whether they cross, overlap in one plane, or
+    /// only touch. [`Query::only`] leaves out what is not of one kind: where surfaces lie on each other, along a cut or in a stack, it finds
+    /// what goes through.
+    ///
+    /// ```
+    /// # use pliant::{ContactKind, Selection, World};
+    /// let mut world = World::new();
+    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]])?;
+    /// let contacts = world.contacts(Selection::Between(floor, leaf)).all()?;
+    /// assert_eq!(contacts[0].kind, ContactKind::Touching);
+    /// world.set_positions(leaf, &[[0.0, 0.0, -0.1], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]])?;
+    /// let crossing = world.contacts(Selection::World).only(ContactKind::Crossing);
+    /// assert!(crossing.first()?.is_some());
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: a pair whose kind no rounded sign tells takes its exact signs once more.
+    pub fn contacts(&mut self, of: Selection) -> Query<'_, Contact> {
         Query::new(&mut *self.engine, of)
     }
 

@@ -1,6 +1,7 @@
 //! A query on its way: who is asked about, how much is wanted of it, and what may end it early.
 
 use super::Selection;
+use crate::contacts::{Contact, ContactKind};
 use crate::error::{Error, ErrorKind};
 use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
 use crate::predicates::motion::Grid;
@@ -24,6 +25,8 @@ pub(crate) struct Request<'q> {
     pub(super) within: f64,
     /// Of impacts, how wide the intervals of times may be; else nothing.
     pub(super) width: f64,
+    /// Of contacts, the one kind that is asked for; else nothing.
+    pub(super) only: Option<ContactKind>,
 }
 
 impl Request<'_> {
@@ -35,6 +38,7 @@ impl Request<'_> {
             question: None,
             within: 0.0,
             width: WIDTH,
+            only: None,
         }
     }
 
@@ -264,6 +268,14 @@ impl<H: Timed> Query<'_, H> {
     /// the width; or numbers next to it, where these are further from each other than that. A width of 10^-6 costs next to nothing.
     pub fn width(mut self, width: f64) -> Self {
         self.request.width = width;
+        self
+    }
+}
+
+impl Query<'_, Contact> {
+    /// Contacts of this kind alone: the others are no hits.
+    pub fn only(mut self, kind: ContactKind) -> Self {
+        self.request.only = Some(kind);
         self
     }
 }

@@ -55,13 +55,7 @@ fn expected<S: Coordinate>(
 }
 
 fn request(of: Selection) -> Request<'static> {
-    Request {
-        of,
-        most: usize::MAX,
-        question: None,
-        within: 0.0,
-        width: 0.0,
-    }
+    Request::new(of)
 }
 
 fn pairs_of<const N: usize, S: Coordinate>(engine: &mut Engine<N, S>) -> Vec<Pair> {

@@ -35,14 +35,15 @@ struct Crossing {
     above: u8,
 }
 
-/// Decides candidates, and appends those that intersect to `hits`; the order depends on nothing but the candidates.
+/// Decides candidates, and appends those that intersect to `hits`; the order depends on nothing but the candidates. Returns how many of
+/// them, the first, are known to cross, by signs that are not zero.
 pub(super) fn decide<S: Coordinate>(
     leaves: &LeafTest<S>,
     candidates: &mut Buffer<Candidate>,
     undecided: &mut Undecided,
     hits: &mut Buffer<Candidate>,
     statistics: &mut Statistics,
-) {
+) -> usize {
     let shapes = leaves.shapes;
     let count = candidates.len();
     statistics.candidate_pairs += count as u64;
@@ -59,17 +60,19 @@ pub(super) fn decide<S: Coordinate>(
             by_lines(i, eight, lanes, shapes, uncertain, hits);
         }
     });
+    let crossing = hits.len() - hits_before;
     let exact = &mut statistics.exact_decisions;
     for &[a, b] in undecided.uncertain.as_slice() {
         // One of these may take microseconds, and there may be thousands.
         if leaves.interrupt.is_set() {
-            return;
+            break;
         }
         if intersect::<S>(&shapes[0].corners(a), &shapes[1].corners(b), exact) {
             hits.push([a, b]);
         }
     }
     statistics.pairs += (hits.len() - hits_before) as u64;
+    crossing
 }
 
 /// Which of each eight lanes are used by so many items: all, and in the last the first few.

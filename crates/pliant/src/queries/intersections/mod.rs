@@ -1,9 +1,12 @@
 //! Triangles that intersect, as closed sets: exactly, as `predicates` says, on the shape of now.
 //!
 //! Within a body, triangles that share a vertex of the mesh are left out: they always touch. `eight` decides candidates side by side on
-//! signs that single precision makes certain, and leaves few to `predicates`.
+//! signs that single precision makes certain, and leaves few to `predicates`. `contacts` tells how pairs intersect, if that is asked.
 
+mod contacts;
 mod eight;
+
+pub(crate) use contacts::Contacts;
 
 use super::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, Leaves};
 use crate::Pair;

@@ -1,0 +1,62 @@
+"""How triangles intersect: kinds known by hand, columns that belong together, and one kind alone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pliant
+import pytest
+from pliant import ContactKind, Selection
+
+FLOOR = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
+KNOWN = [
+    ([[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [9.0, 9.0, 1.0]], ContactKind.CROSSING),
+    ([[1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [1.0, 1.0, 0.5]], ContactKind.CROSSING),
+    ([[1.0, 1.0, 0.0], [1.0, 1.0, 1.0], [2.0, 1.0, 1.0]], ContactKind.TOUCHING),
+    ([[4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [4.0, 4.0, 0.0]], ContactKind.TOUCHING),
+    (FLOOR, ContactKind.OVERLAPPING),
+]
+
+
+def world_of(dtype: type = np.float64) -> pliant.World:
+    """A floor, and all that is known on it as one body of triangles that share no corner."""
+    world = pliant.World()
+    world.add(faces=[[0, 1, 2]], positions=np.array(FLOOR, dtype))
+    corners = np.array([corners for corners, _ in KNOWN], dtype).reshape(-1, 3)
+    world.add(faces=np.arange(len(corners)).reshape(-1, 3), positions=corners)
+    return world
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_kinds_that_are_known(dtype: type) -> None:
+    world = world_of(dtype)
+    contacts = world.contacts(Selection.between(0, 1)).all()
+    assert contacts.pairs.dtype == np.uint32 and contacts.kind.dtype == np.uint8
+    assert contacts.pairs.tolist() == [[0, 0, 1, number] for number in range(len(KNOWN))]
+    assert contacts.kind.tolist() == [kind for _, kind in KNOWN]
+    everything = world.contacts(Selection.EVERYTHING).all()
+    assert (everything.pairs == world.intersections(Selection.EVERYTHING).all()).all()
+
+
+@pytest.mark.parametrize("kind", ContactKind)
+def test_one_kind_alone(kind: ContactKind) -> None:
+    world = world_of()
+    every = world.contacts(Selection.EVERYTHING).all()
+    query = world.contacts(Selection.EVERYTHING, only=kind)
+    found = query.all()
+    assert (found.kind == kind).all() and (found.pairs == every.pairs[every.kind == kind]).all()
+    first = query.first()
+    assert first is not None and first.kind is kind and list(first.pair) in found.pairs.tolist()
+    shown: list[pliant.Contacts] = []
+    assert not query.visit_some(shown.append)
+    assert sorted(np.concatenate([some.pairs for some in shown]).tolist()) == found.pairs.tolist()
+    with pytest.raises(pliant.Error, match="at most") as refused:
+        query.all(at_most=len(found.pairs) - 1)
+    assert refused.value.kind == "TooManyHits"
+    assert kind.name.capitalize() in repr(query)
+
+
+def test_kinds_that_are_none() -> None:
+    with pytest.raises(ValueError, match="3 is no pliant.ContactKind"):
+        world_of().contacts(only=3)
+    with pytest.raises(TypeError):
+        world_of().contacts(only="crossing")  # type: ignore[arg-type]

@@ -1,0 +1,102 @@
+//! Triangles that intersect, and how: the same candidates, the same decision, and then the kind of each pair, or those of one kind alone.
+//!
+//! What `eight` decides on signs that are certain and not zero crosses. Only pairs that were left to exact signs are asked for their kind.
+
+use super::eight::{self, Undecided};
+use super::{Candidate, Intersections, Kind};
+use crate::contacts::{Contact, ContactKind};
+use crate::geometry::Shape;
+use crate::held::Held;
+use crate::kernels::{Buffer, Coordinate};
+use crate::predicates::kind_of;
+use crate::queries::{BoxSetNumber, CallerIds, LeafTest, Leaves};
+use crate::statistics::Statistics;
+
+/// Pairs of triangles that intersect, with their kinds.
+#[derive(Debug)]
+pub(crate) struct Contacts<S> {
+    intersections: Intersections<S>,
+    only: Option<ContactKind>,
+}
+
+impl<S> Contacts<S> {
+    /// Of one kind, or of all.
+    pub(crate) fn of(only: Option<ContactKind>) -> Self {
+        Self {
+            intersections: Intersections::default(),
+            only,
+        }
+    }
+}
+
+/// A pair in tree order, and its kind.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct TreeContact {
+    pair: Candidate,
+    kind: ContactKind,
+}
+
+/// What a task keeps.
+#[derive(Debug, Default)]
+pub(crate) struct Found {
+    undecided: Undecided,
+    pairs: Buffer<Candidate>,
+}
+
+impl<S: Coordinate> Kind for Contacts<S> {
+    type Scalar = S;
+    type Hit = Contact;
+    type TreeHit = TreeContact;
+    type Buffers = Found;
+    type Source<'s> = Shape<'s, S>;
+
+    const BOX_SET: BoxSetNumber = Intersections::<S>::BOX_SET;
+    const LEAVES: Leaves = Leaves::Triangles;
+
+    fn source<'s>(&self, shape: Shape<'s, S>, end: Option<Shape<'s, S>>) -> Shape<'s, S> {
+        self.intersections.source(shape, end)
+    }
+
+    fn test(
+        &self,
+        leaves: &LeafTest<S>,
+        candidates: &mut Buffer<Candidate>,
+        Found { undecided, pairs }: &mut Found,
+        hits: &mut Buffer<TreeContact>,
+        statistics: &mut Statistics,
+    ) {
+        pairs.clear();
+        let crossing = eight::decide(leaves, candidates, undecided, pairs, statistics);
+        let all = pairs.as_slice();
+        statistics.pairs -= all.len() as u64;
+        for (place, &pair) in all.iter().enumerate() {
+            let kind = if place < crossing {
+                ContactKind::Crossing
+            } else if leaves.interrupt.is_set() {
+                return;
+            } else {
+                let [a, b] = pair;
+                let (a, b) = (leaves.shapes[0].corners(a), leaves.shapes[1].corners(b));
+                kind_of::<S>(&a, &b)
+            };
+            if self.only.is_none_or(|only| only == kind) {
+                statistics.pairs += 1;
+                hits.push(TreeContact { pair, kind });
+            }
+        }
+    }
+
+    #[inline]
+    fn to_caller(&self, ids: &CallerIds, hit: TreeContact) -> Contact {
+        Contact {
+            pair: self.intersections.to_caller(ids, hit.pair),
+            kind: hit.kind,
+        }
+    }
+}
+
+impl Held for Found {
+    fn held(&self) -> usize {
+        self.undecided.held() + self.pairs.held()
+    }
+}

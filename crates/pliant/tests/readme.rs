@@ -3,7 +3,9 @@
 /// The blocks of Rust in a text.
 fn blocks(text: &str) -> Vec<&str> {
     let behind = text.split("```rust\n").skip(1);
-    behind.map(|block| block.split_once("```").unwrap().0).collect()
+    behind
+        .map(|block| block.split_once("```").unwrap().0)
+        .collect()
 }
 
 #[test]

@@ -28,6 +28,17 @@ def run(name: str, *arguments: object, monkeypatch: pytest.MonkeyPatch, capsys: 
     return capsys.readouterr().out
 
 
+@pytest.mark.parametrize("readme", [HERE.parent / "README.md", HERE.parents[2] / "README.md"], ids=["package", "repository"])
+def test_readme(readme: Path) -> None:
+    """Its block of Python, on a sheet that meets itself in the end."""
+    faces, flat = grid(20)
+    frames = [fold(flat, amount) for amount in (0, 0.5, 1)]
+    names: dict[str, Any] = {"faces": faces, "vertices": flat, "frames": frames}
+    exec(readme.read_text().split("```python\n")[1].split("```")[0], names)
+    np.testing.assert_array_equal(names["hits"][:, [1, 3]], pliant.reference.self_intersection_pairs(frames[-1], faces))
+    assert len(names["hits"]) > 0
+
+
 def test_human_morph(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """Frames 0, 30 and 59 were counted in rational arithmetic: shared/data/SOURCES.md."""
     file = data("human-morph.npz")

@@ -1,27 +1,4 @@
-//! pliant finds the collisions of triangle meshes that change their shape every time step: cloth, flesh, characters, soft
-//! robots. The application moves the vertices; pliant answers, exactly and without ever being stale, which triangles
-//! intersect, between bodies and within one.
-//!
-//! ```
-//! use pliant::{Selection, World};
-//!
-//! let triangles = [[0, 1, 2], [0, 2, 3]];
-//! let sheet = |z: f32| [[0.0, 0.0, z], [1.0, 0.0, z], [1.0, 1.0, -z], [0.0, 1.0, -z]];
-//!
-//! let mut world = World::new();
-//! let ground = world.add(&triangles, &sheet(0.0))?;
-//! let cloth = world.add(&triangles, &sheet(2.0).map(|[x, y, z]| [x, y, z + 3.0]))?;
-//! for step in 0..4 {
-//!     let height = 3.0 - step as f32;
-//!     world.set_positions(cloth, &sheet(2.0).map(|[x, y, z]| [x, y, z + height]))?;
-//!     for pair in world.intersections(Selection::Everything).all()? {
-//!         println!("step {step}: {pair:?}");
-//!     }
-//! }
-//! assert!(world.intersections(Selection::Within(cloth)).all()?.is_empty());
-//! # assert!(!world.intersections(Selection::Between(ground, cloth)).all()?.is_empty());
-//! # Ok::<(), pliant::Error>(())
-//! ```
+#![doc = include_str!("../README.md")]
 //!
 //! # What an answer means
 //!
@@ -131,12 +108,7 @@ pub use predicates::is_degenerate;
 pub use statistics::Statistics;
 pub use world::{Interruptible, NodeBox, Query, Scalar, Selection, Timed, TreeShape, World};
 
-/// The example in the README is compiled and run: in the repository, for a package has it elsewhere.
-#[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-struct Readme;
-
-// A module of the documentation alone; its code is compiled and run like that of the README.
+// A module of the documentation alone; its code is compiled and run like that of the README, with which this page begins.
 #[cfg(any(doc, doctest))]
 #[doc = include_str!("../guide.md")]
 pub mod guide {}

@@ -21,6 +21,16 @@ fn schema() -> (boon::Schemas, boon::SchemaIndex) {
 }
 
 #[test]
+fn versions_in_a_record_are_those_that_were_compiled() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../Cargo.lock");
+    let lock = std::fs::read_to_string(file).unwrap();
+    for (name, version) in this_machine().versions {
+        let entry = format!("name = \"{name}\"\nversion = \"{version}\"\n");
+        assert!(name == "rustc" || lock.contains(&entry), "{entry}");
+    }
+}
+
+#[test]
 fn small_forms_are_right_and_keep_to_the_schema() {
     let (schemas, schema) = schema();
     for experiment in EXPERIMENTS {

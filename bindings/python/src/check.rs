@@ -272,6 +272,7 @@ impl Check {
         let Found {
             frame,
             count,
+            kinds,
             pairs,
             left_out,
             degenerate,
@@ -286,6 +287,14 @@ impl Check {
         let fields = PyDict::new(py);
         fields.set_item("frame", frame)?;
         fields.set_item("count", count)?;
+        let kinds = kinds.map(|kinds| {
+            let fields = PyDict::new(py);
+            fields.set_item("crossing", kinds.crossing)?;
+            fields.set_item("overlapping", kinds.overlapping)?;
+            fields.set_item("touching", kinds.touching)?;
+            named_tuple(py, "Kinds", &fields)
+        });
+        fields.set_item("kinds", kinds.transpose()?)?;
         fields.set_item("complete", complete)?;
         fields.set_item("left_out", left_out)?;
         fields.set_item("degenerate", degenerate)?;

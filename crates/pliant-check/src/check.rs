@@ -6,7 +6,7 @@ use crate::bodies::{Bodies, BodyFacts};
 use crate::elements::Elements as Owners;
 use crate::error::Error;
 use crate::filter::Filter;
-use crate::found::{Closeness, Found, Gap, MOST_COUNTED, Row, Stop, Taker};
+use crate::found::{Closeness, Found, Gap, How, MOST_COUNTED, Row, Stop, Taker};
 use crate::interval::{Elements, Impact, ImpactTaker, Interval, WIDTH};
 use crate::lives::{Life, Lives};
 use crate::one_point;
@@ -557,7 +557,8 @@ impl Check {
         let skip = self.asked.skip_degenerate;
         let mut taker = Taker::new(frame, first, listed, most, known)
             .skip_degenerate(skip)
-            .list_gaps(lists_gaps);
+            .list_gaps(lists_gaps)
+            .count_kinds(!first && self.asked.within.is_none());
         self.remarks.begin(frame);
         self.places.begin();
         let comparable = baseline.as_ref().map(|it| &it.comparable[..]);
@@ -733,7 +734,7 @@ impl Check {
         Ok(first.map_or(ControlFlow::Continue(()), |pair| {
             let row = pair.into();
             self.remarks.take(taker.frame(), sources, row);
-            taker.take(row, None, has_degenerate(sources, row), false)
+            taker.take(row, How::Somehow, has_degenerate(sources, row), false)
         }))
     }
 
@@ -755,9 +756,10 @@ impl Check {
             asked: Settings { itself, within, .. },
             ..
         } = self;
+        let counts_kinds = taker.counts_kinds();
         let mut stop = ControlFlow::Continue(());
         let Sequence { world, sources, .. } = sequence;
-        let mut take = |pair: Pair, closeness: Option<Closeness>| {
+        let mut take = |pair: Pair, how: How| {
             let of_sources = pair.into();
             let Some(row) = bodies.row(of_sources) else {
                 return ControlFlow::Continue(());
@@ -766,14 +768,14 @@ impl Check {
             // The world knows sources only.
             let is_asked = (body_a != body_b || *itself) && filter.meet(body_a, body_b);
             if is_asked {
-                if closeness.is_none() {
+                if !matches!(how, How::Close(_)) {
                     remarks.take(taker.frame(), sources, of_sources);
                 }
                 let [a, _, b, _] = of_sources.map(|number| number as usize);
                 let comparable = [a, b].map(|source| comparable.get(source) == Some(&true));
                 let degenerate = has_degenerate(sources, of_sources);
                 let before = taker.count();
-                stop = taker.take(row, closeness, degenerate, comparable == [true; 2]);
+                stop = taker.take(row, how, degenerate, comparable == [true; 2]);
                 if finds_places && taker.count() > before {
                     places.take(&Split(sources, bodies), of_sources, row);
                 }
@@ -785,13 +787,16 @@ impl Check {
             }
         };
         let _ = with_world!(world, world => match *within {
-            None => unless(question, world.intersections(*of)).visit(|pair| take(pair, None)),
+            None if counts_kinds => unless(question, world.contacts(*of))
+                .visit(|contact| take(contact.pair, How::Intersecting(contact.kind))),
+            None => unless(question, world.intersections(*of))
+                .visit(|pair| take(pair, How::Somehow)),
             Some(most) => unless(question, world.close_triangle_pairs(*of, most))
                 .visit(|close| {
                     // What is known of a distance is off by a billionth; that it is at most this is known exactly.
                     let distance = close.distance.min(most);
                     let points = [close.point_a, close.point_b];
-                    take(close.pair, Some(Closeness { distance, points }))
+                    take(close.pair, How::Close(Closeness { distance, points }))
                 }),
         })?;
         Ok(stop)

@@ -4,6 +4,7 @@
 //! their number is asked for, none is kept; where they are listed, the list has a limit.
 
 use crate::places::Place;
+use pliant::ContactKind;
 use std::ops::ControlFlow;
 
 /// Body, triangle, body, triangle; the smaller (body, triangle) first.
@@ -19,6 +20,8 @@ pub struct Found {
     pub changed: Vec<u32>,
     /// How many pairs; at most one if only the first was asked for.
     pub count: usize,
+    /// How many of each kind, where all pairs that intersect were asked for.
+    pub kinds: Option<Kinds>,
     /// The smallest of them; where only one pair was asked for, that pair.
     pub smallest: Option<Row>,
     /// How far apart the nearest of them is, at most as far as was asked for. `None` where there is no pair, or no distance was
@@ -38,6 +41,38 @@ pub struct Found {
     pub complete: bool,
     /// The places of these pairs, most pairs first, if they were asked for and all pairs were.
     pub places: Option<Vec<Place>>,
+}
+
+/// How many pairs intersect how: [`ContactKind`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Kinds {
+    /// They go through each other.
+    pub crossing: usize,
+    /// They lie in one plane and have an area in common.
+    pub overlapping: usize,
+    /// They touch, and no more.
+    pub touching: usize,
+}
+
+impl Kinds {
+    fn count(&mut self, kind: ContactKind) {
+        *match kind {
+            ContactKind::Crossing => &mut self.crossing,
+            ContactKind::Overlapping => &mut self.overlapping,
+            ContactKind::Touching => &mut self.touching,
+        } += 1;
+    }
+}
+
+/// What is known of two triangles besides that they are a pair.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum How {
+    /// They intersect so.
+    Intersecting(ContactKind),
+    /// They intersect, and it was not asked how.
+    Somehow,
+    /// They are so close.
+    Close(Closeness),
 }
 
 /// Between two triangles that are close to each other.
@@ -99,6 +134,7 @@ impl<'a> Taker<'a> {
             frame,
             changed: Vec::new(),
             count: 0,
+            kinds: None,
             smallest: None,
             distance: None,
             pairs: Vec::new(),
@@ -130,16 +166,26 @@ impl<'a> Taker<'a> {
         self
     }
 
-    /// Takes a pair, or leaves it out. `closeness`: how far apart it is, if that is asked. `degenerate`: whether a triangle of it has no
+    /// From now on counts pairs by their kinds, if `count`.
+    pub(crate) fn count_kinds(mut self, count: bool) -> Self {
+        self.found.kinds = count.then(Kinds::default);
+        self
+    }
+
+    /// Takes a pair, or leaves it out. `degenerate`: whether a triangle of it has no
     /// area. `comparable`: whether its bodies have the meshes that the baseline is about.
     pub(crate) fn take(
         &mut self,
         row: Row,
-        closeness: Option<Closeness>,
+        how: How,
         degenerate: bool,
         comparable: bool,
     ) -> ControlFlow<Stop> {
         let found = &mut self.found;
+        let closeness = match how {
+            How::Close(closeness) => Some(closeness),
+            How::Intersecting(_) | How::Somehow => None,
+        };
         if degenerate && self.skip_degenerate {
             found.degenerate += 1;
             return ControlFlow::Continue(());
@@ -173,6 +219,9 @@ impl<'a> Taker<'a> {
         }
         found.count += 1;
         found.degenerate += usize::from(degenerate);
+        if let (Some(kinds), How::Intersecting(kind)) = (&mut found.kinds, how) {
+            kinds.count(kind);
+        }
         found.smallest = Some(found.smallest.map_or(row, |smallest| smallest.min(row)));
         if self.listed {
             if found.pairs.len() >= self.most || found.pairs.try_reserve(1).is_err() {
@@ -199,6 +248,11 @@ impl<'a> Taker<'a> {
         // What else is left out is not known.
         found.left_out = None;
         ControlFlow::Break(Stop::First)
+    }
+
+    /// Whether pairs are counted by their kinds.
+    pub(crate) fn counts_kinds(&self) -> bool {
+        self.found.kinds.is_some()
     }
 
     /// How many pairs it has taken.
@@ -228,10 +282,10 @@ mod tests {
         let mut taker = Taker::new(0, false, false, usize::MAX, None);
         taker.found.count = MOST_COUNTED - 1;
         assert_eq!(
-            taker.take([0, 1, 0, 2], None, false, true),
+            taker.take([0, 1, 0, 2], How::Somehow, false, true),
             ControlFlow::Continue(())
         );
-        let stopped = taker.take([0, 1, 0, 3], None, false, true);
+        let stopped = taker.take([0, 1, 0, 3], How::Somehow, false, true);
         assert_eq!(stopped, ControlFlow::Break(Stop::Endless));
         assert_eq!(taker.end().count, MOST_COUNTED);
     }

@@ -78,7 +78,7 @@ pub use any_world::{AnyWorld, NotTaken, double, single};
 pub use bodies::BodyFacts;
 pub use check::Check;
 pub use error::Error;
-pub use found::{Found, Gap, Row};
+pub use found::{Found, Gap, Kinds, Row};
 pub use interval::{FirstImpact, Impact, Interval};
 pub use lives::{Life, Lives};
 pub use places::{BodyThere, Meshes, Place, Places};

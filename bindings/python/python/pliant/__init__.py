@@ -29,7 +29,7 @@ from ._pliant import (
     self_intersection_pairs,
     vertex_triangle_impacts,
 )
-from ._types import Body, BodyThere, ClosePair, ClosePairs, Contact, ContactKind, Contacts, EdgeEdge, Error, FirstImpact, Frame, Impact, Impacts, Interval, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._types import Body, BodyThere, ClosePair, ClosePairs, Contact, ContactKind, Contacts, EdgeEdge, Error, FirstImpact, Frame, Impact, Impacts, Interval, Kinds, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Body",
@@ -50,6 +50,7 @@ __all__ = [
     "ImpactQuery",
     "Impacts",
     "Interval",
+    "Kinds",
     "Life",
     "Mesh",
     "OpenMesh",

@@ -313,6 +313,14 @@ class Interval:
     """Whether these are all; not if only the first was asked for."""
 
 
+class Kinds(NamedTuple):
+    """How many pairs of a frame intersect how: see ContactKind."""
+
+    crossing: int
+    overlapping: int
+    touching: int
+
+
 @dataclass(frozen=True, eq=False)
 class Frame:
     """A frame that was checked."""
@@ -323,6 +331,8 @@ class Frame:
     """How many pairs."""
     pairs: NDArray[np.uint32]
     """(count, 4): body, triangle, body, triangle, sorted."""
+    kinds: Kinds | None
+    """How many pairs of each kind; None if only the first was asked for."""
     complete: bool
     """Whether these are all pairs; not if only the first was asked for."""
     left_out: int | None
@@ -357,5 +367,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

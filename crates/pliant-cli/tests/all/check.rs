@@ -1,6 +1,6 @@
 //! `pliant check` from end to end: every exit code, and every way in which files can be wrong.
 
-use crate::common::{check, folder, pliant};
+use crate::common::{check, folder, kinds, pliant};
 use serde_json::json;
 use std::fs;
 use std::path::Path;
@@ -52,7 +52,9 @@ fn one_when_something_intersects() {
     let itself = check(path, &["a.obj", "--format", "json"]);
     assert_eq!((itself.code, itself.err.as_str()), (1, ""));
     let bodies = json!([{"name": "a.obj", "vertices": 6, "triangles": 2}]);
-    let frames = json!([{"frame": 0, "count": 1, "pairs": [[0, 0, 0, 1]]}]);
+    let frames = json!([
+        {"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 0, 0, 1]]}
+    ]);
     assert_eq!(
         itself.json_without_places(),
         json!({"format": 1, "bodies": bodies, "frames": frames})
@@ -71,7 +73,10 @@ fn one_when_something_intersects() {
     );
 
     let count = check(path, &["a.obj", "b.obj", "--count", "--format", "json"]);
-    assert_eq!(count.json()["frames"], json!([{"frame": 0, "count": 2}]));
+    assert_eq!(
+        count.json()["frames"],
+        json!([{"frame": 0, "count": 2, "kinds": kinds([1, 1, 0])}])
+    );
     assert_eq!(count.code, 1);
 
     let first = check(path, &["b.obj", "a.obj", "--first", "--format", "json"]);
@@ -397,5 +402,37 @@ fn wrong_words_are_explained() {
     assert_eq!(help.code, 0);
     for verb in ["pliant run", "pliant check"] {
         assert!(help.out.contains(verb), "{}", help.out);
+    }
+}
+
+#[test]
+fn pairs_are_counted_by_how_they_intersect() {
+    // Against a triangle in z = 0: one that goes through it, one that stands on it, one that lies on it, and one beside it.
+    let folder = folder(&[
+        ("a.obj", flat(0.0)),
+        ("through.obj", upright(0.0)),
+        ("on.obj", upright(1.0)),
+        (
+            "lies.obj",
+            "v 1 0 0\nv 3 0 0\nv 1 2 0\nf 1 2 3\n".to_owned(),
+        ),
+        (
+            "beside.obj",
+            "v 2 0 0\nv 0 2 0\nv 2 2 0\nf 1 2 3\n".to_owned(),
+        ),
+    ]);
+    let of = |files: &[&str]| {
+        let said = check(folder.path(), &[files, &["--format", "json"]].concat());
+        said.json()["frames"][0]["kinds"].clone()
+    };
+    assert_eq!(of(&["a.obj", "through.obj"]), kinds([1, 0, 0]));
+    assert_eq!(of(&["a.obj", "on.obj"]), kinds([0, 0, 1]));
+    assert_eq!(of(&["a.obj", "lies.obj"]), kinds([0, 1, 0]));
+    assert_eq!(of(&["a.obj", "beside.obj"]), kinds([0, 0, 1]));
+    // Where nothing intersects, not all pairs are asked for, or how near they are, nothing is said of it.
+    let first = ["a.obj", "through.obj", "--first"];
+    let within = ["a.obj", "through.obj", "--within", "1"];
+    for files in [&["on.obj", "beside.obj"][..], &first, &within] {
+        assert_eq!(of(files), serde_json::Value::Null, "{files:?}");
     }
 }

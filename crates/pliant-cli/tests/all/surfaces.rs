@@ -1,6 +1,6 @@
 //! Files as people have them: which surface a file is taken to be, and what is said where another one may be meant.
 
-use crate::common::{check, folder, pliant};
+use crate::common::{check, folder, kinds, pliant};
 use serde_json::json;
 use std::fmt::Write;
 use std::fs;
@@ -479,7 +479,7 @@ fn groups_of_an_obj_file_are_bodies() {
     assert_eq!(
         whole,
         json!({"format": 1, "bodies": [{"name": "scan.obj", "vertices": 7, "triangles": 3}],
-            "frames": [{"frame": 0, "count": 1, "pairs": [[0, 0, 0, 2]]}]})
+            "frames": [{"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 0, 0, 2]]}]})
     );
     let split = json(&["scan.obj", "--split", "groups"]);
     let bodies = json!([
@@ -491,7 +491,7 @@ fn groups_of_an_obj_file_are_bodies() {
         split,
         json!({
             "format": 1, "bodies": bodies, "split": "groups", "triangle_numbers": "source",
-            "sources": whole["bodies"], "frames": [{"frame": 0, "count": 1, "pairs": [[0, 0, 2, 2]]}]
+            "sources": whole["bodies"], "frames": [{"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 0, 2, 2]]}]
         })
     );
     // Named by arguments: the same numbers of triangles, and the same source.
@@ -505,7 +505,7 @@ fn groups_of_an_obj_file_are_bodies() {
         named,
         json!({
             "format": 1, "bodies": bodies, "triangle_numbers": "source", "sources": whole["bodies"],
-            "frames": [{"frame": 0, "count": 1, "pairs": [[0, 2, 1, 0]]}]
+            "frames": [{"frame": 0, "count": 1, "kinds": kinds([1, 0, 0]), "pairs": [[0, 2, 1, 0]]}]
         })
     );
     // The edge that two of them share is no hit, and nothing else is left.

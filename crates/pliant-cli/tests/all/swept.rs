@@ -1,6 +1,6 @@
 //! `pliant check --swept`, from end to end.
 
-use crate::common::{Said, check, folder};
+use crate::common::{Said, check, folder, kinds};
 use serde_json::{Value, json};
 use std::path::Path;
 use tempfile::TempDir;
@@ -154,10 +154,10 @@ fn what_touches_in_a_frame_is_news_of_the_way_there_alone() {
             {"frame": 0, "count": 0, "pairs": []},
             {"frame": 0, "until": 1, "count": 1, "at_start": 0, "first": news,
              "vertex_triangle": [[0, 0, 1, 0, 1.0 - STEP, 1.0]], "edge_edge": []},
-            {"frame": 1, "count": 1, "pairs": touch},
+            {"frame": 1, "count": 1, "kinds": kinds([0, 0, 1]), "pairs": touch},
             {"frame": 1, "until": 2, "count": 0, "at_start": 1, "first": null,
              "vertex_triangle": [], "edge_edge": []},
-            {"frame": 2, "count": 1, "pairs": touch},
+            {"frame": 2, "count": 1, "kinds": kinds([0, 0, 1]), "pairs": touch},
             {"frame": 2, "until": 3, "count": 0, "at_start": 1, "first": null,
              "vertex_triangle": [], "edge_edge": []},
             {"frame": 3, "count": 0, "pairs": []}

@@ -1,6 +1,6 @@
 //! `pliant check` told who may meet whom, and what is known: --split, --group, --ignore, --baseline, from end to end.
 
-use crate::common::{check, folder, measured};
+use crate::common::{check, folder, kinds, measured};
 use serde_json::json;
 use std::fmt::Write;
 use std::fs;
@@ -46,8 +46,7 @@ fn pieces_of_a_file_are_bodies() {
         {"name": "still.obj", "vertices": 3, "triangles": 1},
     ]);
     // Triangles are numbered as in the file: the sheet is triangle 1 of its piece's source.
-    let frames =
-        json!([{"frame": 0, "count": 3, "pairs": [[0, 0, 1, 1], [0, 2, 1, 1], [1, 1, 3, 0]]}]);
+    let frames = json!([{"frame": 0, "count": 3, "kinds": kinds([3, 0, 0]), "pairs": [[0, 0, 1, 1], [0, 2, 1, 1], [1, 1, 3, 0]]}]);
     assert_eq!(
         said,
         json!({
@@ -371,7 +370,7 @@ fn with_itself_too() {
     let frames = json(folder.path(), &["*.obj", "--baseline", "0"])["frames"].clone();
     let expected = json!([
         {"frame": 0, "count": 0, "left_out": 1, "pairs": []},
-        {"frame": 1, "count": 1, "left_out": 1, "pairs": [[0, 1, 0, 2]]},
+        {"frame": 1, "count": 1, "kinds": kinds([1, 0, 0]), "left_out": 1, "pairs": [[0, 1, 0, 2]]},
     ]);
     assert_eq!(frames, expected);
 }

@@ -2,7 +2,7 @@
 //!
 //! ```json
 //! {"format":1,"bodies":[{"name":"a.ply","vertices":8,"triangles":12}],
-//!  "frames":[{"frame":0,"count":1,"pairs":[[0,3,0,9]]}]}
+//!  "frames":[{"frame":0,"count":1,"kinds":{"crossing":1,"overlapping":0,"touching":0},"pairs":[[0,3,0,9]]}]}
 //! ```
 //!
 //! All numbers count from 0; a pair is body, triangle, body, triangle, the smaller (body, triangle) first, sorted. `faces` of a
@@ -45,12 +45,22 @@
 //! no lists, with `--first` no more in them than the first, and `"complete": false`. Where the mesh of a body is another one in the next
 //! frame nothing is looked for: `count`, `at_start` and `first` are `null`, and `changed` has the numbers of these bodies.
 //!
+//! `kinds` of a frame that has pairs, all of which were asked for, says how many are of each kind: of `crossing` pairs the triangles go through
+//! each other, and would after every small enough move; `overlapping` ones lie in one plane with an area in common; the others are
+//! `touching`, along a cut for example. With `--first` and `--within` it is not said.
+//!
+//! ```json
+//! {"frame":0,"count":3,"kinds":{"crossing":2,"overlapping":0,"touching":1},"pairs":[[0,3,0,9],[0,4,0,9],[0,5,0,9]]}
+//! ```
+//!
 //! `degenerate` says how many pairs have a triangle without area, where there are any: of those counted, or with
 //! `"skip_degenerate": true` of those that were left out for it.
 
 use super::{Form, Tally};
 use crate::check::{Arguments, Names, Split};
-use pliant_check::{Baseline, Check, FirstImpact, Found, Group, Impact, Interval, Life, Place};
+use pliant_check::{
+    Baseline, Check, FirstImpact, Found, Group, Impact, Interval, Kinds, Life, Place,
+};
 use pliant_io::Body as Source;
 use serde::Serialize;
 use serde_json::json;
@@ -122,6 +132,8 @@ struct FrameEntry<'a> {
     changed: Vec<ChangedEntry<'a>>,
     count: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
+    kinds: Option<KindsEntry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     complete: Option<bool>,
     /// `null` where nothing is as close as that; not there where no distance was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -134,6 +146,13 @@ struct FrameEntry<'a> {
     pairs: Option<&'a [[u32; 4]]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     places: Option<Vec<PlaceEntry>>,
+}
+
+#[derive(Serialize)]
+struct KindsEntry {
+    crossing: usize,
+    overlapping: usize,
+    touching: usize,
 }
 
 #[derive(Serialize)]
@@ -342,6 +361,18 @@ impl Form for Json {
             frame: found.frame,
             changed: changed.collect(),
             count: found.count,
+            kinds: found.kinds.filter(|_| found.count > 0).map(|kinds| {
+                let Kinds {
+                    crossing,
+                    overlapping,
+                    touching,
+                } = kinds;
+                KindsEntry {
+                    crossing,
+                    overlapping,
+                    touching,
+                }
+            }),
             complete: (!found.complete).then_some(false),
             distance: self.within.map(|_| json!(found.distance)),
             left_out: found.left_out,

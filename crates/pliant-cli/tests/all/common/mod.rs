@@ -157,3 +157,8 @@ pub(crate) fn pliant_into(
         String::from_utf8(output.stderr).unwrap(),
     )
 }
+
+/// The `kinds` of a frame: how many pairs cross, overlap and touch.
+pub(crate) fn kinds([crossing, overlapping, touching]: [usize; 3]) -> Value {
+    serde_json::json!({"crossing": crossing, "overlapping": overlapping, "touching": touching})
+}

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Writes RESULTS.md, and the table of the README, from a record of `pliant bench all`: no figure in them is written by hand. What is
-near and what is close have records of their own, of which the newest are taken, `near-DATE.json` and `close-DATE.json`, and what the
-comparisons with other libraries printed.
+near, what is close and when things meet have records of their own, of which the newest are taken, `near-DATE.json`, `close-DATE.json` and
+`when-DATE.json`, and what the comparisons with other libraries printed.
 
 cargo run --release -- bench all --json benchmarks/records/DATE.json > benchmarks/records/DATE.txt
 cargo run --release -- bench near --json benchmarks/records/near-DATE.json > benchmarks/records/near-DATE.txt
 target/ipctk/bin/python benchmarks/compare_with_ipctk.py > benchmarks/records/ipctk-DATE.txt
+cargo run --release -- bench when --json benchmarks/records/when-DATE.json > benchmarks/records/when-DATE.txt
+target/ipctk/bin/python benchmarks/compare_impacts_with_ipctk.py > benchmarks/records/impacts-ipctk-DATE.txt
 cargo run --release -- bench close --json benchmarks/records/close-DATE.json > benchmarks/records/close-DATE.txt
 target/ipctk/bin/python benchmarks/compare_close_with_ipctk.py > benchmarks/records/close-ipctk-DATE.txt
 target/ipctk/bin/python benchmarks/compare_distance_with_fcl.py > benchmarks/records/close-fcl-DATE.txt
@@ -226,6 +228,13 @@ def page(record, date):
     )
     close_ipctk, close_header, close_beside = beside_ipctk_close()
     fcl, fcl_header, fcl_beside = beside_fcl()
+    when = newest("when-*.json")
+    when_record = Record(when)
+    when_aims = "\n".join(
+        f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |"
+        for claim in when_record.experiments["when"]["claims"]
+    )
+    impacts_ipctk, impacts_header, impacts_beside = beside_ipctk_impacts()
     processor = record.machine["processor"]
     cores = record.machine["cores"]
     return f"""# What the paper claims, what we aim at, and what we find
@@ -304,6 +313,24 @@ want of another way in Python. Milliseconds a step; the aim was 10.
 |---|---|---|---|---|---|
 {fcl_beside}
 
+## When
+
+What meets on its way to the next step, or on a tenth of it, and what meets first (`pliant bench when --rounds {when_record.rounds}`,
+[text](records/{when.stem}.txt), [JSON](records/{when.name}); one thread of an {when_record.machine['processor']}). What a candidate costs is
+the time of all impacts less that of showing all candidates to a visitor who counts them:
+
+| aim | | our figure |
+|---|---|---|
+{when_aims}
+
+Beside ipc-toolkit, with its Tight-Inclusion and its additive CCD ([record](records/{impacts_ipctk}); {impacts_header}). The *step* is how far
+everything may go: ours from `set_motion` to `collision_free_step`, its building of candidates and its step. Milliseconds; *misses* are steps
+of its that go beyond the first contact, none of ours does.
+
+| | part | candidates | impacts | misses | step, ours | Tight-Inclusion | additive | a candidate, ns, ours | Tight-Inclusion | additive |
+|---|---|---|---|---|---|---|---|---|---|---|
+{impacts_beside}
+
 ## Exact contact
 
 A candidate of coplanar grids: {figure('degenerate', 'coplanar grids', 'the cost')}. Of two spheres:
@@ -340,6 +367,19 @@ def beside_ipctk_close():
             name, what, pairs, features, ties, _, own, other, factor = words
             rows.append(f"| {name} | {what} | {pairs} | {features} | {ties} | {own} | {other} | {factor} |")
     assert rows and lines[-1].endswith("errors, of any kind: 0"), file
+    return file.name, lines[0], "\n".join(rows)
+
+
+def beside_ipctk_impacts():
+    """The same of impacts and steps."""
+    file = newest("impacts-ipctk-*.txt")
+    lines = file.read_text().splitlines()
+    rows = []
+    for line in lines:
+        words = re.fullmatch(r"(.+?)\s+(0\.1|1)" + r"\s+([\d,]+)" * 2 + r"\s+[\d.]+" * 3 + r"\s+(\d+)" + r"\s+([\d.]+)" * 6, line.rstrip())
+        if words:
+            rows.append("| " + " | ".join(words.groups()) + " |")
+    assert rows and lines[-1].endswith("that are: 0"), file
     return file.name, lines[0], "\n".join(rows)
 
 

@@ -175,6 +175,38 @@ fn the_first_pair_of_many_bodies_in_one_place_comes_at_once() {
 const MOST_OF_A_SMALL_BODY: [i64; 2] = [1_400, 3_100];
 
 /// With every way to look for bodies that may meet, and with threads: what they keep is counted too.
+/// Two grids, one above the other, that go the same way together: nothing meets, and on a long way every box overlaps every other.
+#[test]
+fn how_far_all_may_go_takes_no_memory_for_candidates() {
+    const SIDE: u32 = 30;
+    let across = SIDE + 1;
+    let corners = |i: u32| {
+        let low = i / SIDE * across + i % SIDE;
+        let high = low + across;
+        [[low, low + 1, high + 1], [low, high + 1, high]]
+    };
+    let triangles: Vec<[u32; 3]> = (0..SIDE * SIDE).flat_map(corners).collect();
+    let shape = |height: f64, way: f64| -> Vec<[f64; 3]> {
+        let point = |i: u32| [f64::from(i % across), f64::from(i / across), height];
+        let points = (0..across * across).map(point);
+        points.map(|point| point.map(|x| x + way)).collect()
+    };
+    let mut world = World::new();
+    let bodies = [0.0, 0.5].map(|height| world.add(&triangles, &shape(height, 0.0)).unwrap());
+    let [short, long] = [0.001, 1000.0].map(|way| {
+        for (body, height) in bodies.into_iter().zip([0.0, 0.5]) {
+            world.set_motion(body, &shape(height, way)).unwrap();
+        }
+        let step = world.collision_free_step(Selection::World, 0.0);
+        assert_eq!(step.unwrap(), 1.0);
+        (world.memory_usage(), world.statistics().candidate_pairs)
+    });
+    println!("bytes held and candidates: {short:?}, then {long:?}");
+    assert!(short.1 == 0 && long.1 > 10_000_000, "{short:?} {long:?}");
+    // A list of them, each of which is looked at four times at most, would take 80 MB.
+    assert!(long.0 < short.0 + 4_000_000, "{short:?} {long:?}");
+}
+
 #[test]
 fn a_world_says_how_much_it_holds() {
     for (broad_phase, threads) in [

@@ -103,6 +103,8 @@ impl Name {
 /// seen, or those at or below a prim ("walk.usdc#/scene/shirt"). Returns an iterator of frames, each read and checked when it is asked for.
 ///
 ///   itself    check each body against itself too; one body alone always is
+///   within    a distance, at least 0: the pairs are those of triangles of different bodies that are at most so far apart, and
+///             Frame.distance is that of the nearest; not of one body alone, nor with itself or swept
 ///   swept     besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line:
 ///             Frame.interval; not with baseline. A frame is then handed out when the next has been read
 ///   first     stop at the first pair of each frame; of what meets on the way to the next, the first
@@ -124,7 +126,7 @@ impl Name {
 ///   fps       frames a second at which animations of glTF files are evaluated
 ///   threads   how many share the work of a frame; no number changes an answer
 #[pyfunction]
-#[pyo3(signature = (*paths, itself=false, swept=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0, threads=1))]
+#[pyo3(signature = (*paths, itself=false, within=None, swept=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0, threads=1))]
 #[expect(
     clippy::too_many_arguments,
     clippy::fn_params_excessive_bools,
@@ -134,6 +136,7 @@ pub(crate) fn check(
     py: Python<'_>,
     paths: Vec<PathBuf>,
     itself: bool,
+    within: Option<f64>,
     swept: bool,
     first: bool,
     weld: bool,
@@ -158,6 +161,7 @@ pub(crate) fn check(
     let two = |(a, b): (Name, Name)| Ok::<_, Refused>([a.into_text()?, b.into_text()?]);
     let settings = Settings {
         itself,
+        within,
         swept,
         first,
         split: split.map(split_named).transpose()?,
@@ -273,6 +277,7 @@ impl Check {
             frame,
             count,
             kinds,
+            distance,
             pairs,
             left_out,
             degenerate,
@@ -294,6 +299,7 @@ impl Check {
             fields.set_item("touching", kinds.touching)?;
             named_tuple(py, "Kinds", &fields)
         });
+        fields.set_item("distance", distance)?;
         fields.set_item("kinds", kinds.transpose()?)?;
         fields.set_item("complete", complete)?;
         fields.set_item("left_out", left_out)?;

@@ -161,6 +161,11 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         Error::NamedTwice { .. } => Some("name it once"),
         Error::NoClip => Some("leave out clip="),
         Error::EmptyGroup { .. } => Some("give each group a list of its bodies"),
+        Error::Distance(_) => Some("give within= such a number, in the units of the files"),
+        Error::WithinItself => {
+            Some("name another body, and leave out itself=, or leave out within=")
+        }
+        Error::SweptWithin => Some("leave out within= or swept=, and check twice"),
         Error::SweptOneFrame => Some("name a sequence of frames, or leave out swept="),
         Error::SweptBaseline => Some("leave out baseline= or swept=, and check twice"),
         Error::TooManyPairs { .. }

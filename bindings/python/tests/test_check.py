@@ -482,6 +482,31 @@ def jumping(tmp_path: Path) -> tuple[Path, Path]:
     return tmp_path / "leaf.npz", tmp_path / "floor.obj"
 
 
+def test_what_comes_close(jumping: tuple[Path, Path]) -> None:
+    """The leaf's corner is 3 above the floor, 7 below it, which its other corners are 2 below, and on it."""
+    near = list(pliant.check(*jumping, within=2.0))
+    assert [(frame.count, frame.distance) for frame in near] == [(0, None), (1, 2.0), (1, 0.0), (1, 0.0)]
+    assert near[1].pairs.tolist() == [[0, 0, 1, 0]] and near[1].kinds is None and near[1].complete
+    assert [frame.distance for frame in pliant.check(*jumping, within=3.0, first=True)] == [3.0, 2.0, 0.0, 0.0]
+    plain = list(pliant.check(*jumping))
+    assert [frame.distance for frame in plain] == [None] * 4
+    assert [frame.kinds for frame in plain] == [pliant.Kinds(0, 0, 0)] * 2 + [pliant.Kinds(crossing=0, overlapping=0, touching=1)] * 2
+    assert [frame.kinds for frame in pliant.check(*jumping, first=True)] == [None] * 4
+
+
+def test_what_cannot_be_close_is_refused(jumping: tuple[Path, Path]) -> None:
+    refused: list[tuple[tuple[Path, ...], dict[str, object], str]] = [
+        (jumping, {"within": -1.0}, "a distance must be a finite number, .*; give within= such a number"),
+        (jumping, {"within": float("nan")}, "a distance must be a finite number"),
+        (jumping[:1], {"within": 1.0}, "neighbouring triangles .*; name another body, and leave out itself="),
+        (jumping, {"within": 1.0, "itself": True}, "neighbouring triangles"),
+        (jumping, {"within": 1.0, "swept": True}, "both cannot be asked at once; leave out within= or swept="),
+    ]
+    for paths, more, message in refused:
+        with pytest.raises(pliant.Error, match=message):
+            pliant.check(*paths, **more)  # type: ignore[arg-type]
+
+
 def test_what_meets_on_the_way(jumping: tuple[Path, Path]) -> None:
     frames = list(pliant.check(*jumping, swept=True))
     assert [frame.count for frame in frames] == [0, 0, 1, 1]

@@ -175,6 +175,7 @@ class Check:
 def check(
     *paths: str | PathLike[str],
     itself: bool = False,
+    within: float | None = None,
     swept: bool = False,
     first: bool = False,
     weld: bool = True,

@@ -330,9 +330,11 @@ class Frame:
     count: int
     """How many pairs."""
     pairs: NDArray[np.uint32]
-    """(count, 4): body, triangle, body, triangle, sorted."""
+    """(count, 4): body, triangle, body, triangle, sorted; with first the one pair, and with within too the nearest."""
     kinds: Kinds | None
-    """How many pairs of each kind; None if only the first was asked for."""
+    """How many pairs of each kind; None if only the first was asked for, or within."""
+    distance: float | None
+    """How far apart the nearest of the pairs of within is; None where there is none, or within was not asked for."""
     complete: bool
     """Whether these are all pairs; not if only the first was asked for."""
     left_out: int | None

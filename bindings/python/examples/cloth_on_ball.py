@@ -124,7 +124,7 @@ def push_apart(cloth: Array, ball: Array, contacts: Contacts, normals: Array) ->
     own = np.where(corners < len(cloth), shares, np.float32(0))
     weight = dot(own, own)
     is_deep = ((depth > 0) & (weight > 0))[:, 0]
-    corners, own, weight, depth, normal = (each[is_deep] for each in (corners, own, weight, depth, normal))
+    corners, own, weight, depth, normal = corners[is_deep], own[is_deep], weight[is_deep], depth[is_deep], normal[is_deep]
     moves = (depth / weight * own)[:, :, None] * normal[:, None]
     total = np.zeros((len(points), 1), np.float32)
     moved = np.zeros_like(points)
@@ -250,7 +250,7 @@ class Simulation:
             # The application says where everything is to be ...
             between = self.contacts(pliant.Selection.between(cloth, ball), 2.0 * THICK)
             within = self.contacts(pliant.Selection.within(cloth), 2.0 * THICK)
-            wanted = self.cloth + np.float32(left) * ways
+            wanted: Array = (self.cloth + np.float32(left) * ways).astype(np.float32)
             normals, unused = np.zeros_like(wanted), np.zeros_like(wanted)
             for _ in range(20):
                 self.give_length(wanted)
@@ -275,7 +275,8 @@ class Simulation:
 
         def numbers(bodies: NDArray[np.uint32], elements: NDArray[np.uint32], of_cloth: int) -> Integers:
             """Among those of the cloth and then the ball's."""
-            return elements.astype(np.int64) + of_cloth * (bodies != int(self.bodies[0]))
+            among: Integers = elements.astype(np.int64) + of_cloth * (bodies != int(self.bodies[0])).astype(np.int64)
+            return among
 
         # A vertex and a triangle: the vertex comes first, of whichever body it is.
         close = self.world.close_vertex_triangle_pairs(of, distance).all()

@@ -247,6 +247,7 @@ def test_the_program_says_the_same(folder: Path) -> None:
         frames = [
             {"frame": frame.frame, "count": frame.count, "pairs": frame.pairs.tolist()}
             | ({} if frame.complete else {"complete": False})
+            | ({} if frame.kinds is None or not frame.count else {"kinds": frame.kinds._asdict()})
             for frame in checked
         ]
         # The program says where, too.
@@ -392,7 +393,9 @@ def test_the_program_says_the_same_of_pieces(pieces: Path) -> None:
     for said_of_frame in said["frames"]:
         said_of_frame.pop("places", None)
     assert said["frames"] == [
-        {"frame": frame.frame, "count": frame.count, "left_out": frame.left_out, "pairs": frame.pairs.tolist()} for frame in checked
+        {"frame": frame.frame, "count": frame.count, "left_out": frame.left_out, "pairs": frame.pairs.tolist()}
+        | ({} if frame.kinds is None or not frame.count else {"kinds": frame.kinds._asdict()})
+        for frame in checked
     ]
 
 

@@ -101,7 +101,9 @@ pub(crate) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         };
         count = last;
         let mut part = parts[last];
-        if part.low >= until || one_sign(part.determinant, error) {
+        // What meets in a part but the first does so after its beginning; in the first perhaps at it.
+        let is_late = part.low >= until && part.low > 0.0;
+        if is_late || one_sign(part.determinant, error) {
             continue;
         }
         if !part.is_inside {

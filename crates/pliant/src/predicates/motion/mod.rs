@@ -523,4 +523,31 @@ mod tests {
             half
         );
     }
+
+    /// When it is known that something meets at the start, what else does so is still of interest.
+    #[test]
+    fn contact_at_the_start_is_never_too_late() {
+        use pliant_oracle::{Elements, MotionClass, Random};
+        let mut random = Random::new(5);
+        let mut at_start = 0;
+        for class in [
+            MotionClass::TouchAtStart,
+            MotionClass::Coplanar,
+            MotionClass::Still,
+        ] {
+            for _ in 0..300 {
+                let (elements, corners) = class.motion(&mut random);
+                let moving = Moving {
+                    are_edges: matches!(elements, Elements::EdgeEdge),
+                    corners,
+                };
+                let (cell, _) = impact(&moving, Grid::new(1e-6), 0.0);
+                if matches!(first_contact(&moving), Some(Contact::AtStart)) {
+                    assert_eq!(cell, Some([0.0; 2]), "{moving:?}");
+                    at_start += 1;
+                }
+            }
+        }
+        assert!(at_start > 100, "{at_start}");
+    }
 }

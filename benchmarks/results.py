@@ -73,6 +73,11 @@ class Record:
         assert len(found) == 1, (experiment, words, [claim["claim"] for claim in found])
         return found[0]
 
+    def claims(self, experiment):
+        """All claims of an experiment, as rows of a table."""
+        claims = self.experiments[experiment]["claims"]
+        return "\n".join(f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |" for claim in claims)
+
     def figure(self, experiment, *words):
         return self.claim(experiment, *words)["figure"]
 
@@ -209,31 +214,19 @@ def page(record, date):
     bergen = lambda fast, slow: two(times("experiment-1", 0, fast, slow))
     update = lambda contest, window: two(times("experiment-1", contest, HYBRID, BOTTOM_UP, window))
     table = "\n".join(f"| {statement} | {verdict} | {found} |" for statement, verdict, found in claims_of_the_paper(record))
-    aims = "\n".join(
-        f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |"
-        for claim in record.experiments["peers"]["claims"]
-    )
+    aims = record.claims("peers")
     near = newest("near-*.json")
     near_record = Record(near)
-    near_aims = "\n".join(
-        f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |"
-        for claim in near_record.experiments["near"]["claims"]
-    )
+    near_aims = near_record.claims("near")
     ipctk, header, beside = beside_ipctk()
     close = newest("close-*.json")
     close_record = Record(close)
-    close_aims = "\n".join(
-        f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |"
-        for claim in close_record.experiments["close"]["claims"]
-    )
+    close_aims = close_record.claims("close")
     close_ipctk, close_header, close_beside = beside_ipctk_close()
     fcl, fcl_header, fcl_beside = beside_fcl()
     when = newest("when-*.json")
     when_record = Record(when)
-    when_aims = "\n".join(
-        f"| {claim['claim']} | {VERDICTS[claim['verdict']]} | {claim['figure']} |"
-        for claim in when_record.experiments["when"]["claims"]
-    )
+    when_aims = when_record.claims("when")
     impacts_ipctk, impacts_header, impacts_beside = beside_ipctk_impacts()
     processor = record.machine["processor"]
     cores = record.machine["cores"]

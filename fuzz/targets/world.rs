@@ -614,11 +614,7 @@ impl<S: Scalar> Lived<S> {
     /// The candidates of two bodies, or of one with itself.
     fn near(&mut self, a: usize, b: usize, radius: f64) {
         let (one, other) = (&self.known[a], &self.known[b]);
-        let of = if a == b {
-            Selection::Within(one.id)
-        } else {
-            Selection::Between(one.id, other.id)
-        };
+        let of = selection(one, other);
         let [moving_a, moving_b] = [one, other].map(Known::moving);
         let mut expected = Vec::new();
         let mut add = |(of, with): (&Known<S>, &Known<S>), pairs: Vec<[u32; 2]>| {
@@ -638,11 +634,7 @@ impl<S: Scalar> Lived<S> {
         let found = found.expect("both are there").iter();
         assert!(found.map(|&hit| <[u32; 4]>::from(hit)).eq(expected));
 
-        let (one, other) = if one.id <= other.id {
-            (one, other)
-        } else {
-            (other, one)
-        };
+        let (one, other) = in_order(one, other);
         let [moving_a, moving_b] = [one, other].map(Known::moving);
         let pairs = if a == b {
             reference::self_edge_edge_pairs(&moving_a, radius)
@@ -659,11 +651,7 @@ impl<S: Scalar> Lived<S> {
     /// The close pairs of two bodies, or of one with itself.
     fn close(&mut self, a: usize, b: usize, distance: f64) {
         let (one, other) = (&self.known[a], &self.known[b]);
-        let of = if a == b {
-            Selection::Within(one.id)
-        } else {
-            Selection::Between(one.id, other.id)
-        };
+        let of = selection(one, other);
         let [moving_a, moving_b] = [one, other].map(Known::moving);
         let mut expected = Vec::new();
         let mut add = |(of, with): (&Known<S>, &Known<S>), pairs: Vec<[u32; 2]>| {
@@ -685,11 +673,7 @@ impl<S: Scalar> Lived<S> {
         figures.for_each(|it| check_figures(it, distance));
         assert!(found.map(|it| <[u32; 4]>::from(it.pair)).eq(expected));
 
-        let (one, other) = if one.id <= other.id {
-            (one, other)
-        } else {
-            (other, one)
-        };
+        let (one, other) = in_order(one, other);
         let [moving_a, moving_b] = [one, other].map(Known::moving);
         let pairs = if a == b {
             reference::self_close_edge_edge_pairs(&moving_a, distance)
@@ -716,11 +700,7 @@ impl<S: Scalar> Lived<S> {
     /// What meets on the way, of two bodies or of one with itself; what meets first; and a step that lets nothing through.
     fn meet(&mut self, a: usize, b: usize, width: f64, gap: f64) {
         let (one, other) = (&self.known[a], &self.known[b]);
-        let of = if a == b {
-            Selection::Within(one.id)
-        } else {
-            Selection::Between(one.id, other.id)
-        };
+        let of = selection(one, other);
         let [moving_a, moving_b] = [one, other].map(Known::moving);
         let mut expected = Vec::new();
         let mut add = |(of, with): (&Known<S>, &Known<S>), met: Vec<Timed>| {
@@ -743,11 +723,7 @@ impl<S: Scalar> Lived<S> {
         assert!(rows.eq(expected.iter().copied()));
         let mut earliest = expected.iter().map(|&(_, cell)| cell).collect::<Vec<_>>();
 
-        let (one, other) = if one.id <= other.id {
-            (one, other)
-        } else {
-            (other, one)
-        };
+        let (one, other) = in_order(one, other);
         let [moving_a, moving_b] = [one, other].map(Known::moving);
         let met = if a == b {
             reference::self_edge_edge_impacts(&moving_a, width)
@@ -934,6 +910,20 @@ impl<S> Known<S> {
             groups: Some(&self.groups),
         }
     }
+}
+
+/// Two bodies, or one with itself.
+fn selection<S>(a: &Known<S>, b: &Known<S>) -> Selection {
+    if a.id == b.id {
+        Selection::Within(a.id)
+    } else {
+        Selection::Between(a.id, b.id)
+    }
+}
+
+/// The body with the lower number first, as in pairs of edges.
+fn in_order<'k, S>(a: &'k Known<S>, b: &'k Known<S>) -> (&'k Known<S>, &'k Known<S>) {
+    if a.id <= b.id { (a, b) } else { (b, a) }
 }
 
 fn pairs<S: Scalar>(a: &Known<S>, b: &Known<S>) -> Vec<[u32; 2]> {

@@ -734,7 +734,12 @@ impl Check {
         Ok(first.map_or(ControlFlow::Continue(()), |pair| {
             let row = pair.into();
             self.remarks.take(taker.frame(), sources, row);
-            taker.take(row, How::Somehow, has_degenerate(sources, row), false)
+            taker.take(
+                row,
+                How::Intersecting(None),
+                has_degenerate(sources, row),
+                false,
+            )
         }))
     }
 
@@ -788,9 +793,9 @@ impl Check {
         };
         let _ = with_world!(world, world => match *within {
             None if counts_kinds => unless(question, world.contacts(*of))
-                .visit(|contact| take(contact.pair, How::Intersecting(contact.kind))),
+                .visit(|contact| take(contact.pair, How::Intersecting(Some(contact.kind)))),
             None => unless(question, world.intersections(*of))
-                .visit(|pair| take(pair, How::Somehow)),
+                .visit(|pair| take(pair, How::Intersecting(None))),
             Some(most) => unless(question, world.close_triangle_pairs(*of, most))
                 .visit(|close| {
                     // What is known of a distance is off by a billionth; that it is at most this is known exactly.

@@ -67,10 +67,8 @@ impl Kinds {
 /// What is known of two triangles besides that they are a pair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum How {
-    /// They intersect so.
-    Intersecting(ContactKind),
-    /// They intersect, and it was not asked how.
-    Somehow,
+    /// They intersect; in which way, if that is asked.
+    Intersecting(Option<ContactKind>),
     /// They are so close.
     Close(Closeness),
 }
@@ -172,8 +170,8 @@ impl<'a> Taker<'a> {
         self
     }
 
-    /// Takes a pair, or leaves it out. `degenerate`: whether a triangle of it has no
-    /// area. `comparable`: whether its bodies have the meshes that the baseline is about.
+    /// Takes a pair, or leaves it out. `degenerate`: whether a triangle of it has no area. `comparable`: whether its bodies have the meshes
+    /// that the baseline is about.
     pub(crate) fn take(
         &mut self,
         row: Row,
@@ -184,7 +182,7 @@ impl<'a> Taker<'a> {
         let found = &mut self.found;
         let closeness = match how {
             How::Close(closeness) => Some(closeness),
-            How::Intersecting(_) | How::Somehow => None,
+            How::Intersecting(_) => None,
         };
         if degenerate && self.skip_degenerate {
             found.degenerate += 1;
@@ -219,7 +217,7 @@ impl<'a> Taker<'a> {
         }
         found.count += 1;
         found.degenerate += usize::from(degenerate);
-        if let (Some(kinds), How::Intersecting(kind)) = (&mut found.kinds, how) {
+        if let (Some(kinds), How::Intersecting(Some(kind))) = (&mut found.kinds, how) {
             kinds.count(kind);
         }
         found.smallest = Some(found.smallest.map_or(row, |smallest| smallest.min(row)));
@@ -282,10 +280,10 @@ mod tests {
         let mut taker = Taker::new(0, false, false, usize::MAX, None);
         taker.found.count = MOST_COUNTED - 1;
         assert_eq!(
-            taker.take([0, 1, 0, 2], How::Somehow, false, true),
+            taker.take([0, 1, 0, 2], How::Intersecting(None), false, true),
             ControlFlow::Continue(())
         );
-        let stopped = taker.take([0, 1, 0, 3], How::Somehow, false, true);
+        let stopped = taker.take([0, 1, 0, 3], How::Intersecting(None), false, true);
         assert_eq!(stopped, ControlFlow::Break(Stop::Endless));
         assert_eq!(taker.end().count, MOST_COUNTED);
     }

@@ -30,10 +30,11 @@
 //! | a first loop, step by step, and what to do with hits | [`guide`] |
 //! | bodies | [`World::add`], [`remove`](World::remove), [`bodies`](World::bodies), [`BodyId`] |
 //! | moving them | [`World::set_positions`], [`write_positions`](World::write_positions); [`rebuild`](World::rebuild); other meshes, [`set_mesh`](World::set_mesh) |
-//! | asking: what | [`World::intersections`]; [`Pair`] |
+//! | asking: what | [`World::intersections`]; [`Pair`]; how they intersect, [`contacts`](World::contacts), [`ContactKind`] |
 //! | what is near, now or on the way | [`World::vertex_triangle_candidates`], [`edge_edge_candidates`](World::edge_edge_candidates); [`VertexTriangle`], [`EdgeEdge`]; [`World::edges`] |
 //! | what is close, how far apart | [`World::close_vertex_triangle_pairs`], [`close_edge_edge_pairs`](World::close_edge_edge_pairs), [`close_triangle_pairs`](World::close_triangle_pairs); [`distance`](World::distance), [`nearest_body`](World::nearest_body); [`clearance`](World::clearance) |
 //! | where bodies are going | [`World::set_motion`], [`finish_motion`](World::finish_motion), [`advance_motion`](World::advance_motion) |
+//! | what meets on the way, and how far all may go | [`World::vertex_triangle_impacts`], [`edge_edge_impacts`](World::edge_edge_impacts), [`first_impact`](World::first_impact), [`collision_free_step`](World::collision_free_step); of single pairs, [`vertex_triangle_impacts`], [`edge_edge_impacts`] |
 //! | of whom | [`Selection`]: the whole world, each body with itself too, two bodies, one with itself |
 //! | and how much | [`Query::all`], [`first`](Query::first), [`visit`](Query::visit), [`visit_some`](Query::visit_some); [`at_most`](Query::at_most), [`interrupt_if`](Query::interrupt_if); [`World::interruptible`] |
 //! | who may meet whom | [`World::set_filter`], [`ignore`](World::ignore), [`unignore`](World::unignore); of candidates, [`set_vertex_groups`](World::set_vertex_groups) |

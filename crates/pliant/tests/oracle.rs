@@ -39,10 +39,10 @@ impl<S: Scalar> Moving<S> {
             .len();
         let reference =
             reference::intersection_pairs(&[[0, 1, 2]], &pair[0], &[[0, 1, 2]], &pair[1]).unwrap();
-        let exact = *self.world.statistics();
+        let pairs = self.world.statistics().pairs;
         let how = self.world.contacts(Selection::World).all().unwrap();
         let how = how.first().map(|contact| contact.kind);
-        assert!(self.world.statistics().pairs == exact.pairs);
+        assert_eq!(self.world.statistics().pairs, pairs);
         let should = reference::contacts(&[[0, 1, 2]], &pair[0], &[[0, 1, 2]], &pair[1]).unwrap();
         let should = should.first().map(|&(_, kind)| kind);
         let [how, should] = [how, should].map(|kind| match kind {

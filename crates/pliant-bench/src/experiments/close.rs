@@ -4,7 +4,7 @@
 //! Close pairs are asked of all bodies and of each with itself, as a solver does. *Margin m* is m mean lengths of an edge: elements are close
 //! that are at most so far apart, and candidates are those whose boxes are.
 
-use super::{DEFAULT, Experiment, Form, Planned, every, factor_claim, scene, window};
+use super::{DEFAULT, Experiment, Form, Planned, STEPS, every, factor_claim, scene, whole};
 use crate::contest::{Contender, Contest, Query};
 use crate::methods::{AllBoxes, FarParry, NearSweep, Ours};
 use crate::motion::Motion;
@@ -28,7 +28,6 @@ const BY_LEAF_PAIRS: &str = "parry3d, leaf pairs";
 const OF_BODIES: [&str; 4] = [DEFAULT, F64, BY_QUERY, BY_LEAF_PAIRS];
 const PEERS: [&str; 2] = [BY_QUERY, BY_LEAF_PAIRS];
 
-const STEPS: &str = "all";
 const DISTANCE: &str = "distance";
 
 struct Line {
@@ -95,10 +94,7 @@ impl Line {
     fn contest(self, form: Form) -> Contest {
         let scene = scene(self.scene, self.triangles[usize::from(form == Form::Small)]);
         let motion = Motion::of_scene(&scene, self.steps.iter().copied());
-        let [first, last] = [self.steps.first(), self.steps.last()];
-        let windows = first.zip(last);
-        let windows = windows.map(|(&first, &last)| window(STEPS, first, last));
-        let windows = windows.into_iter().collect();
+        let windows = whole(&self.steps);
         let name = self.name.to_owned();
         let Some(margin) = self.margin else {
             return Contest {

@@ -205,6 +205,16 @@ fn window(name: &str, first: u32, last: u32) -> Window {
     }
 }
 
+/// What the window of [`whole`] is called.
+const STEPS: &str = "all";
+
+/// One window of all steps, if there are any.
+fn whole(steps: &[u32]) -> Vec<Window> {
+    let ends = steps.first().zip(steps.last()).into_iter();
+    ends.map(|(&first, &last)| window(STEPS, first, last))
+        .collect()
+}
+
 /// The windows of a scene of 200 steps.
 fn windows() -> Vec<Window> {
     vec![

@@ -4,12 +4,13 @@
 //! found that are within it, each has a margin of half of it. *Swept*: margin 0, from each step the stated part of the way to the next one.
 
 use super::{
-    DEFAULT, Experiment, Form, OBVHS_1, OBVHS_4, PARRY, Planned, every, factor_claim, scene, window,
+    DEFAULT, Experiment, Form, OBVHS_1, OBVHS_4, PARRY, Planned, STEPS, every, factor_claim, scene,
+    whole,
 };
 use crate::contest::{Contender, Contest, Query};
 use crate::methods::{NearObvhs, NearParry, NearSweep, Ours};
 use crate::motion::Motion;
-use crate::record::{Claim, ContestRecord, Verdict, Window};
+use crate::record::{Claim, ContestRecord, Verdict};
 use pliant::{Options, Update};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -50,8 +51,6 @@ const CROWD: &str = "27 spheres, margin 0.1";
 const CLOTH: &str = "cloth, margin 0.1";
 const CLOTH_WIDE: &str = "cloth, margin 0.5";
 const CLOTH_SWEPT: &str = "cloth, swept tenth";
-
-const STEPS: &str = "all";
 
 fn lines() -> Vec<Line> {
     let spheres = |name, asked| Line {
@@ -107,19 +106,13 @@ impl Line {
             }
             Asked::Swept(part) => (motion.on_the_way(&scene, part), 0.0),
         };
-        let [first, last] = [self.steps.first(), self.steps.last()];
-        let windows: Vec<Window> = first
-            .zip(last)
-            .map(|(&first, &last)| window(STEPS, first, last))
-            .into_iter()
-            .collect();
         Contest {
             name: self.name.to_owned(),
             motion,
             query: Query::Near,
             truth: Box::new(NearSweep::new(radius)),
             methods: METHODS.map(|label| method(label, radius)).into(),
-            windows,
+            windows: whole(&self.steps),
             cold: false,
         }
     }

@@ -4,7 +4,7 @@
 //! Everything is asked of all bodies and of each with itself, as a simulator does; *whole* is the way to the next step, *tenth* its first tenth.
 //! What a candidate costs is the time of all impacts less that of showing all candidates to a visitor who counts them, over their number.
 
-use super::{DEFAULT, Experiment, Form, Planned, every, scene, window};
+use super::{DEFAULT, Experiment, Form, Planned, STEPS, every, scene, whole};
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::exact;
 use crate::methods::{Everywhere, NearSweep, Ours, Precision};
@@ -32,8 +32,6 @@ const DOUBLE: [&str; 4] = [
     "pliant, f64, first impact",
     "pliant, f64, intersections",
 ];
-
-const STEPS: &str = "all";
 
 struct Line {
     name: &'static str,
@@ -95,9 +93,6 @@ impl Line {
         // In a tenth of a step of few triangles nothing meets.
         let part = if form == Form::Small { 1.0 } else { self.part };
         let motion = motion.on_the_way(&scene, part);
-        let [first, last] = [self.steps.first(), self.steps.last()];
-        let windows = first.zip(last);
-        let windows = windows.map(|(&first, &last)| window(STEPS, first, last));
         let mut methods = Vec::from(contenders::<f32>(SINGLE));
         methods.extend(contenders::<f64>(DOUBLE));
         Contest {
@@ -106,7 +101,7 @@ impl Line {
             query: Query::When,
             truth: Box::new(NearSweep::meeting()),
             methods,
-            windows: windows.into_iter().collect(),
+            windows: whole(&self.steps),
             cold: false,
         }
     }

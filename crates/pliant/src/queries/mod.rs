@@ -2,7 +2,8 @@
 //!
 //! The update, the traversal, the sorting and what users call are the same for every kind. A kind says what is different: what its boxes
 //! are made of and which set of them it uses, what two leaves do to each other, its rule for neighbours in the mesh, and what a hit is.
-//! `intersections`, `candidates`, `close` and `impacts` are kinds. Another, `grown`, is for tests only and shows that nothing else knows the first.
+//! `intersections` (and `contacts` in it), `candidates`, `close` and `impacts` are kinds. Another, `grown`, is for tests only and shows that
+//! nothing else knows the first.
 
 mod candidates;
 mod close;

@@ -641,13 +641,13 @@ impl<const N: usize, S: Coordinate> Ask<Pair> for Engine<N, S> {
     }
 }
 
-/// Answers queries of a kind that is made of the request.
+/// Answers queries of a kind that is made of the request: all of them by this call, with the numbers to sort by where hits are more than those.
 macro_rules! ask {
-    ($hit:ty, $asked:ident, |$request:ident| $kind:expr) => {
+    ($hit:ty, $asked:ident.$all:ident($($numbers:expr)?), |$request:ident| $kind:expr) => {
         impl<const N: usize, S: Coordinate> Ask<$hit> for Engine<N, S> {
             fn all(&mut self, $request: &Request) -> Result<&[$hit], Error> {
                 let kind = &$kind;
-                self.$asked.all(kind, &mut self.common, $request)
+                self.$asked.$all(kind, &mut self.common, $request $(, $numbers)?)
             }
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
@@ -667,29 +667,6 @@ macro_rules! ask {
     };
 }
 
-impl<const N: usize, S: Coordinate> Ask<Contact> for Engine<N, S> {
-    fn all(&mut self, request: &Request) -> Result<&[Contact], Error> {
-        let kind = &Contacts::of(request.only);
-        let numbers = |contact: &Contact| contact.pair.numbers();
-        self.contacts
-            .all_by(kind, &mut self.common, request, numbers)
-    }
-
-    fn first(&mut self, request: &Request) -> Result<Option<Contact>, Error> {
-        first_seen(|sink| Ask::<Contact>::visit(self, request, sink))
-    }
-
-    fn visit(&mut self, request: &Request, sink: Sink<Contact>) -> Result<(), Error> {
-        let kind = &Contacts::of(request.only);
-        self.contacts.visit(kind, &mut self.common, request, sink)
-    }
-
-    fn prepare(&mut self, request: &Request) -> Result<(), Error> {
-        let kind = &Contacts::of(request.only);
-        self.contacts.prepare(kind, &mut self.common, request)
-    }
-}
-
 /// The first hit that a visit shows.
 fn first_seen<H: Copy>(
     visit: impl FnOnce(Sink<H>) -> Result<(), Error>,
@@ -706,21 +683,30 @@ fn first_seen<H: Copy>(
     Ok(found)
 }
 
-ask!(VertexTriangle, vertex_triangle, |request| {
+ask!(
+    Contact,
+    contacts.all_by(|contact: &Contact| contact.pair.numbers()),
+    |request| Contacts::of(request.only)
+);
+ask!(VertexTriangle, vertex_triangle.all(), |request| {
     VertexTriangleCandidates::within(request.margin()?)
 });
-ask!(EdgeEdge, edge_edge, |request| {
+ask!(EdgeEdge, edge_edge.all(), |request| {
     EdgeEdgeCandidates::within(request.margin()?)
 });
-ask!(CloseVertexTriangle, close_vertex_triangle, |request| {
-    let candidates = VertexTriangleCandidates::within;
-    Measured(Close::within(request.distance()?, candidates))
-});
-ask!(CloseEdgeEdge, close_edge_edge, |request| {
+ask!(
+    CloseVertexTriangle,
+    close_vertex_triangle.all(),
+    |request| {
+        let candidates = VertexTriangleCandidates::within;
+        Measured(Close::within(request.distance()?, candidates))
+    }
+);
+ask!(CloseEdgeEdge, close_edge_edge.all(), |request| {
     let candidates = EdgeEdgeCandidates::within;
     Measured(Close::within(request.distance()?, candidates))
 });
-ask!(CloseTriangles, close_triangles, |request| {
+ask!(CloseTriangles, close_triangles.all(), |request| {
     Measured(NearTriangles::within(request.distance()?))
 });
 

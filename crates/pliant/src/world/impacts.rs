@@ -178,18 +178,18 @@ impl<S: Coordinate> AskedImpacts<S> {
         let mut earliest =
             self.earliest(common, request, OfKind::Both, distance == 0.0, distance)?;
         let mut statistics = common.statistics;
-        let latest = if earliest.impacts.is_empty() {
-            Ok(None)
-        } else if distance > 0.0 {
-            Ok(Some(earliest.cell[0]))
+        let is_free = earliest.impacts.is_empty();
+        let latest = if distance > 0.0 {
+            Ok(earliest.cell[0])
         } else {
             let time = |(_, contact): (_, Contact)| contact.cell(Grid::new(0.0))[0];
-            first_of(common, &mut earliest, request).map(|first| Some(first.map_or(0.0, time)))
+            first_of(common, &mut earliest, request).map(|first| first.map_or(0.0, time))
         };
         self.earliest = earliest.impacts;
-        let Some(latest) = latest? else {
+        let latest = latest?;
+        if is_free {
             return Ok(1.0);
-        };
+        }
         let mut step = 0.0;
         for part in PARTS {
             step = latest * part;

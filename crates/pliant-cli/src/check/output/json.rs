@@ -58,9 +58,7 @@
 
 use super::{Form, Tally};
 use crate::check::{Arguments, Names, Split};
-use pliant_check::{
-    Baseline, Check, FirstImpact, Found, Group, Impact, Interval, Kinds, Life, Place,
-};
+use pliant_check::{Baseline, Check, FirstImpact, Found, Group, Impact, Interval, Life, Place};
 use pliant_io::Body as Source;
 use serde::Serialize;
 use serde_json::json;
@@ -132,7 +130,7 @@ struct FrameEntry<'a> {
     changed: Vec<ChangedEntry<'a>>,
     count: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
-    kinds: Option<KindsEntry>,
+    kinds: Option<serde_json::Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     complete: Option<bool>,
     /// `null` where nothing is as close as that; not there where no distance was asked for.
@@ -146,13 +144,6 @@ struct FrameEntry<'a> {
     pairs: Option<&'a [[u32; 4]]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     places: Option<Vec<PlaceEntry>>,
-}
-
-#[derive(Serialize)]
-struct KindsEntry {
-    crossing: usize,
-    overlapping: usize,
-    touching: usize,
 }
 
 #[derive(Serialize)]
@@ -362,16 +353,11 @@ impl Form for Json {
             changed: changed.collect(),
             count: found.count,
             kinds: found.kinds.filter(|_| found.count > 0).map(|kinds| {
-                let Kinds {
-                    crossing,
-                    overlapping,
-                    touching,
-                } = kinds;
-                KindsEntry {
-                    crossing,
-                    overlapping,
-                    touching,
-                }
+                json!({
+                    "crossing": kinds.crossing,
+                    "overlapping": kinds.overlapping,
+                    "touching": kinds.touching,
+                })
             }),
             complete: (!found.complete).then_some(false),
             distance: self.within.map(|_| json!(found.distance)),

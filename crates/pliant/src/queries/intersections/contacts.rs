@@ -36,9 +36,9 @@ pub(crate) struct TreeContact {
     kind: ContactKind,
 }
 
-/// What a task keeps.
+/// What a task keeps: pairs that intersect, before it is known how.
 #[derive(Debug, Default)]
-pub(crate) struct Found {
+pub(crate) struct ContactBuffers {
     undecided: Undecided,
     pairs: Buffer<Candidate>,
 }
@@ -47,7 +47,7 @@ impl<S: Coordinate> Kind for Contacts<S> {
     type Scalar = S;
     type Hit = Contact;
     type TreeHit = TreeContact;
-    type Buffers = Found;
+    type Buffers = ContactBuffers;
     type Source<'s> = Shape<'s, S>;
 
     const BOX_SET: BoxSetNumber = Intersections::<S>::BOX_SET;
@@ -61,7 +61,7 @@ impl<S: Coordinate> Kind for Contacts<S> {
         &self,
         leaves: &LeafTest<S>,
         candidates: &mut Buffer<Candidate>,
-        Found { undecided, pairs }: &mut Found,
+        ContactBuffers { undecided, pairs }: &mut ContactBuffers,
         hits: &mut Buffer<TreeContact>,
         statistics: &mut Statistics,
     ) {
@@ -95,7 +95,7 @@ impl<S: Coordinate> Kind for Contacts<S> {
     }
 }
 
-impl Held for Found {
+impl Held for ContactBuffers {
     fn held(&self) -> usize {
         self.undecided.held() + self.pairs.held()
     }

@@ -143,23 +143,28 @@ pub(crate) fn parts_of_mesh<'py>(
     }
 }
 
-/// Copies an (n,) array of integers from 0 to 2^32 - 1, or what numpy makes one of.
-pub(crate) fn numbers(given: &Bound<'_, PyAny>) -> Result<Vec<u32>, Refused> {
+/// Copies an (n,) array of integers from 0 to 2^32 - 1, or what numpy makes one of; `what` they are, and what they are for.
+pub(crate) fn numbers(
+    given: &Bound<'_, PyAny>,
+    [name, what]: [&str; 2],
+) -> Result<Vec<u32>, Refused> {
     let py = given.py();
-    refuse_masks(given, "groups")?;
+    refuse_masks(given, name)?;
     let array = py
         .import(intern!(py, "numpy"))?
         .call_method1(intern!(py, "asarray"), (given,))?;
     let array = array.cast_into::<PyUntypedArray>().map_err(PyErr::from)?;
     let dtype = array.dtype();
-    let bad = |what: String| {
+    let bad = |have: String| {
         Refused::new(
             "BadArray",
-            format!(
-                "groups {what}; they must be integers from 0 to 4294967295, one for each vertex"
-            ),
+            format!("{name} {have}; they must be integers from 0 to 4294967295, {what}"),
         )
     };
+    // numpy takes an empty list for one of floating point numbers.
+    if array.shape() == [0] {
+        return Ok(Vec::new());
+    }
     if array.ndim() != 1 || !matches!(dtype.kind(), b'u' | b'i') {
         return Err(bad(format!(
             "have {} dimensions and are of type {dtype}",

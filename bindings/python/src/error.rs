@@ -125,6 +125,22 @@ impl From<pliant::Error> for Refused {
                 refused.with("vertex", vertex)
             }
             ErrorKind::TooManyHits { limit } => refused.with("limit", limit),
+            ErrorKind::NoSuchTriangle {
+                triangle,
+                triangles,
+            } => refused
+                .with("triangle", triangle as usize)
+                .with("triangles", triangles),
+            ErrorKind::EmptyTriangle { triangle } => refused.with("triangle", triangle as usize),
+            ErrorKind::NoSuchVertex { vertex, vertices } => refused
+                .with("vertex", vertex as usize)
+                .with("vertices", vertices),
+            ErrorKind::EmptyVertex { vertex } | ErrorKind::VertexInUse { vertex } => {
+                refused.with("vertex", vertex as usize)
+            }
+            ErrorKind::NotACorner { triangle, vertex } => refused
+                .with("triangle", triangle as usize)
+                .with("vertex", vertex as usize),
             // The kind, and the body, say it all.
             _ => refused,
         }

@@ -8,6 +8,7 @@
 //! | `world.rs`, `query.rs` | `World`, `Selection` and `Query`, as Python sees them |
 //! | `close.rs` | `CloseQuery`: close pairs, with distance, direction and closest points |
 //! | `contacts.rs` | `ContactQuery`: which triangles intersect, and how |
+//! | `edit.rs` | `Edit`: changes of a mesh, made all at once |
 //! | `impacts.rs` | `ImpactQuery`: which elements meet on their way, and when; and of single pairs |
 //! | `pickled.rs` | a world as pickle writes it down |
 //! | `signals.rs` | Ctrl-C while a query computes |
@@ -28,6 +29,7 @@ mod check;
 mod close;
 mod contacts;
 mod copies;
+mod edit;
 mod error;
 mod impacts;
 mod one_liners;
@@ -51,6 +53,8 @@ mod _pliant {
     use crate::close::CloseQuery;
     #[pymodule_export]
     use crate::contacts::ContactQuery;
+    #[pymodule_export]
+    use crate::edit::Edit;
     #[pymodule_export]
     use crate::impacts::{ImpactQuery, edge_edge_impacts, vertex_triangle_impacts};
     #[pymodule_export]

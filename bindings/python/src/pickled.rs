@@ -1,7 +1,8 @@
 //! A world as Python's pickle writes it down, and what is read back: bodies with their numbers, in their shapes of now, with their motions,
 //! filters, groups of vertices, ignored pairs and loose boxes. Options are arguments of what makes the new world.
 //!
-//! Trees are not written: they are built anew, on the shapes of now, which changes no answer. What is read is checked as if it was
+//! Trees are not written: they are built anew, on the shapes of now, which changes no answer. Nor are numbers of edges: those of a mesh that
+//! was edited are numbered anew. What is read is checked as if it was
 //! given to a world by calls, which it is.
 
 use crate::arrays::{CopiedCoordinates, CopiedFaces, rows_of};
@@ -130,7 +131,7 @@ impl Written<'_> {
             let (state, number) = (&mut *state, written.body);
             let body = py.detach(|| {
                 with_world!(&mut state.world, world => world.skip_ids(Some(number)));
-                caught(|| state.add(faces, positions))
+                caught(|| state.add_with_empty(faces, positions))
             })?;
             if body.0 != number {
                 let what = format!("body {number} does not come after those before it");

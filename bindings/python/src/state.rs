@@ -8,6 +8,9 @@ use pliant_check::{AnyWorld, NotTaken, double, single, with_world};
 use pliant_io::{Positions, Precision};
 use pyo3::Python;
 
+/// The corners of a number that no triangle has.
+const EMPTY: [u32; 3] = [u32::MAX; 3];
+
 /// A world, and whether its precision is fixed.
 pub(crate) struct State {
     /// Of any precision while it never had a body; questions then have the same answers.
@@ -87,6 +90,55 @@ impl State {
             .world
             .set_mesh(body, triangles, positions, &mut self.widened);
         taken.map_err(|not_taken| of_body(body, not_taken))
+    }
+
+    /// Adds a body that has numbers of triangles and vertices which are empty. What comes for these meanwhile goes again.
+    pub(crate) fn add_with_empty(
+        &mut self,
+        triangles: &[[u32; 3]],
+        positions: Positions<'_>,
+    ) -> Result<BodyId, Refused> {
+        let is_live = |corners: &&[u32; 3]| **corners != EMPTY;
+        let Some(&some) = triangles.iter().find(is_live) else {
+            return self.add(triangles, positions);
+        };
+        let is_nan = |row: &[f64; 3]| row.iter().any(|x| x.is_nan());
+        let mut rows = double(positions, &mut Vec::new()).to_vec();
+        let place = rows.get(some[0] as usize).copied().unwrap_or_default();
+        let empty: Vec<u32> = (0..)
+            .zip(&rows)
+            .filter(|(_, row)| is_nan(row))
+            .map(|(at, _)| at)
+            .collect();
+        for &vertex in &empty {
+            rows[vertex as usize] = place;
+        }
+        let gone: Vec<u32> = (0..)
+            .zip(triangles)
+            .filter(|(_, corners)| !is_live(corners))
+            .map(|(at, _)| at)
+            .collect();
+        let filled = |corners: &[u32; 3]| if is_live(&corners) { *corners } else { some };
+        let filled: Vec<[u32; 3]> = triangles.iter().map(filled).collect();
+        // Those that were 32-bit numbers still are.
+        let narrow: Vec<[f32; 3]>;
+        let rows = match positions {
+            Positions::F32(_) => {
+                narrow = rows.iter().map(|row| row.map(|x| x as f32)).collect();
+                Positions::F32(&narrow)
+            }
+            Positions::F64(_) => Positions::F64(&rows),
+        };
+        let body = self.add(&filled, rows)?;
+        with_world!(&mut self.world, world => {
+            let mut edit = world.edit(body)?;
+            edit.remove_triangles(&gone);
+            for &vertex in &empty {
+                edit.merge_vertices(some[0], vertex);
+            }
+            world.apply(&edit)?;
+        });
+        Ok(body)
     }
 
     /// Copies a new shape of a body, as many positions as it has vertices, in the world's type: 32-bit ones are widened on the way.
@@ -184,7 +236,7 @@ pub(crate) fn precision_of(positions: Positions<'_>) -> Precision {
 }
 
 /// About positions that were given for a body, which the library names by itself where it is the one that refuses.
-fn of_body(body: BodyId, not_taken: NotTaken) -> Refused {
+pub(crate) fn of_body(body: BodyId, not_taken: NotTaken) -> Refused {
     let is_named = matches!(not_taken, NotTaken::Refused(_));
     let refused = Refused::from(not_taken);
     if is_named {

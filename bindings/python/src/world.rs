@@ -3,6 +3,7 @@
 use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedFaces};
 use crate::close::{Close, CloseKind, CloseQuery};
 use crate::contacts::{ContactQuery, Only};
+use crate::edit::{self, AnyEdit, Edit};
 use crate::error::{Refused, alone, alone_with, named_tuple};
 use crate::impacts::{Impact, ImpactKind, ImpactQuery};
 use crate::options::Keywords;
@@ -225,8 +226,11 @@ impl World {
     }
 
     /// Gives a body another mesh and its shape, of any size: faces (m, 3) and positions (n, 3), or one mesh object, as add takes them.
-    /// Number, filter, ignored pairs and loose box stay. If the faces are those that the body has, this is set_positions; else a tree
-    /// is built, which costs as much as add.
+    /// Number, filter, ignored pairs and loose box stay; triangles and vertices are numbered as these are, and none is empty.
+    ///
+    /// What is equal by number stays, what differs is edited, which costs as apply does. Where more than an eighth of the triangles differ,
+    /// or vertices are fewer than before, all is made anew, which costs as much as add: edges have other numbers then. A mesh that is not
+    /// that which the body has ends a motion, and takes the vertices their groups.
     #[pyo3(signature = (body, faces, positions=None))]
     fn set_mesh(
         &self,
@@ -246,6 +250,119 @@ impl World {
         let faces = CopiedFaces::of(&faces, positions.len()).map_err(of_body)?;
         let faces = faces.get()?;
         self.with(py, |state| state.set_mesh(body, faces, positions))
+    }
+
+    /// Begins an edit of a body's mesh: changes that apply makes all at once, or not at all.
+    fn edit(&self, py: Python<'_>, body: Body) -> Result<Edit, Refused> {
+        let edit = self.with(py, |state| Ok(AnyEdit::of(state, body.0)?))?;
+        Ok(Edit::new(edit))
+    }
+
+    /// Makes the changes of an edit, and says by number what has changed, as an Edited of arrays. Triangles and vertices that it does not
+    /// name keep their numbers, edges their numbers if they stay.
+    ///
+    /// A number that is left empty is 0xFFFFFFFF three times in triangles, and nothing in any answer. Positions keep one row for every
+    /// number; rows of empty vertices are not looked at when they are set, and NaN when they are asked for. Filter, ignored pairs and loose
+    /// box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends.
+    ///
+    /// Costs by what the edit names and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit of
+    /// a body, and when an eighth of the triangles were changed since, for the tree is then built anew.
+    fn apply<'py>(&self, py: Python<'py>, edit: &Edit) -> Result<Bound<'py, PyAny>, Refused> {
+        let edited = edit.with(|edit| self.with(py, |state| edit.apply(state)))?;
+        Ok(edit::edited(py, edited)?)
+    }
+
+    /// For each number whether it is that of a triangle, (m,) bool: False where an edit has left it empty.
+    fn live_triangles<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+    ) -> Result<Bound<'py, PyArray1<bool>>, Refused> {
+        let live = self.with(
+            py,
+            |state| with_world!(&state.world, world => Ok(world.live_triangles(body.0)?)),
+        )?;
+        Ok(live.into_pyarray(py))
+    }
+
+    /// For each number whether it is that of a vertex, (n,) bool: False where an edit has left it empty.
+    fn live_vertices<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+    ) -> Result<Bound<'py, PyArray1<bool>>, Refused> {
+        let live = self.with(
+            py,
+            |state| with_world!(&state.world, world => Ok(world.live_vertices(body.0)?)),
+        )?;
+        Ok(live.into_pyarray(py))
+    }
+
+    /// Counts the meshes of a body, and the orders that its trees bring them into: whoever keeps what vertex_order, edges or triangles says
+    /// asks for them again when this is another.
+    fn mesh_revision(&self, py: Python<'_>, body: Body) -> Result<u64, Refused> {
+        self.with(
+            py,
+            |state| with_world!(&state.world, world => Ok(world.mesh_revision(body.0)?)),
+        )
+    }
+
+    /// For each triangle of a body its component, (m,) uint32: two are in one if they share a vertex, or hang together through others that
+    /// do. Numbered from 0 in the order of their first triangles; an empty number has 0xFFFFFFFF.
+    fn components<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+    ) -> Result<Bound<'py, PyArray1<u32>>, Refused> {
+        let components = self.with(
+            py,
+            |state| with_world!(&state.world, world => Ok(world.components(body.0)?)),
+        )?;
+        Ok(components.into_pyarray(py))
+    }
+
+    /// Makes a body of each component, but of the largest, which stays what it is with all its numbers: that with the most triangles, of
+    /// several the first. Returns a list of Piece in the order of their first triangles; it is empty if all hangs together.
+    ///
+    /// What they have from the body: filter, loose box, vertex groups, and whom it ignores; if it ignores itself, the pieces ignore each
+    /// other and it. A motion of the body ends. Vertices that no triangle uses stay with it.
+    fn split<'py>(&self, py: Python<'py>, body: Body) -> Result<Vec<Bound<'py, PyAny>>, Refused> {
+        let pieces = self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.split(body.0)?)),
+        )?;
+        let pieces = pieces.into_iter().map(|piece| edit::piece(py, piece));
+        Ok(pieces.collect::<PyResult<_>>()?)
+    }
+
+    /// Puts the triangles and vertices of body b behind those of a, and removes b. Returns a Fused: which numbers they have now.
+    ///
+    /// Body a keeps its numbers, its filter and whom it ignores; vertices keep their groups. The loose box is then one around both if both
+    /// had one, else there is none. Motions of either end. Nothing is welded: see weld.
+    fn fuse<'py>(&self, py: Python<'py>, a: Body, b: Body) -> Result<Bound<'py, PyAny>, Refused> {
+        let fused = self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.fuse(a.0, b.0)?)),
+        )?;
+        Ok(edit::fused(py, fused)?)
+    }
+
+    /// Makes boundary edges one where they coincide: where the ends of one are, one by one, at most a tolerance from those of another. Of
+    /// vertices that become one the lowest stays where it is, the others go. A boundary edge is one that exactly one triangle has. Returns
+    /// an Edited.
+    ///
+    /// Vertices that coincide are not welded where no edges do, and never two corners of one triangle.
+    fn weld<'py>(
+        &self,
+        py: Python<'py>,
+        body: Body,
+        tolerance: f64,
+    ) -> Result<Bound<'py, PyAny>, Refused> {
+        let edited = self.with(
+            py,
+            |state| with_world!(&mut state.world, world => Ok(world.weld(body.0, tolerance)?)),
+        )?;
+        Ok(edit::edited(py, edited)?)
     }
 
     /// Removes a body. Its number will not be used again.
@@ -362,7 +479,8 @@ impl World {
         body: Body,
         groups: &Bound<'_, PyAny>,
     ) -> Result<(), Refused> {
-        let groups = arrays::numbers(groups).map_err(|refused| refused.of_body(Some(body.0)))?;
+        let groups = arrays::numbers(groups, ["groups", "one for each vertex"])
+            .map_err(|refused| refused.of_body(Some(body.0)))?;
         self.with(
             py,
             |state| with_world!(&mut state.world, world => Ok(world.set_vertex_groups(body.0, &groups)?)),
@@ -382,8 +500,12 @@ impl World {
         Ok(groups.into_pyarray(py))
     }
 
-    /// The edges of a body: a new array (k, 2) uint32, two vertices each, the smaller first. Every edge once, whatever triangles share it;
-    /// sorted, so that the number of an edge, its row here, depends on the mesh alone.
+    /// The edges of a body: a new array (k, 2) uint32, two vertices each, the smaller first. Every edge once, whatever triangles share it. The
+    /// number of an edge is its row here.
+    ///
+    /// They are sorted when they are first asked for, here or by a query for edges. From then on an edge keeps its number while there is a
+    /// triangle that has it, however the mesh is edited: a number whose edge is gone is empty, 0xFFFFFFFF twice, until an edge that comes
+    /// takes it, the lowest first.
     fn edges<'py>(
         &self,
         py: Python<'py>,

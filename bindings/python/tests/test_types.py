@@ -62,7 +62,8 @@ def of_class(kind: type) -> set[str]:
 
 
 def test_worlds_and_queries_have_the_methods_of_the_rust_librarys() -> None:
-    of_world, of_query = public_methods(source_of("mod.rs")), public_methods(source_of("query.rs"))
+    of_world = public_methods(source_of("mod.rs")) | public_methods(source_of("pieces.rs"))
+    of_query = public_methods(source_of("query.rs"))
     assert {"write_positions", "tree_cut", "intersections", "validate"} < of_world
     assert {"all", "first", "visit", "prepare", "at_most", "interrupt_if"} <= of_query
     # Nothing is public elsewhere: what may be interrupted has the names of what it is.
@@ -75,6 +76,12 @@ def test_worlds_and_queries_have_the_methods_of_the_rust_librarys() -> None:
     of_query -= {"at_most", "interrupt_if", "width", "only"}
     assert of_class(pliant.Query) == of_query
     assert "at_most" in inspect.signature(pliant.Query.all).parameters
+
+
+def test_edits_have_the_steps_of_the_rust_librarys() -> None:
+    of_edit = public_methods(source_of("..", "edit.rs"))
+    # One of a kind is an array of one.
+    assert of_class(pliant.Edit) == of_edit - {"add_vertex", "add_triangle", "remove_triangle", "vertex_count", "triangle_count"}
 
 
 def test_selections_have_the_names_of_the_rust_librarys() -> None:

@@ -119,6 +119,44 @@ pub enum ErrorKind {
         /// The time.
         time: f64,
     },
+    /// An edit names a triangle that the body does not have.
+    NoSuchTriangle {
+        /// The triangle.
+        triangle: u32,
+        /// How many numbers of triangles there are.
+        triangles: usize,
+    },
+    /// An edit names a triangle that was taken out.
+    EmptyTriangle {
+        /// The triangle.
+        triangle: u32,
+    },
+    /// An edit names a vertex that the body does not have.
+    NoSuchVertex {
+        /// The vertex.
+        vertex: u32,
+        /// How many numbers of vertices there are.
+        vertices: usize,
+    },
+    /// An edit names a vertex that is gone, because no triangle used it any more.
+    EmptyVertex {
+        /// The vertex.
+        vertex: u32,
+    },
+    /// An edit places a vertex that is not empty.
+    VertexInUse {
+        /// The vertex.
+        vertex: u32,
+    },
+    /// A triangle that is to take a new vertex in place of another does not have that other for a corner.
+    NotACorner {
+        /// The triangle.
+        triangle: u32,
+        /// The vertex that was to be split.
+        vertex: u32,
+    },
+    /// The mesh was changed since [`World::edit`](crate::World::edit) began this edit, or it is of another body.
+    OutdatedEdit,
 }
 
 impl ErrorKind {
@@ -228,6 +266,47 @@ impl fmt::Display for ErrorKind {
             Self::BadTime { time } => {
                 write!(f, "the time is {time}; within a step it is from 0 to 1")
             }
+            _ => self.about_an_edit(f),
+        }
+    }
+}
+
+impl ErrorKind {
+    /// Why an edit was refused.
+    fn about_an_edit(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchTriangle {
+                triangle,
+                triangles,
+            } => write!(
+                f,
+                "the edit names triangle {triangle}, but there are {triangles} triangles (counted from 0)"
+            ),
+            Self::EmptyTriangle { triangle } => write!(
+                f,
+                "the edit names triangle {triangle}, which was taken out; give it corners to use its number again"
+            ),
+            Self::NoSuchVertex { vertex, vertices } => write!(
+                f,
+                "the edit names vertex {vertex}, but there are {vertices} vertices (counted from 0)"
+            ),
+            Self::EmptyVertex { vertex } => write!(
+                f,
+                "the edit names vertex {vertex}, which is empty, for its last triangle was taken out; place it to use its number again"
+            ),
+            Self::VertexInUse { vertex } => write!(
+                f,
+                "the edit places vertex {vertex}, which is not empty; set the positions to move it"
+            ),
+            Self::NotACorner { triangle, vertex } => write!(
+                f,
+                "vertex {vertex} is to be split, but is no corner of triangle {triangle}"
+            ),
+            Self::OutdatedEdit => write!(
+                f,
+                "the mesh was changed since this edit was begun; begin another"
+            ),
+            _ => Ok(()),
         }
     }
 }

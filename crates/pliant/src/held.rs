@@ -23,6 +23,12 @@ pub(crate) fn within<'t, T: Held + 't>(things: impl IntoIterator<Item = &'t T>) 
     things.into_iter().map(Held::held).sum()
 }
 
+/// Of things in boxes, and the things themselves.
+pub(crate) fn boxes<'t, T: Held + 't>(things: impl IntoIterator<Item = &'t Box<T>>) -> usize {
+    let all = things.into_iter();
+    all.map(|thing| size_of::<T>() + thing.held()).sum()
+}
+
 /// Of so many entries in a tree of them, whose nodes are two thirds full, about.
 pub(crate) fn entries<T>(count: usize) -> usize {
     count * size_of::<T>() * 3 / 2

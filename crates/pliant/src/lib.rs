@@ -74,6 +74,7 @@
 mod broad_phase;
 mod close_pairs;
 mod contacts;
+mod edit;
 mod error;
 mod geometry;
 mod held;
@@ -97,6 +98,7 @@ mod world;
 
 pub use close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
 pub use contacts::{Contact, ContactKind};
+pub use edit::{Edit, Edited};
 pub use error::{Error, ErrorKind};
 pub use hits::{EdgeEdge, Pair, VertexTriangle};
 pub use ids::BodyId;
@@ -107,7 +109,9 @@ pub use options::{BroadPhase, Degree, Options, Partition, Update};
 pub use pair_impacts::{edge_edge_impacts, vertex_triangle_impacts};
 pub use predicates::is_degenerate;
 pub use statistics::Statistics;
-pub use world::{Interruptible, NodeBox, Query, Scalar, Selection, Timed, TreeShape, World};
+pub use world::{
+    Fused, Interruptible, NodeBox, Piece, Query, Scalar, Selection, Timed, TreeShape, World,
+};
 
 // A module of the documentation alone; its code is compiled and run like that of the README, with which this page begins.
 #[cfg(any(doc, doctest))]

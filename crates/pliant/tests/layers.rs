@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folder, or file of the crate's root, and what it may use.
-const LAYERS: [(&str, &[&str]); 24] = [
+const LAYERS: [(&str, &[&str]); 25] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -19,9 +19,10 @@ const LAYERS: [(&str, &[&str]); 24] = [
     ("close_pairs", &["hits"]),
     ("contacts", &["hits"]),
     ("impacts", &["hits"]),
+    ("edit", &["ids"]),
     ("geometry", &["held", "ids"]),
     ("kernels", &["held", "ids", "geometry"]),
-    ("mesh", &["held", "ids", "error", "threads"]),
+    ("mesh", &["held", "ids", "error", "edit", "threads"]),
     ("predicates", &["geometry", "contacts"]),
     ("sort", &["held", "hits", "threads"]),
     (
@@ -87,6 +88,7 @@ const LAYERS: [(&str, &[&str]); 24] = [
             "options",
             "statistics",
             "error",
+            "edit",
             "hits",
             "close_pairs",
             "contacts",
@@ -120,7 +122,7 @@ const LAYERS: [(&str, &[&str]); 24] = [
 ];
 
 /// What the root exports under a name of its own, and where it is from.
-const EXPORTED: [(&str, &str); 31] = [
+const EXPORTED: [(&str, &str); 33] = [
     ("BodyId", "ids"),
     ("BroadPhase", "options"),
     ("CloseEdgeEdge", "close_pairs"),
@@ -131,6 +133,8 @@ const EXPORTED: [(&str, &str); 31] = [
     ("Degree", "options"),
     ("EdgeEdge", "hits"),
     ("EdgeEdgeImpact", "impacts"),
+    ("Edit", "edit"),
+    ("Edited", "edit"),
     ("Error", "error"),
     ("ErrorKind", "error"),
     ("Impact", "impacts"),

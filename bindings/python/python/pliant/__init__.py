@@ -18,6 +18,7 @@ from ._pliant import (
     Check,
     CloseQuery,
     ContactQuery,
+    Edit,
     ImpactQuery,
     Query,
     Selection,
@@ -29,7 +30,7 @@ from ._pliant import (
     self_intersection_pairs,
     vertex_triangle_impacts,
 )
-from ._types import Body, BodyThere, ClosePair, ClosePairs, Contact, ContactKind, Contacts, EdgeEdge, Error, FirstImpact, Frame, Impact, Impacts, Interval, Kinds, Life, Mesh, OpenMesh, Pair, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._types import Body, BodyThere, ClosePair, ClosePairs, Contact, ContactKind, Contacts, EdgeEdge, Edited, Error, FirstImpact, Frame, Fused, Impact, Impacts, Interval, Kinds, Life, Mesh, OpenMesh, Pair, Piece, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Body",
@@ -43,9 +44,12 @@ __all__ = [
     "ContactQuery",
     "Contacts",
     "EdgeEdge",
+    "Edit",
+    "Edited",
     "Error",
     "FirstImpact",
     "Frame",
+    "Fused",
     "Impact",
     "ImpactQuery",
     "Impacts",
@@ -55,6 +59,7 @@ __all__ = [
     "Mesh",
     "OpenMesh",
     "Pair",
+    "Piece",
     "Place",
     "Query",
     "Selection",

@@ -15,7 +15,7 @@ class Error(ValueError):
 
     kind is a name of the Rust library's ErrorKind (NoTriangles, TooLarge, TooManyBodies, VertexOutOfRange, WrongLength,
     BadPosition, NeedsSubnormals, NotWritten, OutsideLooseBox, BadLooseBox, NoSuchBody, SameBody, TooManyHits, BadMargin, BadDistance, BadWidth, BadTime,
-    DifferentCounts, BadCorner), or:
+    DifferentCounts, BadCorner, NoSuchTriangle, EmptyTriangle, NoSuchVertex, EmptyVertex, VertexInUse, NotACorner, OutdatedEdit), or:
 
       BadArray     not an array of three columns, or not of a type that is taken
       BadOption    an option has no such value
@@ -34,8 +34,9 @@ class Error(ValueError):
     #: The triangle, and the vertex, counted from 0.
     triangle: int | None = None
     vertex: int | None = None
-    #: How many vertices the body has.
+    #: How many vertices, and triangles, the body has.
     vertices: int | None = None
+    triangles: int | None = None
     #: Where the vertex is.
     position: tuple[float, float, float] | None = None
     #: Vertices of the body, and positions given.
@@ -142,6 +143,41 @@ class Contact(NamedTuple):
 
     pair: Pair
     kind: ContactKind
+
+
+class Edited(NamedTuple):
+    """What an edit has changed: numbers, each list ascending."""
+
+    new_triangles: NDArray[np.uint32]
+    """Triangles that were empty, or not there."""
+    changed_triangles: NDArray[np.uint32]
+    """Triangles that have other corners."""
+    removed_triangles: NDArray[np.uint32]
+    """Triangles that are empty now."""
+    new_vertices: NDArray[np.uint32]
+    """Vertices that were empty, or not there, or that went and came again."""
+    removed_vertices: NDArray[np.uint32]
+    """Vertices that are empty now."""
+
+
+class Piece(NamedTuple):
+    """A body that was a component of another."""
+
+    body: int
+    """The new body."""
+    triangles: NDArray[np.uint32]
+    """For each of its triangles the number that it had; ascending."""
+    vertices: NDArray[np.uint32]
+    """For each of its vertices the number that it had; ascending."""
+
+
+class Fused(NamedTuple):
+    """The numbers of what came from another body; 0xFFFFFFFF for numbers that were empty."""
+
+    triangles: NDArray[np.uint32]
+    """For each triangle of the body that is no more the number that it has now."""
+    vertices: NDArray[np.uint32]
+    """The same of its vertices."""
 
 
 class Impacts(NamedTuple):
@@ -369,5 +405,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts, Edited, Fused, Piece, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

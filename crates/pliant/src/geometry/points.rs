@@ -40,12 +40,28 @@ impl<S: Real> Points<S> {
         self.points.clear();
         self.points.extend(points.map(padded));
         self.bounds.clear();
-        self.bounds.extend(self.points.chunks(IN_A_ROW).map(|row| {
-            let mut bounds = Bounds::EMPTY;
-            row.iter()
-                .for_each(|&[x, y, z, _]| bounds.include([x, y, z]));
-            [padded(bounds.lo), padded(bounds.hi)]
-        }));
+        let rows = self.points.chunks(IN_A_ROW);
+        self.bounds.extend(rows.map(bounds_of_row));
+    }
+
+    /// One more point, behind all others.
+    pub(crate) fn push(&mut self, [x, y, z]: [S; 3]) {
+        self.points.push([x, y, z, z]);
+        let rows = self.points.len().div_ceil(IN_A_ROW);
+        self.bounds.resize(rows, [[S::default(); 4]; 2]);
+        self.bound_row(rows - 1);
+    }
+
+    /// A point is somewhere else.
+    pub(crate) fn set(&mut self, vertex: TreeVertex, [x, y, z]: [S; 3]) {
+        self.points[vertex.index()] = [x, y, z, z];
+        self.bound_row(vertex.index() / IN_A_ROW);
+    }
+
+    fn bound_row(&mut self, row: usize) {
+        let first = row * IN_A_ROW;
+        let end = self.points.len().min(first + IN_A_ROW);
+        self.bounds[row] = bounds_of_row(&self.points[first..end]);
     }
 
     #[inline]
@@ -53,6 +69,13 @@ impl<S: Real> Points<S> {
         let [x, y, z, _] = *self.padded(vertex);
         [x, y, z]
     }
+}
+
+fn bounds_of_row<S: Real>(row: &[[S; 4]]) -> RowBounds<S> {
+    let mut bounds = Bounds::EMPTY;
+    row.iter()
+        .for_each(|&[x, y, z, _]| bounds.include([x, y, z]));
+    [bounds.lo, bounds.hi].map(|[x, y, z]| [x, y, z, z])
 }
 
 impl<S> Points<S> {

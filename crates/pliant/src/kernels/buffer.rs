@@ -75,6 +75,19 @@ impl<T: Copy + Default> Buffer<T> {
         self.len = self.len.min(len);
     }
 
+    /// Keeps the items of which `keeps` says so, in order.
+    pub(crate) fn retain(&mut self, keeps: impl Fn(&T) -> bool) {
+        let mut kept = 0;
+        for place in 0..self.len() {
+            let item = self.as_slice()[place];
+            if keeps(&item) {
+                self.tail_mut(kept)[0] = item;
+                kept += 1;
+            }
+        }
+        self.truncate(kept);
+    }
+
     /// Takes the last `count` items, or all there are, and puts them into `taken` in their order.
     pub(crate) fn take_last(&mut self, count: usize, taken: &mut Vec<T>) {
         let rest = self.len.saturating_sub(count);

@@ -3,17 +3,24 @@
 //! Each belongs to one of its triangles (representative triangles: Curtis, Tamstorf, Manocha 2008), the first in tree order. Vertices are
 //! numbered in the order in which triangles first use them, and edges are here numbered so too. So those that belong to a run of
 //! triangles are a run of numbers, and pairs of runs are looked at once each and never twice for one pair of elements.
+//!
+//! Where the mesh is edited, edges keep their numbers: see `follow`.
+
+mod follow;
 
 use super::{Order, Topology};
 use crate::held::{self, Held};
 use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
+pub(crate) use follow::Changed;
+use follow::EdgeIndex;
 use std::ops::Range;
 use std::sync::OnceLock;
 
 /// The edges of a mesh, as the caller numbers them and in tree order.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Elements {
-    /// The two ends of each edge, as the caller numbers vertices, the smaller first; sorted. The caller's edge numbers are places here.
+    /// The two ends of each edge, as the caller numbers vertices, the smaller first; [`NO_EDGE`] where a number is empty. The caller's edge
+    /// numbers are places here. Sorted, as long as the mesh was not edited.
     callers: Vec<[u32; 2]>,
     /// The ends of each edge in tree order.
     ends: Vec<[TreeVertex; 2]>,
@@ -23,7 +30,12 @@ pub(crate) struct Elements {
     firsts: Vec<[u32; 2]>,
     /// For each of the caller's vertices its number in tree order, once somebody asks.
     tree_vertices: OnceLock<Box<[TreeVertex]>>,
+    /// Once the mesh is edited.
+    index: Option<Box<EdgeIndex>>,
 }
+
+/// The ends of a number that no edge has.
+pub(crate) const NO_EDGE: [u32; 2] = [u32::MAX; 2];
 
 /// So many triangles are gone through before it is asked whether somebody wants to stop.
 const UNINTERRUPTED: usize = 1 << 14;
@@ -108,7 +120,9 @@ impl Elements {
                 }
                 let [first, end] = [0, 1].map(|next| first_of_vertex[low as usize + next] as usize);
                 let number = first + callers[first..end].partition_point(|edge| edge[1] < high);
-                if seen[number] == UNSEEN {
+                // A triangle that was taken out may have had edges of its own.
+                let is_edge = callers.get(number) == Some(&[low, high]);
+                if is_edge && seen[number] == UNSEEN {
                     seen[number] = ends.len() as u32;
                     ends.push([corners[i], corners[j]]);
                     numbers.push(number as u32);
@@ -125,6 +139,7 @@ impl Elements {
             numbers,
             firsts,
             tree_vertices: OnceLock::new(),
+            index: None,
         })
     }
 
@@ -210,6 +225,10 @@ impl Held for Elements {
                 .tree_vertices
                 .get()
                 .map_or(0, |all| size_of_val(&**all))
+            + self
+                .index
+                .as_ref()
+                .map_or(0, |index| size_of::<EdgeIndex>() + index.held())
     }
 }
 

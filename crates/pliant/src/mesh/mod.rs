@@ -1,9 +1,19 @@
-//! Meshes: what the caller said, how a tree orders it, and its edges. None of it ever moves.
+//! Meshes: what the caller said, how a tree orders it, its edges; and edits of it.
 
+mod bits;
+mod components;
+mod draft;
 mod elements;
 mod order;
 mod topology;
+mod triangles_at;
+mod weld;
 
-pub(crate) use elements::{Elements, TriangleRun};
+pub(crate) use bits::Bits;
+pub(crate) use components::components;
+pub(crate) use draft::{Draft, Outcome};
+pub(crate) use elements::{Changed, Elements, TriangleRun};
 pub(crate) use order::Order;
-pub(crate) use topology::{Topology, share_a_vertex, validate};
+pub(crate) use topology::{EMPTY, Topology, share_a_vertex, validate};
+pub(crate) use triangles_at::TrianglesAt;
+pub(crate) use weld::coinciding;

@@ -56,6 +56,51 @@ impl Order {
         }
     }
 
+    /// Forgets the triangles from a place on, and the vertices that they use first, of which there are `used` before them: these go with
+    /// those that no triangle uses.
+    pub(crate) fn cut_back(&mut self, triangles: usize, used: usize) {
+        self.corners.truncate(triangles);
+        self.triangles.truncate(triangles);
+        self.used = used;
+    }
+
+    /// Numbers of so many more vertices, which no triangle uses yet.
+    pub(crate) fn add_vertices(&mut self, count: usize) {
+        let all = self.vertices.len() as u32;
+        self.vertices.extend(all..all + count as u32);
+    }
+
+    /// Puts triangles behind all others, in this order. `slots` has for each of the caller's vertices its number here; where two of these
+    /// are exchanged, `exchange` is told.
+    pub(crate) fn append(
+        &mut self,
+        topology: &Topology,
+        triangles: &[u32],
+        slots: &mut [TreeVertex],
+        mut exchange: impl FnMut([TreeVertex; 2]),
+    ) {
+        for &triangle in triangles {
+            let corners = topology.corners(CallerTriangle(triangle)).map(|vertex| {
+                let slot = slots[vertex.index()];
+                if slot.index() < self.used {
+                    return slot;
+                }
+                let next = TreeVertex(self.used as u32);
+                if slot != next {
+                    let other = self.vertices[next.index()];
+                    self.vertices.swap(slot.index(), next.index());
+                    slots[vertex.index()] = next;
+                    slots[other as usize] = slot;
+                    exchange([slot, next]);
+                }
+                self.used += 1;
+                next
+            });
+            self.corners.push(corners);
+            self.triangles.push(triangle);
+        }
+    }
+
     /// The corners of all triangles.
     pub(crate) fn all_corners(&self) -> &[[TreeVertex; 3]] {
         &self.corners

@@ -1,19 +1,26 @@
 //! What the caller said: triangles by their corners, in the caller's numbers; and what follows from that alone.
+//!
+//! Numbers stay as they are: a triangle that is taken out leaves its number empty.
 
 use crate::ErrorKind;
 use crate::held::{self, Held};
 use crate::ids::{CallerTriangle, CallerVertex};
 
 /// With more triangles than this, numbers of nodes would not fit 32 bits.
-const MAX_TRIANGLES: usize = 1 << 28;
+pub(super) const MAX_TRIANGLES: usize = 1 << 28;
 /// With more vertices than this, no 32-bit number would be left for "none".
-const MAX_VERTICES: usize = u32::MAX as usize;
+pub(super) const MAX_VERTICES: usize = u32::MAX as usize;
+
+/// The corners of a number that no triangle has.
+pub(crate) const EMPTY: [u32; 3] = [u32::MAX; 3];
 
 /// Validated triangles.
 #[derive(Clone, Debug)]
 pub(crate) struct Topology {
     triangles: Vec<[u32; 3]>,
-    vertices: usize,
+    vertices: u32,
+    /// How many of the numbers are those of triangles.
+    live: u32,
 }
 
 /// Refuses what no body can be made of.
@@ -47,18 +54,54 @@ impl Topology {
     pub(crate) fn new(triangles: &[[u32; 3]], vertices: usize) -> Self {
         Self {
             triangles: triangles.to_vec(),
-            vertices,
+            vertices: vertices as u32,
+            live: triangles.len() as u32,
         }
     }
 
-    /// The triangles as the caller gave them.
+    /// How many triangles there are, empty numbers not counted.
+    pub(crate) fn live_count(&self) -> usize {
+        self.live as usize
+    }
+
+    /// Whether a number is that of a triangle.
+    #[inline]
+    pub(crate) fn is_live(&self, triangle: u32) -> bool {
+        self.triangles
+            .get(triangle as usize)
+            .is_some_and(|&corners| corners != EMPTY)
+    }
+
+    /// Gives a number other corners, or none; numbers up to it are there from now on.
+    pub(crate) fn set(&mut self, triangle: u32, corners: [u32; 3]) {
+        let triangle = triangle as usize;
+        if triangle >= self.triangles.len() {
+            self.triangles.resize(triangle + 1, EMPTY);
+        }
+        let place = &mut self.triangles[triangle];
+        self.live -= u32::from(*place != EMPTY);
+        self.live += u32::from(corners != EMPTY);
+        *place = corners;
+    }
+
+    /// There are so many vertices.
+    pub(crate) fn set_vertex_count(&mut self, vertices: usize) {
+        self.vertices = vertices as u32;
+    }
+
+    /// There are so many numbers of triangles; those that go are empty, and so are those that come.
+    pub(crate) fn set_triangle_count(&mut self, triangles: usize) {
+        self.triangles.resize(triangles, EMPTY);
+    }
+
+    /// The triangles as the caller gave them; [`EMPTY`] where there is none.
     pub(crate) fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
     /// How many vertices there are, used or not.
     pub(crate) fn vertex_count(&self) -> usize {
-        self.vertices
+        self.vertices as usize
     }
 
     #[inline]

@@ -14,10 +14,9 @@ mod intersections;
 
 use crate::geometry::{Aabb, Points, Shape};
 use crate::held::Held;
-use crate::ids::BodyId;
-use crate::ids::TreeTriangle;
+use crate::ids::{BodyId, TreeTriangle, TreeVertex};
 use crate::kernels::{Buffer, Coordinate, Instructions};
-use crate::mesh::Order;
+use crate::mesh::{Bits, Order};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use crate::tree::BoxSource;
@@ -151,8 +150,32 @@ pub(crate) struct LeafTest<'q, S> {
     pub(crate) motions: [Option<&'q Points<S>>; 2],
     /// For kinds that are shown runs.
     pub(crate) elements: [Option<NearElements<'q>>; 2],
-    /// Whether it is one body with itself.
-    pub(crate) itself: bool,
+    /// Whether it is one body with itself,
+    pub(crate) is_one_body: bool,
+    /// and in one tree, so that two runs of one number are one.
+    pub(crate) is_one_tree: bool,
+}
+
+/// What was taken out of a mesh and is still in its trees.
+#[derive(Clone, Copy)]
+pub(crate) struct Removed<'q> {
+    /// In tree order.
+    pub(crate) triangles: &'q Bits,
+    /// Vertices that no triangle has any more, as the caller numbers them.
+    pub(crate) vertices: &'q Bits,
+    pub(crate) order: &'q Order,
+}
+
+impl Removed<'_> {
+    #[inline]
+    pub(crate) fn has(&self, triangle: TreeTriangle) -> bool {
+        self.triangles.has(triangle.0)
+    }
+
+    #[inline]
+    pub(crate) fn has_vertex(&self, vertex: TreeVertex) -> bool {
+        self.vertices.has(self.order.caller_vertex(vertex).0)
+    }
 }
 
 impl Leaves {

@@ -99,7 +99,7 @@ impl<K: Kind> LeafTests<K> {
         P: TreePair<N>,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
-        let (kind, instructions) = (context.kind, context.instructions);
+        let instructions = context.instructions;
         let sides = context.pair.sides();
         let leaves = sides.map(|side| &side.tree.leaves);
         let neighbours = sides[0].tree.neighbours();
@@ -122,6 +122,11 @@ impl<K: Kind> LeafTests<K> {
                 match (left_out, sides[0].boxes.quantized()) {
                     _ if !P::ITSELF => {
                         dispatch!(instructions, i => of_two(i, boxes, blocks, found));
+                        if let Some((order, _)) = left_out
+                            && context.pair.is_one_body()
+                        {
+                            found.retain(|&[a, b]| !order.share_a_vertex(a, b));
+                        }
                     }
                     (Some((_, Some(neighbours))), Some(quantized)) => {
                         self.compared.clear();
@@ -137,7 +142,7 @@ impl<K: Kind> LeafTests<K> {
                     }
                     _ => dispatch!(instructions, i => of_one(i, boxes[0], left_out, blocks, found)),
                 }
-                self.decide(kind, &leaf_test);
+                self.decide(context, &leaf_test);
             }
         } else {
             // One triangle a leaf: its box is the leaf's, which overlaps.
@@ -148,13 +153,13 @@ impl<K: Kind> LeafTests<K> {
                     let a = leaves[0].first_triangle(leaf_a);
                     let b = leaves[1].first_triangle(leaf_b);
                     let order = sides[0].order;
-                    let left_out = P::ITSELF
+                    let left_out = context.pair.is_one_body()
                         && (a == b || K::LEAVES == Shown::Triangles && order.share_a_vertex(a, b));
                     if !left_out {
                         self.candidates.push([a, b]);
                     }
                 }
-                self.decide(kind, &leaf_test);
+                self.decide(context, &leaf_test);
             }
             cursor.pair = end;
         }
@@ -180,9 +185,8 @@ impl<K: Kind> LeafTests<K> {
         } else {
             let end = leaf_pairs.len().min(cursor.pair + most);
             let pairs = leaf_pairs[cursor.pair..end].iter();
-            let triangles =
-                |&[a, b]: &LeafPair| [leaves[0].first_triangle(a).0, leaves[1].first_triangle(b).0];
-            self.runs.extend(pairs.map(triangles));
+            let runs = |&[a, b]: &LeafPair| [leaves[0].run_of_leaf(a), leaves[1].run_of_leaf(b)];
+            self.runs.extend(pairs.map(runs));
             cursor.pair = end;
         }
         context.kind.test_runs(
@@ -230,7 +234,7 @@ impl<K: Kind> LeafTests<K> {
             self.candidates.clear();
             let found = &mut self.candidates;
             dispatch!(context.instructions, i => overlapping(i, boxes, compared, found));
-            self.decide(context.kind, &leaf_test);
+            self.decide(context, &leaf_test);
         }
         self.number_new(context);
     }
@@ -248,8 +252,18 @@ impl<K: Kind> LeafTests<K> {
         kind.to_callers(&leaves, &ids, new, &mut self.of_caller);
     }
 
-    fn decide(&mut self, kind: &K, leaf_test: &LeafTest<K::Scalar>) {
-        kind.test(
+    /// Has the kind decide candidates, without those that were taken out of their mesh.
+    fn decide<const N: usize, P: TreePair<N>>(
+        &mut self,
+        context: &Context<K, P>,
+        leaf_test: &LeafTest<K::Scalar>,
+    ) {
+        for (which, side) in context.pair.sides().into_iter().enumerate() {
+            if let Some(removed) = side.removed {
+                self.candidates.retain(|pair| !removed.has(pair[which]));
+            }
+        }
+        context.kind.test(
             leaf_test,
             &mut self.candidates,
             &mut self.buffers,
@@ -273,7 +287,8 @@ where
         ends: sides.map(|side| side.source.end().map(|end| end.positions)),
         motions: sides.map(|side| side.motion),
         elements: sides.map(|side| side.elements),
-        itself: P::ITSELF,
+        is_one_body: context.pair.is_one_body(),
+        is_one_tree: P::ITSELF,
     }
 }
 

@@ -1,9 +1,9 @@
 //! What is descended: the trees of two bodies, or the tree of one against itself.
 
 use crate::geometry::Points;
-use crate::ids::BodyId;
+use crate::ids::{BodyId, NodeId};
 use crate::mesh::Order;
-use crate::queries::{CallerIds, NearElements};
+use crate::queries::{CallerIds, NearElements, Removed};
 use crate::tree::{BoxSet, BoxSource, Tree};
 use crate::update::Refitted;
 
@@ -18,6 +18,8 @@ pub(crate) struct Side<'t, const N: usize, B: BoxSource> {
     pub(crate) motion: Option<&'t Points<B::Scalar>>,
     /// For kinds that are shown runs of triangles.
     pub(crate) elements: Option<NearElements<'t>>,
+    /// What was taken out of the mesh and is still in the tree, if anything is.
+    pub(crate) removed: Option<Removed<'t>>,
 }
 
 impl<const N: usize, B: BoxSource> Side<'_, N, B> {
@@ -37,6 +39,9 @@ pub(crate) trait TreePair<const N: usize>: Sync {
     /// Whether it is one tree against itself.
     const ITSELF: bool;
 
+    /// Whether it is one body, in one tree or two: then triangles that share a vertex of the mesh are no answer.
+    fn is_one_body(&self) -> bool;
+
     /// Both bodies, or the one twice.
     fn sides(&self) -> [&Side<'_, N, Self::Source>; 2];
 
@@ -54,15 +59,28 @@ pub(crate) trait TreePair<const N: usize>: Sync {
     }
 }
 
-/// Two bodies, whose root boxes are valid and overlap.
+/// Two trees, whose root boxes are valid and overlap: of two bodies, or of one.
 pub(crate) struct TwoTrees<'t, const N: usize, B: BoxSource> {
     pub(crate) a: Side<'t, N, B>,
     pub(crate) b: Side<'t, N, B>,
 }
 
+impl<const N: usize, B: BoxSource> TwoTrees<'_, N, B> {
+    /// Whether the root boxes, which are valid, overlap.
+    pub(crate) fn overlap(&self) -> bool {
+        let [a, b] = [&self.a, &self.b].map(|side| side.boxes.nodes().one(NodeId::ROOT));
+        a.overlaps(&b)
+    }
+}
+
 impl<const N: usize, B: BoxSource> TreePair<N> for TwoTrees<'_, N, B> {
     type Source = B;
     const ITSELF: bool = false;
+
+    #[inline(always)]
+    fn is_one_body(&self) -> bool {
+        self.a.body == self.b.body
+    }
 
     #[inline(always)]
     fn sides(&self) -> [&Side<'_, N, B>; 2] {
@@ -85,6 +103,11 @@ pub(crate) struct OneTree<'t, const N: usize, B: BoxSource> {
 impl<const N: usize, B: BoxSource> TreePair<N> for OneTree<'_, N, B> {
     type Source = B;
     const ITSELF: bool = true;
+
+    #[inline(always)]
+    fn is_one_body(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn sides(&self) -> [&Side<'_, N, B>; 2] {

@@ -108,7 +108,7 @@ mod tests {
         // Vertices 3 and 5 are not used, and tree order numbers the others as they come: 4, 1, 2, 0.
         let topology = Topology::new(&[[4, 1, 2], [2, 1, 0], [4, 4, 2]], 6);
         let order = Order::new(&topology, vec![0, 1, 2]);
-        let mut leaves = Leaves::new(8);
+        let mut leaves = Leaves::new(8, crate::ids::TreeTriangle(0));
         leaves.push(0..1);
         leaves.push(1..3);
         let lanes = LanesAtVertices::new(&leaves, &order, &Interrupt::default()).unwrap();

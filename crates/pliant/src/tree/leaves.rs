@@ -21,6 +21,8 @@ struct Leaf {
 #[derive(Clone, Debug)]
 pub(crate) struct Leaves {
     runs: Vec<Leaf>,
+    /// The first triangle of all.
+    first: TreeTriangle,
     /// Whether there are blocks: not where every leaf is one triangle.
     have_blocks: bool,
     /// The first triangle of each block.
@@ -30,10 +32,11 @@ pub(crate) struct Leaves {
 }
 
 impl Leaves {
-    /// Leaves of up to `size` triangles, none yet.
-    pub(super) fn new(size: u32) -> Self {
+    /// Leaves of up to `size` triangles from one on, none yet.
+    pub(super) fn new(size: u32, first: TreeTriangle) -> Self {
         Self {
             runs: Vec::new(),
+            first,
             have_blocks: size > 1,
             first_triangles: Vec::new(),
             counts: Vec::new(),
@@ -83,6 +86,33 @@ impl Leaves {
     #[inline]
     pub(crate) fn first_triangle(&self, leaf: LeafId) -> TreeTriangle {
         TreeTriangle(self.runs[leaf.index()].start)
+    }
+
+    /// How many runs of triangles there are whose elements go side by side: blocks, or triangles where every leaf is one.
+    pub(crate) fn run_count(&self) -> usize {
+        if self.have_blocks {
+            self.block_count()
+        } else {
+            self.runs.len()
+        }
+    }
+
+    /// The triangles of such a run: by the number of the block, or of the triangle, counted from the first of this tree.
+    pub(crate) fn run(&self, number: u32) -> TriangleRun {
+        if self.have_blocks {
+            self.run_of_block(BlockId(number))
+        } else {
+            TriangleRun {
+                first: self.first.plus(number),
+                count: 1,
+            }
+        }
+    }
+
+    /// The number of the run that a leaf of one triangle is.
+    #[inline]
+    pub(crate) fn run_of_leaf(&self, leaf: LeafId) -> u32 {
+        self.first_triangle(leaf).0 - self.first.0
     }
 
     /// Whether leaves have blocks of triangles, which have boxes of their own.

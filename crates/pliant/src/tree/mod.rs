@@ -23,7 +23,7 @@ mod vertex_sets;
 mod wide_node;
 
 use crate::held::{self, Held};
-use crate::ids::{NodeId, WideNodeId};
+use crate::ids::{NodeId, TreeTriangle, TreeVertex, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::Executor;
 pub(crate) use boxes::{
@@ -52,10 +52,12 @@ pub(crate) struct Tree<const N: usize> {
 }
 
 impl<const N: usize> Tree<N> {
-    /// The tree of a plan over a mesh that is in the plan's order.
-    pub(crate) fn new(plan: &Plan, order: &Order) -> Self {
+    /// The tree of a plan over a mesh that is in the plan's order, or over a run of its triangles, which are the first to use vertices from
+    /// `first_vertex` on.
+    pub(crate) fn new(plan: &Plan, order: &Order, first_vertex: TreeVertex) -> Self {
         let mut wide_nodes = vec![WideNode::<N>::new(0)];
-        let mut leaves = Leaves::new(plan.leaf_size);
+        let first = plan.parts.first().map_or(0, |root| root.triangles.start);
+        let mut leaves = Leaves::new(plan.leaf_size, TreeTriangle(first));
         // Parts come level by level, so the part at hand is always in the first wide node that still lacks a child.
         let (mut wide_node, mut lane, mut lanes) = (0, 0, 1);
         let mut lanes_to_come = std::collections::VecDeque::new();
@@ -98,7 +100,7 @@ impl<const N: usize> Tree<N> {
         Self {
             wide_nodes,
             level_starts,
-            vertices: VertexSets::new(plan, order, N),
+            vertices: VertexSets::new(plan, order, first_vertex, N),
             leaves,
             neighbours: None,
             depth,

@@ -348,7 +348,7 @@ mod tests {
         let topology = Topology::new(triangles, vertices);
         let backwards = (0..triangles.len() as u32).rev().collect();
         let order = Order::new(&topology, backwards);
-        let mut leaves = Leaves::new(16);
+        let mut leaves = Leaves::new(16, TreeTriangle(0));
         let mut start = 0;
         for &size in leaf_sizes.iter().cycle() {
             let end = (start + size).min(triangles.len() as u32);

@@ -39,12 +39,18 @@ struct Set {
 }
 
 impl VertexSets {
-    pub(crate) fn new(plan: &Plan, order: &Order, degree: usize) -> Self {
+    /// Of a plan over some triangles, which are the first to use vertices from `first_vertex` on.
+    pub(crate) fn new(plan: &Plan, order: &Order, first_vertex: TreeVertex, degree: usize) -> Self {
+        let all = plan
+            .parts
+            .first()
+            .map_or(0..0, |root| root.triangles.clone());
+        let [start, end] = [all.start as usize, all.end as usize];
         // How many vertices the triangles before each triangle use.
-        let mut used_before = Vec::with_capacity(order.all_corners().len() + 1);
-        let mut used = 0;
-        used_before.push(0);
-        for corners in order.all_corners() {
+        let mut used_before = Vec::with_capacity(end - start + 1);
+        let mut used = first_vertex.0;
+        used_before.push(used);
+        for corners in &order.all_corners()[start..end] {
             used = corners
                 .iter()
                 .fold(used, |used, vertex| used.max(vertex.0 + 1));
@@ -53,15 +59,17 @@ impl VertexSets {
 
         let mut sets = Vec::with_capacity(plan.parts.len());
         let mut border = Vec::new();
-        let mut seen_by = vec![u32::MAX; order.used_vertices()];
+        // Nodes are counted from 1 here, so that memory that comes as zeros is not written where few of many vertices are used.
+        let mut seen_by = vec![0; order.used_vertices()];
         for (node, part) in plan.parts.iter().enumerate() {
             let triangles = part.triangles.start as usize..part.triangles.end as usize;
-            let mut run = [used_before[triangles.start], used_before[triangles.end]];
+            let mut run =
+                [triangles.start, triangles.end].map(|triangle| used_before[triangle - start]);
             let first = border.len();
             for &vertex in order.all_corners()[triangles].as_flattened() {
                 let seen_by = &mut seen_by[vertex.index()];
-                if vertex.0 < run[0] && *seen_by != node as u32 {
-                    *seen_by = node as u32;
+                if vertex.0 < run[0] && *seen_by != node as u32 + 1 {
+                    *seen_by = node as u32 + 1;
                     border.push(vertex);
                 }
             }

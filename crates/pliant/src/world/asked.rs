@@ -1,7 +1,6 @@
 //! What a world keeps for one kind of query, and how one is answered: all that is found, or shown to a sink until it breaks.
 
 use super::bodies::Bodies;
-use super::body::Body;
 use super::body_pairs::BodyPairs;
 use super::origin::FloatingOrigin;
 use super::query::Request;
@@ -219,7 +218,7 @@ where
                 };
                 for place in [a, b] {
                     let body = &mut bodies.list[place.index()];
-                    if step.ahead(body, partner).is_break() {
+                    if step.prepare(body, partner).is_break() {
                         break 'batches;
                     }
                 }
@@ -281,7 +280,9 @@ impl<const N: usize, S: Coordinate> Common<N, S> {
         if !interrupt.is_set() {
             return Ok(());
         }
-        self.bodies.list.iter_mut().for_each(Body::forget_boxes);
+        for body in &mut self.bodies.list {
+            body.forget_boxes();
+        }
         self.body_pairs.forget();
         Err(ErrorKind::Interrupted.of_query())
     }

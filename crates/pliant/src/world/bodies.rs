@@ -9,8 +9,9 @@ use crate::kernels::Coordinate;
 use std::collections::BTreeSet;
 
 pub(super) struct Bodies<const N: usize, S> {
-    /// In no order that matters: a removed body's place is taken by the last.
-    pub(super) list: Vec<Body<N, S>>,
+    /// In no order that matters: a removed body's place is taken by the last. Each in memory of its own, so that a list that grows holds no
+    /// room for bodies that are not there.
+    pub(super) list: Vec<Box<Body<N, S>>>,
     /// By rank: the ids in order, and where the bodies stand in the list.
     pub(super) ids: Vec<BodyId>,
     pub(super) places: Vec<Place>,
@@ -48,7 +49,7 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
     /// The same bodies once more.
     pub(super) fn copy(&self) -> Self {
         Self {
-            list: self.list.iter().map(Body::copy).collect(),
+            list: self.list.iter().map(|body| Box::new(body.copy())).collect(),
             ids: self.ids.clone(),
             places: self.places.clone(),
             next_id: self.next_id,
@@ -61,7 +62,7 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
         self.next_id = body.id.0.checked_add(1);
         self.ids.push(body.id);
         self.places.push(Place(self.list.len() as u32));
-        self.list.push(body);
+        self.list.push(Box::new(body));
     }
 
     /// Removes a body. Returns the rank that it had; those after it are one rank higher now.
@@ -98,7 +99,7 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
 
     /// All bodies in the order of their ids.
     pub(super) fn in_order(&self) -> impl Iterator<Item = &Body<N, S>> {
-        self.places.iter().map(|place| &self.list[place.index()])
+        self.places.iter().map(|place| &*self.list[place.index()])
     }
 
     pub(super) fn get(&self, id: BodyId) -> Result<&Body<N, S>, Error> {
@@ -114,7 +115,8 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
     pub(super) fn two(&mut self, places: [Place; 2]) -> [&mut Body<N, S>; 2] {
         let places = places.map(Place::index);
         let both = self.list.get_disjoint_mut(places);
-        both.expect("two different places of bodies")
+        let [a, b] = both.expect("two different places of bodies");
+        [a, b]
     }
 
     /// From now on two bodies, or one with itself, do not meet.
@@ -161,7 +163,8 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
 
 impl<const N: usize, S> Held for Bodies<N, S> {
     fn held(&self) -> usize {
-        held::lists(&self.list)
+        held::list(&self.list)
+            + held::boxes(&self.list)
             + held::list(&self.ids)
             + held::list(&self.places)
             + held::entries::<(BodyId, BodyId)>(self.ignored.len())

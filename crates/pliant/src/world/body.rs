@@ -1,7 +1,9 @@
 //! One body: its mesh, its tree and boxes, the shape it has now, and what it may meet.
 
 use super::BodyId;
-use super::positions::{Positions, SMALL};
+use super::edit_state::EditState;
+use super::part::{OfElements, Part};
+use super::positions::Positions;
 use crate::error::ErrorKind;
 use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape, denormals_are_kept};
 use crate::held::{self, Held};
@@ -9,12 +11,13 @@ use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{self, Elements, Order, Topology};
 use crate::options::{Options, Partition};
-use crate::queries::{Groups, Kind, NearBoxes, NearElements, Reach, Which};
+use crate::queries::{Groups, Kind, NearElements, Reach, Removed, Which};
 use crate::threads::Executor;
 use crate::traversal::Side;
+use crate::tree::Tree;
 use crate::tree::build::{Balanced, Connectivity, CutAt, InitialShape, Plan, plan};
-use crate::tree::{BoxSet, BoxSource, Swept, Tree};
 use std::borrow::Cow;
+use std::iter;
 use std::sync::OnceLock;
 
 /// A body with its tree, of degree `N`.
@@ -22,33 +25,70 @@ pub(super) struct Body<const N: usize, S> {
     pub(super) id: BodyId,
     pub(super) topology: Topology,
     pub(super) order: Order,
-    pub(super) tree: Tree<N>,
-    /// By the number of the set. They are made when a kind of query asks for them; but in a large body the first, of the shape as it is,
-    /// is there from the beginning.
-    boxes: Vec<Option<BoxSet<N>>>,
-    positions: Positions<S>,
+    /// The first is over the triangles that were there when it was built, the others over those that came since.
+    pub(super) parts: Parts<N>,
+    pub(super) positions: Positions<S>,
     /// Of the vertices that triangles use.
-    bounds: Bounds<S>,
+    pub(super) bounds: Bounds<S>,
     /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other epochs are stale.
-    epoch: u64,
+    pub(super) epoch: u64,
+    /// Counts meshes, and orders of a mesh.
+    pub(super) revision: u64,
     membership: u32,
     mask: u32,
-    loose: Option<Bounds<S>>,
+    pub(super) loose: Option<Bounds<S>>,
     /// None before the first.
-    motion: Option<Box<Motion<S>>>,
+    pub(super) motion: Option<Box<Motion<S>>>,
     /// Edges, and who owns what, once somebody asks.
-    elements: OnceLock<Box<Elements>>,
-    /// Boxes of elements, once somebody asks for those.
-    near_boxes: Option<Box<NearBoxes>>,
+    pub(super) elements: OnceLock<Box<Elements>>,
     /// None where all vertices meet.
-    groups: Option<Box<VertexGroups>>,
+    pub(super) groups: Option<Box<VertexGroups>>,
+    /// Once the mesh is edited.
+    pub(super) edits: Option<Box<EditState<S>>>,
+}
+
+/// The parts of a body: the first, which there always is, and the others.
+pub(super) struct Parts<const N: usize> {
+    pub(super) first: Part<N>,
+    pub(super) others: Vec<Part<N>>,
+}
+
+impl<const N: usize> Parts<N> {
+    pub(super) fn len(&self) -> usize {
+        1 + self.others.len()
+    }
+
+    pub(super) fn all(&self) -> impl Iterator<Item = &Part<N>> {
+        iter::once(&self.first).chain(&self.others)
+    }
+
+    pub(super) fn all_mut(&mut self) -> impl Iterator<Item = &mut Part<N>> {
+        iter::once(&mut self.first).chain(&mut self.others)
+    }
+
+    fn one_mut(&mut self, number: usize) -> &mut Part<N> {
+        match number.checked_sub(1) {
+            None => &mut self.first,
+            Some(number) => &mut self.others[number],
+        }
+    }
+
+    /// Two of them, the lower number first.
+    fn two_mut(&mut self, [low, high]: [usize; 2]) -> [&mut Part<N>; 2] {
+        let (before, rest) = self.others.split_at_mut(high - 1);
+        let low = match low.checked_sub(1) {
+            None => &mut self.first,
+            Some(low) => &mut before[low],
+        };
+        [low, &mut rest[0]]
+    }
 }
 
 /// Of so many triangles one is looked at to know how far vertices move.
 const SAMPLED: usize = 16;
 
 /// Where the vertices are going.
-struct Motion<S> {
+pub(super) struct Motion<S> {
     /// The shape at the end, if there is a motion; if not, memory for the next.
     end: Positions<S>,
     /// Of the vertices that triangles use.
@@ -73,9 +113,9 @@ struct Partway<S> {
 }
 
 /// Groups of the caller's vertices, and of all elements in tree order once these are known.
-struct VertexGroups {
-    callers: Vec<u32>,
-    of_elements: Option<Groups>,
+pub(super) struct VertexGroups {
+    pub(super) callers: Vec<u32>,
+    pub(super) of_elements: Option<Groups>,
 }
 
 /// Refuses what no body can be made of.
@@ -98,7 +138,7 @@ pub(crate) fn validate<S: Real>(
 
 /// Refuses coordinates so small that this thread, where subnormal numbers are flushed, would lose them. Costs two products
 /// where they are not.
-fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
+pub(super) fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
     if denormals_are_kept() {
         return Ok(());
     }
@@ -110,7 +150,7 @@ fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
 }
 
 #[inline]
-fn is_in_range<S: Real>([x, y, z]: [S; 3]) -> bool {
+pub(super) fn is_in_range<S: Real>([x, y, z]: [S; 3]) -> bool {
     // No early exit: three comparisons without a branch.
     x.is_in_range() & y.is_in_range() & z.is_in_range()
 }
@@ -142,39 +182,42 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     ) -> Self {
         let topology = Topology::new(triangles, positions.len());
         let (order, tree) = build(&topology, positions, options);
+        let parts = Parts::of(tree, triangles.len());
         let used = order.vertex_order()[..order.used_vertices()].iter();
         let bounds = bounds_of(used.map(|&vertex| positions[vertex as usize]));
         Self {
             id,
             topology,
             order,
-            boxes: first_boxes(&tree, triangles.len()),
-            tree,
+            parts,
             positions: Positions::new(positions),
             bounds,
             epoch: 1,
+            revision: 0,
             membership: u32::MAX,
             mask: u32::MAX,
             loose: None,
             motion: None,
             elements: OnceLock::new(),
-            near_boxes: None,
             groups: None,
+            edits: None,
         }
     }
 
     /// A body like this one, whose boxes are made anew.
     pub(super) fn copy(&self) -> Self {
-        let tree = self.tree.clone();
         Self {
             id: self.id,
             topology: self.topology.clone(),
             order: self.order.clone(),
-            boxes: first_boxes(&tree, self.triangle_count()),
-            tree,
-            positions: Positions::new(&self.positions()),
+            parts: Parts {
+                first: self.parts.first.copy(),
+                others: self.parts.others.iter().map(Part::copy).collect(),
+            },
+            positions: Positions::new(&self.stored_positions()),
             bounds: self.bounds,
             epoch: self.epoch,
+            revision: self.revision,
             membership: self.membership,
             mask: self.mask,
             loose: self.loose,
@@ -186,59 +229,57 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                     ..*motion
                 })
             }),
-            elements: OnceLock::new(),
-            near_boxes: None,
+            elements: self.edited_elements(),
             groups: self.groups.as_ref().map(|groups| {
                 Box::new(VertexGroups {
                     callers: groups.callers.clone(),
                     of_elements: None,
                 })
             }),
+            edits: self.edits.clone(),
         }
-    }
-
-    /// Validates another mesh with its shape and takes it over; or leaves the body as it is and says what was wrong.
-    pub(super) fn set_mesh(
-        &mut self,
-        triangles: &[[u32; 3]],
-        positions: &[[S; 3]],
-        options: &Options,
-    ) -> Result<(), ErrorKind> {
-        validate(triangles, positions)?;
-        if let Some(loose) = self.loose {
-            all_inside(&loose, positions)?;
-        }
-        *self = Self {
-            epoch: self.epoch + 1,
-            membership: self.membership,
-            mask: self.mask,
-            loose: self.loose,
-            ..Self::new(self.id, triangles, positions, options)
-        };
-        Ok(())
     }
 
     /// Builds the tree anew, on the shape of now.
     pub(super) fn rebuild(&mut self, options: &Options) {
-        let positions = self.positions();
+        let positions = self.stored_positions();
         let (order, tree) = build(&self.topology, &positions, options);
         self.positions.forget_tree_order(self.order.vertex_order());
         if let Some(motion) = &mut self.motion {
             motion.end.forget_tree_order(self.order.vertex_order());
             motion.partway = None;
         }
-        self.elements = OnceLock::new();
-        self.near_boxes = None;
+        if let Some(elements) = self.elements.get_mut().filter(|it| it.follows()) {
+            elements.append(&order, TreeTriangle(0), 0);
+        } else {
+            self.elements = OnceLock::new();
+        }
         if let Some(groups) = &mut self.groups {
             groups.of_elements = None;
         }
-        self.boxes = first_boxes(&tree, self.triangle_count());
-        (self.order, self.tree) = (order, tree);
+        self.parts = Parts::of(tree, self.topology.live_count());
+        self.order = order;
+        if let Some(edits) = &mut self.edits {
+            edits.find_places(&self.order);
+        }
         self.epoch += 1;
+        self.revision += 1;
     }
 
-    pub(super) fn triangle_count(&self) -> usize {
+    /// The edges as they are numbered, if the mesh was edited since they were: these numbers stay.
+    fn edited_elements(&self) -> OnceLock<Box<Elements>> {
+        let known = self.elements.get().filter(|known| known.follows());
+        known.map_or_else(OnceLock::new, |known| OnceLock::from(known.clone()))
+    }
+
+    /// How many numbers of triangles there are, empty ones too.
+    pub(super) fn triangle_numbers(&self) -> usize {
         self.topology.triangles().len()
+    }
+
+    /// How many triangles there are in tree order, with those that were taken out and are still there.
+    pub(super) fn triangle_count(&self) -> usize {
+        self.order.all_corners().len()
     }
 
     pub(super) fn vertex_count(&self) -> usize {
@@ -271,6 +312,12 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         true
     }
 
+    /// Finds out which triangles of a part share a vertex, unless that is known.
+    pub(super) fn know_neighbours(&mut self, part: usize, executor: Executor) {
+        let part = self.parts.one_mut(part);
+        part.know_neighbours(&self.order, executor);
+    }
+
     /// The motion, if there is one.
     fn motion(&self) -> Option<&Motion<S>> {
         self.motion.as_deref().filter(|motion| motion.is_on)
@@ -288,35 +335,22 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         if !self.know_elements(&|| executor.is_interrupted()) {
             return false;
         }
-        let shape = Shape {
-            positions: self.positions.in_tree_order(),
-            triangles: self.order.all_corners(),
-            origin,
-            epoch: self.epoch,
-        };
-        let motion = self.motion.as_deref().filter(|motion| motion.is_on);
-        let end = motion.zip(reach).map(|(motion, reach)| {
-            let (positions, epoch) = motion.held(reach);
-            Shape {
-                positions,
-                epoch,
-                ..shape
-            }
-        });
-        let source = Swept {
-            from: shape,
-            to: end,
-        };
         let Some(elements) = self.elements.get() else {
             return false;
         };
-        self.near_boxes.get_or_insert_default().make(
-            which,
-            source.version(),
-            (instructions, executor),
-            (&shape, end.map(|end| end.positions)),
-            (&self.tree.leaves, elements),
-        )
+        let motion = self.motion.as_deref().filter(|motion| motion.is_on);
+        let of = OfElements {
+            elements,
+            shape: Shape {
+                positions: self.positions.in_tree_order(),
+                triangles: self.order.all_corners(),
+                origin,
+                epoch: self.epoch,
+            },
+            end: motion.zip(reach).map(|(motion, reach)| motion.held(reach)),
+        };
+        let mut parts = self.parts.all_mut();
+        parts.all(|part| part.make_near_boxes(which, &of, (instructions, executor)))
     }
 
     /// Finds out the edges of the mesh, and which triangle owns what, unless that is known. Returns false if it was stopped.
@@ -362,7 +396,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         Some(Places {
             triangles: self.topology.triangles(),
             edges: elements.callers(),
-            tree_vertices: elements.tree_vertices(&self.order),
+            tree_vertices: match &self.edits {
+                Some(edits) => &edits.slots,
+                None => elements.tree_vertices(&self.order),
+            },
             positions: self.positions.in_tree_order(),
         })
     }
@@ -460,63 +497,51 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         }
     }
 
-    /// What a query of some kind descends; of a body that was brought into tree order.
+    /// What a query of some kind descends: one part of a body that was brought into tree order.
     pub(super) fn side<K: Kind<Scalar = S>>(
         &mut self,
         kind: &K,
         origin: Origin,
+        part: usize,
     ) -> Side<'_, N, K::Source<'_>> {
-        let shape = Shape {
-            positions: self.positions.in_tree_order(),
-            triangles: self.order.all_corners(),
-            origin,
-            epoch: self.epoch,
-        };
-        let motion = self.motion.as_deref();
-        let motion = motion.filter(|motion| K::HOLDS_MOTIONS && motion.is_on);
-        let end = motion.map(|motion| {
-            let (positions, epoch) = motion.held(kind.reach());
-            Shape {
-                positions,
-                epoch,
-                ..shape
-            }
-        });
-        let going = motion.map(|motion| match kind.reach() {
-            Reach::End | Reach::Until(_) => motion.end.in_tree_order(),
-            Reach::To(_) => motion.held(kind.reach()).0,
-        });
-        let near_boxes = self.near_boxes.as_deref();
-        let elements = self.elements.get().zip(near_boxes);
-        let elements = elements.filter(|_| K::LEAVES.elements().is_some());
-        let elements = elements.map(|(edges, boxes)| NearElements {
-            edges,
-            boxes,
-            groups: self.groups.as_ref().and_then(|it| it.of_elements.as_ref()),
-        });
-        if self.boxes.len() <= K::BOX_SET {
-            self.boxes.resize_with(K::BOX_SET + 1, || None);
-        }
-        let tree = &self.tree;
-        Side {
-            body: self.id,
-            order: &self.order,
-            tree,
-            boxes: self.boxes[K::BOX_SET].get_or_insert_with(|| BoxSet::new(tree)),
-            source: kind.source(shape, end),
-            motion: going,
-            elements,
-        }
+        let (parts, rest) = self.parts_and_rest();
+        rest.side(kind, origin, parts.one_mut(part))
     }
 
-    /// A set of boxes, if some query asked for it.
-    pub(super) fn boxes(&self, number: usize) -> Option<&BoxSet<N>> {
-        self.boxes.get(number)?.as_ref()
+    /// Two different parts of it, the one with the lower number first.
+    pub(super) fn two_sides<K: Kind<Scalar = S>>(
+        &mut self,
+        kind: &K,
+        origin: Origin,
+        numbers: [usize; 2],
+    ) -> [Side<'_, N, K::Source<'_>>; 2] {
+        let (parts, rest) = self.parts_and_rest();
+        parts
+            .two_mut(numbers)
+            .map(|part| rest.side(kind, origin, part))
+    }
+
+    /// The parts, and what they have in common.
+    fn parts_and_rest(&mut self) -> (&mut Parts<N>, InCommon<'_, S>) {
+        let rest = InCommon {
+            body: self.id,
+            order: &self.order,
+            positions: &self.positions,
+            epoch: self.epoch,
+            motion: self.motion.as_deref().filter(|motion| motion.is_on),
+            elements: self.elements.get().map(Box::as_ref),
+            groups: self.groups.as_ref().and_then(|it| it.of_elements.as_ref()),
+            removed: self
+                .edits
+                .as_ref()
+                .and_then(|edits| edits.removed(&self.order)),
+        };
+        (&mut self.parts, rest)
     }
 
     /// All boxes are stale: some may have been left half made.
     pub(super) fn forget_boxes(&mut self) {
-        self.boxes.iter_mut().flatten().for_each(BoxSet::forget);
+        self.parts.all_mut().for_each(Part::forget_boxes);
     }
 
     /// Boxes made so far are stale, though the shape is the same: the origin moved.
@@ -529,6 +554,13 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let order = self.order.vertex_order();
         let corners = self.order.corners(triangle);
         corners.map(|vertex| self.positions.get(vertex, order).map(S::to_f64))
+    }
+
+    /// The corners of a triangle, with padding; of a body that was brought into tree order.
+    pub(super) fn padded_corners(&self, triangle: TreeTriangle) -> [&[S; 4]; 3] {
+        let positions = self.positions.in_tree_order();
+        let corners = self.order.corners(triangle);
+        corners.map(|vertex| positions.padded(vertex))
     }
 
     /// The exact extent, in the caller's coordinates.
@@ -561,7 +593,9 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             executor,
             order: &self.order,
             loose: self.loose,
+            empty: self.edits.as_ref().map_or(0, |edits| edits.empty.count()),
         };
+        let positions = with_empty_ones(&mut self.edits, positions);
         self.bounds = taking.take(&mut self.positions, positions)?;
         self.epoch += 1;
         self.end_motion();
@@ -586,7 +620,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             executor,
             order: &self.order,
             loose: self.loose,
+            empty: self.edits.as_ref().map_or(0, |edits| edits.empty.count()),
         };
+        let stored = (self.motion.is_none()).then(|| self.stored_positions().into_owned());
+        let end = with_empty_ones(&mut self.edits, end);
         if let Some(motion) = &mut self.motion {
             motion.bounds = taking.take(&mut motion.end, end)?;
             motion.epochs += 1;
@@ -595,7 +632,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             return Ok(());
         }
         // What is there before is of no interest; it has the right length.
-        let mut place = Positions::new(&self.positions());
+        let mut place = Positions::new(&stored.unwrap_or_default());
         let bounds = taking.take(&mut place, end)?;
         self.motion = Some(Box::new(Motion {
             end: place,
@@ -646,13 +683,31 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// The shape at the end of a motion as the caller orders vertices, if there is a motion.
     pub(super) fn end_positions(&self) -> Option<Cow<'_, [[S; 3]]>> {
-        let motion = self.motion();
-        motion.map(|motion| motion.end.in_callers_order(self.order.vertex_order()))
+        let motion = self.motion()?;
+        Some(self.without_empty_ones(motion.end.in_callers_order(self.order.vertex_order())))
     }
 
-    /// The shape as the caller orders vertices.
+    /// The shape as the caller orders vertices; those that are empty are nowhere.
     pub(super) fn positions(&self) -> Cow<'_, [[S; 3]]> {
+        self.without_empty_ones(self.stored_positions())
+    }
+
+    /// The shape as the caller orders vertices; those that are empty are somewhere.
+    pub(super) fn stored_positions(&self) -> Cow<'_, [[S; 3]]> {
         self.positions.in_callers_order(self.order.vertex_order())
+    }
+
+    fn without_empty_ones<'p>(&self, mut positions: Cow<'p, [[S; 3]]>) -> Cow<'p, [[S; 3]]> {
+        if let Some(edits) = &self.edits
+            && edits.empty.count() > 0
+        {
+            for (vertex, position) in (0..).zip(positions.to_mut()) {
+                if edits.empty.has(vertex) {
+                    *position = [S::NAN; 3];
+                }
+            }
+        }
+        positions
     }
 
     pub(super) fn set_filter(&mut self, membership: u32, mask: u32) {
@@ -683,8 +738,9 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             if !is_box {
                 return Err(ErrorKind::BadLooseBox);
             }
-            all_inside(&loose, &self.positions())?;
-            if let Some(end) = self.end_positions() {
+            all_inside(&loose, &self.stored_positions())?;
+            if let Some(motion) = self.motion() {
+                let end = motion.end.in_callers_order(self.order.vertex_order());
                 all_inside(&loose, &end)?;
             }
         }
@@ -739,6 +795,19 @@ struct Taking<'b, S> {
     executor: Executor<'b>,
     order: &'b Order,
     loose: Option<Bounds<S>>,
+    /// How many vertices are empty; their rows are those of others.
+    empty: usize,
+}
+
+/// The shape that was given, with other vertices' rows in place of those of empty ones.
+fn with_empty_ones<'p, S: Coordinate>(
+    edits: &'p mut Option<Box<EditState<S>>>,
+    positions: &'p [[S; 3]],
+) -> &'p [[S; 3]] {
+    match edits {
+        Some(edits) => edits.patch(positions),
+        None => positions,
+    }
 }
 
 impl<S: Coordinate> Taking<'_, S> {
@@ -770,7 +839,7 @@ impl<S: Coordinate> Taking<'_, S> {
         let order = self.order.vertex_order();
         place.commit(&staged, self.instructions, self.executor, positions, order);
         let used = self.order.used_vertices();
-        if used == positions.len() {
+        if used + self.empty >= positions.len() {
             return Ok(all);
         }
         let used = order[..used].iter();
@@ -778,12 +847,74 @@ impl<S: Coordinate> Taking<'_, S> {
     }
 }
 
-/// The boxes that a body has before anybody asks for some.
-fn first_boxes<const N: usize>(tree: &Tree<N>, triangles: usize) -> Vec<Option<BoxSet<N>>> {
-    if triangles > SMALL {
-        vec![Some(BoxSet::new(tree))]
-    } else {
-        Vec::new()
+impl<const N: usize> Parts<N> {
+    /// Of a tree over all of so many triangles.
+    fn of(tree: Tree<N>, triangles: usize) -> Self {
+        Self {
+            first: Part::new(tree, 0..triangles as u32, TreeVertex(0)),
+            others: Vec::new(),
+        }
+    }
+}
+
+/// What the parts of a body have in common.
+#[derive(Clone, Copy)]
+struct InCommon<'b, S> {
+    body: BodyId,
+    order: &'b Order,
+    positions: &'b Positions<S>,
+    epoch: u64,
+    motion: Option<&'b Motion<S>>,
+    elements: Option<&'b Elements>,
+    groups: Option<&'b Groups>,
+    removed: Option<Removed<'b>>,
+}
+
+impl<'b, S: Coordinate> InCommon<'b, S> {
+    fn side<const N: usize, K: Kind<Scalar = S>>(
+        self,
+        kind: &K,
+        origin: Origin,
+        part: &'b mut Part<N>,
+    ) -> Side<'b, N, K::Source<'b>> {
+        let shape = Shape {
+            positions: self.positions.in_tree_order(),
+            triangles: self.order.all_corners(),
+            origin,
+            epoch: self.epoch,
+        };
+        let motion = self.motion.filter(|_| K::HOLDS_MOTIONS);
+        let end = motion.map(|motion| {
+            let (positions, epoch) = motion.held(kind.reach());
+            Shape {
+                positions,
+                epoch,
+                ..shape
+            }
+        });
+        let going = motion.map(|motion| match kind.reach() {
+            Reach::End | Reach::Until(_) => motion.end.in_tree_order(),
+            Reach::To(_) => motion.held(kind.reach()).0,
+        });
+        let (tree, boxes, near_boxes) = part.for_query(K::BOX_SET);
+        let elements = self.elements.zip(near_boxes);
+        let elements = elements.filter(|_| K::LEAVES.elements().is_some());
+        let elements = elements.map(|(edges, boxes)| NearElements {
+            edges,
+            boxes,
+            groups: self.groups,
+            removed: self.removed,
+        });
+        Side {
+            body: self.body,
+            order: self.order,
+            tree,
+            boxes,
+            source: kind.source(shape, end),
+            motion: going,
+            elements,
+            removed: self.removed,
+        }
     }
 }
 
@@ -793,14 +924,30 @@ fn build<const N: usize, S: Coordinate>(
     positions: &[[S; 3]],
     options: &Options,
 ) -> (Order, Tree<N>) {
-    let mut plan = divide(topology.triangles(), positions, options);
+    let all = topology.triangles();
+    let mut plan = if topology.live_count() == all.len() {
+        divide(all, positions, options)
+    } else {
+        let numbers = (0..all.len() as u32).filter(|&triangle| topology.is_live(triangle));
+        let numbers: Vec<u32> = numbers.collect();
+        let corners: Vec<_> = numbers
+            .iter()
+            .map(|&triangle| all[triangle as usize])
+            .collect();
+        let plan = divide(&corners, positions, options);
+        plan.with_numbers(&numbers)
+    };
     let order = Order::new(topology, std::mem::take(&mut plan.order));
-    let tree = Tree::new(&plan, &order);
+    let tree = Tree::new(&plan, &order, TreeVertex(0));
     (order, tree)
 }
 
 /// The plan that the options ask for.
-fn divide<S: Real>(triangles: &[[u32; 3]], positions: &[[S; 3]], options: &Options) -> Plan {
+pub(super) fn divide<S: Real>(
+    triangles: &[[u32; 3]],
+    positions: &[[S; 3]],
+    options: &Options,
+) -> Plan {
     let degree = options.degree.get();
     let leaf_size = options.leaf_size.get();
     let count = triangles.len();
@@ -829,7 +976,10 @@ fn bounds_of<S: Real>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {
 }
 
 /// Refuses positions of which some are outside a loose box.
-fn all_inside<S: Real>(loose: &Bounds<S>, positions: &[[S; 3]]) -> Result<(), ErrorKind> {
+pub(super) fn all_inside<S: Real>(
+    loose: &Bounds<S>,
+    positions: &[[S; 3]],
+) -> Result<(), ErrorKind> {
     let is_inside = |&position: &[S; 3]| loose.holds(position);
     if positions.iter().all(is_inside) {
         return Ok(());
@@ -853,12 +1003,10 @@ fn first_outside<S: Real>(
 
 impl<const N: usize, S> Held for Body<N, S> {
     fn held(&self) -> usize {
-        let boxes = self.boxes.iter().flatten();
         self.topology.held()
             + self.order.held()
-            + self.tree.held()
-            + held::list(&self.boxes)
-            + held::within(boxes)
+            + self.parts.first.held()
+            + held::lists(&self.parts.others)
             + self.positions.held()
             + self.motion.as_ref().map_or(0, |motion| {
                 let partway = motion.partway.as_ref().map_or(0, |it| it.points.held());
@@ -869,9 +1017,9 @@ impl<const N: usize, S> Held for Body<N, S> {
                 .get()
                 .map_or(0, |it| size_of::<Elements>() + it.held())
             + self
-                .near_boxes
+                .edits
                 .as_ref()
-                .map_or(0, |it| size_of::<NearBoxes>() + it.held())
+                .map_or(0, |it| size_of::<EditState<S>>() + it.held())
             + self.groups.as_ref().map_or(0, |groups| {
                 let of_elements = groups.of_elements.as_ref().map_or(0, Held::held);
                 size_of::<VertexGroups>() + held::list(&groups.callers) + of_elements

@@ -12,7 +12,7 @@ pub struct NodeBox<S> {
     pub valid: bool,
 }
 
-/// The tree of a body in numbers; the structure only, which no movement changes.
+/// The tree of a body in numbers; the structure only, which no movement changes. Of a body whose mesh was edited, its trees together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TreeShape {
     /// The level of the deepest leaf, where the root is level 0: the n of the paper's n / 2.

@@ -6,6 +6,7 @@
 
 use super::BodyId;
 use super::asked::Common;
+use super::body::Body;
 use super::step::Step;
 use super::witness::{Witnesses, pair_of};
 use crate::close_pairs::CloseTriangles;
@@ -14,10 +15,10 @@ use crate::geometry::Shape;
 use crate::held::{self, Held};
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
-    Candidate, Intersections, Kind, NearestPair, close, closest_of_triangles, corners_of,
+    Candidate, Intersections, NearestPair, close, closest_of_triangles, corners_of,
 };
 use crate::threads::{Executor, Interrupt};
-use crate::traversal::{NearestScratch, Scratch, TreePair, TwoTrees, gap_square, nearest};
+use crate::traversal::{NearestScratch, Scratch, TwoTrees, gap_square, nearest};
 use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
 
@@ -103,43 +104,62 @@ impl Distances {
             scratch,
             statistics: &mut common.statistics,
         };
-        let [a, b] = both;
-        let sides = (
-            step.ahead(a, Partner::Another),
-            step.ahead(b, Partner::Another),
+        let [body_a, body_b] = both;
+        let ready = (
+            step.bring_body_into_tree_order(body_a),
+            step.bring_body_into_tree_order(body_b),
         );
-        let (ControlFlow::Continue(a), ControlFlow::Continue(b)) = sides else {
+        if ready.0.is_break() || ready.1.is_break() {
             return Ok(None);
-        };
-        let mut pair = TwoTrees { a, b };
-        let mut exact = 0;
-        let mut measure = |shapes: [&Shape<'_, S>; 2], triangles: Candidate| {
-            let corners = [0, 1].map(|which| corners_of(shapes[which], triangles[which]));
-            found.measure(instructions, triangles, &corners, interrupt, &mut exact);
-            found.limit()
-        };
-        if let Some(last) = self.last.get(of) {
-            limit = measure([&pair.a.source, &pair.b.source], last);
         }
-        let statistics = &mut *step.statistics;
-        let scratch = &mut self.scratch;
-        let _ = nearest(refit, &mut pair, scratch, statistics, limit, &mut measure);
-        statistics.exact_decisions += exact;
+        let mut exact = 0;
+        let mut last = self.last.get(of);
+        for (a, b) in parts_of(body_a, body_b) {
+            let sides = (
+                step.ahead(body_a, a, Partner::Another),
+                step.ahead(body_b, b, Partner::Another),
+            );
+            let (ControlFlow::Continue(a), ControlFlow::Continue(b)) = sides else {
+                return Ok(None);
+            };
+            let removed = [a.removed, b.removed];
+            let mut pair = TwoTrees { a, b };
+            let mut measure = |shapes: [&Shape<'_, S>; 2], triangles: Candidate| {
+                let is_gone = |which: usize| {
+                    removed[which].is_some_and(|removed| removed.has(triangles[which]))
+                };
+                if !is_gone(0) && !is_gone(1) {
+                    let corners = [0, 1].map(|which| corners_of(shapes[which], triangles[which]));
+                    found.measure(instructions, triangles, &corners, interrupt, &mut exact);
+                }
+                found.limit()
+            };
+            if let Some(last) = last.take() {
+                limit = measure([&pair.a.source, &pair.b.source], last);
+            }
+            let statistics = &mut *step.statistics;
+            let scratch = &mut self.scratch;
+            let _ = nearest(refit, &mut pair, scratch, statistics, limit, &mut measure);
+            limit = found.limit();
+        }
+        step.statistics.exact_decisions += exact;
         let Some((triangles, closest)) = found.found() else {
             return Ok(None);
         };
         self.last.keep(of, triangles);
-        let corners = [
-            corners_of(&pair.a.source, triangles[0]),
-            corners_of(&pair.b.source, triangles[1]),
-        ];
-        let ids = pair.caller_ids();
-        Ok(Some(close(
-            kind.to_caller(&ids, triangles),
-            &corners,
-            &closest,
-        )))
+        let both = [&*body_a, &*body_b];
+        let corners = [0, 1].map(|which| both[which].padded_corners(triangles[which]));
+        Ok(Some(close(pair_of(both, triangles), &corners, &closest)))
     }
+}
+
+/// All pairs of parts of two bodies.
+fn parts_of<const N: usize, S: Coordinate>(
+    a: &Body<N, S>,
+    b: &Body<N, S>,
+) -> impl Iterator<Item = (usize, usize)> + use<N, S> {
+    let [of_a, of_b] = [a.parts.len(), b.parts.len()];
+    (0..of_a).flat_map(move |a| (0..of_b).map(move |b| (a, b)))
 }
 
 /// Refuses what is no distance. It may be infinite.

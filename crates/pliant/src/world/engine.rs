@@ -16,6 +16,7 @@ use super::witness::{self, Witnesses};
 use super::{BodyId, NodeBox, Selection, TreeShape};
 use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
 use crate::contacts::Contact;
+use crate::edit::{Edit, Edited};
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
@@ -30,6 +31,7 @@ use crate::queries::{
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Question, Threads};
 use crate::traversal::Sink;
+use crate::tree::Tree;
 use std::ops::ControlFlow;
 
 /// An engine of any degree. What its methods do is said where [`World`](super::World) has them.
@@ -66,6 +68,11 @@ pub(crate) trait AnyEngine<S>:
         triangles: &[[u32; 3]],
         positions: &[[S; 3]],
     ) -> Result<(), Error>;
+    fn edit(&self, id: BodyId) -> Result<Edit<S>, Error>;
+    fn apply(&mut self, edit: &Edit<S>) -> Result<Edited, Error>;
+    fn live_triangles(&self, id: BodyId) -> Result<Vec<bool>, Error>;
+    fn live_vertices(&self, id: BodyId) -> Result<Vec<bool>, Error>;
+    fn mesh_revision(&self, id: BodyId) -> Result<u64, Error>;
     fn rebuild(&mut self, id: BodyId) -> Result<(), Error>;
     fn set_motion(&mut self, id: BodyId, end: &[[S; 3]]) -> Result<(), Error>;
     fn finish_motion(&mut self);
@@ -317,13 +324,39 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         if body.vertex_count() == positions.len() && body.topology.triangles() == triangles {
             return self.move_body(id, positions);
         }
-        let common = &mut self.common;
-        let body = common.bodies.get_mut(id)?;
-        body.set_mesh(triangles, positions, &common.options)
-            .map_err(about(id))?;
-        common.note_movement();
+        let options = self.common.options;
+        self.change(id, |body, instructions, executor| {
+            body.set_mesh(triangles, positions, &options, (instructions, executor))
+        })?;
+        self.common.note_movement();
         self.forget_answers(id);
         Ok(())
+    }
+
+    fn edit(&self, id: BodyId) -> Result<Edit<S>, Error> {
+        Ok(self.body(id)?.begin_edit())
+    }
+
+    fn apply(&mut self, edit: &Edit<S>) -> Result<Edited, Error> {
+        let id = edit.body();
+        let options = self.common.options;
+        let body = self.common.bodies.get_mut(id)?;
+        let edited = body.apply(edit, &options).map_err(about(id))?;
+        self.common.note_movement();
+        self.forget_answers(id);
+        Ok(edited)
+    }
+
+    fn live_triangles(&self, id: BodyId) -> Result<Vec<bool>, Error> {
+        Ok(self.body(id)?.live_triangles())
+    }
+
+    fn live_vertices(&self, id: BodyId) -> Result<Vec<bool>, Error> {
+        Ok(self.body(id)?.live_vertices())
+    }
+
+    fn mesh_revision(&self, id: BodyId) -> Result<u64, Error> {
+        Ok(self.body(id)?.revision)
     }
 
     fn rebuild(&mut self, id: BodyId) -> Result<(), Error> {
@@ -343,7 +376,9 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
 
     fn finish_motion(&mut self) {
         let common = &mut self.common;
-        common.bodies.list.iter_mut().for_each(Body::finish_motion);
+        for body in &mut common.bodies.list {
+            body.finish_motion();
+        }
         common.note_movement();
     }
 
@@ -443,11 +478,11 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
     }
 
     fn tree_shape(&self, id: BodyId) -> Result<TreeShape, Error> {
-        let tree = &self.body(id)?.tree;
+        let trees = || Ok::<_, Error>(self.body(id)?.parts.all().map(|part| &part.tree));
         Ok(TreeShape {
-            depth: tree.depth,
-            nodes: tree.node_count(),
-            leaves: tree.leaves.len(),
+            depth: trees()?.map(|tree| tree.depth).max().unwrap_or_default(),
+            nodes: trees()?.map(Tree::node_count).sum(),
+            leaves: trees()?.map(|tree| tree.leaves.len()).sum(),
         })
     }
 

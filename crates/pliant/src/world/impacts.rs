@@ -233,12 +233,13 @@ impl<S: Coordinate> AskedImpacts<S> {
 
 /// Which part of the motion is looked at first: one in which most vertices move less than an edge.
 fn first_part<const N: usize, S: Coordinate>(common: &Common<N, S>, of: Selection) -> f64 {
-    let is_of_it = |body: &&Body<N, S>| match of {
+    let is_of_it = |body: &Body<N, S>| match of {
         Selection::World | Selection::Everything => true,
         Selection::Between(a, b) => body.id == a || body.id == b,
         Selection::Within(a) => body.id == a,
     };
-    let bodies = common.bodies.list.iter().filter(is_of_it);
+    let all = common.bodies.list.iter();
+    let bodies = all.filter(|body| is_of_it(body));
     let edges = bodies.fold(0.0, |most: f64, body| most.max(body.motion_in_edges()));
     let mut part: f64 = 1.0;
     while part > SHORTEST && part * edges > 1.0 {

@@ -13,10 +13,14 @@ mod clearance;
 mod close;
 mod debug_view;
 mod distance;
+mod edit_state;
+mod edits;
 mod engine;
 mod impacts;
 mod interruptible;
 mod origin;
+mod part;
+mod pieces;
 mod positions;
 mod query;
 mod scalar;
@@ -31,6 +35,7 @@ mod witness;
 
 use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
 use crate::contacts::Contact;
+use crate::edit::{Edit, Edited};
 use crate::error::Error;
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::ids::BodyId;
@@ -43,6 +48,7 @@ pub(crate) use body::validate as validate_body;
 pub use debug_view::{NodeBox, TreeShape};
 use engine::AnyEngine;
 pub use interruptible::Interruptible;
+pub use pieces::{Fused, Piece};
 pub use query::{Query, Timed};
 pub use scalar::Scalar;
 pub use selection::Selection;
@@ -215,10 +221,12 @@ impl<S: Scalar> World<S> {
     }
 
     /// Gives a body another mesh and its shape, shapes (m, 3) and (n, 3), of any size. Id, filter, ignored pairs and loose box stay;
-    /// triangles and vertices are numbered as these are.
+    /// triangles and vertices are numbered as these are, and none is empty. A mesh that is not that which the body has ends a motion, and
+    /// takes the vertices their groups.
     ///
-    /// If the triangles are those that the body has, and the vertices as many, this is [`set_positions`](Self::set_positions), and costs
-    /// a comparison more; else a tree is built, which costs as much as [`add`](Self::add).
+    /// What is equal by number stays, what differs is edited. So this costs a comparison of all triangles, which is as quick as
+    /// [`set_positions`](Self::set_positions), and what [`apply`](Self::apply) costs for those that differ. Where they are more than an
+    /// eighth, or vertices fewer than before, all is made anew, which costs as much as [`add`](Self::add): edges have other numbers then.
     ///
     /// ```
     /// use pliant::{Selection, World};
@@ -244,6 +252,67 @@ impl<S: Scalar> World<S> {
         positions: &[[S; 3]],
     ) -> Result<(), Error> {
         self.engine.set_mesh(body, triangles, positions)
+    }
+
+    /// Begins an edit of a body's mesh: changes that [`apply`](Self::apply) makes all at once, or not at all. See [`Edit`].
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(alias = "cut")]
+    #[doc(alias = "tear")]
+    pub fn edit(&self, body: BodyId) -> Result<Edit<S>, Error> {
+        self.engine.edit(body)
+    }
+
+    /// Makes the changes of an edit, and says by number what has changed. Triangles and vertices that it does not name keep their numbers,
+    /// edges their numbers if they stay: see [`edges`](Self::edges).
+    ///
+    /// A number that is left empty is [`u32::MAX`] three times in [`triangles`](Self::triangles), and nothing in any answer. Positions keep
+    /// one row for every number; rows of empty vertices are not looked at when they are set, and NaN when they are asked for. Filter,
+    /// ignored pairs and loose box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends.
+    ///
+    /// Cost: by what the edit names, and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit
+    /// of a body, and when an eighth of the triangles were changed since, for the tree is then built anew.
+    ///
+    /// # Errors
+    ///
+    /// [`OutdatedEdit`](crate::ErrorKind::OutdatedEdit) if the mesh was changed since the edit was begun, or a tree was built anew by
+    /// [`rebuild`](Self::rebuild); [`NoTriangles`](crate::ErrorKind::NoTriangles) if none would be left;
+    /// [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle), [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle),
+    /// [`NoSuchVertex`](crate::ErrorKind::NoSuchVertex), [`EmptyVertex`](crate::ErrorKind::EmptyVertex),
+    /// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange), [`VertexInUse`](crate::ErrorKind::VertexInUse),
+    /// [`NotACorner`](crate::ErrorKind::NotACorner), and for new positions those of [`set_positions`](Self::set_positions).
+    pub fn apply(&mut self, edit: &Edit<S>) -> Result<Edited, Error> {
+        self.engine.apply(edit)
+    }
+
+    /// For each number whether it is that of a triangle, shape (m,): false where an edit has left it empty.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn live_triangles(&self, body: BodyId) -> Result<Vec<bool>, Error> {
+        self.engine.live_triangles(body)
+    }
+
+    /// For each number whether it is that of a vertex, shape (n,): false where an edit has left it empty.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn live_vertices(&self, body: BodyId) -> Result<Vec<bool>, Error> {
+        self.engine.live_vertices(body)
+    }
+
+    /// Counts the meshes of a body, and the orders that its trees bring them into: whoever keeps what [`vertex_order`](Self::vertex_order),
+    /// [`edges`](Self::edges) or [`triangles`](Self::triangles) says asks for them again when this is another.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn mesh_revision(&self, body: BodyId) -> Result<u64, Error> {
+        self.engine.mesh_revision(body)
     }
 
     /// Builds the tree of a body anew, on the shape it has now. Id, filters and loose box stay. Worth it when a shape has
@@ -310,7 +379,8 @@ impl<S: Scalar> World<S> {
     /// Gives every vertex of a body a group, shape (n,): candidates are left out if all their vertices are of one group, in whichever
     /// bodies they are. Those of group 0, as all are at first, meet all. For vertices that are pinned, or glued together.
     ///
-    /// They stay with the body until it is given another mesh.
+    /// They stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. Of the vertices that an [`Edit`] adds, those that
+    /// are split from another have the group of that, the others group 0; what is given for empty vertices is not looked at.
     ///
     /// # Errors
     ///
@@ -797,7 +867,8 @@ impl<S: Scalar> World<S> {
         self.engine.memory_usage()
     }
 
-    /// The triangles of a body as they were added.
+    /// The triangles of a body as they were added and edited, shape (m, 3): three times [`u32::MAX`] for a number that an [`Edit`] has left
+    /// empty.
     ///
     /// # Errors
     ///
@@ -806,8 +877,13 @@ impl<S: Scalar> World<S> {
         self.engine.triangles(body)
     }
 
-    /// The edges of a body, shape (k, 2): two vertices each, the smaller first. Every edge once, whatever triangles share it; sorted, so
-    /// that the number of an edge, its place here, depends on the mesh alone. A degenerate triangle has the edges whose two ends differ.
+    /// The edges of a body, shape (k, 2): two vertices each, the smaller first. Every edge once, whatever triangles share it. The number of
+    /// an edge is its place here. A degenerate triangle has the edges whose two ends differ.
+    ///
+    /// They are sorted when they are first asked for, here or by a query for edges. From then on an edge keeps its number while there is a
+    /// triangle that has it, however the mesh is edited: a number whose edge is gone is empty, two times [`u32::MAX`], until an edge that
+    /// comes takes it, the lowest first; then come new numbers, in the order of the triangles that were changed.
+    /// [`set_mesh`](Self::set_mesh) keeps numbers where it edits.
     ///
     /// Cost: O(m) the first time, and after [`rebuild`](Self::rebuild).
     ///
@@ -818,7 +894,7 @@ impl<S: Scalar> World<S> {
         self.engine.edges(body)
     }
 
-    /// The shape that a body has now: the positions that it was given last.
+    /// The shape that a body has now: the positions that it was given last; NaN for vertices that an [`Edit`] has left empty.
     ///
     /// # Errors
     ///
@@ -827,7 +903,7 @@ impl<S: Scalar> World<S> {
         self.engine.positions(body)
     }
 
-    /// How many triangles a body has.
+    /// How many triangles a body has: of numbers, those left empty by an [`Edit`] counted with the others.
     ///
     /// # Errors
     ///
@@ -836,7 +912,7 @@ impl<S: Scalar> World<S> {
         Ok(self.engine.triangles(body)?.len())
     }
 
-    /// How many vertices a body has: the length that its positions must have.
+    /// How many vertices a body has, counted by number like triangles: the length that its positions must have.
     ///
     /// # Errors
     ///
@@ -857,7 +933,8 @@ impl<S: Scalar> World<S> {
     /// For each triangle of a body, the part it is in when the tree is cut at a level: its node of that level, or its leaf, if
     /// that is above. Parts are numbered from 0 in the order of the tree, so that parts with close numbers are close in the
     /// tree. Level 0 is one part, level 1 the children of the root, [`TreeShape::depth`] and all
-    /// levels below it the leaves.
+    /// levels below it the leaves. What an [`Edit`] adds is in trees of its own, each of which is cut at the level, in parts behind the
+    /// others. A number that is left empty is in part [`u32::MAX`].
     ///
     /// # Errors
     ///

@@ -24,14 +24,14 @@ impl FloatingOrigin {
     /// Looking at all bodies costs O(n), so it is done only when as many shapes were taken over as there are bodies.
     pub(super) fn settle<const N: usize, S: Coordinate>(
         &mut self,
-        bodies: &mut [Body<N, S>],
+        bodies: &mut [Box<Body<N, S>>],
     ) -> bool {
         if S::BOXES_ARE_EXACT || self.moves < bodies.len() {
             return false;
         }
         self.moves = 0;
         let mut extent = Bounds::EMPTY;
-        for bounds in bodies.iter().map(Body::bounds) {
+        for bounds in bodies.iter().map(|body| body.bounds()) {
             extent.include(bounds.lo);
             extent.include(bounds.hi);
         }
@@ -47,7 +47,7 @@ impl FloatingOrigin {
         if moves {
             let [x, y, z] = centre;
             self.point = [x, y, z, 0.0];
-            bodies.iter_mut().for_each(Body::origin_moved);
+            bodies.iter_mut().for_each(|body| body.origin_moved());
         }
         moves
     }

@@ -9,7 +9,7 @@
 
 use crate::geometry::{Bounds, IN_A_ROW, Points};
 use crate::held::{self, Held};
-use crate::ids::TreeVertex;
+use crate::ids::{CallerVertex, TreeVertex};
 use crate::kernels::{Coordinate, Instructions, check, copy_checked, gather};
 use crate::threads::Executor;
 use std::borrow::Cow;
@@ -188,6 +188,36 @@ impl<S: Coordinate> Positions<S> {
             self.callers[order[vertex.index()] as usize]
         } else {
             self.trees.get(vertex)
+        }
+    }
+
+    /// Vertices come behind all others, in either order.
+    pub(super) fn push(&mut self, new: &[[S; 3]]) {
+        if matches!(self.order, InOrder::Callers | InOrder::Both) {
+            self.callers.extend_from_slice(new);
+        }
+        if self.order != InOrder::Callers {
+            new.iter().for_each(|&position| self.trees.push(position));
+        }
+        self.len += new.len();
+    }
+
+    /// A vertex is somewhere else.
+    pub(super) fn place(&mut self, vertex: CallerVertex, number: TreeVertex, position: [S; 3]) {
+        if matches!(self.order, InOrder::Callers | InOrder::Both) {
+            self.callers[vertex.index()] = position;
+        }
+        if self.order != InOrder::Callers {
+            self.trees.set(number, position);
+        }
+    }
+
+    /// Two vertices exchange their numbers in tree order.
+    pub(super) fn exchange(&mut self, [a, b]: [TreeVertex; 2]) {
+        if self.order != InOrder::Callers {
+            let [at_a, at_b] = [a, b].map(|vertex| self.trees.get(vertex));
+            self.trees.set(a, at_b);
+            self.trees.set(b, at_a);
         }
     }
 

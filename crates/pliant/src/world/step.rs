@@ -47,8 +47,18 @@ where
         sink: Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
-        let [a, b] = both.map(|body| self.ahead(body, Partner::Another));
-        self.descend(&mut TwoTrees { a: a?, b: b? }, sink)
+        let [body_a, body_b] = both;
+        self.bring_body_into_tree_order(body_a)?;
+        self.bring_body_into_tree_order(body_b)?;
+        let (parts_a, parts_b) = (body_a.parts.len(), body_b.parts.len());
+        for a in 0..parts_a {
+            for b in 0..parts_b {
+                let a = self.ahead(body_a, a, Partner::Another)?;
+                let b = self.ahead(body_b, b, Partner::Another)?;
+                self.descend_two(TwoTrees { a, b }, parts_a + parts_b > 2, sink)?;
+            }
+        }
+        ControlFlow::Continue(())
     }
 
     /// One body with itself.
@@ -58,8 +68,37 @@ where
         sink: Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
-        let side = self.ahead(body, Partner::Itself)?;
-        self.descend(&mut OneTree { side }, sink)
+        self.bring_body_into_tree_order(body)?;
+        let parts = body.parts.len();
+        for part in 0..parts {
+            if K::LEAVES == Leaves::Triangles {
+                body.know_neighbours(part, self.refit.executor);
+            }
+            let side = self.ahead(body, part, Partner::Itself)?;
+            self.descend(&mut OneTree { side }, sink)?;
+        }
+        for high in 1..parts {
+            for low in 0..high {
+                let [mut a, mut b] = body.two_sides(self.kind, self.origin, [low, high]);
+                self.refit_ahead(&mut a, Partner::Another)?;
+                self.refit_ahead(&mut b, Partner::Another)?;
+                self.descend_two(TwoTrees { a, b }, true, sink)?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Two trees; those of which bodies have several perhaps do not overlap.
+    fn descend_two<const N: usize>(
+        &mut self,
+        mut pair: TwoTrees<'_, N, K::Source<'_>>,
+        are_several: bool,
+        sink: Sink<K::Hit>,
+    ) -> ControlFlow<()> {
+        if are_several && !pair.overlap() {
+            return ControlFlow::Continue(());
+        }
+        self.descend(&mut pair, sink)
     }
 
     fn descend<const N: usize, P>(&mut self, pair: &mut P, sink: Sink<K::Hit>) -> ControlFlow<()>
@@ -77,41 +116,73 @@ where
         )
     }
 
-    /// Does what comes before the descent: the same for a query and for what is done early. Breaks if it is interrupted.
-    pub(super) fn ahead<'b, const N: usize>(
+    /// Does for a body, early, what a query of it does before it descends.
+    pub(super) fn prepare<const N: usize>(
         &mut self,
-        body: &'b mut Body<N, K::Scalar>,
+        body: &mut Body<N, K::Scalar>,
         partner: Partner,
-    ) -> ControlFlow<(), Side<'b, N, K::Source<'b>>> {
+    ) -> ControlFlow<()> {
+        self.bring_body_into_tree_order(body)?;
+        for part in 0..body.parts.len() {
+            if partner == Partner::Itself && K::LEAVES == Leaves::Triangles {
+                body.know_neighbours(part, self.refit.executor);
+            }
+            let _ = self.ahead(body, part, partner)?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Brings a body into the order of its trees, and makes the boxes of its elements if the kind reads those. Breaks if it is interrupted.
+    pub(super) fn bring_body_into_tree_order<const N: usize>(
+        &mut self,
+        body: &mut Body<N, K::Scalar>,
+    ) -> ControlFlow<()> {
         let executor = self.refit.executor;
         let instructions = self.refit.instructions;
         let reach = K::HOLDS_MOTIONS.then(|| self.kind.reach());
         if !body.bring_into_tree_order(reach, instructions, executor) {
             return ControlFlow::Break(());
         }
-        let itself = partner == Partner::Itself;
-        if itself && K::LEAVES == Leaves::Triangles {
-            body.tree.know_neighbours(&body.order, executor);
-        }
         if let Some(which) = K::LEAVES.elements()
             && !body.make_near_boxes(which, reach, self.origin, (instructions, executor))
         {
             return ControlFlow::Break(());
         }
-        let mut side = body.side(self.kind, self.origin);
+        ControlFlow::Continue(())
+    }
+
+    /// A part of a body that was brought into tree order, with the upper levels of its boxes. Breaks if it is interrupted.
+    pub(super) fn ahead<'b, const N: usize>(
+        &mut self,
+        body: &'b mut Body<N, K::Scalar>,
+        part: usize,
+        partner: Partner,
+    ) -> ControlFlow<(), Side<'b, N, K::Source<'b>>> {
+        let mut side = body.side(self.kind, self.origin, part);
+        self.refit_ahead(&mut side, partner)?;
+        ControlFlow::Continue(side)
+    }
+
+    /// Does what comes before the descent: the same for a query and for what is done early. Breaks if it is interrupted.
+    fn refit_ahead<const N: usize>(
+        &mut self,
+        side: &mut Side<'_, N, K::Source<'_>>,
+        partner: Partner,
+    ) -> ControlFlow<()> {
         let lists = &mut self.scratch.wide_nodes[0];
         let statistics = &mut *self.statistics;
         self.refit
             .ahead(&mut side.refitted(), partner, lists, statistics);
+        let itself = partner == Partner::Itself;
         if itself && K::LEAVES.elements().is_none() && side.boxes.are_nodes_complete() {
             // Every leaf is going to meet at least itself.
             let reached = &mut self.scratch.reached;
             self.refit
                 .all_leaves(&mut side.refitted(), reached, statistics);
         }
-        if executor.is_interrupted() {
+        if self.refit.executor.is_interrupted() {
             return ControlFlow::Break(());
         }
-        ControlFlow::Continue(side)
+        ControlFlow::Continue(())
     }
 }

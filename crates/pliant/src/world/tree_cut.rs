@@ -13,10 +13,12 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// For each triangle, as the caller numbers them, the part it is in.
     pub(super) fn tree_cut(&self, level: u32) -> Vec<u32> {
         let order = self.order.triangle_order();
-        let mut part_of = vec![0; order.len()];
-        for (part, triangles) in (0..).zip(self.parts(level)) {
-            for &triangle in &order[triangles] {
-                part_of[triangle as usize] = part;
+        let mut part_of = vec![u32::MAX; self.triangle_numbers()];
+        for (part, triangles) in (0..).zip(self.parts_of_cut(level)) {
+            for place in triangles {
+                if !self.is_gone(TreeTriangle(place as u32)) {
+                    part_of[order[place] as usize] = part;
+                }
             }
         }
         part_of
@@ -24,16 +26,19 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// The box of every part.
     pub(super) fn tree_boxes(&self, level: u32, origin: Origin) -> Vec<NodeBox<S>> {
-        let positions = self.positions();
+        let positions = self.stored_positions();
         let version = {
             let points = self.in_tree_order();
             self.shape(&points, origin).version()
         };
-        let parts = self.parts(level);
-        let valid = match self.boxes(Intersections::<S>::BOX_SET) {
-            Some(boxes) => self.tree.valid_in_cut(level, boxes, version),
-            None => vec![false; parts.len()],
-        };
+        let parts = self.parts_of_cut(level);
+        let valid = self.parts.all().flat_map(|part| {
+            let boxes = part.boxes(Intersections::<S>::BOX_SET);
+            boxes.map_or_else(
+                || vec![false; part.tree.starts_of_cut(level).len()],
+                |boxes| part.tree.valid_in_cut(level, boxes, version),
+            )
+        });
         let node_box = |(triangles, valid): (Range<usize>, bool)| {
             let mut bounds = Bounds::EMPTY;
             for &vertex in self.order.all_corners()[triangles].as_flattened() {
@@ -48,9 +53,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         parts.into_iter().zip(valid).map(node_box).collect()
     }
 
-    /// The triangles of every part, as places in tree order.
-    fn parts(&self, level: u32) -> Vec<Range<usize>> {
-        let starts = self.tree.starts_of_cut(level);
+    /// The triangles of every part of all trees, as places in tree order.
+    fn parts_of_cut(&self, level: u32) -> Vec<Range<usize>> {
+        let starts = self.parts.all().map(|part| part.tree.starts_of_cut(level));
+        let starts: Vec<_> = starts.flatten().collect();
         let ends = starts[1..].iter().map(|start| start.index());
         let ends = ends.chain([self.triangle_count()]);
         let starts = starts.iter().copied().map(TreeTriangle::index);

@@ -11,27 +11,40 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Checks the structure of the tree, and that each box that claims to be valid is the box over the vertices below it as they
     /// are now. A sentence says what is wrong.
     pub(super) fn validate(&self, options: &Options, origin: Origin) -> Result<(), String> {
-        self.tree.validate(&self.order, options.partition)?;
-        if let Some(boxes) = self.boxes(Intersections::<S>::BOX_SET) {
-            let positions = self.in_tree_order();
-            self.tree
-                .validate_boxes(boxes, &self.shape(&positions, origin))?;
+        let positions = self.in_tree_order();
+        let from = self.shape(&positions, origin);
+        let end = self.end_in_tree_order();
+        let to = end.as_ref().map(|(positions, epoch)| Shape {
+            positions,
+            epoch: *epoch,
+            ..from
+        });
+        let mut next = 0;
+        for part in self.parts.all() {
+            if part.triangles.start != next {
+                return Err(format!(
+                    "a part begins at {}, not {next}",
+                    part.triangles.start
+                ));
+            }
+            next = part.triangles.end;
+            let triangles = part.triangles.start as usize..part.triangles.end as usize;
+            let tree = &part.tree;
+            tree.validate(&self.order, triangles, options.partition)?;
+            if let Some(boxes) = part.boxes(Intersections::<S>::BOX_SET) {
+                tree.validate_boxes(boxes, &from)?;
+            }
+            if let Some(boxes) = part.boxes(VertexTriangleCandidates::<S>::BOX_SET) {
+                let source = Grown {
+                    source: Swept { from, to },
+                    distance: boxes.grown_by(),
+                };
+                tree.validate_boxes(boxes, &source)?;
+            }
         }
-        if let Some(boxes) = self.boxes(VertexTriangleCandidates::<S>::BOX_SET) {
-            let positions = self.in_tree_order();
-            let end = self.end_in_tree_order();
-            let from = self.shape(&positions, origin);
-            let to = end.as_ref().map(|(positions, epoch)| Shape {
-                positions,
-                epoch: *epoch,
-                ..from
-            });
-            let source = Grown {
-                source: Swept { from, to },
-                distance: boxes.grown_by(),
-            };
-            self.tree.validate_boxes(boxes, &source)?;
+        if next as usize != self.triangle_count() {
+            return Err("the parts do not hold all triangles".into());
         }
-        Ok(())
+        self.validate_edits()
     }
 }

@@ -100,6 +100,10 @@ impl<'b, const R: usize, const N: usize, S: Coordinate> Run<'b, R, N, S> {
         let mut boxes = [Bounds::EMPTY; R];
         let mut all = Bounds::EMPTY;
         for place in 0..count {
+            if body.is_gone(TreeTriangle((first + place) as u32)) {
+                // Its box is empty, and overlaps none.
+                continue;
+            }
             corners[place] = body.corners_now(TreeTriangle((first + place) as u32));
             for corner in corners[place] {
                 boxes[place].include(corner);

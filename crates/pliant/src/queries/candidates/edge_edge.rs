@@ -69,8 +69,14 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
             .margin
             .limits::<S>(larger(runs_a.most(), runs_b.most()));
         let groups = of_a.groups.zip(of_b.groups);
-        let meet = groups.map(|(of_a, of_b)| {
-            |[a, b]: [u32; 2]| groups::meet(of_a.edges[a as usize], of_b.edges[b as usize])
+        let removed = [of_a, of_b].map(|side| side.removed.map(|_| side.edges));
+        let is_any_left_out = groups.is_some() || removed.iter().any(Option::is_some);
+        let meet = is_any_left_out.then_some(|pair: [u32; 2]| {
+            let is_gone = |which: usize| removed[which].is_some_and(|it| it.is_gone(pair[which]));
+            let groups_meet = groups.is_none_or(|(of_a, of_b)| {
+                groups::meet(of_a.edges[pair[0] as usize], of_b.edges[pair[1] as usize])
+            });
+            groups_meet && !is_gone(0) && !is_gone(1)
         });
         let holds = |[a, b]: [u32; 2]| {
             let (a, b) = (&ends_a[a as usize], &ends_b[b as usize]);
@@ -81,9 +87,9 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
             for pairs in pairs.chunks(RUNS_AT_ONCE) {
                 let mut kept = [[0; 2]; RUNS_AT_ONCE];
                 for &[a, b] in near_runs(runs_a, runs_b, pairs, limits, &mut kept) {
-                    let itself = leaves.itself && a == b;
+                    let itself = leaves.is_one_tree && a == b;
                     let (a, b) = (runs_a.run(a), runs_b.run(b));
-                    a.compare(i, &b, (leaves.itself, itself), limits, |[first_a, first_b], near, sure| {
+                    a.compare(i, &b, (leaves.is_one_body, itself), limits, |[first_a, first_b], near, sure| {
                         let pair = |bit: u32| [first_a + bit / 8, first_b + bit % 8];
                         keep([near, sure], pair, meet, holds, hits, statistics);
                     });

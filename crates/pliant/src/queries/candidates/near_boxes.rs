@@ -3,9 +3,10 @@
 use super::groups::Groups;
 use super::runs::{Ends, RunBoxes};
 use crate::held::Held;
-use crate::ids::{BlockId, TreeTriangle, TreeVertex};
+use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{Elements, TriangleRun};
+use crate::queries::Removed;
 use crate::threads::Executor;
 use crate::tree::{Leaves, Version};
 
@@ -31,6 +32,8 @@ pub(crate) struct NearElements<'q> {
     pub(crate) boxes: &'q NearBoxes,
     /// None where all vertices meet.
     pub(crate) groups: Option<&'q Groups>,
+    /// None where nothing was taken out.
+    pub(crate) removed: Option<Removed<'q>>,
 }
 
 impl NearBoxes {
@@ -43,14 +46,7 @@ impl NearBoxes {
         positions: Ends<S>,
         (leaves, elements): (&Leaves, &Elements),
     ) -> bool {
-        let runs = || {
-            let count = if leaves.have_blocks() {
-                leaves.block_count()
-            } else {
-                positions.0.triangles.len()
-            };
-            (0..count as u32).map(|number| run(leaves, number))
-        };
+        let runs = || (0..leaves.run_count() as u32).map(|number| leaves.run(number));
         match which {
             Which::VerticesAndTriangles => {
                 let vertices = self.vertices.get_or_insert_with(|| {
@@ -71,18 +67,6 @@ impl NearBoxes {
                 });
                 edges.make(version, threads, positions)
             }
-        }
-    }
-}
-
-/// The triangles of a run, by its number: that of a block, or of a triangle where there are none.
-fn run(leaves: &Leaves, number: u32) -> TriangleRun {
-    if leaves.have_blocks() {
-        leaves.run_of_block(BlockId(number))
-    } else {
-        TriangleRun {
-            first: TreeTriangle(number),
-            count: 1,
         }
     }
 }

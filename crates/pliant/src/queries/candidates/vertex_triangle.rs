@@ -117,12 +117,21 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
             .limits::<S>(larger(vertices.most(), triangles.most()));
         let corners = leaves.shapes[1 - side].triangles;
         let groups = of_vertices.groups.zip(of_triangles.groups);
-        let meet = groups.map(|(of_vertices, of_triangles)| {
-            |[vertex, triangle]: [u32; 2]| {
-                let triangle = (triangle & !OF_SECOND) as usize;
+        let removed = (of_vertices.removed, of_triangles.removed);
+        let is_any_left_out = groups.is_some() || removed.0.is_some() || removed.1.is_some();
+        let meet = is_any_left_out.then_some(|[vertex, triangle]: [u32; 2]| {
+            let triangle = triangle & !OF_SECOND;
+            let groups_meet = groups.is_none_or(|(of_vertices, of_triangles)| {
                 let vertex = of_vertices.vertices[vertex as usize];
-                groups::meet(vertex, of_triangles.triangles[triangle])
-            }
+                groups::meet(vertex, of_triangles.triangles[triangle as usize])
+            });
+            let is_gone = || {
+                let vertex = removed
+                    .0
+                    .is_some_and(|it| it.has_vertex(TreeVertex(vertex)));
+                vertex || removed.1.is_some_and(|it| it.has(TreeTriangle(triangle)))
+            };
+            groups_meet && !is_gone()
         });
         let holds = |[vertex, triangle]: [u32; 2]| {
             let corners = &corners[(triangle & !OF_SECOND) as usize];
@@ -137,12 +146,12 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
                 for pair in pairs {
                     sided[count] = [pair[side], pair[1 - side]];
                     // Within one run, all of its vertices meet all of its triangles.
-                    count += usize::from(!(side == 1 && leaves.itself && pair[0] == pair[1]));
+                    count += usize::from(!(side == 1 && leaves.is_one_tree && pair[0] == pair[1]));
                 }
                 let mut kept = [[0; 2]; RUNS_AT_ONCE];
                 for &[a, b] in near_runs(vertices, triangles, &sided[..count], limits, &mut kept) {
                     let (a, b) = (vertices.run(a), triangles.run(b));
-                    a.compare(i, &b, (leaves.itself, false), limits, |[first, second], near, sure| {
+                    a.compare(i, &b, (leaves.is_one_body, false), limits, |[first, second], near, sure| {
                         let pair = |bit: u32| [first + bit / 8, (second + bit % 8) | tag];
                         keep([near, sure], pair, meet, holds, hits, statistics);
                     });

@@ -316,7 +316,7 @@ impl<S: Coordinate> CloseKind for NearTriangles<S> {
             let order = ids.orders[0];
             order.caller_triangle(b) < order.caller_triangle(a)
         };
-        Some(if leaves.itself && is_swapped() {
+        Some(if leaves.is_one_body && is_swapped() {
             [both[1], both[0]]
         } else {
             both

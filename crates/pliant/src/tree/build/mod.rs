@@ -30,6 +30,25 @@ pub(crate) struct Plan {
     pub(crate) leaf_size: u32,
 }
 
+impl Plan {
+    /// The same of triangles that have these numbers.
+    pub(crate) fn with_numbers(mut self, numbers: &[u32]) -> Self {
+        for triangle in &mut self.order {
+            *triangle = numbers[*triangle as usize];
+        }
+        self
+    }
+
+    /// The same of triangles that come behind so many others.
+    pub(crate) fn behind(mut self, triangles: u32) -> Self {
+        for part in &mut self.parts {
+            part.triangles.start += triangles;
+            part.triangles.end += triangles;
+        }
+        self
+    }
+}
+
 /// A node of a tree to be.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {

@@ -11,14 +11,21 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 impl<const N: usize> Tree<N> {
-    /// Checks the structure and what the partition promises; `Err` says what is wrong. Allocates and takes its time.
-    pub(crate) fn validate(&self, order: &Order, partition: Partition) -> Result<(), String> {
+    /// Checks the structure over these triangles and what the partition promises; `Err` says what is wrong. Allocates and takes its time.
+    pub(crate) fn validate(
+        &self,
+        order: &Order,
+        triangles: Range<usize>,
+        partition: Partition,
+    ) -> Result<(), String> {
         let corners = order.all_corners();
-        if self.triangles_below(NodeId::ROOT)? != (0..corners.len()) {
+        let first = triangles.start;
+        if self.triangles_below(NodeId::ROOT)? != triangles {
             return Err("the root does not hold all triangles".into());
         }
         let connected = (partition == Partition::Connectivity).then(|| {
-            let corners: Vec<_> = corners.iter().map(|c| c.map(|vertex| vertex.0)).collect();
+            let own = corners[triangles].iter();
+            let corners: Vec<_> = own.map(|c| c.map(|vertex| vertex.0)).collect();
             Connectedness::new(corners)
         });
         let (mut visited, mut deepest) = (0, 0);
@@ -43,7 +50,7 @@ impl<const N: usize> Tree<N> {
             }
             if connected
                 .as_ref()
-                .is_some_and(|all| !all.holds_for(triangles.clone()))
+                .is_some_and(|all| !all.holds_for(triangles.start - first..triangles.end - first))
             {
                 return Err(format!(
                     "{wide_node:?}, lane {lane}: neither one connected piece nor whole components"
@@ -223,9 +230,12 @@ mod tests {
         let mut plan = plan(triangles.len(), 8, 2, rule);
         let topology = Topology::new(triangles, vertices);
         let order = Order::new(&topology, std::mem::take(&mut plan.order));
-        let tree = Tree::<8>::new(&plan, &order);
-        assert_eq!(tree.validate(&order, Partition::Balanced), Ok(()));
-        let found = tree.validate(&order, Partition::Connectivity);
+        let tree = Tree::<8>::new(&plan, &order, TreeVertex(0));
+        assert_eq!(
+            tree.validate(&order, 0..triangles.len(), Partition::Balanced),
+            Ok(())
+        );
+        let found = tree.validate(&order, 0..triangles.len(), Partition::Connectivity);
         found.err().unwrap_or_default()
     }
 

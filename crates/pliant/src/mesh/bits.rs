@@ -1,0 +1,81 @@
+//! A set of numbers, a bit each.
+
+use crate::held::{self, Held};
+
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Bits {
+    words: Vec<u64>,
+    count: usize,
+}
+
+impl Bits {
+    /// Whether a number is in the set.
+    #[inline(always)]
+    pub(crate) fn has(&self, number: u32) -> bool {
+        let word = self.words.get(number as usize / 64);
+        word.is_some_and(|word| word >> (number % 64) & 1 == 1)
+    }
+
+    /// How many numbers are.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    pub(crate) fn insert(&mut self, number: u32) {
+        let place = number as usize / 64;
+        if place >= self.words.len() {
+            self.words.resize(place + 1, 0);
+        }
+        self.count += usize::from(!self.has(number));
+        self.words[place] |= 1 << (number % 64);
+    }
+
+    pub(crate) fn remove(&mut self, number: u32) {
+        if self.has(number) {
+            self.words[number as usize / 64] &= !(1 << (number % 64));
+            self.count -= 1;
+        }
+    }
+
+    /// Takes out all numbers from one on.
+    pub(crate) fn cut_back(&mut self, first: u32) {
+        self.words.truncate((first as usize).div_ceil(64));
+        if let Some(last) = self.words.get_mut(first as usize / 64) {
+            *last &= (1 << (first % 64)) - 1;
+        }
+        self.count = self
+            .words
+            .iter()
+            .map(|word| word.count_ones() as usize)
+            .sum();
+    }
+}
+
+impl Held for Bits {
+    fn held(&self) -> usize {
+        held::list(&self.words)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_come_and_go() {
+        let mut bits = Bits::default();
+        for number in [0, 63, 64, 200, 63] {
+            bits.insert(number);
+        }
+        assert_eq!(bits.count(), 4);
+        bits.remove(64);
+        bits.remove(999);
+        assert!(
+            bits.has(0) && bits.has(63) && !bits.has(64) && bits.has(200) && !bits.has(1 << 20)
+        );
+        for (first, left) in [(201, 3), (200, 2), (64, 2), (63, 1), (0, 0)] {
+            bits.cut_back(first);
+            assert_eq!(bits.count(), left);
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! What an edit would make of a mesh: every step is looked at as it comes, and nothing has changed until all were good.
+//!
+//! Cost: what the steps name, and the triangles at the vertices of these; whatever the size of the mesh.
+
+use super::topology::{EMPTY, MAX_TRIANGLES, MAX_VERTICES};
+use super::{Bits, Changed, Topology, TrianglesAt};
+use crate::ErrorKind;
+use crate::edit::Step;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A mesh and what some steps have made of it.
+pub(crate) struct Draft<'m, S> {
+    topology: &'m Topology,
+    at: &'m TrianglesAt,
+    /// The vertices that are empty before.
+    empty: &'m Bits,
+    /// Where a vertex is.
+    position_of: &'m dyn Fn(u32) -> [S; 3],
+    /// How many numbers of triangles and of vertices there are by now.
+    triangles: usize,
+    vertices: usize,
+    /// The corners of triangles that were changed, and the vertices that came to have triangles by that.
+    corners: BTreeMap<u32, [u32; 3]>,
+    came: BTreeMap<u32, Vec<u32>>,
+    /// Vertices that have come, or come again, in order; and where they are.
+    placed: Vec<u32>,
+    positions: BTreeMap<u32, [S; 3]>,
+    /// Of vertices that have come, the one they were split from.
+    split_from: BTreeMap<u32, u32>,
+    merged: BTreeSet<u32>,
+    live: usize,
+}
+
+/// What an edit comes to.
+#[derive(Debug)]
+pub(crate) struct Outcome<S> {
+    /// Triangles whose corners are others, in order.
+    pub(crate) changed: Vec<Changed>,
+    /// How many numbers there are then.
+    pub(crate) triangles: usize,
+    pub(crate) vertices: usize,
+    /// Vertices that were empty or not there, with their positions, in order.
+    pub(crate) new_vertices: Vec<(u32, [S; 3])>,
+    /// Those of them that were split from another.
+    pub(crate) split_from: BTreeMap<u32, u32>,
+    /// Vertices that no triangle uses any more, in order.
+    pub(crate) emptied: Vec<u32>,
+}
+
+impl<'m, S: Copy> Draft<'m, S> {
+    pub(crate) fn new(
+        topology: &'m Topology,
+        at: &'m TrianglesAt,
+        empty: &'m Bits,
+        position_of: &'m dyn Fn(u32) -> [S; 3],
+    ) -> Self {
+        Self {
+            topology,
+            at,
+            empty,
+            position_of,
+            triangles: topology.triangles().len(),
+            vertices: topology.vertex_count(),
+            corners: BTreeMap::new(),
+            came: BTreeMap::new(),
+            placed: Vec::new(),
+            positions: BTreeMap::new(),
+            split_from: BTreeMap::new(),
+            merged: BTreeSet::new(),
+            live: topology.live_count(),
+        }
+    }
+
+    /// Takes a step, or refuses it.
+    pub(crate) fn take(&mut self, step: &Step<S>) -> Result<(), ErrorKind> {
+        match step {
+            Step::AddVertices(positions) => {
+                for &position in positions {
+                    self.add_vertex(position)?;
+                }
+            }
+            &Step::PlaceVertex(vertex, position) => {
+                if vertex as usize >= self.vertices {
+                    return Err(self.no_such_vertex(vertex));
+                }
+                if !self.is_empty(vertex) {
+                    return Err(ErrorKind::VertexInUse { vertex });
+                }
+                self.place(vertex, position);
+            }
+            Step::SplitVertex(vertex, triangles) => {
+                self.check_vertex(*vertex)?;
+                let new = self.add_vertex(self.position(*vertex))?;
+                self.split_from.insert(new, *vertex);
+                for &triangle in triangles {
+                    let corners = self.live_corners(triangle)?;
+                    if !corners.contains(vertex) {
+                        return Err(ErrorKind::NotACorner {
+                            triangle,
+                            vertex: *vertex,
+                        });
+                    }
+                    self.set(triangle, renamed(corners, *vertex, new));
+                }
+            }
+            &Step::MergeVertices(kept, gone) => {
+                self.check_vertex(kept)?;
+                self.check_vertex(gone)?;
+                if kept != gone {
+                    for triangle in self.triangles_at(gone) {
+                        self.set(triangle, renamed(self.corners(triangle), gone, kept));
+                    }
+                    self.merged.insert(gone);
+                }
+            }
+            Step::AddTriangles(all) => {
+                for &corners in all {
+                    let triangle = self.triangles;
+                    if triangle >= MAX_TRIANGLES {
+                        return Err(too_large("triangles", triangle + 1, MAX_TRIANGLES));
+                    }
+                    self.check_corners(triangle as u32, corners)?;
+                    self.triangles += 1;
+                    self.set(triangle as u32, corners);
+                }
+            }
+            &Step::SetTriangle(triangle, corners) => {
+                self.check_triangle(triangle)?;
+                self.check_corners(triangle, corners)?;
+                self.set(triangle, corners);
+            }
+            Step::RemoveTriangles(triangles) => {
+                for &triangle in triangles {
+                    self.live_corners(triangle)?;
+                    self.set(triangle, EMPTY);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What all steps come to; refused if no triangle is left.
+    pub(crate) fn finish(self) -> Result<Outcome<S>, ErrorKind> {
+        if self.live == 0 {
+            return Err(ErrorKind::NoTriangles);
+        }
+        let mut emptied = self.merged.clone();
+        let mut changed = Vec::with_capacity(self.corners.len());
+        for (&triangle, &new) in &self.corners {
+            let old = self.corners_before(triangle);
+            if old != new {
+                changed.push((triangle, [old, new]));
+                emptied.extend(old.into_iter().filter(|&vertex| vertex != u32::MAX));
+            }
+        }
+        emptied.retain(|&vertex| self.triangles_at(vertex).is_empty());
+        let is_new = |vertex: &&u32| self.positions.contains_key(vertex);
+        let mut new: Vec<u32> = self.placed.iter().filter(is_new).copied().collect();
+        new.sort_unstable();
+        Ok(Outcome {
+            changed,
+            triangles: self.triangles,
+            vertices: self.vertices,
+            new_vertices: new
+                .into_iter()
+                .map(|it| (it, self.positions[&it]))
+                .collect(),
+            split_from: self.split_from,
+            emptied: emptied.into_iter().collect(),
+        })
+    }
+
+    fn add_vertex(&mut self, position: [S; 3]) -> Result<u32, ErrorKind> {
+        if self.vertices >= MAX_VERTICES {
+            return Err(too_large("vertices", self.vertices + 1, MAX_VERTICES));
+        }
+        let vertex = self.vertices as u32;
+        self.vertices += 1;
+        self.place(vertex, position);
+        Ok(vertex)
+    }
+
+    fn place(&mut self, vertex: u32, position: [S; 3]) {
+        self.placed.push(vertex);
+        self.positions.insert(vertex, position);
+        self.merged.remove(&vertex);
+    }
+
+    fn position(&self, vertex: u32) -> [S; 3] {
+        let placed = self.positions.get(&vertex).copied();
+        placed.unwrap_or_else(|| (self.position_of)(vertex))
+    }
+
+    /// The corners of a number before any step.
+    fn corners_before(&self, triangle: u32) -> [u32; 3] {
+        let before = self.topology.triangles().get(triangle as usize);
+        before.copied().unwrap_or(EMPTY)
+    }
+
+    fn corners(&self, triangle: u32) -> [u32; 3] {
+        let changed = self.corners.get(&triangle).copied();
+        changed.unwrap_or_else(|| self.corners_before(triangle))
+    }
+
+    fn set(&mut self, triangle: u32, corners: [u32; 3]) {
+        self.live -= usize::from(self.corners(triangle) != EMPTY);
+        self.live += usize::from(corners != EMPTY);
+        if corners != EMPTY {
+            for vertex in corners {
+                self.came.entry(vertex).or_default().push(triangle);
+            }
+        }
+        self.corners.insert(triangle, corners);
+    }
+
+    /// The triangles that have a vertex, each once, in order.
+    fn triangles_at(&self, vertex: u32) -> Vec<u32> {
+        let before = self.at.of(vertex);
+        let came = self.came.get(&vertex).into_iter().flatten().copied();
+        let here = |&triangle: &u32| self.corners(triangle).contains(&vertex);
+        let all: BTreeSet<u32> = before.chain(came).filter(here).collect();
+        all.into_iter().collect()
+    }
+
+    fn is_empty(&self, vertex: u32) -> bool {
+        self.merged.contains(&vertex)
+            || self.empty.has(vertex) && !self.positions.contains_key(&vertex)
+    }
+
+    fn no_such_vertex(&self, vertex: u32) -> ErrorKind {
+        ErrorKind::NoSuchVertex {
+            vertex,
+            vertices: self.vertices,
+        }
+    }
+
+    fn check_vertex(&self, vertex: u32) -> Result<(), ErrorKind> {
+        if vertex as usize >= self.vertices {
+            return Err(self.no_such_vertex(vertex));
+        }
+        if self.is_empty(vertex) {
+            return Err(ErrorKind::EmptyVertex { vertex });
+        }
+        Ok(())
+    }
+
+    fn check_triangle(&self, triangle: u32) -> Result<(), ErrorKind> {
+        if triangle as usize >= self.triangles {
+            return Err(ErrorKind::NoSuchTriangle {
+                triangle,
+                triangles: self.triangles,
+            });
+        }
+        Ok(())
+    }
+
+    fn live_corners(&self, triangle: u32) -> Result<[u32; 3], ErrorKind> {
+        self.check_triangle(triangle)?;
+        let corners = self.corners(triangle);
+        if corners == EMPTY {
+            return Err(ErrorKind::EmptyTriangle { triangle });
+        }
+        Ok(corners)
+    }
+
+    fn check_corners(&self, triangle: u32, corners: [u32; 3]) -> Result<(), ErrorKind> {
+        for vertex in corners {
+            if vertex as usize >= self.vertices {
+                return Err(ErrorKind::VertexOutOfRange {
+                    triangle: triangle as usize,
+                    vertex,
+                    vertices: self.vertices,
+                });
+            }
+            if self.is_empty(vertex) {
+                return Err(ErrorKind::EmptyVertex { vertex });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Corners with one vertex in place of another.
+fn renamed(corners: [u32; 3], from: u32, to: u32) -> [u32; 3] {
+    corners.map(|vertex| if vertex == from { to } else { vertex })
+}
+
+fn too_large(what: &'static str, count: usize, limit: usize) -> ErrorKind {
+    ErrorKind::TooLarge { what, count, limit }
+}

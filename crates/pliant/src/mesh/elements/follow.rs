@@ -1,0 +1,191 @@
+//! Edges of a mesh that is edited.
+//!
+//! An edge that stays keeps its number; one that goes leaves its number empty; one that comes has the lowest empty number, else the next. In
+//! tree order what belongs to triangles stays where it is, be these triangles taken out or not: an edge that a triangle of now has may belong
+//! to one that was taken out. What comes belongs to the triangles that come, behind all others.
+
+use super::{Elements, NO_EDGE, UNSEEN};
+use crate::held::{self, Held};
+use crate::ids::{CallerTriangle, TreeTriangle};
+use crate::mesh::{Bits, Order, Topology, TrianglesAt};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Which edges triangles have, and where edges are.
+#[derive(Clone, Debug)]
+pub(super) struct EdgeIndex {
+    /// For each of the caller's triangles the edges that begin at its corners; [`UNSEEN`] where two corners are one vertex.
+    of_triangles: Vec<[u32; 3]>,
+    /// For each of the caller's edges its number in tree order.
+    tree_edges: Vec<u32>,
+    /// The caller's numbers that are empty.
+    free: BTreeSet<u32>,
+    /// In tree order, those that are edges no more.
+    gone: Bits,
+}
+
+/// A triangle that an edit changes: its number, its corners before and after.
+pub(crate) type Changed = (u32, [[u32; 3]; 2]);
+
+/// The ends of the three edges of a triangle, the smaller first, from its first corner on; the same vertex twice where it has none.
+fn sides([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
+    [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
+}
+
+impl EdgeIndex {
+    /// Of edges that are sorted. Cost: linear.
+    fn new(callers: &[[u32; 2]], numbers: &[u32], topology: &Topology) -> Self {
+        let mut firsts = vec![0_u32; topology.vertex_count() + 1];
+        for [low, _] in callers {
+            firsts[*low as usize + 1] += 1;
+        }
+        for vertex in 1..firsts.len() {
+            firsts[vertex] += firsts[vertex - 1];
+        }
+        let number = |[low, high]: [u32; 2]| {
+            if low == high {
+                return UNSEEN;
+            }
+            let [first, end] = [0, 1].map(|next| firsts[low as usize + next] as usize);
+            (first + callers[first..end].partition_point(|edge| edge[1] < high)) as u32
+        };
+        let mut tree_edges = vec![UNSEEN; callers.len()];
+        for (tree_edge, &number) in (0..).zip(numbers) {
+            tree_edges[number as usize] = tree_edge;
+        }
+        let triangles = topology.triangles().iter();
+        Self {
+            of_triangles: triangles
+                .map(|&corners| sides(corners).map(number))
+                .collect(),
+            tree_edges,
+            free: BTreeSet::new(),
+            gone: Bits::default(),
+        }
+    }
+
+    /// The edge with these ends, of the triangles at a vertex whose edges are known.
+    fn find(&self, at: &TrianglesAt, topology: &Topology, ends: [u32; 2]) -> Option<u32> {
+        at.of(ends[0]).find_map(|triangle| {
+            let of_triangle = self.of_triangles[triangle as usize];
+            let sides = sides(topology.corners(CallerTriangle(triangle)).map(|it| it.0));
+            let place = sides.into_iter().position(|side| side == ends)?;
+            Some(of_triangle[place]).filter(|&number| number != UNSEEN)
+        })
+    }
+}
+
+impl Elements {
+    /// Whether an edge in tree order is one no more.
+    #[inline]
+    pub(crate) fn is_gone(&self, tree_edge: u32) -> bool {
+        let index = self.index.as_ref();
+        index.is_some_and(|index| index.gone.has(tree_edge))
+    }
+
+    /// Whether it follows edits.
+    pub(crate) fn follows(&self) -> bool {
+        self.index.is_some()
+    }
+
+    /// Makes ready to follow edits; of a mesh that is going to be edited.
+    pub(crate) fn begin_to_follow(&mut self, topology: &Topology) {
+        let (callers, numbers) = (&self.callers, &self.numbers);
+        self.index
+            .get_or_insert_with(|| Box::new(EdgeIndex::new(callers, numbers, topology)));
+    }
+
+    /// Triangles were changed; the mesh is as it is now. In tree order nothing has moved.
+    pub(crate) fn follow(&mut self, changed: &[Changed], topology: &Topology, at: &TrianglesAt) {
+        let Some(index) = &mut self.index else {
+            return;
+        };
+        let mut before = BTreeMap::new();
+        for &(triangle, [old, _]) in changed {
+            let triangle = triangle as usize;
+            if triangle >= index.of_triangles.len() {
+                index.of_triangles.resize(triangle + 1, [UNSEEN; 3]);
+            }
+            let edges = std::mem::replace(&mut index.of_triangles[triangle], [UNSEEN; 3]);
+            let known = sides(old).into_iter().zip(edges);
+            before.extend(known.filter(|&(_, number)| number != UNSEEN));
+        }
+        for &(triangle, [_, new]) in changed {
+            for (place, ends) in sides(new).into_iter().enumerate() {
+                if ends[0] == ends[1] {
+                    continue;
+                }
+                let known = before.get(&ends).copied();
+                let known = known.or_else(|| index.find(at, topology, ends));
+                let number = known.unwrap_or_else(|| {
+                    let number = index.free.pop_first().unwrap_or(self.callers.len() as u32);
+                    if number as usize == self.callers.len() {
+                        self.callers.push(ends);
+                        index.tree_edges.push(UNSEEN);
+                    }
+                    self.callers[number as usize] = ends;
+                    before.insert(ends, number);
+                    number
+                });
+                index.of_triangles[triangle as usize][place] = number;
+            }
+        }
+        for (ends, number) in before {
+            if index.find(at, topology, ends).is_none() {
+                self.callers[number as usize] = NO_EDGE;
+                index.free.insert(number);
+                let tree_edge = &mut index.tree_edges[number as usize];
+                if *tree_edge != UNSEEN {
+                    index.gone.insert(*tree_edge);
+                    *tree_edge = UNSEEN;
+                }
+            }
+        }
+        index.of_triangles.truncate(topology.triangles().len());
+    }
+
+    /// The triangles in tree order from a place on are others now: what belonged to them belongs to these.
+    pub(crate) fn append(&mut self, order: &Order, first: TreeTriangle, used_before: u32) {
+        self.tree_vertices.take();
+        let Some(index) = &mut self.index else {
+            return;
+        };
+        let first_edge = self.firsts[first.index()][1];
+        for (tree_edge, &number) in (first_edge..).zip(&self.numbers[first_edge as usize..]) {
+            let known = &mut index.tree_edges[number as usize];
+            if *known == tree_edge {
+                *known = UNSEEN;
+            }
+        }
+        index.gone.cut_back(first_edge);
+        self.ends.truncate(first_edge as usize);
+        self.numbers.truncate(first_edge as usize);
+        self.firsts.truncate(first.index());
+        let mut used = used_before;
+        for place in first.0..order.all_corners().len() as u32 {
+            let place = TreeTriangle(place);
+            let corners = order.corners(place);
+            self.firsts.push([used, self.ends.len() as u32]);
+            used = corners
+                .iter()
+                .fold(used, |used, corner| used.max(corner.0 + 1));
+            let edges = index.of_triangles[order.caller_triangle(place).index()];
+            for ([i, j], number) in [[0, 1], [1, 2], [2, 0]].into_iter().zip(edges) {
+                if number != UNSEEN && index.tree_edges[number as usize] == UNSEEN {
+                    index.tree_edges[number as usize] = self.ends.len() as u32;
+                    self.ends.push([corners[i], corners[j]]);
+                    self.numbers.push(number);
+                }
+            }
+        }
+        self.firsts.push([used, self.ends.len() as u32]);
+    }
+}
+
+impl Held for EdgeIndex {
+    fn held(&self) -> usize {
+        held::list(&self.of_triangles)
+            + held::list(&self.tree_edges)
+            + held::entries::<u32>(self.free.len())
+            + self.gone.held()
+    }
+}

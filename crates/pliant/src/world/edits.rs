@@ -1,0 +1,458 @@
+//! Edits of a body's mesh: what is taken out stays in the trees and is passed over, what comes is put into trees of its own.
+//!
+//! The triangles in tree order are those of the first tree, then those of smaller ones: *parts* of the body, each over a run. Vertices are
+//! numbered as triangles first use them, whichever tree these are in, so a part that comes behind all others changes nothing in them: not a
+//! box becomes stale. A triangle that goes, or gets other corners, is marked as taken out; with other corners it comes again behind all
+//! others. What comes makes a new part together with those last parts that are not much larger, so that there are few, and each triangle is
+//! put into a tree a few times only (Bentley and Saxe 1980, *Decomposable searching problems*). When much of the first tree is out of date
+//! the whole is built anew.
+//!
+//! So an edit costs what it names and what came lately, not what there is; but for the first of a body, which makes the lists that say where
+//! triangles are, and for the one that builds the tree anew, whose cost is a small part of that of each edit before it.
+
+use super::body::{Body, all_inside, divide, is_in_range, none_is_lost};
+use super::edit_state::{EditState, NOWHERE};
+use super::part::Part;
+use crate::edit::{Edit, Edited};
+use crate::error::ErrorKind;
+use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
+use crate::kernels::{Coordinate, Instructions};
+use crate::mesh::{Bits, Draft, EMPTY, Outcome};
+use crate::options::Options;
+use crate::threads::Executor;
+use crate::tree::Tree;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A part that is at most so many times as large as what comes is made anew with it.
+const MUCH_LARGER: usize = 4;
+/// A part of so few triangles is made anew with whatever comes.
+const FEW: usize = 64;
+/// The tree is built anew when this part of its triangles was taken out or came behind it,
+const OUT_OF_DATE: usize = 8;
+/// but not for so few.
+const FEWEST: usize = 32;
+/// Up to so far away in the order of the tree an alias is looked for.
+const NEARBY: usize = 64;
+
+impl<const N: usize, S: Coordinate> Body<N, S> {
+    /// An edit of the mesh of now, without steps.
+    pub(super) fn begin_edit(&self) -> Edit<S> {
+        let [vertices, triangles] = [self.vertex_count(), self.triangle_numbers()];
+        Edit::new(self.id, self.revision, vertices, triangles)
+    }
+
+    /// Whether a triangle in tree order was taken out of the mesh.
+    pub(super) fn is_gone(&self, triangle: TreeTriangle) -> bool {
+        let edits = self.edits.as_ref();
+        edits.is_some_and(|edits| edits.gone.has(triangle.0))
+    }
+
+    /// Whether a number is that of a triangle, for each.
+    pub(super) fn live_triangles(&self) -> Vec<bool> {
+        let triangles = self.topology.triangles().iter();
+        triangles.map(|&corners| corners != EMPTY).collect()
+    }
+
+    /// Whether a number is that of a vertex, for each.
+    pub(super) fn live_vertices(&self) -> Vec<bool> {
+        let is_empty = |vertex| {
+            let edits = self.edits.as_ref();
+            edits.is_some_and(|edits| edits.empty.has(vertex))
+        };
+        let vertices = 0..self.vertex_count() as u32;
+        vertices.map(|vertex| !is_empty(vertex)).collect()
+    }
+
+    /// Makes all changes of an edit; or leaves the body as it is and says what was wrong.
+    pub(super) fn apply(&mut self, edit: &Edit<S>, options: &Options) -> Result<Edited, ErrorKind> {
+        if edit.revision != self.revision {
+            return Err(ErrorKind::OutdatedEdit);
+        }
+        self.prepare_to_edit();
+        let outcome = self.draft(edit)?;
+        self.check_new_vertices(&outcome)?;
+        let is_nothing = outcome.changed.is_empty()
+            && outcome.triangles == self.triangle_numbers()
+            && outcome.new_vertices.is_empty()
+            && outcome.emptied.is_empty();
+        if is_nothing {
+            return Ok(Edited::default());
+        }
+        let edited = self.said_of(&outcome);
+        self.commit(&outcome, options);
+        Ok(edited)
+    }
+
+    /// Gives the body another mesh and its shape; or leaves it as it is and says what was wrong. What is equal by number stays.
+    pub(super) fn set_mesh(
+        &mut self,
+        triangles: &[[u32; 3]],
+        positions: &[[S; 3]],
+        options: &Options,
+        (instructions, executor): (Instructions, Executor),
+    ) -> Result<(), ErrorKind> {
+        super::body::validate(triangles, positions)?;
+        if let Some(loose) = self.loose {
+            all_inside(&loose, positions)?;
+        }
+        let old = self.topology.triangles();
+        let numbers = 0..old.len().max(triangles.len());
+        let of = |all: &[[u32; 3]], triangle| all.get(triangle).copied().unwrap_or(EMPTY);
+        let both = |triangle| {
+            (
+                triangle as u32,
+                [of(old, triangle), of(triangles, triangle)],
+            )
+        };
+        let changed = numbers.map(both).filter(|(_, [old, new])| old != new);
+        let is_much = changed.clone().count() * OUT_OF_DATE > self.topology.live_count();
+        if is_much || positions.len() < self.vertex_count() {
+            *self = self.with_mesh(triangles, positions, options);
+            return Ok(());
+        }
+        let changed: Vec<_> = changed.collect();
+        self.groups = None;
+        self.prepare_to_edit();
+        if let Some(edits) = &mut self.edits {
+            edits.empty = Bits::default();
+            edits.aliases.clear();
+        }
+        let added = self.vertex_count().min(positions.len())..positions.len();
+        let outcome = Outcome {
+            changed,
+            triangles: triangles.len(),
+            vertices: positions.len(),
+            new_vertices: added.map(|it| (it as u32, positions[it])).collect(),
+            split_from: BTreeMap::new(),
+            emptied: Vec::new(),
+        };
+        self.follow(&outcome);
+        self.motion = None;
+        self.take_in(&outcome, options);
+        self.set_positions(instructions, executor, positions)
+    }
+
+    /// Makes the lists that edits need, the first time.
+    fn prepare_to_edit(&mut self) {
+        let (topology, order) = (&self.topology, &self.order);
+        self.edits
+            .get_or_insert_with(|| Box::new(EditState::new(topology, order)));
+    }
+
+    /// What the steps of an edit come to.
+    fn draft(&self, edit: &Edit<S>) -> Result<Outcome<S>, ErrorKind> {
+        let Some(edits) = &self.edits else {
+            return Err(ErrorKind::OutdatedEdit);
+        };
+        let order = self.order.vertex_order();
+        let position_of = |vertex: u32| self.positions.get(edits.slots[vertex as usize], order);
+        let mut draft = Draft::new(&self.topology, &edits.at, &edits.empty, &position_of);
+        for step in &edit.steps {
+            draft.take(step)?;
+        }
+        draft.finish()
+    }
+
+    /// What an edit is going to change.
+    fn said_of(&self, outcome: &Outcome<S>) -> Edited {
+        let mut edited = Edited::default();
+        for &(triangle, [old, new]) in &outcome.changed {
+            let list = match (old, new) {
+                (EMPTY, _) => &mut edited.new_triangles,
+                (_, EMPTY) => &mut edited.removed_triangles,
+                _ => &mut edited.changed_triangles,
+            };
+            list.push(triangle);
+        }
+        let edits = self.edits.as_ref();
+        let was_there = |vertex: &&u32| {
+            (**vertex as usize) < self.vertex_count()
+                && !edits.is_some_and(|edits| edits.empty.has(**vertex))
+        };
+        let gone = outcome.emptied.iter();
+        edited.removed_vertices = gone.filter(was_there).copied().collect();
+        let new = outcome.new_vertices.iter().map(|&(vertex, _)| vertex);
+        let stay = new.filter(|vertex| outcome.emptied.binary_search(vertex).is_err());
+        edited.new_vertices = stay.collect();
+        edited
+    }
+
+    /// Refuses positions that no vertex can have.
+    fn check_new_vertices(&self, outcome: &Outcome<S>) -> Result<(), ErrorKind> {
+        for &(vertex, position) in &outcome.new_vertices {
+            let vertex = vertex as usize;
+            if !is_in_range(position) {
+                return Err(ErrorKind::BadPosition {
+                    vertex,
+                    position: position.map(S::to_f64),
+                });
+            }
+            if self.loose.is_some_and(|loose| !loose.holds(position)) {
+                return Err(ErrorKind::OutsideLooseBox {
+                    vertex,
+                    position: position.map(S::to_f64),
+                });
+            }
+            none_is_lost(&[position]).map_err(|kind| match kind {
+                ErrorKind::NeedsSubnormals { .. } => ErrorKind::NeedsSubnormals { vertex },
+                other => other,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Makes changes that were found good. A motion ends.
+    fn commit(&mut self, outcome: &Outcome<S>, options: &Options) {
+        self.motion = None;
+        self.follow(outcome);
+        self.take_in(outcome, options);
+    }
+
+    /// Changes the mesh, and what is said of it in the caller's numbers; nothing in tree order.
+    fn follow(&mut self, outcome: &Outcome<S>) {
+        let Some(edits) = &mut self.edits else {
+            return;
+        };
+        let changed = &outcome.changed;
+        if let Some(elements) = self.elements.get_mut() {
+            elements.begin_to_follow(&self.topology);
+        }
+        for &(triangle, [old, _]) in changed {
+            edits.at.unlink(triangle, old);
+        }
+        let numbers = outcome.triangles.max(self.topology.triangles().len());
+        let vertices = outcome.vertices.max(self.topology.vertex_count());
+        edits.at.resize(vertices, numbers);
+        for &(triangle, [_, new]) in changed {
+            self.topology.set(triangle, new);
+            edits.at.link(triangle, new);
+        }
+        for &vertex in changed.iter().flat_map(|(_, both)| both.as_flattened()) {
+            if edits.at.of(vertex).next().is_none() && vertex != u32::MAX {
+                edits.unused.insert(vertex);
+            } else {
+                edits.unused.remove(vertex);
+            }
+        }
+        if let Some(elements) = self.elements.get_mut() {
+            elements.follow(changed, &self.topology, &edits.at);
+        }
+        edits.at.resize(outcome.vertices, outcome.triangles);
+        self.topology.set_vertex_count(outcome.vertices);
+        self.topology.set_triangle_count(outcome.triangles);
+        if let Some(groups) = &mut self.groups {
+            groups.callers.resize(outcome.vertices, 0);
+            for &(vertex, _) in &outcome.new_vertices {
+                let from = outcome.split_from.get(&vertex);
+                let group = from.map_or(0, |&from| groups.callers[from as usize]);
+                groups.callers[vertex as usize] = group;
+            }
+            groups.of_elements = None;
+        }
+    }
+
+    /// Takes changes into tree order: a part for what comes, or the whole anew.
+    fn take_in(&mut self, outcome: &Outcome<S>, options: &Options) {
+        self.add_vertices(outcome);
+        let mut coming: Vec<u32> = Vec::new();
+        if let Some(edits) = &mut self.edits {
+            let first_of_others = self.parts.first.triangles.end;
+            edits
+                .places
+                .resize(outcome.triangles.max(edits.places.len()), NOWHERE);
+            for &(triangle, [_, new]) in &outcome.changed {
+                let place = std::mem::replace(&mut edits.places[triangle as usize], NOWHERE);
+                if place != NOWHERE {
+                    edits.gone.insert(place);
+                }
+                if new != EMPTY {
+                    coming.push(triangle);
+                }
+            }
+            edits.places.truncate(outcome.triangles);
+            let behind = self.order.all_corners().len() - first_of_others as usize;
+            let out_of_date = edits.gone.count() + behind + coming.len();
+            if out_of_date > FEWEST.max(first_of_others as usize / OUT_OF_DATE) {
+                self.empty_vertices(outcome);
+                self.rebuild(options);
+                return;
+            }
+        }
+        self.empty_vertices(outcome);
+        self.append(coming, options);
+        self.revision += 1;
+    }
+
+    /// Vertices that come, or come again, are somewhere from now on.
+    fn add_vertices(&mut self, outcome: &Outcome<S>) {
+        let known = self.vertex_count();
+        let Some(edits) = &mut self.edits else {
+            return;
+        };
+        let added = outcome.vertices - known;
+        self.order.add_vertices(added);
+        let slots = known as u32..outcome.vertices as u32;
+        edits.slots.extend(slots.map(TreeVertex));
+        let first_added = outcome
+            .new_vertices
+            .partition_point(|&(vertex, _)| (vertex as usize) < known);
+        let (again, new) = outcome.new_vertices.split_at(first_added);
+        let new: Vec<[S; 3]> = new.iter().map(|&(_, position)| position).collect();
+        self.positions.push(&new);
+        for &(vertex, position) in again {
+            edits.empty.remove(vertex);
+            edits.aliases.remove(&vertex);
+            let slot = edits.slots[vertex as usize];
+            self.positions.place(CallerVertex(vertex), slot, position);
+            // Boxes over what was taken out hold it, and were made before.
+            self.epoch += 1;
+        }
+        for &(_, position) in &outcome.new_vertices {
+            self.bounds.include(position);
+        }
+    }
+
+    /// Vertices that no triangle has any more are where others are from now on.
+    fn empty_vertices(&mut self, outcome: &Outcome<S>) {
+        let Some(edits) = &mut self.edits else {
+            return;
+        };
+        for &vertex in &outcome.emptied {
+            edits.empty.insert(vertex);
+        }
+        let is_used = |edits: &EditState<S>, vertex: u32| edits.at.of(vertex).next().is_some();
+        for (_, [old, _]) in &outcome.changed {
+            let beside = old.iter().find(|&&vertex| is_used(edits, vertex));
+            for &vertex in old {
+                if let Some(&beside) = beside
+                    && edits.empty.has(vertex)
+                {
+                    edits.aliases.insert(vertex, beside);
+                }
+            }
+        }
+        let order = self.order.vertex_order();
+        let mut any = None;
+        for &vertex in &outcome.emptied {
+            if edits.aliases.contains_key(&vertex) {
+                continue;
+            }
+            let slot = edits.slots[vertex as usize].index();
+            let around = slot.saturating_sub(NEARBY)..order.len().min(slot + NEARBY);
+            let mut near = order[around].iter().copied();
+            let alias = near.find(|&vertex| is_used(edits, vertex)).or_else(|| {
+                let triangles = self.topology.triangles().iter();
+                any = any.or_else(|| triangles.copied().find(|&corners| corners != EMPTY));
+                any.map(|[vertex, _, _]| vertex)
+            });
+            edits.aliases.extend(alias.map(|alias| (vertex, alias)));
+        }
+    }
+
+    /// Puts triangles behind all others, in a part with those last ones that are not much larger.
+    fn append(&mut self, mut coming: Vec<u32>, options: &Options) {
+        let Some(edits) = &mut self.edits else {
+            return;
+        };
+        let mut start = (
+            self.order.all_corners().len() as u32,
+            TreeVertex(self.order.used_vertices() as u32),
+        );
+        while let Some(last) = self.parts.others.last() {
+            let many = FEW.max(MUCH_LARGER * coming.len());
+            if coming.is_empty() || last.triangles.len() > many {
+                break;
+            }
+            let still = last
+                .triangles
+                .clone()
+                .filter(|&place| !edits.gone.has(place));
+            let order = self.order.triangle_order();
+            coming.extend(still.map(|place| order[place as usize]));
+            start = (last.triangles.start, last.first_vertex);
+            self.parts.others.pop();
+        }
+        if coming.is_empty() {
+            return;
+        }
+        coming.sort_unstable();
+        let (first, first_vertex) = start;
+        // Positions of the vertices that are used, and corners by them.
+        let corners: Vec<[u32; 3]> = coming
+            .iter()
+            .map(|&triangle| self.topology.triangles()[triangle as usize])
+            .collect();
+        let used: BTreeSet<u32> = corners.as_flattened().iter().copied().collect();
+        let used: Vec<u32> = used.into_iter().collect();
+        let vertex_order = self.order.vertex_order();
+        let position = |vertex: &u32| {
+            self.positions
+                .get(edits.slots[*vertex as usize], vertex_order)
+        };
+        let positions: Vec<[S; 3]> = used.iter().map(position).collect();
+        let place = |vertex: u32| used.partition_point(|&it| it < vertex) as u32;
+        let corners: Vec<[u32; 3]> = corners.into_iter().map(|it| it.map(place)).collect();
+        let mut plan = divide(&corners, &positions, options)
+            .with_numbers(&coming)
+            .behind(first);
+        let order = std::mem::take(&mut plan.order);
+
+        edits.gone.cut_back(first);
+        self.order.cut_back(first as usize, first_vertex.index());
+        let all = &mut self.positions;
+        self.order
+            .append(&self.topology, &order, &mut edits.slots, |both| {
+                all.exchange(both);
+            });
+        for (place, &triangle) in (first..).zip(&order) {
+            edits.places[triangle as usize] = place;
+        }
+        let tree = Tree::new(&plan, &self.order, first_vertex);
+        let end = first + order.len() as u32;
+        self.parts
+            .others
+            .push(Part::new(tree, first..end, first_vertex));
+        if let Some(elements) = self.elements.get_mut() {
+            elements.append(&self.order, TreeTriangle(first), first_vertex.0);
+        }
+    }
+
+    /// Checks that every triangle is in the trees once, with the corners that it has.
+    pub(super) fn validate_edits(&self) -> Result<(), String> {
+        let mut seen = vec![false; self.triangle_numbers()];
+        for place in (0..self.triangle_count() as u32).map(TreeTriangle) {
+            if self.is_gone(place) {
+                continue;
+            }
+            let triangle = self.order.caller_triangle(place);
+            let corners = self
+                .order
+                .corners(place)
+                .map(|it| self.order.caller_vertex(it));
+            let is_first = seen
+                .get_mut(triangle.index())
+                .map(|seen| !std::mem::replace(seen, true));
+            if is_first != Some(true) || corners != self.topology.corners(triangle) {
+                return Err(format!("{place:?} is not {triangle:?}, or once too often"));
+            }
+        }
+        let is_live = |triangle: usize| self.topology.is_live(triangle as u32);
+        match (0..seen.len()).find(|&triangle| seen[triangle] != is_live(triangle)) {
+            Some(triangle) => Err(format!(
+                "triangle {triangle}: in no tree, or in one and empty"
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// The same body with another mesh, whose tree is built.
+    fn with_mesh(&self, triangles: &[[u32; 3]], positions: &[[S; 3]], options: &Options) -> Self {
+        let mut new = Self::new(self.id, triangles, positions, options);
+        new.epoch = self.epoch + 1;
+        new.revision = self.revision + 1;
+        new.loose = self.loose;
+        let (membership, mask) = self.filter();
+        new.set_filter(membership, mask);
+        new
+    }
+}

@@ -1,0 +1,125 @@
+//! A tree of a body, over a run of the triangles in tree order, and what hangs on it: boxes, and boxes of elements.
+//!
+//! A body has one part, over all of its triangles, until its mesh is edited: see `edits`.
+
+use super::positions::SMALL;
+use crate::geometry::{Points, Shape};
+use crate::held::{self, Held};
+use crate::ids::TreeVertex;
+use crate::kernels::{Coordinate, Instructions};
+use crate::mesh::{Elements, Order};
+use crate::queries::{BoxSetNumber, NearBoxes, Which};
+use crate::threads::Executor;
+use crate::tree::{BoxSet, BoxSource, Swept, Tree};
+use std::ops::Range;
+
+pub(super) struct Part<const N: usize> {
+    pub(super) tree: Tree<N>,
+    /// Its run of the triangles in tree order.
+    pub(super) triangles: Range<u32>,
+    /// They are the first to use vertices from this one on.
+    pub(super) first_vertex: TreeVertex,
+    /// By the number of the set. They are made when a kind of query asks for them; but in a large body the first, of the shape as it is,
+    /// is there from the beginning.
+    boxes: Vec<Option<BoxSet<N>>>,
+    /// Boxes of elements, once somebody asks for those.
+    pub(super) near_boxes: Option<Box<NearBoxes>>,
+}
+
+/// What boxes of elements are made of: the mesh in tree order, the shape, and where it is going.
+pub(super) struct OfElements<'b, S> {
+    pub(super) elements: &'b Elements,
+    pub(super) shape: Shape<'b, S>,
+    pub(super) end: Option<(&'b Points<S>, u64)>,
+}
+
+impl<const N: usize> Part<N> {
+    /// Of a tree over these triangles, which are the first to use vertices from `first_vertex` on.
+    pub(super) fn new(tree: Tree<N>, triangles: Range<u32>, first_vertex: TreeVertex) -> Self {
+        let boxes = if triangles.len() > SMALL {
+            vec![Some(BoxSet::new(&tree))]
+        } else {
+            Vec::new()
+        };
+        Self {
+            tree,
+            triangles,
+            first_vertex,
+            boxes,
+            near_boxes: None,
+        }
+    }
+
+    /// The tree, a set of its boxes, which is made if it was never asked for, and the boxes of elements.
+    pub(super) fn for_query(
+        &mut self,
+        number: BoxSetNumber,
+    ) -> (&Tree<N>, &mut BoxSet<N>, Option<&NearBoxes>) {
+        if self.boxes.len() <= number {
+            self.boxes.resize_with(number + 1, || None);
+        }
+        let tree = &self.tree;
+        let boxes = self.boxes[number].get_or_insert_with(|| BoxSet::new(tree));
+        (tree, boxes, self.near_boxes.as_deref())
+    }
+
+    /// A set of boxes, if some query asked for it.
+    pub(super) fn boxes(&self, number: BoxSetNumber) -> Option<&BoxSet<N>> {
+        self.boxes.get(number)?.as_ref()
+    }
+
+    /// The same, whose boxes are made anew.
+    pub(super) fn copy(&self) -> Self {
+        Self::new(self.tree.clone(), self.triangles.clone(), self.first_vertex)
+    }
+
+    /// All boxes are stale: some may have been left half made.
+    pub(super) fn forget_boxes(&mut self) {
+        self.boxes.iter_mut().flatten().for_each(BoxSet::forget);
+    }
+
+    /// Makes the boxes of elements, unless they are those of the shape and the motion of now. Returns false if it was interrupted.
+    pub(super) fn make_near_boxes<S: Coordinate>(
+        &mut self,
+        which: Which,
+        of: &OfElements<S>,
+        threads: (Instructions, Executor),
+    ) -> bool {
+        let end = of.end.map(|(positions, epoch)| Shape {
+            positions,
+            epoch,
+            ..of.shape
+        });
+        let source = Swept {
+            from: of.shape,
+            to: end,
+        };
+        self.near_boxes.get_or_insert_default().make(
+            which,
+            source.version(),
+            threads,
+            (&of.shape, end.map(|end| end.positions)),
+            (&self.tree.leaves, of.elements),
+        )
+    }
+
+    /// Which of its triangles share a vertex, for a part that meets itself. A small part behind others is not worth a table, which takes
+    /// time by all vertices: corners are compared there.
+    pub(super) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
+        if self.triangles.start == 0 {
+            self.tree.know_neighbours(order, executor);
+        }
+    }
+}
+
+impl<const N: usize> Held for Part<N> {
+    fn held(&self) -> usize {
+        self.tree.held()
+            + held::list(&self.boxes)
+            + held::within(self.boxes.iter().flatten())
+            + self
+                .near_boxes
+                .as_ref()
+                .map_or(0, |it| size_of::<NearBoxes>() + it.held())
+    }
+}

@@ -1,0 +1,337 @@
+//! Bodies from one and one from bodies: components, split, fuse, weld. All of it is said with the calls that anybody has.
+
+use super::{Scalar, World};
+use crate::edit::Edited;
+use crate::error::{Error, ErrorKind};
+use crate::ids::BodyId;
+use crate::mesh;
+use std::ops::Range;
+
+/// A body that was a component of another.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// The new body.
+    pub body: BodyId,
+    /// For each of its triangles the number that it had; ascending.
+    pub triangles: Vec<u32>,
+    /// For each of its vertices the number that it had; ascending.
+    pub vertices: Vec<u32>,
+}
+
+/// The numbers of what came from another body.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fused {
+    /// For each triangle of the body that is no more the number that it has now; [`u32::MAX`] for numbers that were empty.
+    pub triangles: Vec<u32>,
+    /// The same of its vertices.
+    pub vertices: Vec<u32>,
+}
+
+impl<S: Scalar> World<S> {
+    /// For each triangle of a body its component, shape (m,): two are in one if they share a vertex, or hang together through others that
+    /// do. Components are numbered from 0 in the order of their first triangles; an empty number has [`u32::MAX`].
+    ///
+    /// Cost: O(m + n).
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody).
+    #[doc(alias = "connected_components")]
+    pub fn components(&self, body: BodyId) -> Result<Vec<u32>, Error> {
+        let triangles = self.triangles(body)?;
+        Ok(mesh::components(triangles, self.vertex_count(body)?).0)
+    }
+
+    /// Makes a body of each component, but of the largest, which stays what it is with all its numbers: that with the most triangles, of
+    /// several the first. Returns the new bodies in the order of their first triangles; none, and nothing has changed, if all hangs together.
+    ///
+    /// What they have from the body: filter, loose box, vertex groups, and whom it [ignores](Self::ignore); if it ignores itself, the
+    /// pieces ignore each other and it. So [`Everything`](crate::Selection::Everything) finds what it found. A motion of the body ends, as
+    /// by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let at = |x: f32| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]];
+    /// let body = world.add(&[[0, 1, 2], [3, 4, 5]], &[at(0.0), at(5.0)].concat())?;
+    /// let pieces = world.split(body)?;
+    /// assert_eq!(pieces[0].triangles, [1]);
+    /// assert_eq!(pieces[0].vertices, [3, 4, 5]);
+    /// assert_eq!(world.positions(pieces[0].body)?, at(5.0));
+    /// assert_eq!(world.live_triangles(body)?, [true, false]);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(m + n), and building the trees of the pieces.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody); [`TooManyBodies`](ErrorKind::TooManyBodies), and nothing has changed.
+    pub fn split(&mut self, body: BodyId) -> Result<Vec<Piece>, Error> {
+        let triangles = self.triangles(body)?;
+        let (component_of, count) = mesh::components(triangles, self.vertex_count(body)?);
+        let mut pieces: Vec<Piece> = (0..count).map(|_| Piece::empty(body)).collect();
+        for (triangle, &component) in (0..).zip(&component_of) {
+            if let Some(piece) = pieces.get_mut(component as usize) {
+                piece.triangles.push(triangle);
+            }
+        }
+        let size = |component: &usize| pieces[*component].triangles.len();
+        let Some(largest) = (0..count).rev().max_by_key(size) else {
+            return Ok(Vec::new());
+        };
+        pieces.remove(largest);
+        if pieces.is_empty() {
+            return Ok(pieces);
+        }
+        self.check_ids_for(pieces.len())?;
+        let inherited = Inherited::of(self, body)?;
+        let ids_before = self.bodies().len();
+        if let Err(refused) = self.take_out(body, &mut pieces) {
+            let added: Vec<BodyId> = self.bodies().skip(ids_before).collect();
+            added.into_iter().try_for_each(|piece| self.remove(piece))?;
+            return Err(refused);
+        }
+        let new: Vec<BodyId> = pieces.iter().map(|piece| piece.body).collect();
+        inherited.give(self, body, &new)?;
+        Ok(pieces)
+    }
+
+    /// Makes bodies of some components, whose triangles are known, and takes them out of the body.
+    fn take_out(&mut self, body: BodyId, pieces: &mut [Piece]) -> Result<(), Error> {
+        let triangles = self.triangles(body)?.to_vec();
+        let positions = self.positions(body)?;
+        let groups = self.vertex_groups(body)?;
+        let mut edit = self.edit(body)?;
+        let mut number_of = vec![u32::MAX; positions.len()];
+        for piece in pieces {
+            edit.remove_triangles(&piece.triangles);
+            let corners = piece.triangles.iter().map(|&it| triangles[it as usize]);
+            let corners: Vec<[u32; 3]> = corners.collect();
+            piece.vertices = corners.as_flattened().to_vec();
+            piece.vertices.sort_unstable();
+            piece.vertices.dedup();
+            for (number, &vertex) in (0..).zip(&piece.vertices) {
+                number_of[vertex as usize] = number;
+            }
+            let renamed = |corners: [u32; 3]| corners.map(|vertex| number_of[vertex as usize]);
+            let corners: Vec<[u32; 3]> = corners.into_iter().map(renamed).collect();
+            let of_piece = piece.vertices.iter().map(|&it| positions[it as usize]);
+            piece.body = self.add(&corners, &of_piece.collect::<Vec<_>>())?;
+            let of_piece = piece.vertices.iter().map(|&it| groups[it as usize]);
+            self.set_vertex_groups(piece.body, &of_piece.collect::<Vec<_>>())?;
+        }
+        self.apply(&edit).map(drop)
+    }
+
+    /// Puts the triangles and vertices of a second body behind those of a first, and removes the second. Says which numbers they have now.
+    ///
+    /// The first keeps its numbers, its filter and whom it [ignores](Self::ignore); vertices keep their groups. The loose box is then one
+    /// around both if both had one, else there is none. Motions of either end, as by [`apply`](Self::apply). Nothing is welded: see
+    /// [`weld`](Self::weld).
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let at = |x: f32| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]];
+    /// let a = world.add(&[[0, 1, 2]], &at(0.0))?;
+    /// let b = world.add(&[[0, 1, 2]], &at(5.0))?;
+    /// let fused = world.fuse(a, b)?;
+    /// assert_eq!(fused.triangles, [1]);
+    /// assert_eq!(fused.vertices, [3, 4, 5]);
+    /// assert_eq!(world.bodies().len(), 1);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: building a tree for what comes; for both, if the second has more than an eighth of the triangles of the first.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody), [`SameBody`](ErrorKind::SameBody), [`TooLarge`](ErrorKind::TooLarge); nothing has changed.
+    #[doc(alias = "merge")]
+    pub fn fuse(&mut self, a: BodyId, b: BodyId) -> Result<Fused, Error> {
+        let mut edit = self.edit(a)?;
+        let (triangles, positions) = (self.triangles(b)?, self.positions(b)?);
+        if a == b {
+            return Err(Error {
+                body: Some(a),
+                kind: ErrorKind::SameBody,
+            });
+        }
+        let are_vertices = self.live_vertices(b)?;
+        let vertices = numbered(
+            &are_vertices,
+            edit.add_vertices(&kept(&positions, &are_vertices)),
+        );
+        let are_triangles = self.live_triangles(b)?;
+        let renamed = |corners: [u32; 3]| corners.map(|vertex| vertices[vertex as usize]);
+        let coming = kept(triangles, &are_triangles).into_iter().map(renamed);
+        let coming = edit.add_triangles(&coming.collect::<Vec<_>>());
+        let fused = Fused {
+            triangles: numbered(&are_triangles, coming),
+            vertices,
+        };
+        let mut groups = self.vertex_groups(a)?;
+        let of_b = self.vertex_groups(b)?;
+        let loose = [self.loose_box(a)?, self.loose_box(b)?];
+        let have_groups = groups.iter().chain(&of_b).any(|&group| group != 0);
+
+        self.set_loose_box(a, None)?;
+        if let Err(refused) = self.apply(&edit) {
+            self.set_loose_box(a, loose[0])?;
+            return Err(refused);
+        }
+        if let [Some(one), Some(other)] = loose {
+            self.set_loose_box(a, Some(hull([one, other])))?;
+        }
+        if have_groups {
+            groups.extend(kept(&of_b, &are_vertices));
+            self.set_vertex_groups(a, &groups)?;
+        }
+        self.remove(b)?;
+        Ok(fused)
+    }
+
+    /// Makes boundary edges one where they coincide: where the ends of one are, one by one, at most a tolerance from those of another, in
+    /// the unit of the positions. Of vertices that become one the lowest stays where it is, the others go. A boundary edge is one that
+    /// exactly one triangle has.
+    ///
+    /// Vertices that coincide are not welded where no edges do, and never two corners of one triangle. Says what has changed; nothing, if
+    /// nothing coincides.
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// // Two triangles, each with vertices of its own.
+    /// let mut world = World::<f32>::new();
+    /// let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let body = world.add(&[[0, 1, 2], [3, 4, 5]], &square)?;
+    /// let edited = world.weld(body, 0.0)?;
+    /// assert_eq!(edited.removed_vertices, [3, 4]);
+    /// assert_eq!(world.triangles(body)?, [[0, 1, 2], [0, 2, 5]]);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(m log m).
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](ErrorKind::NoSuchBody); [`BadDistance`](ErrorKind::BadDistance) if the tolerance is not a finite number that is at
+    /// least 0.
+    #[doc(alias = "stitch")]
+    pub fn weld(&mut self, body: BodyId, tolerance: f64) -> Result<Edited, Error> {
+        let mut edit = self.edit(body)?;
+        if !tolerance.is_finite() || tolerance < 0.0 {
+            return Err(Error {
+                body: Some(body),
+                kind: ErrorKind::BadDistance {
+                    distance: tolerance,
+                },
+            });
+        }
+        let positions = self.positions(body)?;
+        let position = |vertex: u32| positions[vertex as usize].map(Scalar::to_f64);
+        for [kept, gone] in mesh::coinciding(self.triangles(body)?, position, tolerance) {
+            edit.merge_vertices(kept, gone);
+        }
+        self.apply(&edit)
+    }
+
+    /// Refuses as many bodies more as there are no ids for.
+    fn check_ids_for(&self, count: usize) -> Result<(), Error> {
+        let left = self
+            .next_id()
+            .map_or(0, |next| u64::from(u32::MAX - next) + 1);
+        if left < count as u64 {
+            return Err(Error {
+                body: None,
+                kind: ErrorKind::TooManyBodies,
+            });
+        }
+        Ok(())
+    }
+}
+
+impl Piece {
+    fn empty(body: BodyId) -> Self {
+        Self {
+            body,
+            triangles: Vec::new(),
+            vertices: Vec::new(),
+        }
+    }
+}
+
+/// What the pieces of a body have from it.
+struct Inherited<S> {
+    filter: (u32, u32),
+    loose: Option<([S; 3], [S; 3])>,
+    /// Whom it does not meet.
+    ignored: Vec<BodyId>,
+}
+
+impl<S: Scalar> Inherited<S> {
+    fn of(world: &World<S>, body: BodyId) -> Result<Self, Error> {
+        let ignored = world.ignored();
+        let with_body = ignored.into_iter().filter(|pair| pair.contains(&body));
+        Ok(Self {
+            filter: world.filter(body)?,
+            loose: world.loose_box(body)?,
+            ignored: with_body
+                .map(|[a, b]| if a == body { b } else { a })
+                .collect(),
+        })
+    }
+
+    fn give(&self, world: &mut World<S>, body: BodyId, new: &[BodyId]) -> Result<(), Error> {
+        for (place, &piece) in new.iter().enumerate() {
+            world.set_filter(piece, self.filter.0, self.filter.1)?;
+            world.set_loose_box(piece, self.loose)?;
+            for &other in &self.ignored {
+                world.ignore(piece, other)?;
+                if other == body {
+                    for &sibling in &new[..=place] {
+                        world.ignore(piece, sibling)?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Those of some things that are there.
+fn kept<T: Copy>(things: &[T], are_there: &[bool]) -> Vec<T> {
+    let both = things.iter().zip(are_there);
+    both.filter(|(_, is)| **is)
+        .map(|(&thing, _)| thing)
+        .collect()
+}
+
+/// Numbers for those that are there.
+fn numbered(are_there: &[bool], mut numbers: Range<u32>) -> Vec<u32> {
+    let mut number = |&is: &bool| if is { numbers.next() } else { None };
+    let numbers = are_there.iter().map(|is| number(is).unwrap_or(u32::MAX));
+    numbers.collect()
+}
+
+/// The box around two.
+fn hull<S: Scalar>([one, other]: [([S; 3], [S; 3]); 2]) -> ([S; 3], [S; 3]) {
+    let lower = |axis: usize| {
+        if other.0[axis] < one.0[axis] {
+            other.0[axis]
+        } else {
+            one.0[axis]
+        }
+    };
+    let upper = |axis: usize| {
+        if other.1[axis] > one.1[axis] {
+            other.1[axis]
+        } else {
+            one.1[axis]
+        }
+    };
+    (std::array::from_fn(lower), std::array::from_fn(upper))
+}

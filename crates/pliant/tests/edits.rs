@@ -1,0 +1,578 @@
+//! Edits of meshes: after every one, a world gives the answers of a world built fresh from what is left, by the numbers that stayed.
+
+mod common;
+
+use common::{Lcg, every_configuration, sheet};
+use pliant::{BodyId, EdgeEdge, Edit, Edited, Options, Scalar, Selection, VertexTriangle, World};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What a test knows of a body, empty numbers as none.
+#[derive(Clone, Debug)]
+struct Known<S> {
+    id: BodyId,
+    triangles: Vec<Option<[u32; 3]>>,
+    positions: Vec<Option<[S; 3]>>,
+    groups: Vec<u32>,
+    end: Option<Vec<[S; 3]>>,
+    /// The number of every edge, once it was asked for.
+    edges: BTreeMap<[u32; 2], u32>,
+    /// Vertices that an edit has placed.
+    placed: BTreeSet<u32>,
+}
+
+/// A body without empty numbers, and what it calls things.
+struct Compact<S> {
+    triangles: Vec<[u32; 3]>,
+    positions: Vec<[S; 3]>,
+    groups: Vec<u32>,
+    end: Option<Vec<[S; 3]>>,
+    known_triangles: Vec<u32>,
+    known_vertices: Vec<u32>,
+}
+
+impl<S: Number> Known<S> {
+    fn new(id: BodyId, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Self {
+        Self {
+            id,
+            triangles: triangles.iter().copied().map(Some).collect(),
+            positions: positions.iter().copied().map(Some).collect(),
+            groups: vec![0; positions.len()],
+            end: None,
+            edges: BTreeMap::new(),
+            placed: BTreeSet::new(),
+        }
+    }
+
+    fn compact(&self) -> Compact<S> {
+        let of_list = |are_there: Vec<bool>| -> Vec<u32> {
+            let all = (0..).zip(are_there);
+            all.filter(|&(_, there)| there).map(|(at, _)| at).collect()
+        };
+        let known_triangles = of_list(self.triangles.iter().map(Option::is_some).collect());
+        let known_vertices = of_list(self.positions.iter().map(Option::is_some).collect());
+        let number = |vertex: u32| known_vertices.partition_point(|&it| it < vertex) as u32;
+        let corners = |&at: &u32| self.triangles[at as usize].unwrap().map(number);
+        let of_vertices =
+            |all: &[[S; 3]]| known_vertices.iter().map(|&it| all[it as usize]).collect();
+        Compact {
+            triangles: known_triangles.iter().map(corners).collect(),
+            positions: self.positions.iter().copied().flatten().collect(),
+            groups: known_vertices
+                .iter()
+                .map(|&it| self.groups[it as usize])
+                .collect(),
+            end: self.end.as_deref().map(of_vertices),
+            known_triangles,
+            known_vertices,
+        }
+    }
+
+    /// The positions as a caller gives them: what is in the rows of empty vertices does not matter.
+    fn rows(&self, random: &mut Lcg) -> Vec<[S; 3]> {
+        let nowhere = [f64::NAN, f64::INFINITY, 3.0][random.below(3) as usize];
+        let nowhere = [S::of(nowhere); 3];
+        self.positions
+            .iter()
+            .map(|it| it.unwrap_or(nowhere))
+            .collect()
+    }
+
+    fn live_triangles(&self) -> Vec<u32> {
+        let all = (0..).zip(&self.triangles);
+        all.filter(|(_, corners)| corners.is_some())
+            .map(|(at, _)| at)
+            .collect()
+    }
+
+    fn is_used(&self, vertex: u32) -> bool {
+        self.triangles
+            .iter()
+            .flatten()
+            .any(|corners| corners.contains(&vertex))
+    }
+}
+
+/// Coordinates that can be made of others.
+trait Number: Scalar {
+    fn of(x: f64) -> Self;
+}
+
+impl Number for f32 {
+    fn of(x: f64) -> Self {
+        x as Self
+    }
+}
+
+impl Number for f64 {
+    fn of(x: f64) -> Self {
+        x
+    }
+}
+
+/// All that is asked of a world, as the test numbers things; edges by their ends.
+#[derive(Debug, Default, PartialEq)]
+struct Answers {
+    intersections: BTreeSet<[u32; 4]>,
+    vertex_triangle: BTreeSet<[u32; 4]>,
+    edge_edge: BTreeSet<[u32; 6]>,
+    close_vertex_triangle: BTreeSet<[u32; 4]>,
+    close_edge_edge: BTreeSet<[u32; 6]>,
+    close_triangles: BTreeSet<[u32; 4]>,
+    vertex_triangle_impacts: BTreeMap<[u32; 4], [u64; 2]>,
+    edge_edge_impacts: BTreeMap<[u32; 6], [u64; 2]>,
+}
+
+impl Answers {
+    /// Says what is there that should not be, or the other way round.
+    fn assert_are(&self, all: &Self) {
+        macro_rules! compare {
+            ($($list:ident),*) => {$(
+                let (found, expected) = (&self.$list, &all.$list);
+                let missing = expected.iter().filter(|it| !found.iter().any(|other| other == *it));
+                let more = found.iter().filter(|it| !expected.iter().any(|other| other == *it));
+                let differences = (missing.collect::<Vec<_>>(), more.collect::<Vec<_>>());
+                assert!(found == expected, "{}: missing, and too many: {differences:?}", stringify!($list));
+            )*};
+        }
+        compare!(
+            intersections,
+            vertex_triangle,
+            edge_edge,
+            close_vertex_triangle,
+            close_edge_edge,
+            close_triangles,
+            vertex_triangle_impacts,
+            edge_edge_impacts
+        );
+    }
+}
+
+/// Asks a world everything. A body of it calls its triangles and vertices as `names` says.
+fn ask<S: Number>(
+    world: &mut World<S>,
+    names: &dyn Fn(BodyId, Name) -> u32,
+    radius: f64,
+) -> Answers {
+    let all_edges: Vec<Vec<[u32; 2]>> = world
+        .bodies()
+        .collect::<Vec<_>>()
+        .into_iter()
+        .map(|body| world.edges(body).unwrap().to_vec())
+        .collect();
+    let triangle = |body, number| names(body, Name::Triangle(number));
+    let vertex = |body, number| names(body, Name::Vertex(number));
+    let of_triangles = |pair: [u32; 4]| {
+        let [a, s, b, t] = pair;
+        [a, triangle(BodyId(a), s), b, triangle(BodyId(b), t)]
+    };
+    let of_vertex = |pair: VertexTriangle| {
+        let (a, b) = (pair.vertex_body, pair.triangle_body);
+        [a.0, vertex(a, pair.vertex), b.0, triangle(b, pair.triangle)]
+    };
+    let of_edges = |pair: EdgeEdge| {
+        let edge = |body: BodyId, edge: u32| {
+            let mut ends = all_edges[body.0 as usize][edge as usize].map(|it| vertex(body, it));
+            ends.sort_unstable();
+            [body.0, ends[0], ends[1]]
+        };
+        let [a, b] = [
+            edge(pair.body_a, pair.edge_a),
+            edge(pair.body_b, pair.edge_b),
+        ];
+        let [[a, b, c], [d, e, f]] = [a.min(b), a.max(b)];
+        [a, b, c, d, e, f]
+    };
+    let of = Selection::Everything;
+    let mut answers = Answers::default();
+    let found = world.intersections(of).all().unwrap();
+    let count = found.len();
+    answers.intersections = found
+        .iter()
+        .map(|&pair| of_triangles(pair.into()))
+        .collect();
+    assert_eq!(answers.intersections.len(), count);
+    assert!(found.is_sorted());
+    let first = world.intersections(of).first().unwrap();
+    assert_eq!(first.is_some(), count > 0);
+    if let Some(first) = first {
+        assert!(answers.intersections.contains(&of_triangles(first.into())));
+    }
+    let found = world.vertex_triangle_candidates(of, radius).all().unwrap();
+    assert!(found.is_sorted_by(|a, b| a < b));
+    answers.vertex_triangle = found.iter().map(|&pair| of_vertex(pair)).collect();
+    let found = world.edge_edge_candidates(of, radius).all().unwrap();
+    assert!(found.is_sorted_by(|a, b| a < b));
+    answers.edge_edge = found.iter().map(|&pair| of_edges(pair)).collect();
+    let found = world.close_vertex_triangle_pairs(of, radius).all().unwrap();
+    answers.close_vertex_triangle = found.iter().map(|close| of_vertex(close.pair)).collect();
+    let found = world.close_edge_edge_pairs(of, radius).all().unwrap();
+    answers.close_edge_edge = found.iter().map(|close| of_edges(close.pair)).collect();
+    let found = world
+        .close_triangle_pairs(Selection::World, radius)
+        .all()
+        .unwrap();
+    answers.close_triangles = found
+        .iter()
+        .map(|close| of_triangles(close.pair.into()))
+        .collect();
+    let found = world.vertex_triangle_impacts(of).all().unwrap();
+    let timed = |low: f64, high: f64| [low.to_bits(), high.to_bits()];
+    let row = found
+        .iter()
+        .map(|it| (of_vertex(it.pair), timed(it.low, it.high)));
+    answers.vertex_triangle_impacts = row.collect();
+    let found = world.edge_edge_impacts(of).all().unwrap();
+    let row = found
+        .iter()
+        .map(|it| (of_edges(it.pair), timed(it.low, it.high)));
+    answers.edge_edge_impacts = row.collect();
+    answers
+}
+
+/// A number that a body of a world gives.
+enum Name {
+    Triangle(u32),
+    Vertex(u32),
+}
+
+/// Compares a world with one built fresh.
+fn check<S: Number>(world: &mut World<S>, known: &mut [Known<S>], options: Options, radius: f64) {
+    world.validate().unwrap();
+    let compact: Vec<Compact<S>> = known.iter().map(Known::compact).collect();
+    let mut fresh = World::with_options(options);
+    for body in &compact {
+        let id = fresh.add(&body.triangles, &body.positions).unwrap();
+        fresh.set_vertex_groups(id, &body.groups).unwrap();
+        if let Some(end) = &body.end {
+            fresh.set_motion(id, end).unwrap();
+        }
+    }
+    for body in &mut *known {
+        let id = body.id;
+        let triangles = world.triangles(id).unwrap();
+        let empty = [u32::MAX; 3];
+        let expected = body.triangles.iter().map(|it| it.unwrap_or(empty));
+        assert!(triangles.iter().copied().eq(expected));
+        let live = body.triangles.iter().map(Option::is_some);
+        assert!(live.eq(world.live_triangles(id).unwrap()));
+        let live = body.positions.iter().map(Option::is_some);
+        assert!(live.eq(world.live_vertices(id).unwrap()));
+        for (found, expected) in world.positions(id).unwrap().iter().zip(&body.positions) {
+            match expected {
+                Some(expected) => assert_eq!(found, expected),
+                None => assert!(found.iter().all(|x| x.to_f64().is_nan())),
+            }
+        }
+        assert_eq!(world.vertex_groups(id).unwrap(), body.groups);
+        // Every edge that there is has a number, those that stay the one that they had.
+        let edges = (0..).zip(world.edges(id).unwrap());
+        let numbers = edges.filter(|(_, ends)| **ends != [u32::MAX; 2]);
+        let numbers: BTreeMap<[u32; 2], u32> = numbers.map(|(at, &ends)| (ends, at)).collect();
+        let sides = body.triangles.iter().flatten();
+        let sides = sides.flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+        let sides = sides
+            .filter(|[a, b]| a != b)
+            .map(|[a, b]| [a.min(b), a.max(b)]);
+        let expected: BTreeSet<[u32; 2]> = sides.collect();
+        assert!(numbers.keys().eq(&expected));
+        for (ends, number) in &numbers {
+            assert_eq!(body.edges.get(ends).unwrap_or(number), number, "{ends:?}");
+        }
+        body.edges = numbers;
+    }
+    let ids: Vec<BodyId> = known.iter().map(|body| body.id).collect();
+    let expected = ask(
+        &mut fresh,
+        &|body, name| match name {
+            Name::Triangle(number) => compact[body.0 as usize].known_triangles[number as usize],
+            Name::Vertex(number) => compact[body.0 as usize].known_vertices[number as usize],
+        },
+        radius,
+    );
+    let as_they_are = |_, name| match name {
+        Name::Triangle(number) | Name::Vertex(number) => number,
+    };
+    ask(world, &as_they_are, radius).assert_are(&expected);
+    world.validate().unwrap();
+    let [a, b] = [ids[0], ids[1]];
+    let distances = [&mut *world, &mut fresh].map(|world| {
+        let nearest = world.distance(a, b, 100.0).unwrap();
+        nearest.map(|it| it.distance)
+    });
+    match distances {
+        [Some(found), Some(expected)] => {
+            assert!((found - expected).abs() <= 1e-6 * expected, "{distances:?}");
+        }
+        [found, expected] => assert_eq!(found, expected),
+    }
+}
+
+/// A step of an edit, made both to the edit and to what is known.
+fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
+    let live = known.live_triangles();
+    let some = |random: &mut Lcg| live[random.below(live.len() as u32) as usize];
+    let position = |random: &mut Lcg| {
+        let [x, y, z] = [random.unit(), random.unit(), random.unit()];
+        [x, y, z * 0.2].map(|x| S::of(f64::from(x)))
+    };
+    let vertex = |known: &Known<S>, random: &mut Lcg| loop {
+        let vertex = random.below(known.positions.len() as u32);
+        if known.positions[vertex as usize].is_some() {
+            break vertex;
+        }
+    };
+    match random.below(9) {
+        0 if live.len() > 4 => {
+            let triangle = some(random);
+            edit.remove_triangle(triangle);
+            known.triangles[triangle as usize] = None;
+        }
+        1 => {
+            // A triangle in three.
+            let triangle = some(random);
+            let [a, b, c] = known.triangles[triangle as usize].unwrap();
+            let position = position(random);
+            let new = edit.add_vertex(position);
+            assert_eq!(new as usize, known.positions.len());
+            known.positions.push(Some(position));
+            known.groups.push(0);
+            edit.set_triangle(triangle, [a, b, new]);
+            known.triangles[triangle as usize] = Some([a, b, new]);
+            let corners = [[b, c, new], [c, a, new]];
+            let added = edit.add_triangles(&corners);
+            assert_eq!(added.start as usize, known.triangles.len());
+            known.triangles.extend(corners.map(Some));
+        }
+        2 | 3 => {
+            // A vertex that some of its triangles leave.
+            let triangle = some(random);
+            let vertex = known.triangles[triangle as usize].unwrap()[random.below(3) as usize];
+            let of_vertex = |&at: &u32| known.triangles[at as usize].unwrap().contains(&vertex);
+            let mut leaving: Vec<u32> = live.iter().copied().filter(of_vertex).collect();
+            leaving.truncate(1 + random.below(3) as usize);
+            let new = edit.split_vertex(vertex, &leaving);
+            known.positions.push(known.positions[vertex as usize]);
+            known.groups.push(known.groups[vertex as usize]);
+            for triangle in leaving {
+                let corners = known.triangles[triangle as usize].as_mut().unwrap();
+                *corners = corners.map(|it| if it == vertex { new } else { it });
+            }
+        }
+        4 => {
+            // The two ends of an edge become one vertex.
+            let [kept, gone, _] = known.triangles[some(random) as usize].unwrap();
+            edit.merge_vertices(kept, gone);
+            for corners in known.triangles.iter_mut().flatten() {
+                *corners = corners.map(|it| if it == gone { kept } else { it });
+            }
+            if kept != gone {
+                known.positions[gone as usize] = None;
+            }
+        }
+        5 => {
+            let corners = [0; 3].map(|_| vertex(known, random));
+            let added = edit.add_triangle(corners);
+            assert_eq!(added as usize, known.triangles.len());
+            known.triangles.push(Some(corners));
+        }
+        6 => {
+            let triangle = random.below(known.triangles.len() as u32);
+            let corners = [0; 3].map(|_| vertex(known, random));
+            edit.set_triangle(triangle, corners);
+            known.triangles[triangle as usize] = Some(corners);
+        }
+        7 => {
+            let empty = |it: &u32| known.positions[*it as usize].is_none();
+            let vertices = 0..known.positions.len() as u32;
+            if let Some(vertex) = vertices.into_iter().find(empty) {
+                let position = position(random);
+                edit.place_vertex(vertex, position);
+                known.placed.insert(vertex);
+                known.positions[vertex as usize] = Some(position);
+                known.groups[vertex as usize] = 0;
+                let [a, b, _] = known.triangles[some(random) as usize].unwrap();
+                edit.add_triangle([a, b, vertex]);
+                known.triangles.push(Some([a, b, vertex]));
+            }
+        }
+        _ => {
+            let positions = [position(random), position(random)];
+            edit.add_vertices(&positions);
+            known.positions.extend(positions.map(Some));
+            known.groups.extend([0; 2]);
+        }
+    }
+}
+
+/// What an edit comes to, from the mesh before and after its steps: vertices that no triangle has any more are empty.
+fn finish<S: Number>(before: &Known<S>, known: &mut Known<S>) -> Edited {
+    for vertex in 0..known.positions.len() as u32 {
+        let was_used = before.is_used(vertex);
+        if was_used && !known.is_used(vertex) {
+            known.positions[vertex as usize] = None;
+        }
+    }
+    known.end = None;
+    let placed = std::mem::take(&mut known.placed);
+    let mut edited = Edited::default();
+    let old = before
+        .triangles
+        .iter()
+        .copied()
+        .chain(std::iter::repeat(None));
+    for (at, (&new, old)) in (0..).zip(known.triangles.iter().zip(old)) {
+        let list = match (old, new) {
+            (None, Some(_)) => &mut edited.new_triangles,
+            (Some(_), None) => &mut edited.removed_triangles,
+            _ if old != new => &mut edited.changed_triangles,
+            _ => continue,
+        };
+        list.push(at);
+    }
+    let old = before
+        .positions
+        .iter()
+        .copied()
+        .chain(std::iter::repeat(None));
+    for (at, (&new, old)) in (0..).zip(known.positions.iter().zip(old)) {
+        match (old, new) {
+            (None, Some(_)) => edited.new_vertices.push(at),
+            (Some(_), None) => edited.removed_vertices.push(at),
+            (Some(_), Some(_)) if placed.contains(&at) => edited.new_vertices.push(at),
+            _ => {}
+        }
+    }
+    edited
+}
+
+/// Gives a body another mesh: that which it has without empty numbers, and somewhat different.
+fn other_mesh<S: Number>(world: &mut World<S>, known: &mut Known<S>, random: &mut Lcg) {
+    let id = known.id;
+    let compact = known.compact();
+    let (mut triangles, mut positions) = (compact.triangles, compact.positions);
+    for _ in 0..random.below(6) {
+        let at = random.below(triangles.len() as u32) as usize;
+        match random.below(3) {
+            0 if triangles.len() > 4 => drop(triangles.pop()),
+            1 => triangles[at].rotate_left(1),
+            _ => {
+                positions.push([S::of(0.5), S::of(0.5), S::of(0.1)]);
+                triangles.push([0, triangles[at][1], positions.len() as u32 - 1]);
+            }
+        }
+    }
+    world.set_mesh(id, &triangles, &positions).unwrap();
+    let old = &mut *known;
+    let numbers = 0..old.triangles.len().max(triangles.len());
+    let has_changed = |&at: &usize| {
+        let before = old.triangles.get(at).copied().flatten();
+        before != triangles.get(at).copied()
+    };
+    let changed = numbers.filter(has_changed).count();
+    let is_other = changed > 0 || positions.len() != old.positions.len();
+    let is_edited =
+        8 * changed <= old.live_triangles().len() && positions.len() >= old.positions.len();
+    let mut new = Known::new(id, &triangles, &positions);
+    if !is_other {
+        new.groups = std::mem::take(&mut old.groups);
+    }
+    // Edges that stay keep their numbers where the mesh is edited.
+    if is_edited {
+        new.edges = std::mem::take(&mut old.edges);
+    }
+    *known = new;
+}
+
+/// A life of a world of two bodies that are edited again and again; returns how many edits there were.
+fn life<S: Number>(options: Options, seed: u64, edits: usize) -> usize {
+    let mut random = Lcg(seed);
+    let mut world = World::<S>::with_options(options);
+    let mut known: Vec<Known<S>> = (0..2)
+        .map(|body| {
+            let (triangles, flat) = sheet(5 + random.below(7));
+            let wave = |[x, y, _]: [f32; 3]| [x, y, 0.1 * (7.0 * x * y + body as f32).sin()];
+            let positions = flat.iter().map(|&it| wave(it).map(|x| S::of(f64::from(x))));
+            let positions: Vec<[S; 3]> = positions.collect();
+            let id = world.add(&triangles, &positions).unwrap();
+            Known::new(id, &triangles, &positions)
+        })
+        .collect();
+    let radius = 0.01;
+    let mut done = 0;
+    while done < edits {
+        let which = random.below(2) as usize;
+        let id = known[which].id;
+        match random.below(12) {
+            0 | 1 => {
+                let body = &mut known[which];
+                for position in body.positions.iter_mut().flatten() {
+                    let moved =
+                        position.map(|x| S::of(x.to_f64() + f64::from(random.unit() - 0.5) * 0.04));
+                    *position = moved;
+                }
+                body.end = None;
+                let rows = body.rows(&mut random);
+                world.set_positions(id, &rows).unwrap();
+            }
+            2 => {
+                let body = &mut known[which];
+                let mut end = body.rows(&mut random);
+                for (row, position) in end.iter_mut().zip(&body.positions) {
+                    if position.is_some() {
+                        let away = f64::from(random.unit() - 0.5) * 0.1;
+                        *row = row.map(|x| S::of(x.to_f64() + away));
+                    }
+                }
+                world.set_motion(id, &end).unwrap();
+                body.end = Some(end);
+            }
+            3 if random.below(4) == 0 => world.rebuild(id).unwrap(),
+            4 if random.below(3) == 0 => {
+                let body = &mut known[which];
+                for group in &mut body.groups {
+                    *group = random.below(8).saturating_sub(5);
+                }
+                world.set_vertex_groups(id, &body.groups).unwrap();
+            }
+            5 if random.below(3) == 0 => {
+                other_mesh(&mut world, &mut known[which], &mut random);
+            }
+            _ => {
+                let before = known[which].clone();
+                let mut edit = world.edit(id).unwrap();
+                for _ in 0..=random.below(3) {
+                    step(&mut edit, &mut known[which], &mut random);
+                }
+                let expected = finish(&before, &mut known[which]);
+                let edited = world.apply(&edit).unwrap();
+                assert_eq!(edited, expected);
+                let has_new_numbers = known[which].triangles.len() > before.triangles.len();
+                if expected == Edited::default() && !has_new_numbers {
+                    // Nothing has changed: a motion goes on.
+                    known[which].end = before.end;
+                }
+                done += 1;
+            }
+        }
+        if random.below(40) == 0 {
+            world = world.clone();
+        }
+        check(&mut world, &mut known, options, radius);
+    }
+    done
+}
+
+#[test]
+fn edited_worlds_equal_fresh_ones() {
+    let all = every_configuration();
+    let edits: usize = std::env::var("EDITS").map_or(600, |edits| edits.parse().unwrap());
+    let mut done = 0;
+    for (seed, options) in (0..).zip(all.iter().cycle().step_by(37)) {
+        done += life::<f32>(*options, seed, 10);
+        done += life::<f64>(*options, seed + 500_000, 10);
+        if done >= edits {
+            break;
+        }
+    }
+    println!("{done} edits");
+}

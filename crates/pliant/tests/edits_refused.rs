@@ -1,0 +1,244 @@
+//! An edit that is refused, whatever was right before, leaves everything: numbers, edges, groups, shape, motion, and what is found.
+
+mod common;
+
+use common::sheet;
+use pliant::{BodyId, EdgeEdge, Edit, ErrorKind as Kind, Selection, World};
+
+/// A body whose vertex 0 and the triangles at it are empty.
+struct Edited {
+    world: World<f32>,
+    body: BodyId,
+    vertices: usize,
+    /// The numbers that are those of triangles, and one that is empty.
+    live: Vec<u32>,
+    empty: u32,
+}
+
+/// All that an edit that is refused leaves as it was.
+#[derive(Clone, Debug, PartialEq)]
+struct State {
+    triangles: Vec<[u32; 3]>,
+    edges: Vec<[u32; 2]>,
+    live_vertices: Vec<bool>,
+    groups: Vec<u32>,
+    /// But for vertex 0.
+    end: Vec<[f32; 3]>,
+    revision: u64,
+    near: Vec<EdgeEdge>,
+}
+
+impl Edited {
+    fn new() -> Self {
+        let (triangles, positions) = sheet(4);
+        let mut world = World::new();
+        let body = world.add(&triangles, &positions).unwrap();
+        let at_0 = |&at: &u32| triangles[at as usize].contains(&0);
+        let (gone, live): (Vec<u32>, Vec<u32>) = (0..triangles.len() as u32).partition(at_0);
+        let mut edit = world.edit(body).unwrap();
+        edit.remove_triangles(&gone);
+        let edited = world.apply(&edit).unwrap();
+        assert_eq!(edited.removed_triangles, gone);
+        assert_eq!(edited.removed_vertices, [0]);
+        let again = world.apply(&edit).unwrap_err().kind;
+        assert_eq!(again, Kind::OutdatedEdit, "an edit is made once");
+        let up = |&[x, y, z]: &[f32; 3]| [x, y, z + 1.0];
+        let end: Vec<[f32; 3]> = positions.iter().map(up).collect();
+        world.set_motion(body, &end).unwrap();
+        let groups: Vec<u32> = (0..positions.len() as u32).map(|it| it % 3).collect();
+        world.set_vertex_groups(body, &groups).unwrap();
+        Self {
+            world,
+            body,
+            vertices: positions.len(),
+            live,
+            empty: gone[0],
+        }
+    }
+
+    fn state(&mut self) -> State {
+        let (world, body) = (&mut self.world, self.body);
+        let near = world.edge_edge_candidates(Selection::Everything, 0.2);
+        let near = near.all().unwrap().to_vec();
+        assert!(!near.is_empty());
+        State {
+            triangles: world.triangles(body).unwrap().to_vec(),
+            edges: world.edges(body).unwrap().to_vec(),
+            live_vertices: world.live_vertices(body).unwrap(),
+            groups: world.vertex_groups(body).unwrap(),
+            end: world.end_positions(body).unwrap().unwrap().split_off(1),
+            revision: world.mesh_revision(body).unwrap(),
+            near,
+        }
+    }
+
+    /// Steps are refused, and so they are behind others that are good.
+    fn refuses(&mut self, expected: &Kind, steps: impl Fn(&mut Edit<f32>)) {
+        let before = self.state();
+        let first = self.live[0];
+        let corners = before.triangles[first as usize];
+        for good_first in [false, true] {
+            let mut edit = self.world.edit(self.body).unwrap();
+            if good_first {
+                edit.set_triangle(first, corners);
+                edit.merge_vertices(corners[0], corners[0]);
+            }
+            steps(&mut edit);
+            let refused = self.world.apply(&edit).unwrap_err();
+            assert_eq!(refused.body, Some(self.body), "{expected:?}");
+            // As text, for NaN does not equal itself.
+            assert_eq!(format!("{:?}", refused.kind), format!("{expected:?}"));
+            assert!(refused.to_string().len() > 20);
+        }
+        assert_eq!(self.state(), before, "{expected:?}");
+        self.world.validate().unwrap();
+    }
+}
+
+#[test]
+fn triangles_that_are_not_there() {
+    let mut edited = Edited::new();
+    let triangles = edited.state().triangles.len();
+    let (many, [some, other]) = (triangles as u32, [edited.live[0], edited.live[1]]);
+    let empty = Kind::EmptyTriangle {
+        triangle: edited.empty,
+    };
+    for triangle in [many, u32::MAX] {
+        let none = Kind::NoSuchTriangle {
+            triangle,
+            triangles,
+        };
+        edited.refuses(&none, |edit| edit.remove_triangle(triangle));
+        edited.refuses(&none, |edit| edit.set_triangle(triangle, [1, 2, 3]));
+        edited.refuses(&none, |edit| {
+            edit.split_vertex(1, &[triangle]);
+        });
+    }
+    let gone = edited.empty;
+    edited.refuses(&empty, |edit| edit.remove_triangle(gone));
+    edited.refuses(&empty, |edit| {
+        edit.split_vertex(1, &[gone]);
+    });
+    let twice = Kind::EmptyTriangle { triangle: some };
+    edited.refuses(&twice, |edit| edit.remove_triangles(&[some, some]));
+    let all = edited.live.clone();
+    edited.refuses(&Kind::NoTriangles, |edit| edit.remove_triangles(&all));
+    let corners = edited.state().triangles[other as usize];
+    let vertex = (1..9).find(|vertex| !corners.contains(vertex)).unwrap();
+    let no_corner = Kind::NotACorner {
+        triangle: other,
+        vertex,
+    };
+    edited.refuses(&no_corner, |edit| {
+        edit.split_vertex(vertex, &[other]);
+    });
+}
+
+#[test]
+fn vertices_that_are_not_there() {
+    let mut edited = Edited::new();
+    let (vertices, triangles) = (edited.vertices, edited.state().triangles.len());
+    let (new, some) = (vertices as u32, edited.live[1]);
+    for vertex in [new, u32::MAX] {
+        let none = Kind::NoSuchVertex { vertex, vertices };
+        edited.refuses(&none, |edit| {
+            edit.split_vertex(vertex, &[]);
+        });
+        edited.refuses(&none, |edit| edit.merge_vertices(1, vertex));
+        edited.refuses(&none, |edit| edit.merge_vertices(vertex, 1));
+        edited.refuses(&none, |edit| edit.place_vertex(vertex, [0.0; 3]));
+        let out_of_range = |triangle| Kind::VertexOutOfRange {
+            triangle,
+            vertex,
+            vertices,
+        };
+        edited.refuses(&out_of_range(some as usize), |edit| {
+            edit.set_triangle(some, [1, 2, vertex]);
+        });
+        edited.refuses(&out_of_range(triangles), |edit| {
+            edit.add_triangle([1, vertex, 2]);
+        });
+    }
+    let empty = Kind::EmptyVertex { vertex: 0 };
+    edited.refuses(&empty, |edit| {
+        edit.split_vertex(0, &[]);
+    });
+    edited.refuses(&empty, |edit| edit.merge_vertices(0, 1));
+    edited.refuses(&empty, |edit| edit.merge_vertices(1, 0));
+    edited.refuses(&empty, |edit| edit.set_triangle(some, [0, 1, 2]));
+    edited.refuses(&empty, |edit| {
+        edit.add_triangle([1, 2, 0]);
+    });
+    let used = Kind::VertexInUse { vertex: 1 };
+    edited.refuses(&used, |edit| edit.place_vertex(1, [0.0; 3]));
+}
+
+#[test]
+fn places_where_no_vertex_can_be() {
+    let mut edited = Edited::new();
+    let vertices = edited.vertices;
+    for bad in [f32::NAN, f32::INFINITY] {
+        let at = [bad, 0.0, 0.0];
+        let refused = |vertex| Kind::BadPosition {
+            vertex,
+            position: at.map(f64::from),
+        };
+        edited.refuses(&refused(0), |edit| edit.place_vertex(0, at));
+        edited.refuses(&refused(vertices), |edit| {
+            edit.add_vertex(at);
+        });
+    }
+    let everywhere = Some(([-9.0; 3], [9.0; 3]));
+    let Edited { world, body, .. } = &mut edited;
+    let shape: Vec<[f32; 3]> = world.positions(*body).unwrap();
+    world.set_loose_box(*body, everywhere).unwrap();
+    assert_eq!(shape.len(), vertices);
+    let at = [0.0, 0.0, 9.5];
+    let outside = Kind::OutsideLooseBox {
+        vertex: vertices,
+        position: at.map(f64::from),
+    };
+    edited.refuses(&outside, |edit| {
+        let added = edit.add_vertex(at);
+        edit.add_triangle([1, 2, added]);
+    });
+}
+
+#[test]
+fn edits_of_another_mesh_or_of_nobody() {
+    let (triangles, positions) = sheet(4);
+    let mut world = World::<f32>::new();
+    let body = world.add(&triangles, &positions).unwrap();
+    let early = world.edit(body).unwrap();
+    world.rebuild(body).unwrap();
+    let refused = world.apply(&early).unwrap_err().kind;
+    assert_eq!(refused, Kind::OutdatedEdit);
+    let edit = world.edit(body).unwrap();
+    world.remove(body).unwrap();
+    for refused in [
+        world.apply(&edit).unwrap_err(),
+        world.edit(body).unwrap_err(),
+    ] {
+        assert_eq!((refused.body, refused.kind), (Some(body), Kind::NoSuchBody));
+    }
+}
+
+/// A vertex that goes and comes again within one edit is a new one; one that comes and goes was never there.
+#[test]
+fn within_one_edit_numbers_go_and_come() {
+    let mut edited = Edited::new();
+    let Edited {
+        world, body, live, ..
+    } = &mut edited;
+    let corners = world.triangles(*body).unwrap()[live[0] as usize];
+    let mut edit = world.edit(*body).unwrap();
+    edit.place_vertex(0, [0.5, 0.5, 2.0]);
+    let new = edit.add_vertex([0.5, 0.5, 3.0]);
+    let added = edit.add_triangle([0, corners[0], new]);
+    edit.remove_triangle(added);
+    let outcome = world.apply(&edit).unwrap();
+    assert!(outcome.new_triangles.is_empty());
+    assert!(outcome.removed_triangles.is_empty());
+    assert!(!world.live_triangles(*body).unwrap()[added as usize]);
+    world.validate().unwrap();
+}

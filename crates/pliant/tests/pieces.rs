@@ -1,0 +1,221 @@
+//! Split into components and fused again, cut and welded: nothing that is found is lost, and numbers lead back to what was there.
+
+mod common;
+
+use common::{Lcg, sheet};
+use pliant::{BodyId, ErrorKind, Pair, Selection, World};
+use std::collections::BTreeSet;
+
+/// Sheets of some sizes one above the other, as one mesh: triangles and vertices in an order that mixes them.
+fn sheets(random: &mut Lcg, sides: &[u32]) -> (Vec<[u32; 3]>, Vec<[f32; 3]>) {
+    let (mut triangles, mut positions) = (Vec::new(), Vec::new());
+    for (height, &side) in sides.iter().enumerate() {
+        let (of_sheet, flat) = sheet(side);
+        let first = positions.len() as u32;
+        triangles.extend(of_sheet.iter().map(|it| it.map(|vertex| first + vertex)));
+        let wave =
+            |[x, y, _]: [f32; 3]| [x, y, 0.02 * height as f32 + 0.1 * (9.0 * x + 5.0 * y).sin()];
+        let tilted = |[x, y, z]: [f32; 3]| [x, y, z + 0.3 * x * height as f32];
+        positions.extend(flat.into_iter().map(wave).map(tilted));
+    }
+    for at in (1..triangles.len()).rev() {
+        triangles.swap(at, random.below(at as u32 + 1) as usize);
+    }
+    (triangles, positions)
+}
+
+/// Pairs of triangles by the numbers that they had in one body.
+fn found(world: &mut World<f32>, number: impl Fn(BodyId, u32) -> u32) -> BTreeSet<[u32; 2]> {
+    let pairs = world.intersections(Selection::Everything).all().unwrap();
+    let named = |pair: &Pair| {
+        let a = number(pair.body_a, pair.triangle_a);
+        let b = number(pair.body_b, pair.triangle_b);
+        [a.min(b), a.max(b)]
+    };
+    pairs.iter().map(named).collect()
+}
+
+#[test]
+fn split_and_fused_again_it_finds_what_it_found() {
+    let random = &mut Lcg(24);
+    let (triangles, positions) = sheets(random, &[5, 9, 7, 3]);
+    let mut world = World::<f32>::new();
+    let other = world.add(&[[0, 1, 2]], &positions).unwrap();
+    let body = world.add(&triangles, &positions).unwrap();
+    world.ignore(body, other).unwrap();
+    world.set_filter(body, 0b110, 0b111).unwrap();
+    let groups: Vec<u32> = (0..positions.len() as u32).map(|it| it % 5).collect();
+    world.set_vertex_groups(body, &groups).unwrap();
+    let everywhere = Some(([-9.0; 3], [9.0; 3]));
+    world.set_loose_box(body, everywhere).unwrap();
+    let components = world.components(body).unwrap();
+    assert_eq!(components.iter().max(), Some(&3));
+    let before = found(&mut world, |_, triangle| triangle);
+    assert!(before.len() > 15, "{}", before.len());
+
+    let pieces = world.split(body).unwrap();
+    assert_eq!(pieces.len(), 3);
+    assert_eq!(world.bodies().len(), 5);
+    // The largest stays: that of the sheet of side 9.
+    let live = world.live_triangles(body).unwrap();
+    let largest = components[live.iter().position(|&is| is).unwrap()];
+    assert!(
+        live.iter().eq(components
+            .iter()
+            .map(|it| *it == largest)
+            .collect::<Vec<_>>()
+            .iter())
+    );
+    assert_eq!(live.iter().filter(|&&is| is).count(), 2 * 8 * 8);
+    assert!(pieces.is_sorted_by_key(|piece| piece.triangles[0]));
+    for piece in &pieces {
+        let component = components[piece.triangles[0] as usize];
+        let of_it = (0..).zip(&components).filter(|(_, it)| **it == component);
+        assert!(piece.triangles.iter().copied().eq(of_it.map(|(at, _)| at)));
+        let corners = world.triangles(piece.body).unwrap().iter();
+        let corners = corners.map(|it| it.map(|vertex| piece.vertices[vertex as usize]));
+        let expected = piece.triangles.iter().map(|&it| triangles[it as usize]);
+        assert!(corners.eq(expected));
+        let at = piece.vertices.iter().map(|&it| positions[it as usize]);
+        assert!(at.eq(world.positions(piece.body).unwrap()));
+        let of_piece = piece.vertices.iter().map(|&it| groups[it as usize]);
+        assert!(of_piece.eq(world.vertex_groups(piece.body).unwrap()));
+        assert_eq!(world.filter(piece.body), Ok((0b110, 0b111)));
+        assert_eq!(world.loose_box(piece.body), Ok(everywhere));
+        assert!(world.ignored().contains(&[other, piece.body]));
+        assert!(!world.ignored().contains(&[body, piece.body]));
+    }
+    let number = |id: BodyId, triangle: u32| {
+        let piece = pieces.iter().find(|piece| piece.body == id);
+        piece.map_or(triangle, |piece| piece.triangles[triangle as usize])
+    };
+    assert_eq!(found(&mut world, number), before);
+    world.validate().unwrap();
+    assert!(world.split(body).unwrap().is_empty());
+
+    // Back again, one by one: numbers follow through both.
+    let mut names: Vec<u32> = (0..triangles.len() as u32).collect();
+    for piece in &pieces {
+        let fused = world.fuse(body, piece.body).unwrap();
+        names.resize(world.triangle_count(body).unwrap(), u32::MAX);
+        for (&new, &old) in fused.triangles.iter().zip(&piece.triangles) {
+            names[new as usize] = old;
+        }
+        let at = world.positions(body).unwrap();
+        let all = world.vertex_groups(body).unwrap();
+        for (&new, &old) in fused.vertices.iter().zip(&piece.vertices) {
+            assert_eq!(at[new as usize], positions[old as usize]);
+            assert_eq!(all[new as usize], groups[old as usize]);
+        }
+        world.validate().unwrap();
+    }
+    assert_eq!(world.bodies().collect::<Vec<_>>(), [other, body]);
+    assert_eq!(world.loose_box(body), Ok(everywhere));
+    assert_eq!(
+        found(&mut world, |_, triangle| names[triangle as usize]),
+        before
+    );
+}
+
+#[test]
+fn a_body_that_ignores_itself_has_pieces_that_ignore_each_other() {
+    let (triangles, positions) = sheets(&mut Lcg(3), &[4, 5, 6]);
+    let mut world = World::<f32>::new();
+    let body = world.add(&triangles, &positions).unwrap();
+    world.ignore(body, body).unwrap();
+    let pieces = world.split(body).unwrap();
+    let all = [body, pieces[0].body, pieces[1].body];
+    for a in all {
+        for b in all {
+            assert!(world.ignored().contains(&[a.min(b), a.max(b)]));
+        }
+    }
+    assert!(found(&mut world, |_, it| it).is_empty());
+}
+
+#[test]
+fn what_was_empty_comes_to_nothing() {
+    let (triangles, positions) = sheet(4);
+    let mut world = World::<f32>::new();
+    let a = world.add(&triangles, &positions).unwrap();
+    let b = world.add(&triangles, &positions).unwrap();
+    let mut edit = world.edit(b).unwrap();
+    let at_corner = |(_, it): &(u32, &[u32; 3])| it.contains(&0);
+    let gone: Vec<u32> = (0..)
+        .zip(&triangles)
+        .filter(at_corner)
+        .map(|(at, _)| at)
+        .collect();
+    edit.remove_triangles(&gone);
+    world.apply(&edit).unwrap();
+    let fused = world.fuse(a, b).unwrap();
+    assert_eq!(fused.vertices[0], u32::MAX);
+    for (triangle, &now) in (0..).zip(&fused.triangles) {
+        assert_eq!(now == u32::MAX, gone.contains(&triangle));
+    }
+    assert!(world.live_vertices(a).unwrap().into_iter().all(|is| is));
+    assert!(world.components(a).unwrap().iter().all(|&it| it < 2));
+    let same = world.fuse(a, a).unwrap_err();
+    assert_eq!((same.body, same.kind), (Some(a), ErrorKind::SameBody));
+    assert_eq!(world.fuse(a, b).unwrap_err().kind, ErrorKind::NoSuchBody);
+    assert_eq!(world.fuse(b, a).unwrap_err().kind, ErrorKind::NoSuchBody);
+    assert_eq!(world.split(b).unwrap_err().kind, ErrorKind::NoSuchBody);
+}
+
+#[test]
+fn what_was_cut_is_welded() {
+    let (triangles, positions) = sheet(6);
+    let mut world = World::<f32>::new();
+    let body = world.add(&triangles, &positions).unwrap();
+    // Along a line of vertices, off it both ways: every vertex of the column splits.
+    let is_left = |corners: &[u32; 3]| {
+        let x = |vertex: &u32| positions[*vertex as usize][0];
+        corners.iter().map(x).sum::<f32>() / 3.0 < 0.5
+    };
+    let column: Vec<u32> = (0..positions.len() as u32)
+        .filter(|&vertex| {
+            let has = |left: bool| {
+                triangles
+                    .iter()
+                    .any(|it| it.contains(&vertex) && is_left(it) == left)
+            };
+            has(true) && has(false)
+        })
+        .collect();
+    let mut edit = world.edit(body).unwrap();
+    for &vertex in &column {
+        let of_left = |(_, it): &(u32, &[u32; 3])| it.contains(&vertex) && is_left(it);
+        let left: Vec<u32> = (0..)
+            .zip(&triangles)
+            .filter(of_left)
+            .map(|(at, _)| at)
+            .collect();
+        edit.split_vertex(vertex, &left);
+    }
+    let edited = world.apply(&edit).unwrap();
+    assert_eq!(edited.new_vertices.len(), column.len());
+    assert_eq!(world.components(body).unwrap().iter().max(), Some(&1));
+    assert!(
+        !found(&mut world, |_, it| it).is_empty(),
+        "the two sides touch"
+    );
+
+    // A little apart, and up to the distance that they are apart.
+    let mut apart = world.positions(body).unwrap();
+    for &vertex in &edited.new_vertices {
+        apart[vertex as usize][2] = 0.125;
+    }
+    world.set_positions(body, &apart).unwrap();
+    assert_eq!(world.weld(body, 0.124).unwrap(), pliant::Edited::default());
+    let welded = world.weld(body, 0.125).unwrap();
+    assert_eq!(welded.removed_vertices, edited.new_vertices);
+    assert_eq!(welded.changed_triangles, edited.changed_triangles);
+    assert_eq!(world.triangles(body).unwrap(), triangles);
+    assert!(world.components(body).unwrap().iter().all(|&it| it == 0));
+    assert!(found(&mut world, |_, it| it).is_empty());
+    world.validate().unwrap();
+    for tolerance in [f64::NAN, f64::INFINITY, -0.1] {
+        let refused = world.weld(body, tolerance).unwrap_err().kind;
+        assert!(matches!(refused, ErrorKind::BadDistance { .. }));
+    }
+}

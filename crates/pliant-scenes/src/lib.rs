@@ -14,7 +14,8 @@
 //! | `cloth` | 1 | 79,202 | 50 | a sheet folds onto itself; contact from step 26 |
 //!
 //! Size and number are defaults: [`Scene::new`] takes the triangles of a body, [`Scene::gather`]
-//! any number of bodies. All bodies of a scene share one connectivity, and it never changes.
+//! any number of bodies. All bodies of a scene share one connectivity, and it never changes; in a
+//! [`ChangingScene`] it does: `cut`, `tear`, `fuse`, `shuffle`, `remesh`.
 //!
 //! ```
 //! use pliant_scenes::{Asks, Scene};
@@ -30,6 +31,7 @@
 //! ```
 
 // From what a caller sees down to the arithmetic.
+mod changing;
 mod error;
 mod scene;
 mod scenes;
@@ -43,6 +45,7 @@ mod rng;
 mod trig;
 mod vector;
 
+pub use changing::{Change, ChangingScene, Event};
 pub use error::SceneError;
 pub use motion::Pose;
 pub use scene::{Asks, Scene};

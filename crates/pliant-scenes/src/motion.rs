@@ -13,6 +13,17 @@ pub(crate) struct Moment {
     pub(crate) progress: f64,
 }
 
+impl Moment {
+    /// A step of so many; before the first it is the first, after the last the last.
+    pub(crate) fn of(step: u32, steps: u32) -> Self {
+        let step = f64::from(step.clamp(1, steps));
+        Self {
+            step,
+            progress: (step - 1.0) / f64::from(steps - 1),
+        }
+    }
+}
+
 /// Where the centre of a body goes.
 #[derive(Debug)]
 pub(crate) enum Path {

@@ -255,12 +255,7 @@ impl Scene {
     }
 
     fn moment(&self, step: u32) -> Moment {
-        let steps = self.about.steps;
-        let step = f64::from(step.clamp(1, steps));
-        Moment {
-            step,
-            progress: (step - 1.0) / f64::from(steps - 1),
-        }
+        Moment::of(step, self.about.steps)
     }
 
     fn assert_body(&self, body: usize) {

@@ -1,0 +1,135 @@
+//! `cut`: a bumpy sphere is sliced by a plane that goes through it, and its two pieces part.
+//!
+//! A triangle that the plane crosses becomes three: a smaller one on the side where one corner is, two on the other. Every edge that is
+//! crossed gets two vertices, one for either side.
+
+use super::{Change, ChangingScene, Rule, Timeline, surface};
+use crate::bumps::{Bumps, LANES};
+use crate::error::SceneError;
+use crate::motion::{Moment, rounded};
+use crate::rng::Rng;
+use crate::scene::{About, Asks};
+use crate::surface::sphere;
+use crate::vector::{Vec3, between, scale};
+use std::collections::BTreeMap;
+
+const ABOUT: About = About {
+    name: "cut",
+    asks: Asks::Itself,
+    steps: 200,
+};
+
+const STREAM: u64 = 5;
+
+/// Triangles unless asked otherwise.
+const TRIANGLES: usize = 20_480;
+
+/// Root mean square of the bumps, in radii.
+const HEIGHT: f64 = 0.09;
+
+/// The plane is at this height, through no vertex.
+const PLANE: f64 = 0.0123;
+
+/// The blade is through after so many steps.
+const CUT: u32 = 100;
+
+/// How far a piece moves a step from then on, in radii.
+const SPEED: f64 = 0.004;
+
+struct Pieces {
+    bumps: Bumps,
+    /// All vertices that there will be.
+    rest: Vec<Vec3>,
+}
+
+impl Rule for Pieces {
+    fn place(&self, _: usize, now: Moment, out: &mut [[f32; 3]]) {
+        let apart = SPEED * (now.step - f64::from(CUT)).max(0.0);
+        for (points, out) in self.rest.chunks(LANES).zip(out.chunks_mut(LANES)) {
+            let heights = self.bumps.heights(now.step, points);
+            for ((point, height), out) in points.iter().zip(heights).zip(out) {
+                let mut place = scale(*point, 1.0 + height);
+                place[2] += if is_above(*point) { apart } else { -apart };
+                *out = rounded(place);
+            }
+        }
+    }
+}
+
+/// Vertices on the cut itself are a little off the plane, each on its own side.
+fn is_above([_, _, z]: Vec3) -> bool {
+    z > PLANE
+}
+
+/// How far vertices of the cut are off the plane.
+const OFF: f64 = 1e-9;
+
+pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene, SceneError> {
+    let surface = surface(ABOUT, triangles.unwrap_or(TRIANGLES), sphere)?;
+    let mut rest = surface.rest.clone();
+    let mut timeline = Timeline::new(vec![rest.len()], ABOUT.steps);
+    let mut next_triangle = surface.triangles.len() as u32;
+    let mut of_edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
+    let corners_of = |triangle: u32| surface.triangles[triangle as usize];
+    let x = |triangle: u32| {
+        let at = corners_of(triangle).map(|vertex| surface.rest[vertex as usize][0]);
+        at.iter().sum::<f64>() / 3.0
+    };
+    for step in 1..=CUT {
+        // Where the blade was before, and where it is now.
+        let blade = |step: u32| -1.01 + 2.02 * f64::from(step) / f64::from(CUT);
+        let is_reached = |&triangle: &u32| (blade(step - 1)..blade(step)).contains(&x(triangle));
+        let before = rest.len();
+        let mut changes = Vec::new();
+        let mut added = Vec::new();
+        for triangle in (0..surface.triangles.len() as u32).filter(is_reached) {
+            let Some([alone, next, last]) = alone_first(corners_of(triangle), &surface.rest) else {
+                continue;
+            };
+            let side = usize::from(!is_above(surface.rest[alone as usize]));
+            let [p, q] = [next, last].map(|other| {
+                let edge = [alone.min(other), alone.max(other)];
+                *of_edges.entry(edge).or_insert_with(|| {
+                    let [a, b] = edge.map(|vertex| surface.rest[vertex as usize]);
+                    let at = between(a, b, (PLANE - a[2]) / (b[2] - a[2]));
+                    let first = rest.len() as u32;
+                    rest.push([at[0], at[1], PLANE + OFF]);
+                    rest.push([at[0], at[1], PLANE - OFF]);
+                    [first, first + 1]
+                })
+            });
+            let other = 1 - side;
+            changes.push(Change::SetTriangle {
+                triangle,
+                corners: [alone, p[side], q[side]],
+            });
+            added.extend([[p[other], next, last], [p[other], last, q[other]]]);
+        }
+        if added.is_empty() {
+            continue;
+        }
+        next_triangle += added.len() as u32;
+        changes.insert(0, Change::AddVertices(rest.len() - before));
+        changes.push(Change::AddTriangles(added));
+        timeline.edit(step, 0, changes, rest.len());
+    }
+    debug_assert!(next_triangle as usize > surface.triangles.len());
+    let bumps = Bumps::new(&mut Rng::new(seed, STREAM, 0), HEIGHT);
+    Ok(ChangingScene {
+        about: ABOUT,
+        triangles: vec![surface.triangles],
+        timeline,
+        rule: Box::new(Pieces { bumps, rest }),
+    })
+}
+
+/// The corners in their order, from the one that is alone on its side of the plane; none if all are on one.
+fn alone_first([a, b, c]: [u32; 3], rest: &[Vec3]) -> Option<[u32; 3]> {
+    let above = [a, b, c].map(|vertex| is_above(rest[vertex as usize]));
+    match above {
+        [x, y, z] if x == y && y == z => None,
+        [x, y, z] if y == z && x != y => Some([a, b, c]),
+        [x, y, z] if x == z && x != y => Some([b, c, a]),
+        _ => Some([c, a, b]),
+    }
+}

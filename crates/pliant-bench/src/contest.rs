@@ -14,6 +14,7 @@
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{Motion, Placed, Shape};
 use crate::record::{ContestRecord, MethodRecord, Spread, Window, WindowFigures, Wrong, median};
+use pliant_scenes::{ChangingMesh, Event};
 use std::collections::BTreeSet;
 use std::time::Instant;
 
@@ -30,6 +31,8 @@ pub enum Query {
     Near,
     /// Vertices and triangles, and edges and edges, that meet on their way.
     When,
+    /// All pairs of triangles of different bodies and of each body with itself.
+    Everything,
     /// How far the first two bodies are apart.
     Distance,
 }
@@ -43,6 +46,7 @@ impl Query {
             Self::Itself => "self",
             Self::Near => "near",
             Self::When => "when",
+            Self::Everything => "everything",
             Self::Distance => "distance",
         }
     }
@@ -143,14 +147,32 @@ impl Contest {
         let mut wrong: Vec<Option<Wrong>> = vec![None; self.methods.len()];
         let mut counters: Vec<Vec<Counters>> = vec![Vec::new(); self.methods.len()];
         let mut pairs = Vec::new();
-        for (&step, frame) in self.motion.steps.iter().zip(&self.motion.frames) {
+        let mut meshes = self.motion.changing_meshes();
+        for (place, (&step, frame)) in self
+            .motion
+            .steps
+            .iter()
+            .zip(&self.motion.frames)
+            .enumerate()
+        {
+            let events = self.motion.events(place);
+            apply(&mut meshes, events);
+            let step_of = |method: &mut Box<dyn Method>, shapes: &[Placed]| {
+                if !events.is_empty() {
+                    method.change(events, &views(shapes), &meshes);
+                }
+                method.step(&views(shapes));
+                method.untimed();
+            };
             let all = |method: &mut Box<dyn Method>| match self.query {
                 Query::Itself => method.self_pairs().map(<[Pair]>::to_vec),
-                Query::Near | Query::When => method.candidates().map(<[Pair]>::to_vec),
+                Query::Near | Query::When | Query::Everything => {
+                    method.candidates().map(<[Pair]>::to_vec)
+                }
                 _ => Some(method.all_pairs().to_vec()),
             };
             write(&mut shapes, frame);
-            self.truth.step(&views(&shapes));
+            step_of(&mut self.truth, &shapes);
             let distance = self.truth.distance();
             let truth = all(&mut self.truth).unwrap_or_default();
             pairs.push(truth.len() + usize::from(distance.is_some()));
@@ -160,12 +182,12 @@ impl Contest {
                 let Contender {
                     method, truth: own, ..
                 } = contender;
-                method.step(&views(&shapes));
+                step_of(method, &shapes);
                 let answer = match (self.query, own) {
                     (Query::First, _) => first_is_right(method.first_pair(), &truth),
                     (Query::Distance, _) => is_as_far(method.distance(), distance),
                     (_, Some(own)) => {
-                        own.step(&views(&shapes));
+                        step_of(own, &shapes);
                         let own = all(own).unwrap_or_default();
                         compare(&all(method).unwrap_or_default(), &own)
                     }
@@ -208,22 +230,35 @@ impl Contest {
         let method = &mut self.methods[place].method;
         let mut times = Vec::with_capacity(self.motion.frames.len());
         let other = vec![1_u64; if self.cold { LARGER_THAN_CACHE / 8 } else { 0 }];
-        for frame in &self.motion.frames {
+        if !self.motion.events.is_empty() {
+            method.build(&self.motion.meshes());
+        }
+        let mut meshes = self.motion.changing_meshes();
+        for (place, frame) in self.motion.frames.iter().enumerate() {
+            let events = self.motion.events(place);
+            apply(&mut meshes, events);
             write(shapes, frame);
             std::hint::black_box(other.iter().step_by(8).sum::<u64>());
             let shapes = views(shapes);
             let start = Instant::now();
+            if !events.is_empty() {
+                method.change(events, &shapes, &meshes);
+            }
             method.step(&shapes);
             let updated = Instant::now();
+            method.untimed();
+            let asked = Instant::now();
             match self.query {
                 Query::All => _ = std::hint::black_box(method.all_pairs()),
                 Query::First => _ = std::hint::black_box(method.first_pair()),
                 Query::Itself => _ = std::hint::black_box(method.self_pairs()),
-                Query::Near | Query::When => _ = std::hint::black_box(method.candidates()),
+                Query::Near | Query::When | Query::Everything => {
+                    _ = std::hint::black_box(method.candidates());
+                }
                 Query::Distance => _ = std::hint::black_box(method.distance()),
             }
             let end = Instant::now();
-            times.push((milliseconds(start, updated), milliseconds(updated, end)));
+            times.push((milliseconds(start, updated), milliseconds(asked, end)));
             progress(1);
         }
         times
@@ -329,6 +364,19 @@ impl Contest {
 fn write(shapes: &mut [Placed], frame: &[Placed]) {
     for (shape, placed) in shapes.iter_mut().zip(frame) {
         shape.copy_from(placed);
+    }
+}
+
+/// Lets happen to meshes what happens before a step.
+fn apply(meshes: &mut [ChangingMesh], events: &[Event]) {
+    for event in events {
+        match event {
+            Event::Edit { body, changes } => meshes[*body].change(changes),
+            Event::Fuse { kept, gone } => {
+                let gone = std::mem::take(&mut meshes[*gone]);
+                meshes[*kept].append(&gone);
+            }
+        }
     }
 }
 

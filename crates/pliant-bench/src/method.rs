@@ -1,6 +1,7 @@
 //! What every method can do, and how it is asked.
 
 use crate::motion::{BodyMesh, Shape};
+use pliant_scenes::{ChangingMesh, Event};
 
 /// Two intersecting triangles: body, triangle, body, triangle, the smaller (body, triangle) first.
 pub type Pair = [u32; 4];
@@ -24,8 +25,27 @@ pub trait Method {
     /// The name and every parameter, as it stands in tables: `van den Bergen (local frame, binary)`.
     fn name(&self) -> String;
 
-    /// Takes bodies over, in their first shape. Called once, before everything else; not part of any time.
+    /// Takes bodies over, in their first shape. Called before everything else, and again before every round where meshes change: then the
+    /// method has nothing any more of what it had. Not part of any time.
     fn build(&mut self, bodies: &[BodyMesh<'_>]);
+
+    /// What happens to meshes before a step, the shapes of that step, and what the meshes are then. Part of the time of the step. A method that
+    /// has no such mode builds anew; it is never given meshes with empty numbers.
+    fn change(&mut self, events: &[Event], shapes: &[Shape<'_>], meshes: &[ChangingMesh]) {
+        let _ = events;
+        let bodies: Vec<_> = meshes
+            .iter()
+            .zip(shapes)
+            .map(|(mesh, &shape)| BodyMesh {
+                triangles: &mesh.triangles,
+                shape,
+            })
+            .collect();
+        self.build(&bodies);
+    }
+
+    /// What a method does between a step and its query that is no part of any time.
+    fn untimed(&mut self) {}
 
     /// Takes over the shapes of all bodies at the next step, and does whatever has to be done once a step.
     fn step(&mut self, shapes: &[Shape<'_>]);

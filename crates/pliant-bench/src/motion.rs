@@ -1,6 +1,6 @@
 //! What every method is given: bodies, and their shapes at some steps of a scene.
 
-use pliant_scenes::Scene;
+use pliant_scenes::{ChangingMesh, ChangingScene, Event, Scene};
 
 /// A body to be built: triangles over vertices, and the shape it begins with.
 #[derive(Clone, Copy, Debug)]
@@ -128,6 +128,8 @@ pub struct Motion {
     pub steps: Vec<u32>,
     /// For each step, the shape of each body.
     pub frames: Vec<Vec<Placed>>,
+    /// For each step, what happens to meshes before; empty if nothing ever does.
+    pub events: Vec<Vec<Event>>,
 }
 
 impl Motion {
@@ -163,7 +165,55 @@ impl Motion {
                 .map(|&step| bodies.clone().map(|body| place(body, step)).collect())
                 .collect(),
             steps,
+            events: Vec::new(),
         }
+    }
+
+    /// The steps of a scene whose meshes change, up to one.
+    pub fn of_changing(scene: &ChangingScene, last: u32) -> Self {
+        let placed = |world| Placed {
+            world,
+            rigid: None,
+            end: None,
+        };
+        let place = |body: usize, step: u32| {
+            let mut world = Vec::new();
+            scene.positions(body, step, &mut world);
+            placed(world)
+        };
+        let bodies = 0..scene.body_count();
+        let steps: Vec<u32> = (1..=last.min(scene.steps())).collect();
+        Self {
+            name: scene.name().to_owned(),
+            bodies: bodies
+                .clone()
+                .map(|body| MotionBody {
+                    triangles: scene.triangles(body).to_vec(),
+                    first: placed(scene.first_positions(body)),
+                })
+                .collect(),
+            frames: steps
+                .iter()
+                .map(|&step| bodies.clone().map(|body| place(body, step)).collect())
+                .collect(),
+            events: steps
+                .iter()
+                .map(|&step| scene.events(step).to_vec())
+                .collect(),
+            steps,
+        }
+    }
+
+    /// What happens to meshes before a step, by its place.
+    pub fn events(&self, place: usize) -> &[Event] {
+        self.events.get(place).map_or(&[], Vec::as_slice)
+    }
+
+    /// The meshes before the first step, as events change them; none if nothing ever happens.
+    pub fn changing_meshes(&self) -> Vec<ChangingMesh> {
+        let bodies = self.bodies.iter().filter(|_| !self.events.is_empty());
+        let mesh = |body: &MotionBody| ChangingMesh::new(&body.triangles, body.first.world.len());
+        bodies.map(mesh).collect()
     }
 
     /// The same motion, with bodies at every step on a part of their way to where the scene has them at the next.

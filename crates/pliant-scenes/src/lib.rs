@@ -45,7 +45,7 @@ mod rng;
 mod trig;
 mod vector;
 
-pub use changing::{Change, ChangingScene, Event};
+pub use changing::{Change, ChangingMesh, ChangingScene, Event};
 pub use error::SceneError;
 pub use motion::Pose;
 pub use scene::{Asks, Scene};

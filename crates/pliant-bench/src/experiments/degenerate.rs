@@ -67,6 +67,7 @@ fn sliding_grids(side: u32, steps: u32) -> Motion {
         frames: (1..=steps)
             .map(|step| vec![placed(0.0), placed(at(step))])
             .collect(),
+        events: Vec::new(),
     }
 }
 

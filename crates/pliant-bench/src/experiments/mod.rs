@@ -4,6 +4,7 @@
 //! all of them. Each has a small form, for tests.
 
 mod bodies;
+mod change;
 mod close;
 mod cloth;
 mod degenerate;
@@ -66,7 +67,7 @@ pub struct Experiment {
 }
 
 /// All experiments, in the order in which `all` runs them.
-pub const EXPERIMENTS: [Experiment; 13] = [
+pub const EXPERIMENTS: [Experiment; 14] = [
     experiment_1::EXPERIMENT,
     table_1::EXPERIMENT,
     experiment_3::EXPERIMENT,
@@ -80,6 +81,7 @@ pub const EXPERIMENTS: [Experiment; 13] = [
     near::EXPERIMENT,
     close::EXPERIMENT,
     when::EXPERIMENT,
+    change::EXPERIMENT,
 ];
 
 impl Experiment {

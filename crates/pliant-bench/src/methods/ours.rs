@@ -2,7 +2,8 @@
 
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};
-use pliant::{BodyId, Impact, Options, Scalar, Selection, World};
+use pliant::{BodyId, Edit, Impact, Options, Scalar, Selection, World};
+use pliant_scenes::{Change, ChangingMesh, Event};
 use std::ops::ControlFlow;
 
 /// A world of the library, of either precision.
@@ -10,6 +11,8 @@ pub struct Ours<S: Scalar = f32> {
     name: String,
     world: World<S>,
     bodies: Vec<BodyId>,
+    /// Whether every step begins with fresh trees, whose building is no part of any time.
+    builds_anew: bool,
     /// Whether boxes are made at every step, also of bodies that meet nobody.
     always: bool,
     /// Positions in the world's precision, if it is another.
@@ -67,6 +70,7 @@ impl<S: Scalar> Ours<S> {
             name: name.to_owned(),
             world: World::with_options(options),
             bodies: Vec::new(),
+            builds_anew: false,
             always: false,
             positions: Vec::new(),
             pairs: Vec::new(),
@@ -115,6 +119,15 @@ impl<S: Scalar> Ours<S> {
         Self { asked, ..self }
     }
 
+    /// Has fresh trees at every query, whose building is no part of any time.
+    #[must_use]
+    pub fn fresh(self) -> Self {
+        Self {
+            builds_anew: true,
+            ..self
+        }
+    }
+
     /// Does at every step what the options say is done ahead of a query, whether or not a body meets another.
     #[must_use]
     pub fn always(self) -> Self {
@@ -132,12 +145,34 @@ impl<S: Scalar> Ours<S> {
     }
 }
 
+/// Makes a step of an edit; vertices that come are where `at` says.
+pub fn make<S: Scalar>(edit: &mut Edit<S>, change: &Change, at: &[[S; 3]]) {
+    match change {
+        Change::AddVertices(count) => {
+            let first = edit.vertex_count();
+            edit.add_vertices(&at[first..first + count]);
+        }
+        &Change::PlaceVertex(vertex) => edit.place_vertex(vertex, at[vertex as usize]),
+        Change::SplitVertex { vertex, triangles } => {
+            edit.split_vertex(*vertex, triangles);
+        }
+        &Change::MergeVertices { kept, gone } => edit.merge_vertices(kept, gone),
+        Change::AddTriangles(triangles) => {
+            edit.add_triangles(triangles);
+        }
+        &Change::SetTriangle { triangle, corners } => edit.set_triangle(triangle, corners),
+        Change::RemoveTriangles(triangles) => edit.remove_triangles(triangles),
+    }
+}
+
 impl<S: Precision> Method for Ours<S> {
     fn name(&self) -> String {
         format!("{}: {:?}", self.name, self.world.options())
     }
 
     fn build(&mut self, bodies: &[BodyMesh<'_>]) {
+        self.world = World::with_options(*self.world.options());
+        self.bodies.clear();
         for body in bodies {
             self.bodies.push(
                 self.world
@@ -147,8 +182,37 @@ impl<S: Precision> Method for Ours<S> {
         }
     }
 
+    fn change(&mut self, events: &[Event], shapes: &[Shape<'_>], _: &[ChangingMesh]) {
+        for event in events {
+            match event {
+                Event::Edit { body, changes } => {
+                    let at = S::of(shapes[*body].world, &mut self.positions);
+                    let mut edit = self.world.edit(self.bodies[*body]).expect("it is there");
+                    changes.iter().for_each(|it| make(&mut edit, it, at));
+                    self.world.apply(&edit).expect("a scene's events are good");
+                }
+                Event::Fuse { kept, gone } => {
+                    let [kept, gone] = [kept, gone].map(|&body| self.bodies[body]);
+                    self.world.fuse(kept, gone).expect("both are there");
+                }
+            }
+        }
+    }
+
+    fn untimed(&mut self) {
+        if self.builds_anew {
+            for &body in &self.bodies {
+                // Bodies that are fused with others are no more.
+                let _ = self.world.rebuild(body);
+            }
+        }
+    }
+
     fn step(&mut self, shapes: &[Shape<'_>]) {
         for (&body, shape) in self.bodies.iter().zip(shapes) {
+            if shape.world.is_empty() {
+                continue;
+            }
             self.world
                 .set_positions(body, S::of(shape.world, &mut self.positions))
                 .expect("a scene's shapes are good");

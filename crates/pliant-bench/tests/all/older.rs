@@ -285,6 +285,7 @@ fn of_bodies(name: &str, bodies: Vec<(Vec<[u32; 3]>, Placed)>) -> Motion {
             .collect(),
         steps: vec![1],
         frames: vec![frame],
+        events: Vec::new(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! `cut`: a bumpy sphere is sliced by a plane that goes through it, and its two pieces part.
 //!
 //! A triangle that the plane crosses becomes three: a smaller one on the side where one corner is, two on the other. Every edge that is
-//! crossed gets two vertices, one for either side.
+//! crossed gets two vertices, one for either side, in the same place until the pieces part.
 
 use super::{Change, ChangingScene, Rule, Timeline, surface};
 use crate::bumps::{Bumps, LANES};
@@ -38,35 +38,36 @@ const SPEED: f64 = 0.004;
 
 struct Pieces {
     bumps: Bumps,
-    /// All vertices that there will be.
+    /// All vertices that there will be, and whether each is of the upper piece.
     rest: Vec<Vec3>,
+    is_above: Vec<bool>,
 }
 
 impl Rule for Pieces {
     fn place(&self, _: usize, now: Moment, out: &mut [[f32; 3]]) {
         let apart = SPEED * (now.step - f64::from(CUT)).max(0.0);
-        for (points, out) in self.rest.chunks(LANES).zip(out.chunks_mut(LANES)) {
+        let sides = self.is_above.chunks(LANES);
+        let points = self.rest.chunks(LANES).zip(sides);
+        for ((points, sides), out) in points.zip(out.chunks_mut(LANES)) {
             let heights = self.bumps.heights(now.step, points);
-            for ((point, height), out) in points.iter().zip(heights).zip(out) {
+            let points = points.iter().zip(sides);
+            for (((point, is_above), height), out) in points.zip(heights).zip(out) {
                 let mut place = scale(*point, 1.0 + height);
-                place[2] += if is_above(*point) { apart } else { -apart };
+                place[2] += if *is_above { apart } else { -apart };
                 *out = rounded(place);
             }
         }
     }
 }
 
-/// Vertices on the cut itself are a little off the plane, each on its own side.
 fn is_above([_, _, z]: Vec3) -> bool {
     z > PLANE
 }
 
-/// How far vertices of the cut are off the plane.
-const OFF: f64 = 1e-9;
-
 pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene, SceneError> {
     let surface = surface(ABOUT, triangles.unwrap_or(TRIANGLES), sphere)?;
     let mut rest = surface.rest.clone();
+    let mut sides: Vec<bool> = rest.iter().map(|&point| is_above(point)).collect();
     let mut timeline = Timeline::new(vec![rest.len()], ABOUT.steps);
     let mut next_triangle = surface.triangles.len() as u32;
     let mut of_edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
@@ -93,8 +94,8 @@ pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene
                     let [a, b] = edge.map(|vertex| surface.rest[vertex as usize]);
                     let at = between(a, b, (PLANE - a[2]) / (b[2] - a[2]));
                     let first = rest.len() as u32;
-                    rest.push([at[0], at[1], PLANE + OFF]);
-                    rest.push([at[0], at[1], PLANE - OFF]);
+                    rest.extend([at; 2]);
+                    sides.extend([true, false]);
                     [first, first + 1]
                 })
             });
@@ -119,7 +120,11 @@ pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene
         about: ABOUT,
         triangles: vec![surface.triangles],
         timeline,
-        rule: Box::new(Pieces { bumps, rest }),
+        rule: Box::new(Pieces {
+            bumps,
+            rest,
+            is_above: sides,
+        }),
     })
 }
 

@@ -5,9 +5,12 @@
 
 mod cut;
 mod fuse;
+mod mesh;
 mod remesh;
 mod shuffle;
 mod tear;
+
+pub use mesh::ChangingMesh;
 
 use crate::error::SceneError;
 use crate::motion::Moment;

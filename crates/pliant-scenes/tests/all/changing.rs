@@ -224,7 +224,7 @@ fn defaults_are_those_of_the_front_page() {
 #[test]
 fn events_and_positions_are_the_committed_ones() {
     let committed = [
-        ("cut", 0xf67d_c1fd_ac90_311a),
+        ("cut", 0x1035_7259_6c55_f5f3),
         ("tear", 0xd422_ec4f_4fbb_b90a),
         ("fuse", 0x4b75_7473_0778_25b1),
         ("shuffle", 0xf9cb_ddae_5d2f_2fb9),

@@ -1,0 +1,135 @@
+//! "Bodies that are cut and torn, and bodies that merge" (paper, future work): meshes that change, and trees that follow.
+//!
+//! Every scene is played by our edits, by what people do today (all is built anew when a mesh changes), and by obvhs with its own insertion and
+//! removal. `shuffle` and `remesh` also have a fresh tree for every query, whose building is not counted; `tear` the same
+//! shapes without edits.
+
+use super::{Experiment, Form, Planned, whole};
+use crate::contest::{Contender, Contest, Query};
+use crate::decision::exact;
+use crate::method::Method;
+use crate::methods::{ChangingObvhs, Everywhere, Ours, Rebuilt, Unedited};
+use crate::motion::Motion;
+use crate::record::{Claim, ContestRecord, Verdict};
+use pliant::Options;
+use pliant_scenes::ChangingScene;
+
+pub(super) const EXPERIMENT: Experiment = Experiment {
+    name: "change",
+    about: "meshes that change: cut, torn, fused, remeshed; trees that decay",
+    plan,
+    claims,
+};
+
+const EDITED: &str = "pliant";
+const REBUILT: &str = "pliant, built anew";
+const UNEDITED: &str = "pliant, without edits";
+const FRESH: &str = "pliant, fresh trees";
+const OBVHS: &str = "obvhs, insertion and removal";
+
+fn ours() -> Ours<f32> {
+    Ours::new("pliant", Options::default()).intersections()
+}
+
+fn everywhere() -> Everywhere {
+    Everywhere::new(exact)
+}
+
+fn methods(scene: &str) -> Vec<Contender> {
+    let mut methods = vec![Contender::new(EDITED, ours())];
+    match scene {
+        "tear" => methods.push(
+            Contender::new(UNEDITED, Unedited::new(ours()))
+                .compared_with(Unedited::new(everywhere())),
+        ),
+        "shuffle" | "remesh" => methods.push(Contender::new(FRESH, ours().fresh())),
+        _ => {}
+    }
+    if scene != "shuffle" {
+        methods.push(Contender::new(REBUILT, Rebuilt::new(ours())));
+    }
+    methods.push(Contender::new(OBVHS, ChangingObvhs::new(exact)));
+    methods
+}
+
+fn plan(form: Form) -> Vec<Planned> {
+    ChangingScene::NAMES
+        .into_iter()
+        .map(|name| {
+            let (size, last) = match (form, name) {
+                (Form::Full, _) => (None, u32::MAX),
+                (Form::Small, "tear") => (Some(2 * 20 * 20), 220),
+                (Form::Small, "shuffle") => (Some(4 * 1024), 10),
+                (Form::Small, _) => (Some(320), 110),
+            };
+            let scene = ChangingScene::new(name, size, ChangingScene::DEFAULT_SEED)
+                .expect("the size is one of the scene's");
+            let steps = last.min(scene.steps());
+            Planned::new(methods(name).len(), steps as usize, move || Contest {
+                name: name.to_owned(),
+                motion: Motion::of_changing(&scene, steps),
+                query: Query::Everything,
+                truth: Box::new(Rebuilt::new(everywhere())) as Box<dyn Method>,
+                methods: methods(name),
+                windows: whole(&(1..=steps).collect::<Vec<_>>()),
+                cold: false,
+            })
+        })
+        .collect()
+}
+
+/// How many times as long all steps of a method take as those of another.
+fn times(contest: &ContestRecord, method: &str, other: &str) -> f64 {
+    let all = |method: &str| {
+        let figures = contest.method(method);
+        figures.map_or(f64::NAN, |it| {
+            it.update_ms.iter().sum::<f64>() + it.query_ms.iter().sum::<f64>()
+        })
+    };
+    all(method) / all(other)
+}
+
+fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
+    let mut claims = Vec::new();
+    for contest in contests {
+        let measured = |what: &str, figure: String| Claim {
+            claim: format!("{}: {what}", contest.name),
+            verdict: Verdict::Measured,
+            figure,
+        };
+        let against = |other: &str| format!("{:.2} times", times(contest, EDITED, other));
+        for (other, what) in [
+            (UNEDITED, "a step, against the same step without edits"),
+            (
+                FRESH,
+                "a step, against fresh trees whose building is not counted",
+            ),
+        ] {
+            if contest.method(other).is_some() {
+                claims.push(measured(what, against(other)));
+            }
+        }
+        for (other, what) in [
+            (REBUILT, "faster than building anew"),
+            (
+                OBVHS,
+                "faster than obvhs with its own insertion and removal",
+            ),
+        ] {
+            if contest.method(other).is_some() {
+                let factor = times(contest, other, EDITED);
+                claims.push(measured(what, format!("{factor:.2} times")));
+            }
+        }
+        let worst = contest.method(EDITED).map_or(f64::NAN, |it| {
+            let both = it.update_ms.iter().zip(&it.query_ms).map(|(a, b)| a + b);
+            let mut steps: Vec<f64> = both.collect();
+            steps.sort_by(f64::total_cmp);
+            let median = steps.get(steps.len() / 2).copied().unwrap_or(f64::NAN);
+            steps.last().map_or(f64::NAN, |worst| worst / median)
+        });
+        let what = "the longest step against the median";
+        claims.push(measured(what, format!("{worst:.2} times")));
+    }
+    claims
+}

@@ -1,0 +1,82 @@
+//! Where the time of a scene whose meshes change goes, for profilers: edits, shapes, and the query, step by step.
+//!
+//! ```sh
+//! cargo run --release -p pliant-bench --example changing -- remesh          # every tenth step, and sums
+//! cargo run --release -p pliant-bench --example changing -- tear without    # the same shapes, in which nothing happens
+//! ```
+
+use pliant::{BodyId, Selection, World};
+use pliant_bench::methods::make;
+use pliant_scenes::{ChangingScene, Event};
+use std::time::Instant;
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let name = arguments.next().unwrap_or_else(|| "tear".to_owned());
+    let scene = ChangingScene::new(&name, None, ChangingScene::DEFAULT_SEED);
+    let mut scene = scene.expect("one of the scenes whose meshes change");
+    let how = arguments.next();
+    if how.as_deref() == Some("without") {
+        scene = scene.without_events();
+    }
+    let mut world = World::<f32>::new();
+    let bodies = 0..scene.body_count();
+    let ids: Vec<BodyId> = bodies
+        .clone()
+        .map(|body| {
+            let added = world.add(scene.triangles(body), &scene.first_positions(body));
+            added.expect("a scene's bodies are good")
+        })
+        .collect();
+    let mut sums = [0.0; 3];
+    let mut shapes = vec![Vec::new(); ids.len()];
+    println!("  step    edits   shapes    query    pairs node pairs candidates");
+    for step in 1..=scene.steps() {
+        for (body, shape) in shapes.iter_mut().enumerate() {
+            scene.positions(body, step, shape);
+        }
+        let start = Instant::now();
+        for event in scene.events(step) {
+            match event {
+                Event::Edit { body, changes } => {
+                    let mut edit = world.edit(ids[*body]).expect("it is there");
+                    changes
+                        .iter()
+                        .for_each(|it| make(&mut edit, it, &shapes[*body]));
+                    world.apply(&edit).expect("a scene's events are good");
+                }
+                Event::Fuse { kept, gone } => {
+                    world.fuse(ids[*kept], ids[*gone]).expect("both are there");
+                }
+            }
+        }
+        let edited = Instant::now();
+        for (&id, shape) in ids.iter().zip(&shapes).filter(|(_, it)| !it.is_empty()) {
+            world
+                .set_positions(id, shape)
+                .expect("a scene's shapes are good");
+        }
+        let set = Instant::now();
+        let pairs = world.intersections(Selection::Everything).all();
+        let pairs = pairs.expect("the whole world is there").len();
+        let asked = Instant::now();
+        if how.as_deref() == Some("fresh") {
+            ids.iter().for_each(|&id| drop(world.rebuild(id)));
+        }
+        let times = [edited - start, set - edited, asked - set];
+        let times = times.map(|time| time.as_secs_f64() * 1e3);
+        for (sum, time) in sums.iter_mut().zip(times) {
+            *sum += time;
+        }
+        if step % 10 == 0 {
+            let [edits, shapes, query] = times;
+            let work = world.statistics();
+            let (nodes, candidates) = (work.node_pairs, work.candidate_pairs);
+            println!(
+                "{step:6} {edits:8.3} {shapes:8.3} {query:8.3} {pairs:8} {nodes:10} {candidates:10}"
+            );
+        }
+    }
+    let [edits, shapes, query] = sums.map(|sum| sum / f64::from(scene.steps()));
+    println!("  mean {edits:8.3} {shapes:8.3} {query:8.3} ms");
+}

@@ -52,6 +52,16 @@ impl<S: Real> Points<S> {
         self.bound_row(rows - 1);
     }
 
+    /// The last point goes.
+    pub(crate) fn pop(&mut self) {
+        self.points.pop();
+        let rows = self.points.len().div_ceil(IN_A_ROW);
+        self.bounds.truncate(rows);
+        if rows > 0 {
+            self.bound_row(rows - 1);
+        }
+    }
+
     /// A point is somewhere else.
     pub(crate) fn set(&mut self, vertex: TreeVertex, [x, y, z]: [S; 3]) {
         self.points[vertex.index()] = [x, y, z, z];

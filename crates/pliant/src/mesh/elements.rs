@@ -115,7 +115,9 @@ impl Elements {
                 } else {
                     (triangle[j], triangle[i])
                 };
-                if low == high {
+                // An orphan is called what its alias is.
+                let is_orphan = |corner: usize| order.orphans().has(corners[corner].0);
+                if low == high || is_orphan(i) || is_orphan(j) {
                     continue;
                 }
                 let [first, end] = [0, 1].map(|next| first_of_vertex[low as usize + next] as usize);
@@ -178,6 +180,20 @@ impl Elements {
             }
             numbers.into_boxed_slice()
         })
+    }
+
+    /// An edge whose ends in tree order are not those that it has, if there is one.
+    pub(crate) fn misplaced(&self, place: impl Fn(u32) -> TreeVertex) -> Option<u32> {
+        let is_misplaced = |&(edge, number): &(u32, u32)| {
+            let mut expected = self.callers[number as usize].map(|end| place(end).0);
+            let mut found = self.ends[edge as usize].map(|end| end.0);
+            expected.sort_unstable();
+            found.sort_unstable();
+            expected != found
+        };
+        let live = (0..).zip(self.numbers.iter().copied());
+        let mut live = live.filter(|&(edge, _)| !self.is_gone(edge));
+        live.find(is_misplaced).map(|(_, number)| number)
     }
 
     /// The caller's numbers of all edges in tree order.

@@ -4,10 +4,14 @@
 //! order in which these triangles first use them. So the vertices below a node are one run of numbers, plus the few on its
 //! border that an earlier node used first (`tree::VertexSets`). Vertices that no triangle uses come last: they are checked
 //! with the others and are in no box.
+//!
+//! Where a mesh is edited, a vertex that loses its last triangle goes to the end; the number that it had is that of an *orphan*, which only
+//! triangles that were taken out have for a corner. It stands where some vertex does that is used, its alias.
 
-use super::Topology;
+use super::{Bits, Topology};
 use crate::held::{self, Held};
 use crate::ids::{CallerTriangle, CallerVertex, TreeTriangle, TreeVertex};
+use std::ops::Range;
 
 /// A mesh in tree order.
 #[derive(Clone, Debug)]
@@ -15,13 +19,22 @@ pub(crate) struct Order {
     corners: Vec<[TreeVertex; 3]>,
     /// The caller's number of every triangle.
     triangles: Vec<u32>,
-    /// The caller's number of every vertex.
+    /// The caller's number of every vertex; of an orphan that of its alias.
     vertices: Vec<u32>,
     /// Vertices 0..used are corners of some triangle.
     used: usize,
+    orphans: Bits,
 }
 
 const UNSEEN: u32 = u32::MAX;
+
+/// What happens to the numbers of vertices.
+pub(crate) enum Moved {
+    /// Two are exchanged.
+    Exchanged([TreeVertex; 2]),
+    /// The last is no more.
+    LastGone,
+}
 
 impl Order {
     /// With triangle `triangles[t]` of the caller as triangle `t` of the tree.
@@ -53,31 +66,76 @@ impl Order {
             triangles,
             vertices,
             used,
+            orphans: Bits::default(),
         }
     }
 
     /// Forgets the triangles from a place on, and the vertices that they use first, of which there are `used` before them: these go with
-    /// those that no triangle uses.
-    pub(crate) fn cut_back(&mut self, triangles: usize, used: usize) {
+    /// those that no triangle uses, and orphans are no more. `slots` has for each of the caller's vertices its number here; where two
+    /// of these are exchanged, or the last goes, `moved` is told.
+    pub(crate) fn cut_back(
+        &mut self,
+        triangles: usize,
+        used: usize,
+        slots: &mut [TreeVertex],
+        mut moved: impl FnMut(Moved),
+    ) {
         self.corners.truncate(triangles);
         self.triangles.truncate(triangles);
+        for slot in (used..self.used).rev() {
+            if !self.orphans.has(slot as u32) {
+                continue;
+            }
+            let last = self.vertices.len() - 1;
+            if slot != last {
+                self.vertices.swap(slot, last);
+                slots[self.vertices[slot] as usize] = TreeVertex(slot as u32);
+                moved(Moved::Exchanged(
+                    [slot, last].map(|it| TreeVertex(it as u32)),
+                ));
+            }
+            self.vertices.pop();
+            moved(Moved::LastGone);
+        }
+        self.orphans.cut_back(used as u32);
         self.used = used;
     }
 
-    /// Numbers of so many more vertices, which no triangle uses yet.
-    pub(crate) fn add_vertices(&mut self, count: usize) {
-        let all = self.vertices.len() as u32;
-        self.vertices.extend(all..all + count as u32);
+    /// Gives the vertex at a place, which no triangle uses any more, a number at the end; what it leaves stands where another vertex does,
+    /// by the caller's number. Returns the new number.
+    pub(crate) fn orphan(&mut self, slot: TreeVertex, alias: u32) -> TreeVertex {
+        let vertex = std::mem::replace(&mut self.vertices[slot.index()], alias);
+        self.orphans.insert(slot.0);
+        self.vertices.push(vertex);
+        TreeVertex(self.vertices.len() as u32 - 1)
     }
 
-    /// Puts triangles behind all others, in this order. `slots` has for each of the caller's vertices its number here; where two of these
-    /// are exchanged, `exchange` is told.
+    /// Gives an orphan another alias, unless it is none any more or never had this one.
+    pub(crate) fn set_alias(&mut self, slot: u32, old: u32, new: u32) -> bool {
+        let has_old = self.orphans.has(slot) && self.vertices[slot as usize] == old;
+        if has_old {
+            self.vertices[slot as usize] = new;
+        }
+        has_old
+    }
+
+    /// The numbers of orphans.
+    pub(crate) fn orphans(&self) -> &Bits {
+        &self.orphans
+    }
+
+    /// More vertices, which no triangle uses yet, at the end.
+    pub(crate) fn add_vertices(&mut self, callers: Range<u32>) {
+        self.vertices.extend(callers);
+    }
+
+    /// Puts triangles behind all others, in this order; `slots` and `moved` as for [`cut_back`](Self::cut_back).
     pub(crate) fn append(
         &mut self,
         topology: &Topology,
         triangles: &[u32],
         slots: &mut [TreeVertex],
-        mut exchange: impl FnMut([TreeVertex; 2]),
+        mut moved: impl FnMut(Moved),
     ) {
         for &triangle in triangles {
             let corners = topology.corners(CallerTriangle(triangle)).map(|vertex| {
@@ -91,7 +149,7 @@ impl Order {
                     self.vertices.swap(slot.index(), next.index());
                     slots[vertex.index()] = next;
                     slots[other as usize] = slot;
-                    exchange([slot, next]);
+                    moved(Moved::Exchanged([slot, next]));
                 }
                 self.used += 1;
                 next
@@ -145,7 +203,10 @@ impl Order {
 
 impl Held for Order {
     fn held(&self) -> usize {
-        held::list(&self.corners) + held::list(&self.triangles) + held::list(&self.vertices)
+        held::list(&self.corners)
+            + held::list(&self.triangles)
+            + held::list(&self.vertices)
+            + self.orphans.held()
     }
 }
 

@@ -161,9 +161,8 @@ pub(crate) struct LeafTest<'q, S> {
 pub(crate) struct Removed<'q> {
     /// In tree order.
     pub(crate) triangles: &'q Bits,
-    /// Vertices that no triangle has any more, as the caller numbers them.
+    /// Vertices that no triangle has any more, in tree order.
     pub(crate) vertices: &'q Bits,
-    pub(crate) order: &'q Order,
 }
 
 impl Removed<'_> {
@@ -174,7 +173,7 @@ impl Removed<'_> {
 
     #[inline]
     pub(crate) fn has_vertex(&self, vertex: TreeVertex) -> bool {
-        self.vertices.has(self.order.caller_vertex(vertex).0)
+        self.vertices.has(vertex.0)
     }
 }
 

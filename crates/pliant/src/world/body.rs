@@ -222,7 +222,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             mask: self.mask,
             loose: self.loose,
             motion: self.motion().map(|motion| {
-                let end = motion.end.in_callers_order(self.order.vertex_order());
+                let end = motion.end.in_callers_order(&self.order);
                 Box::new(Motion {
                     end: Positions::new(&end),
                     partway: None,
@@ -244,9 +244,9 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     pub(super) fn rebuild(&mut self, options: &Options) {
         let positions = self.stored_positions();
         let (order, tree) = build(&self.topology, &positions, options);
-        self.positions.forget_tree_order(self.order.vertex_order());
+        self.positions.forget_tree_order(&self.order);
         if let Some(motion) = &mut self.motion {
-            motion.end.forget_tree_order(self.order.vertex_order());
+            motion.end.forget_tree_order(&self.order);
             motion.partway = None;
         }
         if let Some(elements) = self.elements.get_mut().filter(|it| it.follows()) {
@@ -270,6 +270,14 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     fn edited_elements(&self) -> OnceLock<Box<Elements>> {
         let known = self.elements.get().filter(|known| known.follows());
         known.map_or_else(OnceLock::new, |known| OnceLock::from(known.clone()))
+    }
+
+    /// All vertices, in the order in which triangles in tree order first use them.
+    pub(super) fn vertex_order(&self) -> &[u32] {
+        match &self.edits {
+            Some(edits) if self.order.orphans().count() > 0 => edits.vertex_order(&self.order),
+            _ => self.order.vertex_order(),
+        }
     }
 
     /// How many numbers of triangles there are, empty ones too.
@@ -595,7 +603,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             loose: self.loose,
             empty: self.edits.as_ref().map_or(0, |edits| edits.empty.count()),
         };
-        let positions = with_empty_ones(&mut self.edits, positions);
+        let positions = with_empty_ones(&mut self.edits, &self.order, positions);
         self.bounds = taking.take(&mut self.positions, positions)?;
         self.epoch += 1;
         self.end_motion();
@@ -623,7 +631,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             empty: self.edits.as_ref().map_or(0, |edits| edits.empty.count()),
         };
         let stored = (self.motion.is_none()).then(|| self.stored_positions().into_owned());
-        let end = with_empty_ones(&mut self.edits, end);
+        let end = with_empty_ones(&mut self.edits, &self.order, end);
         if let Some(motion) = &mut self.motion {
             motion.bounds = taking.take(&mut motion.end, end)?;
             motion.epochs += 1;
@@ -672,8 +680,12 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             return Ok(());
         }
         let order = self.order.vertex_order();
-        shape.resize(order.len(), [S::default(); 3]);
+        shape.resize(self.vertex_count(), [S::default(); 3]);
+        let orphans = self.order.orphans();
         for (vertex, &place) in (0..).zip(order) {
+            if orphans.has(vertex) {
+                continue;
+            }
             let of = |positions: &Positions<S>| positions.get(TreeVertex(vertex), order);
             let [from, to] = [of(&self.positions), of(&motion.end)];
             shape[place as usize] = std::array::from_fn(|axis| from[axis].toward(to[axis], t));
@@ -684,7 +696,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// The shape at the end of a motion as the caller orders vertices, if there is a motion.
     pub(super) fn end_positions(&self) -> Option<Cow<'_, [[S; 3]]>> {
         let motion = self.motion()?;
-        Some(self.without_empty_ones(motion.end.in_callers_order(self.order.vertex_order())))
+        Some(self.without_empty_ones(motion.end.in_callers_order(&self.order)))
     }
 
     /// The shape as the caller orders vertices; those that are empty are nowhere.
@@ -694,7 +706,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// The shape as the caller orders vertices; those that are empty are somewhere.
     pub(super) fn stored_positions(&self) -> Cow<'_, [[S; 3]]> {
-        self.positions.in_callers_order(self.order.vertex_order())
+        self.positions.in_callers_order(&self.order)
     }
 
     fn without_empty_ones<'p>(&self, mut positions: Cow<'p, [[S; 3]]>) -> Cow<'p, [[S; 3]]> {
@@ -740,7 +752,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             }
             all_inside(&loose, &self.stored_positions())?;
             if let Some(motion) = self.motion() {
-                let end = motion.end.in_callers_order(self.order.vertex_order());
+                let end = motion.end.in_callers_order(&self.order);
                 all_inside(&loose, &end)?;
             }
         }
@@ -802,10 +814,11 @@ struct Taking<'b, S> {
 /// The shape that was given, with other vertices' rows in place of those of empty ones.
 fn with_empty_ones<'p, S: Coordinate>(
     edits: &'p mut Option<Box<EditState<S>>>,
+    order: &Order,
     positions: &'p [[S; 3]],
 ) -> &'p [[S; 3]] {
     match edits {
-        Some(edits) => edits.patch(positions),
+        Some(edits) => edits.patch(positions, order),
         None => positions,
     }
 }
@@ -839,7 +852,8 @@ impl<S: Coordinate> Taking<'_, S> {
         let order = self.order.vertex_order();
         place.commit(&staged, self.instructions, self.executor, positions, order);
         let used = self.order.used_vertices();
-        if used + self.empty >= positions.len() {
+        let orphans = self.order.orphans().count();
+        if used - orphans + self.empty >= positions.len() {
             return Ok(all);
         }
         let used = order[..used].iter();

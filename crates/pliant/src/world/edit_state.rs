@@ -1,13 +1,11 @@
 //! What a body keeps once its mesh is edited: where its triangles and vertices are in tree order, and which are there no more.
-//!
-//! A vertex that is empty still is a corner of triangles that were taken out, whose boxes are made with the others: it takes the place of
-//! another vertex that was near it, its *alias*.
 
 use crate::held::{self, Held};
 use crate::ids::TreeVertex;
 use crate::mesh::{Bits, Order, Topology, TrianglesAt};
 use crate::queries::Removed;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// No place.
 pub(super) const NOWHERE: u32 = u32::MAX;
@@ -22,14 +20,14 @@ pub(super) struct EditState<S> {
     pub(super) at: TrianglesAt,
     /// Triangles in tree order that were taken out.
     pub(super) gone: Bits,
-    /// Vertices, as the caller numbers them, that no triangle has any more, but some that was taken out.
-    pub(super) unused: Bits,
-    /// Those of them that are empty: all but what `set_mesh` left without triangles.
+    /// Vertices, as the caller numbers them, that are empty.
     pub(super) empty: Bits,
-    /// For each of these another vertex, perhaps empty too.
-    pub(super) aliases: BTreeMap<u32, u32>,
-    /// A shape with the positions of aliases, kept from shape to shape.
+    /// By the caller's number of an alias, the orphans in tree order that stand where it does; some of these may have another by now.
+    pub(super) orphans_of: BTreeMap<u32, Vec<u32>>,
+    /// A shape in which those that are empty are somewhere, kept from shape to shape.
     patched: Vec<[S; 3]>,
+    /// All vertices in tree order, once somebody asks and there are orphans.
+    pub(super) without_orphans: OnceLock<Vec<u32>>,
 }
 
 impl<S: Copy> EditState<S> {
@@ -39,10 +37,10 @@ impl<S: Copy> EditState<S> {
             slots: Vec::new(),
             at: TrianglesAt::new(topology.triangles(), topology.vertex_count()),
             gone: Bits::default(),
-            unused: Bits::default(),
             empty: Bits::default(),
-            aliases: BTreeMap::new(),
+            orphans_of: BTreeMap::new(),
             patched: Vec::new(),
+            without_orphans: OnceLock::new(),
         };
         edits.places.resize(topology.triangles().len(), NOWHERE);
         edits.find_places(order);
@@ -61,39 +59,46 @@ impl<S: Copy> EditState<S> {
             self.slots[vertex as usize] = slot;
         }
         self.gone = Bits::default();
-        self.unused = Bits::default();
+        self.orphans_of.clear();
     }
 
     /// What was taken out, if anything was.
     pub(super) fn removed<'b>(&'b self, order: &'b Order) -> Option<Removed<'b>> {
-        let is_any = self.gone.count() > 0 || self.unused.count() > 0;
+        let is_any = self.gone.count() > 0 || order.orphans().count() > 0;
         is_any.then_some(Removed {
             triangles: &self.gone,
-            vertices: &self.unused,
-            order,
+            vertices: order.orphans(),
         })
     }
 
-    /// A shape in which vertices that are empty are where their aliases are.
-    pub(super) fn patch<'p>(&'p mut self, positions: &'p [[S; 3]]) -> &'p [[S; 3]] {
-        if self.aliases.is_empty() || positions.len() != self.slots.len() {
+    /// A shape in which vertices that are empty are where one is that is used.
+    pub(super) fn patch<'p>(&'p mut self, positions: &'p [[S; 3]], order: &Order) -> &'p [[S; 3]] {
+        if self.empty.count() == 0 || positions.len() != self.slots.len() {
             return positions;
         }
+        let some = positions[order.caller_vertex(TreeVertex(0)).index()];
         self.patched.clear();
         self.patched.extend_from_slice(positions);
-        for &vertex in self.aliases.keys() {
-            self.patched[vertex as usize] = positions[self.alias(vertex) as usize];
+        for (vertex, position) in (0..).zip(&mut self.patched) {
+            if self.empty.has(vertex) {
+                *position = some;
+            }
         }
         &self.patched
     }
 
-    /// The vertex that is not empty in whose place an empty one is. A vertex becomes the alias of others only while it is not empty, so
-    /// this ends.
-    pub(super) fn alias(&self, mut vertex: u32) -> u32 {
-        while let Some(&other) = self.aliases.get(&vertex) {
-            vertex = other;
-        }
-        vertex
+    /// All vertices in tree order, without orphans.
+    pub(super) fn vertex_order(&self, order: &Order) -> &[u32] {
+        self.without_orphans.get_or_init(|| {
+            let all = (0..).zip(order.vertex_order());
+            let vertices = all.filter(|(slot, _)| !order.orphans().has(*slot));
+            vertices.map(|(_, &vertex)| vertex).collect()
+        })
+    }
+
+    /// Whether a vertex has triangles.
+    pub(super) fn is_used(&self, vertex: u32) -> bool {
+        self.at.of(vertex).next().is_some()
     }
 }
 
@@ -104,7 +109,9 @@ impl<S> Held for EditState<S> {
             + self.at.held()
             + self.gone.held()
             + self.empty.held()
-            + held::entries::<(u32, u32)>(self.aliases.len())
+            + held::entries::<(u32, Vec<u32>)>(self.orphans_of.len())
+            + self.orphans_of.values().map(held::list).sum::<usize>()
             + held::list(&self.patched)
+            + self.without_orphans.get().map_or(0, held::list)
     }
 }

@@ -31,8 +31,6 @@ const FEW: usize = 64;
 const OUT_OF_DATE: usize = 8;
 /// but not for so few.
 const FEWEST: usize = 32;
-/// Up to so far away in the order of the tree an alias is looked for.
-const NEARBY: usize = 64;
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
     /// An edit of the mesh of now, without steps.
@@ -115,7 +113,6 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.prepare_to_edit();
         if let Some(edits) = &mut self.edits {
             edits.empty = Bits::default();
-            edits.aliases.clear();
         }
         let added = self.vertex_count().min(positions.len())..positions.len();
         let outcome = Outcome {
@@ -227,13 +224,6 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             self.topology.set(triangle, new);
             edits.at.link(triangle, new);
         }
-        for &vertex in changed.iter().flat_map(|(_, both)| both.as_flattened()) {
-            if edits.at.of(vertex).next().is_none() && vertex != u32::MAX {
-                edits.unused.insert(vertex);
-            } else {
-                edits.unused.remove(vertex);
-            }
-        }
         if let Some(elements) = self.elements.get_mut() {
             elements.follow(changed, &self.topology, &edits.at);
         }
@@ -253,9 +243,17 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// Takes changes into tree order: a part for what comes, or the whole anew.
     fn take_in(&mut self, outcome: &Outcome<S>, options: &Options) {
-        self.add_vertices(outcome);
+        let known = self.vertex_count();
+        let (again, new) = outcome.new_vertices.split_at(
+            outcome
+                .new_vertices
+                .partition_point(|it| (it.0 as usize) < known),
+        );
+        self.add_vertices(new);
         let mut coming: Vec<u32> = Vec::new();
+        let mut is_much = false;
         if let Some(edits) = &mut self.edits {
+            edits.without_orphans.take();
             let first_of_others = self.parts.first.triangles.end;
             edits
                 .places
@@ -272,80 +270,106 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             edits.places.truncate(outcome.triangles);
             let behind = self.order.all_corners().len() - first_of_others as usize;
             let out_of_date = edits.gone.count() + behind + coming.len();
-            if out_of_date > FEWEST.max(first_of_others as usize / OUT_OF_DATE) {
-                self.empty_vertices(outcome);
-                self.rebuild(options);
-                return;
+            is_much = out_of_date > FEWEST.max(first_of_others as usize / OUT_OF_DATE);
+        }
+        if !is_much {
+            self.leave_orphans(outcome);
+        }
+        self.place_again(again);
+        if let Some(edits) = &mut self.edits {
+            for &vertex in &outcome.emptied {
+                edits.empty.insert(vertex);
             }
         }
-        self.empty_vertices(outcome);
+        if is_much {
+            self.rebuild(options);
+            return;
+        }
         self.append(coming, options);
         self.revision += 1;
     }
 
-    /// Vertices that come, or come again, are somewhere from now on.
-    fn add_vertices(&mut self, outcome: &Outcome<S>) {
-        let known = self.vertex_count();
+    /// Vertices come, which no triangle in tree order has yet.
+    fn add_vertices(&mut self, new: &[(u32, [S; 3])]) {
         let Some(edits) = &mut self.edits else {
             return;
         };
-        let added = outcome.vertices - known;
-        self.order.add_vertices(added);
-        let slots = known as u32..outcome.vertices as u32;
-        edits.slots.extend(slots.map(TreeVertex));
-        let first_added = outcome
-            .new_vertices
-            .partition_point(|&(vertex, _)| (vertex as usize) < known);
-        let (again, new) = outcome.new_vertices.split_at(first_added);
+        let slots = self.order.vertex_order().len() as u32..;
+        edits.slots.extend(slots.map(TreeVertex).take(new.len()));
+        let first = self.positions.len() as u32;
+        self.order.add_vertices(first..first + new.len() as u32);
         let new: Vec<[S; 3]> = new.iter().map(|&(_, position)| position).collect();
         self.positions.push(&new);
+        new.into_iter()
+            .for_each(|position| self.bounds.include(position));
+    }
+
+    /// Vertices that were empty are somewhere. One that went and came within one edit still has triangles that were taken out, whose boxes
+    /// were made.
+    fn place_again(&mut self, again: &[(u32, [S; 3])]) {
+        let Some(edits) = &mut self.edits else {
+            return;
+        };
         for &(vertex, position) in again {
             edits.empty.remove(vertex);
-            edits.aliases.remove(&vertex);
             let slot = edits.slots[vertex as usize];
             self.positions.place(CallerVertex(vertex), slot, position);
-            // Boxes over what was taken out hold it, and were made before.
-            self.epoch += 1;
-        }
-        for &(_, position) in &outcome.new_vertices {
+            self.epoch += u64::from(slot.index() < self.order.used_vertices());
             self.bounds.include(position);
         }
     }
 
-    /// Vertices that no triangle has any more are where others are from now on.
-    fn empty_vertices(&mut self, outcome: &Outcome<S>) {
+    /// Vertices that lose their last triangle go to the end of tree order, and leave orphans. These stand where
+    /// vertices do that are near them in the tree, each where another does: boxes over nothing but orphans are as large as others, and
+    /// no more of them are in one place.
+    fn leave_orphans(&mut self, outcome: &Outcome<S>) {
+        let used = self.order.used_vertices();
         let Some(edits) = &mut self.edits else {
             return;
         };
-        for &vertex in &outcome.emptied {
-            edits.empty.insert(vertex);
-        }
-        let is_used = |edits: &EditState<S>, vertex: u32| edits.at.of(vertex).next().is_some();
+        let leaves =
+            |edits: &EditState<S>, vertex: u32| edits.slots[vertex as usize].index() < used;
+        let mut lost: BTreeMap<TreeVertex, Option<u32>> = BTreeMap::new();
         for (_, [old, _]) in &outcome.changed {
-            let beside = old.iter().find(|&&vertex| is_used(edits, vertex));
-            for &vertex in old {
-                if let Some(&beside) = beside
-                    && edits.empty.has(vertex)
-                {
-                    edits.aliases.insert(vertex, beside);
+            let mut stay = old
+                .iter()
+                .filter(|&&vertex| vertex != u32::MAX && edits.is_used(vertex));
+            let beside = stay.next().copied();
+            for &vertex in old.iter().filter(|&&vertex| vertex != u32::MAX) {
+                if !edits.is_used(vertex) && leaves(edits, vertex) {
+                    let alias = lost.entry(edits.slots[vertex as usize]).or_default();
+                    *alias = alias.or(beside);
                 }
             }
         }
-        let order = self.order.vertex_order();
+        let some = || {
+            let mut all = self.topology.triangles().iter();
+            all.find(|corners| **corners != EMPTY).map_or(0, |it| it[0])
+        };
+        let is_good =
+            |edits: &EditState<S>, lost: &BTreeMap<TreeVertex, Option<u32>>, vertex: u32| {
+                edits.is_used(vertex) && !lost.contains_key(&edits.slots[vertex as usize])
+            };
         let mut any = None;
-        for &vertex in &outcome.emptied {
-            if edits.aliases.contains_key(&vertex) {
-                continue;
+        let mut run = 0..0;
+        for (&TreeVertex(slot), &beside) in &lost {
+            if slot != run.end {
+                run = slot..slot;
             }
-            let slot = edits.slots[vertex as usize].index();
-            let around = slot.saturating_sub(NEARBY)..order.len().min(slot + NEARBY);
-            let mut near = order[around].iter().copied();
-            let alias = near.find(|&vertex| is_used(edits, vertex)).or_else(|| {
-                let triangles = self.topology.triangles().iter();
-                any = any.or_else(|| triangles.copied().find(|&corners| corners != EMPTY));
-                any.map(|[vertex, _, _]| vertex)
-            });
-            edits.aliases.extend(alias.map(|alias| (vertex, alias)));
+            run.end = slot + 1;
+            // The mirror image in the beginning of the run, in which all are lost.
+            let mirrored = run.start.checked_sub(1 + slot - run.start);
+            let near = mirrored.map(|slot| self.order.caller_vertex(TreeVertex(slot)).0);
+            let mut candidates = beside.into_iter().chain(near);
+            let alias = candidates.find(|&vertex| is_good(edits, &lost, vertex));
+            let alias = alias.unwrap_or_else(|| *any.get_or_insert_with(some));
+            let vertex = self.order.caller_vertex(TreeVertex(slot)).0;
+            edits.slots[vertex as usize] = self.order.orphan(TreeVertex(slot), alias);
+            self.positions.follow_to_the_end(TreeVertex(slot));
+            let mut orphans = edits.orphans_of.remove(&vertex).unwrap_or_default();
+            orphans.retain(|&orphan| self.order.set_alias(orphan, vertex, alias));
+            orphans.push(slot);
+            edits.orphans_of.entry(alias).or_default().extend(orphans);
         }
     }
 
@@ -398,11 +422,16 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let order = std::mem::take(&mut plan.order);
 
         edits.gone.cut_back(first);
-        self.order.cut_back(first as usize, first_vertex.index());
+        let (triangles, used) = (first as usize, first_vertex.index());
         let all = &mut self.positions;
         self.order
-            .append(&self.topology, &order, &mut edits.slots, |both| {
-                all.exchange(both);
+            .cut_back(triangles, used, &mut edits.slots, |moved| {
+                all.follow(&moved)
+            });
+        let all = &mut self.positions;
+        self.order
+            .append(&self.topology, &order, &mut edits.slots, |moved| {
+                all.follow(&moved);
             });
         for (place, &triangle) in (first..).zip(&order) {
             edits.places[triangle as usize] = place;
@@ -434,6 +463,22 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                 .map(|seen| !std::mem::replace(seen, true));
             if is_first != Some(true) || corners != self.topology.corners(triangle) {
                 return Err(format!("{place:?} is not {triangle:?}, or once too often"));
+            }
+        }
+        if let Some(edits) = &self.edits {
+            let has_place = |vertex: u32| {
+                let slot = edits.slots[vertex as usize];
+                !self.order.orphans().has(slot.0) && self.order.caller_vertex(slot).0 == vertex
+            };
+            if let Some(vertex) = (0..self.vertex_count() as u32).find(|&it| !has_place(it)) {
+                return Err(format!("vertex {vertex} is not where it is said to be"));
+            }
+            let slot = |vertex: u32| edits.slots[vertex as usize];
+            let elements = self.elements.get();
+            if let Some(elements) = elements
+                && let Some(edge) = elements.misplaced(slot)
+            {
+                return Err(format!("edge {edge} has ends that are not its own"));
             }
         }
         let is_live = |triangle: usize| self.topology.is_live(triangle as u32);

@@ -496,7 +496,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
     }
 
     fn vertex_order(&self, id: BodyId) -> Result<&[u32], Error> {
-        Ok(self.body(id)?.order.vertex_order())
+        Ok(self.body(id)?.vertex_order())
     }
 
     fn distance(

@@ -11,6 +11,7 @@ use crate::geometry::{Bounds, IN_A_ROW, Points};
 use crate::held::{self, Held};
 use crate::ids::{CallerVertex, TreeVertex};
 use crate::kernels::{Coordinate, Instructions, check, copy_checked, gather};
+use crate::mesh::{Moved, Order};
 use crate::threads::Executor;
 use std::borrow::Cow;
 
@@ -170,13 +171,16 @@ impl<S: Coordinate> Positions<S> {
     }
 
     /// As the caller orders vertices.
-    pub(super) fn in_callers_order(&self, order: &[u32]) -> Cow<'_, [[S; 3]]> {
+    pub(super) fn in_callers_order(&self, order: &Order) -> Cow<'_, [[S; 3]]> {
         if matches!(self.order, InOrder::Callers | InOrder::Both) {
             return Cow::Borrowed(&self.callers);
         }
         let mut callers = vec![[S::default(); 3]; self.len()];
-        for (place, &vertex) in order.iter().enumerate() {
-            callers[vertex as usize] = self.trees.get(TreeVertex(place as u32));
+        let have_orphans = order.orphans().count() > 0;
+        for (place, &vertex) in (0..).zip(order.vertex_order()) {
+            if !(have_orphans && order.orphans().has(place)) {
+                callers[vertex as usize] = self.trees.get(TreeVertex(place));
+            }
         }
         Cow::Owned(callers)
     }
@@ -212,17 +216,30 @@ impl<S: Coordinate> Positions<S> {
         }
     }
 
-    /// Two vertices exchange their numbers in tree order.
-    pub(super) fn exchange(&mut self, [a, b]: [TreeVertex; 2]) {
+    /// Numbers in tree order are others.
+    pub(super) fn follow(&mut self, moved: &Moved) {
+        if self.order == InOrder::Callers {
+            return;
+        }
+        match *moved {
+            Moved::Exchanged([a, b]) => {
+                let [at_a, at_b] = [a, b].map(|vertex| self.trees.get(vertex));
+                self.trees.set(a, at_b);
+                self.trees.set(b, at_a);
+            }
+            Moved::LastGone => self.trees.pop(),
+        }
+    }
+
+    /// A vertex has a number at the end of tree order too: what is at the other stays where it is until the next shape.
+    pub(super) fn follow_to_the_end(&mut self, slot: TreeVertex) {
         if self.order != InOrder::Callers {
-            let [at_a, at_b] = [a, b].map(|vertex| self.trees.get(vertex));
-            self.trees.set(a, at_b);
-            self.trees.set(b, at_a);
+            self.trees.push(self.trees.get(slot));
         }
     }
 
     /// Tree order is going to be another than `order`.
-    pub(super) fn forget_tree_order(&mut self, order: &[u32]) {
+    pub(super) fn forget_tree_order(&mut self, order: &Order) {
         if let Cow::Owned(callers) = self.in_callers_order(order) {
             self.callers = callers;
         }

@@ -3,9 +3,11 @@
 //! ```sh
 //! cargo run --release -p pliant-bench --example changing -- remesh          # every tenth step, and sums
 //! cargo run --release -p pliant-bench --example changing -- tear without    # the same shapes, in which nothing happens
+//! cargo run --release -p pliant-bench --example changing -- shuffle mended  # with trees that mend themselves
+//! cargo run --release -p pliant-bench --example changing -- shuffle fresh   # with fresh trees, which are built between steps
 //! ```
 
-use pliant::{BodyId, Selection, World};
+use pliant::{BodyId, Options, Selection, World};
 use pliant_bench::methods::make;
 use pliant_scenes::{ChangingScene, Event};
 use std::time::Instant;
@@ -19,7 +21,9 @@ fn main() {
     if how.as_deref() == Some("without") {
         scene = scene.without_events();
     }
-    let mut world = World::<f32>::new();
+    let mut options = Options::default();
+    options.mending = how.as_deref() == Some("mended");
+    let mut world = World::<f32>::with_options(options);
     let bodies = 0..scene.body_count();
     let ids: Vec<BodyId> = bodies
         .clone()
@@ -29,8 +33,9 @@ fn main() {
         })
         .collect();
     let mut sums = [0.0; 3];
+    let mut steps = Vec::new();
     let mut shapes = vec![Vec::new(); ids.len()];
-    println!("  step    edits   shapes    query    pairs node pairs candidates");
+    println!("  step    edits   shapes    query    pairs node pairs candidates  quality");
     for step in 1..=scene.steps() {
         for (body, shape) in shapes.iter_mut().enumerate() {
             scene.positions(body, step, shape);
@@ -61,22 +66,31 @@ fn main() {
         let pairs = pairs.expect("the whole world is there").len();
         let asked = Instant::now();
         if how.as_deref() == Some("fresh") {
-            ids.iter().for_each(|&id| drop(world.rebuild(id)));
+            for &id in &ids {
+                let _ = world.rebuild(id);
+            }
+            // What neighbours are is part of building.
+            let _ = world.intersections(Selection::Everything).prepare();
         }
         let times = [edited - start, set - edited, asked - set];
         let times = times.map(|time| time.as_secs_f64() * 1e3);
         for (sum, time) in sums.iter_mut().zip(times) {
             *sum += time;
         }
+        steps.push(times.iter().sum::<f64>());
         if step % 10 == 0 {
             let [edits, shapes, query] = times;
             let work = world.statistics();
             let (nodes, candidates) = (work.node_pairs, work.candidate_pairs);
+            let quality = world.tree_quality(ids[0]).expect("it is there");
             println!(
-                "{step:6} {edits:8.3} {shapes:8.3} {query:8.3} {pairs:8} {nodes:10} {candidates:10}"
+                "{step:6} {edits:8.3} {shapes:8.3} {query:8.3} {pairs:8} {nodes:10} {candidates:10} {quality:8.2}"
             );
         }
     }
     let [edits, shapes, query] = sums.map(|sum| sum / f64::from(scene.steps()));
     println!("  mean {edits:8.3} {shapes:8.3} {query:8.3} ms");
+    steps.sort_by(f64::total_cmp);
+    let (median, longest) = (steps[steps.len() / 2], steps[steps.len() - 1]);
+    println!("a step {median:.3} ms on the median, {longest:.3} at the longest");
 }

@@ -31,7 +31,7 @@ use std::ops::Range;
 pub struct Edit<S> {
     pub(crate) body: BodyId,
     /// Which mesh the numbers are of.
-    pub(crate) revision: u64,
+    pub(crate) mesh: u64,
     vertices: u32,
     triangles: u32,
     pub(crate) steps: Vec<Step<S>>,
@@ -50,10 +50,10 @@ pub(crate) enum Step<S> {
 }
 
 impl<S: Copy> Edit<S> {
-    pub(crate) fn new(body: BodyId, revision: u64, vertices: usize, triangles: usize) -> Self {
+    pub(crate) fn new(body: BodyId, mesh: u64, vertices: usize, triangles: usize) -> Self {
         Self {
             body,
-            revision,
+            mesh,
             vertices: vertices as u32,
             triangles: triangles as u32,
             steps: Vec::new(),

@@ -30,6 +30,10 @@ pub struct Options {
     /// pay from about a millisecond of work on, and more than 256 are 256. For a fifth of a millisecond after a query threads of the
     /// world look for more to do before they sleep. Where the system gives none, the calling thread does it all.
     pub threads: NonZeroUsize,
+    /// Whether the trees of bodies [mend themselves](crate::World::tree_quality): one that has decayed so far that a fresh one would have
+    /// paid is built anew, a part of the work at each [`set_positions`](crate::World::set_positions). Default: no, for most bodies stay
+    /// near enough to the shape that they began with, and then a step takes no memory.
+    pub mending: bool,
 }
 
 /// The most children a node has (paper, 3.2).
@@ -134,6 +138,7 @@ impl Default for Options {
             update: Update::HYBRID,
             broad_phase: BroadPhase::Auto,
             threads: NonZeroUsize::MIN,
+            mending: false,
         }
     }
 }

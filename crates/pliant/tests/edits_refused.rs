@@ -210,9 +210,14 @@ fn edits_of_another_mesh_or_of_nobody() {
     let mut world = World::<f32>::new();
     let body = world.add(&triangles, &positions).unwrap();
     let early = world.edit(body).unwrap();
-    world.rebuild(body).unwrap();
+    world.set_mesh(body, &triangles[1..], &positions).unwrap();
     let refused = world.apply(&early).unwrap_err().kind;
     assert_eq!(refused, Kind::OutdatedEdit);
+    // Another tree of the same mesh is no reason.
+    let mut edit = world.edit(body).unwrap();
+    edit.remove_triangle(0);
+    world.rebuild(body).unwrap();
+    world.apply(&edit).unwrap();
     let edit = world.edit(body).unwrap();
     world.remove(body).unwrap();
     for refused in [

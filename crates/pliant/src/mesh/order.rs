@@ -50,12 +50,16 @@ impl Order {
             }
             TreeVertex(*number)
         };
+        // One that is no more has the corners of the one before, or of some.
+        let is_live = |triangle: &&u32| topology.is_live(**triangle);
+        let mut last = triangles.iter().find(is_live).copied().unwrap_or_default();
         let corners = triangles
             .iter()
             .map(|&triangle| {
-                topology
-                    .corners(CallerTriangle(triangle))
-                    .map(&mut renumber)
+                if topology.is_live(triangle) {
+                    last = triangle;
+                }
+                topology.corners(CallerTriangle(last)).map(&mut renumber)
             })
             .collect();
         let used = vertices.len();

@@ -127,6 +127,11 @@ impl<const N: usize> Tree<N> {
         self.vertices.len()
     }
 
+    /// Whether the table of neighbours is there.
+    pub(crate) fn knows_neighbours(&self) -> bool {
+        self.neighbours.is_some()
+    }
+
     /// Makes the table of neighbours, unless it is there, or there are no blocks that it could be of. Interrupted, it makes none.
     pub(crate) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
         if self.leaves.have_blocks() && self.neighbours.is_none() {

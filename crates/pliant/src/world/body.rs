@@ -1,7 +1,9 @@
 //! One body: its mesh, its tree and boxes, the shape it has now, and what it may meet.
 
 use super::BodyId;
+use super::decay::Decay;
 use super::edit_state::EditState;
+use super::mending::Mending;
 use super::part::{OfElements, Part};
 use super::positions::Positions;
 use crate::error::ErrorKind;
@@ -32,8 +34,14 @@ pub(super) struct Body<const N: usize, S> {
     pub(super) bounds: Bounds<S>,
     /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other epochs are stale.
     pub(super) epoch: u64,
+    /// Counts meshes.
+    pub(super) meshes: u64,
     /// Counts meshes, and orders of a mesh.
     pub(super) revision: u64,
+    /// How much more the tree does than a fresh one would.
+    pub(super) decay: Decay,
+    /// A tree that is to take its place.
+    pub(super) mending: Option<Box<Mending<N>>>,
     membership: u32,
     mask: u32,
     pub(super) loose: Option<Bounds<S>>,
@@ -193,7 +201,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             positions: Positions::new(positions),
             bounds,
             epoch: 1,
+            meshes: 0,
             revision: 0,
+            decay: Decay::default(),
+            mending: None,
             membership: u32::MAX,
             mask: u32::MAX,
             loose: None,
@@ -217,7 +228,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             positions: Positions::new(&self.stored_positions()),
             bounds: self.bounds,
             epoch: self.epoch,
+            meshes: self.meshes,
             revision: self.revision,
+            decay: self.decay,
+            mending: None,
             membership: self.membership,
             mask: self.mask,
             loose: self.loose,
@@ -264,6 +278,8 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         }
         self.epoch += 1;
         self.revision += 1;
+        self.decay.begin_anew();
+        self.mending = None;
     }
 
     /// The edges as they are numbered, if the mesh was edited since they were: these numbers stay.
@@ -863,7 +879,7 @@ impl<S: Coordinate> Taking<'_, S> {
 
 impl<const N: usize> Parts<N> {
     /// Of a tree over all of so many triangles.
-    fn of(tree: Tree<N>, triangles: usize) -> Self {
+    pub(super) fn of(tree: Tree<N>, triangles: usize) -> Self {
         Self {
             first: Part::new(tree, 0..triangles as u32, TreeVertex(0)),
             others: Vec::new(),
@@ -966,7 +982,7 @@ pub(super) fn divide<S: Real>(
     let leaf_size = options.leaf_size.get();
     let count = triangles.len();
     let by_shape = |cut| {
-        let mut rule = InitialShape::new(triangles, positions, cut, degree);
+        let mut rule = InitialShape::new(triangles.into(), positions.into(), cut, degree);
         plan(count, degree, leaf_size, &mut rule)
     };
     match options.partition {
@@ -1034,6 +1050,10 @@ impl<const N: usize, S> Held for Body<N, S> {
                 .edits
                 .as_ref()
                 .map_or(0, |it| size_of::<EditState<S>>() + it.held())
+            + self
+                .mending
+                .as_ref()
+                .map_or(0, |it| size_of::<Mending<N>>() + it.held())
             + self.groups.as_ref().map_or(0, |groups| {
                 let of_elements = groups.of_elements.as_ref().map_or(0, Held::held);
                 size_of::<VertexGroups>() + held::list(&groups.callers) + of_elements

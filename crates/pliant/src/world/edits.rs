@@ -36,7 +36,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// An edit of the mesh of now, without steps.
     pub(super) fn begin_edit(&self) -> Edit<S> {
         let [vertices, triangles] = [self.vertex_count(), self.triangle_numbers()];
-        Edit::new(self.id, self.revision, vertices, triangles)
+        Edit::new(self.id, self.meshes, vertices, triangles)
     }
 
     /// Whether a triangle in tree order was taken out of the mesh.
@@ -63,7 +63,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// Makes all changes of an edit; or leaves the body as it is and says what was wrong.
     pub(super) fn apply(&mut self, edit: &Edit<S>, options: &Options) -> Result<Edited, ErrorKind> {
-        if edit.revision != self.revision {
+        if edit.mesh != self.meshes {
             return Err(ErrorKind::OutdatedEdit);
         }
         self.prepare_to_edit();
@@ -243,6 +243,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// Takes changes into tree order: a part for what comes, or the whole anew.
     fn take_in(&mut self, outcome: &Outcome<S>, options: &Options) {
+        self.meshes += 1;
         let known = self.vertex_count();
         let (again, new) = outcome.new_vertices.split_at(
             outcome
@@ -374,7 +375,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     }
 
     /// Puts triangles behind all others, in a part with those last ones that are not much larger.
-    fn append(&mut self, mut coming: Vec<u32>, options: &Options) {
+    pub(super) fn append(&mut self, mut coming: Vec<u32>, options: &Options) {
         let Some(edits) = &mut self.edits else {
             return;
         };
@@ -494,6 +495,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     fn with_mesh(&self, triangles: &[[u32; 3]], positions: &[[S; 3]], options: &Options) -> Self {
         let mut new = Self::new(self.id, triangles, positions, options);
         new.epoch = self.epoch + 1;
+        new.meshes = self.meshes + 1;
         new.revision = self.revision + 1;
         new.loose = self.loose;
         let (membership, mask) = self.filter();

@@ -72,6 +72,7 @@ pub(crate) trait AnyEngine<S>:
     fn apply(&mut self, edit: &Edit<S>) -> Result<Edited, Error>;
     fn live_triangles(&self, id: BodyId) -> Result<Vec<bool>, Error>;
     fn live_vertices(&self, id: BodyId) -> Result<Vec<bool>, Error>;
+    fn tree_quality(&self, id: BodyId) -> Result<f64, Error>;
     fn mesh_revision(&self, id: BodyId) -> Result<u64, Error>;
     fn rebuild(&mut self, id: BodyId) -> Result<(), Error>;
     fn set_motion(&mut self, id: BodyId, end: &[[S; 3]]) -> Result<(), Error>;
@@ -226,6 +227,17 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             body.set_positions(instructions, executor, positions)
         })?;
         self.common.note_movement();
+        let options = self.common.options;
+        if options.mending {
+            let mut is_another = false;
+            self.change(id, |body, _, executor| {
+                is_another = body.mend(&options, executor);
+                Ok(())
+            })?;
+            if is_another {
+                self.forget_answers(id);
+            }
+        }
         Ok(())
     }
 }
@@ -353,6 +365,10 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
 
     fn live_vertices(&self, id: BodyId) -> Result<Vec<bool>, Error> {
         Ok(self.body(id)?.live_vertices())
+    }
+
+    fn tree_quality(&self, id: BodyId) -> Result<f64, Error> {
+        Ok(self.body(id)?.decay.quality())
     }
 
     fn mesh_revision(&self, id: BodyId) -> Result<u64, Error> {

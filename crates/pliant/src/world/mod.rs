@@ -12,12 +12,14 @@ mod body_pairs;
 mod clearance;
 mod close;
 mod debug_view;
+mod decay;
 mod distance;
 mod edit_state;
 mod edits;
 mod engine;
 mod impacts;
 mod interruptible;
+mod mending;
 mod origin;
 mod part;
 mod pieces;
@@ -277,8 +279,7 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`OutdatedEdit`](crate::ErrorKind::OutdatedEdit) if the mesh was changed since the edit was begun, or a tree was built anew by
-    /// [`rebuild`](Self::rebuild); [`NoTriangles`](crate::ErrorKind::NoTriangles) if none would be left;
+    /// [`OutdatedEdit`](crate::ErrorKind::OutdatedEdit) if the mesh was changed since the edit was begun; [`NoTriangles`](crate::ErrorKind::NoTriangles) if none would be left;
     /// [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle), [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle),
     /// [`NoSuchVertex`](crate::ErrorKind::NoSuchVertex), [`EmptyVertex`](crate::ErrorKind::EmptyVertex),
     /// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange), [`VertexInUse`](crate::ErrorKind::VertexInUse),
@@ -313,6 +314,20 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn mesh_revision(&self, body: BodyId) -> Result<u64, Error> {
         self.engine.mesh_revision(body)
+    }
+
+    /// How much more the tree of a body does than a fresh one would, estimated from what queries for triangles did in the shape of now: pairs
+    /// of nodes that were looked at, for one that a fresh tree would look at. 1 before a query says anything, or where little was looked at.
+    ///
+    /// The first queries after the body was added tell what a fresh tree does. With [`Options::mending`] trees that have decayed are built
+    /// anew, a part of the work at each [`set_positions`](Self::set_positions), as soon as that would have paid by now; a tree along the mesh
+    /// ([`Partition::Connectivity`](crate::Partition::Connectivity)) is not, for it would be the same again.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn tree_quality(&self, body: BodyId) -> Result<f64, Error> {
+        self.engine.tree_quality(body)
     }
 
     /// Builds the tree of a body anew, on the shape it has now. Id, filters and loose box stay. Worth it when a shape has

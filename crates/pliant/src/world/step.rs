@@ -4,6 +4,7 @@
 use super::bodies::Bodies;
 use super::body::Body;
 use super::body_pairs::BodyPair;
+use super::decay::Work;
 use crate::geometry::Origin;
 use crate::kernels::Coordinate;
 use crate::queries::{Kind, Leaves};
@@ -47,6 +48,7 @@ where
         sink: Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
+        let before = *self.statistics;
         let [body_a, body_b] = both;
         self.bring_body_into_tree_order(body_a)?;
         self.bring_body_into_tree_order(body_b)?;
@@ -58,6 +60,12 @@ where
                 self.descend_two(TwoTrees { a, b }, parts_a + parts_b > 2, sink)?;
             }
         }
+        if K::LEAVES == Leaves::Triangles {
+            let [node_pairs, candidates] = self.since(&before);
+            let work = Work::of_two(node_pairs, candidates);
+            body_a.decay.note(work, body_a.epoch);
+            body_b.decay.note(work, body_b.epoch);
+        }
         ControlFlow::Continue(())
     }
 
@@ -68,6 +76,7 @@ where
         sink: Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
+        let before = *self.statistics;
         self.bring_body_into_tree_order(body)?;
         let parts = body.parts.len();
         for part in 0..parts {
@@ -85,7 +94,22 @@ where
                 self.descend_two(TwoTrees { a, b }, true, sink)?;
             }
         }
+        if K::LEAVES == Leaves::Triangles {
+            let [node_pairs, candidates] = self.since(&before);
+            let triangles = body.topology.live_count();
+            let work = Work::of_one(node_pairs, candidates, triangles);
+            body.decay.note(work, body.epoch);
+        }
         ControlFlow::Continue(())
+    }
+
+    /// Pairs of nodes and candidates that were looked at since the counters were so.
+    fn since(&self, before: &Statistics) -> [u64; 2] {
+        let now = &self.statistics;
+        [
+            now.node_pairs - before.node_pairs,
+            now.candidate_pairs - before.candidate_pairs,
+        ]
     }
 
     /// Two trees; those of which bodies have several perhaps do not overlap.

@@ -8,6 +8,7 @@
 use super::Split;
 use super::initial_shape::midpoint;
 use crate::geometry::Real;
+use crate::held;
 
 pub(crate) struct Balanced {
     midpoints: Vec<[f64; 3]>,
@@ -59,6 +60,10 @@ impl Balanced {
 }
 
 impl Split for Balanced {
+    fn held(&self) -> usize {
+        held::list(&self.midpoints)
+    }
+
     fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
         let capacity = self.capacity(triangles.len());
         let children = triangles.len().div_ceil(capacity);

@@ -6,6 +6,8 @@
 
 use super::Split;
 use crate::geometry::{Bounds, Real};
+use crate::held;
+use std::borrow::Cow;
 
 /// Where a part is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,9 +18,9 @@ pub(crate) enum CutAt {
     Mean,
 }
 
-pub(crate) struct InitialShape<'a, S> {
-    triangles: &'a [[u32; 3]],
-    positions: &'a [[S; 3]],
+pub(crate) struct InitialShape<'a, S: Copy> {
+    triangles: Cow<'a, [[u32; 3]]>,
+    positions: Cow<'a, [[S; 3]]>,
     cut: CutAt,
     /// How many sides are cut: the degree is 2 to this power.
     sides: usize,
@@ -28,8 +30,8 @@ pub(crate) struct InitialShape<'a, S> {
 impl<'a, S: Real> InitialShape<'a, S> {
     /// Triangles and positions in the caller's order.
     pub(crate) fn new(
-        triangles: &'a [[u32; 3]],
-        positions: &'a [[S; 3]],
+        triangles: Cow<'a, [[u32; 3]]>,
+        positions: Cow<'a, [[S; 3]]>,
         cut: CutAt,
         degree: usize,
     ) -> Self {
@@ -57,6 +59,10 @@ pub(super) fn midpoint<S: Real>([a, b, c]: [[S; 3]; 3]) -> [f64; 3] {
 }
 
 impl<S: Real> Split for InitialShape<'_, S> {
+    fn held(&self) -> usize {
+        size_of_val(&*self.triangles) + size_of_val(&*self.positions) + held::list(&self.scratch)
+    }
+
     fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
         let mut bounds = Bounds::EMPTY;
         let mut sum = [0.0; 3];

@@ -14,6 +14,7 @@ mod balanced;
 mod connectivity;
 mod initial_shape;
 
+use crate::held::{self, Held};
 pub(crate) use balanced::Balanced;
 pub(crate) use connectivity::Connectivity;
 pub(crate) use initial_shape::{CutAt, InitialShape};
@@ -64,49 +65,121 @@ pub(crate) trait Split {
     /// Reorders `triangles` (caller's numbers, more than `leaf_size` of them) and appends the lengths of the pieces they fall
     /// into: at most the degree, none empty, in order. One piece means that the rule cannot tell the triangles apart.
     fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>);
+
+    /// Bytes that it holds.
+    fn held(&self) -> usize {
+        0
+    }
 }
 
 /// Divides `count` triangles until at most `leaf_size` are left in each part.
-pub(crate) fn plan(count: usize, degree: usize, leaf_size: u32, rule: &mut impl Split) -> Plan {
-    let mut order: Vec<u32> = (0..count as u32).collect();
-    let mut parts = vec![Part {
-        triangles: 0..count as u32,
-        children: 0..0,
-        level: 0,
-    }];
-    let mut pieces = Vec::with_capacity(degree);
-    let mut next = 0;
-    while next < parts.len() {
-        let Part {
-            triangles, level, ..
-        } = parts[next].clone();
-        if triangles.len() > leaf_size as usize {
-            let run = &mut order[triangles.start as usize..triangles.end as usize];
-            pieces.clear();
-            rule.split(run, &mut pieces);
-            if pieces.len() == 1 {
-                cut_the_order(run.len(), degree, &mut pieces);
-            }
-            let first = parts.len() as u32;
-            parts[next].children = first..first + pieces.len() as u32;
-            let mut start = triangles.start;
-            for &length in &pieces {
-                let end = start + length as u32;
-                parts.push(Part {
-                    triangles: start..end,
+pub(crate) fn plan(count: usize, degree: usize, leaf_size: u32, rule: impl Split) -> Plan {
+    let mut planner = Planner::new(count, degree, leaf_size, rule);
+    planner.advance(usize::MAX);
+    planner.finish()
+}
+
+/// A division of triangles on its way, which may be made some at a time.
+pub(crate) struct Planner<R> {
+    rule: R,
+    plan: Plan,
+    degree: usize,
+    /// The first part that was not looked at.
+    next: usize,
+    pieces: Vec<usize>,
+}
+
+impl<R: Split> Planner<R> {
+    /// Of `count` triangles, none of which was looked at.
+    pub(crate) fn new(count: usize, degree: usize, leaf_size: u32, rule: R) -> Self {
+        Self {
+            rule,
+            plan: Plan {
+                order: (0..count as u32).collect(),
+                parts: vec![Part {
+                    triangles: 0..count as u32,
                     children: 0..0,
-                    level: level + 1,
-                });
-                start = end;
-            }
+                    level: 0,
+                }],
+                leaf_size,
+            },
+            degree,
+            next: 0,
+            pieces: Vec::with_capacity(degree),
         }
-        next += 1;
     }
-    parts.shrink_to_fit();
-    Plan {
-        order,
-        parts,
-        leaf_size,
+
+    /// Divides parts that have so many triangles together, and the last of them whole; all that are left, if these have fewer. Returns
+    /// whether none is left.
+    pub(crate) fn advance(&mut self, triangles: usize) -> bool {
+        let Plan {
+            order,
+            parts,
+            leaf_size,
+        } = &mut self.plan;
+        let mut done = 0;
+        while self.next < parts.len() && done < triangles {
+            let Part {
+                triangles, level, ..
+            } = parts[self.next].clone();
+            if triangles.len() > *leaf_size as usize {
+                done += triangles.len();
+                let run = &mut order[triangles.start as usize..triangles.end as usize];
+                self.pieces.clear();
+                self.rule.split(run, &mut self.pieces);
+                if self.pieces.len() == 1 {
+                    cut_the_order(run.len(), self.degree, &mut self.pieces);
+                }
+                let first = parts.len() as u32;
+                parts[self.next].children = first..first + self.pieces.len() as u32;
+                let mut start = triangles.start;
+                for &length in &self.pieces {
+                    let end = start + length as u32;
+                    parts.push(Part {
+                        triangles: start..end,
+                        children: 0..0,
+                        level: level + 1,
+                    });
+                    start = end;
+                }
+            }
+            self.next += 1;
+        }
+        self.next == parts.len()
+    }
+
+    /// The division, when no part is left.
+    pub(crate) fn finish(mut self) -> Plan {
+        self.plan.parts.shrink_to_fit();
+        self.plan
+    }
+}
+
+impl<R: Split> Split for &mut R {
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
+        (**self).split(triangles, pieces);
+    }
+}
+
+impl Split for Box<dyn Split + Send + Sync> {
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
+        (**self).split(triangles, pieces);
+    }
+
+    fn held(&self) -> usize {
+        (**self).held()
+    }
+}
+
+impl Held for Plan {
+    fn held(&self) -> usize {
+        held::list(&self.order) + held::list(&self.parts)
+    }
+}
+
+impl<R: Split> Held for Planner<R> {
+    fn held(&self) -> usize {
+        self.rule.held() + self.plan.held() + held::list(&self.pieces)
     }
 }
 

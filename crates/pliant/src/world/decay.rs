@@ -1,0 +1,148 @@
+//! How much more the tree of a body does than a fresh one would, estimated from what queries did.
+//!
+//! What a query of triangles finds near each other, its *candidates*, does not depend on the tree, nor does how many triangles there are;
+//! how many pairs of nodes it looks at on the way does. On the scenes of this project fresh trees look at a pair of nodes for every two
+//! candidates of two bodies, and in a body that meets itself at one for five candidates and, for its neighbours, at about two for three
+//! triangles. How many these are for a triangle depends on the options and the surface: the first query after a tree was built tells,
+//! and of two bodies how many are for a candidate. What is more than that is decay: nodes that have grown into each other, or triangles
+//! that were taken out.
+
+/// Pairs of nodes that a fresh tree looks at for each candidate of two bodies, of one with itself, and for each triangle of that.
+const OF_TWO: f64 = 0.45;
+const OF_ONE: f64 = 0.2;
+const OF_TRIANGLE: f64 = 0.69;
+
+/// Fewer pairs of nodes say nothing.
+const FEWEST: f64 = 256.0;
+
+/// What looking at a body cost, and what a fresh tree would look at.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Work {
+    /// Pairs of nodes that were looked at.
+    node_pairs: f64,
+    /// Those of a fresh tree for candidates of this and another body, but for a factor,
+    of_two: f64,
+    /// for candidates of the body with itself,
+    of_one: f64,
+    /// and for its triangles, but for another factor.
+    of_triangles: f64,
+}
+
+impl Work {
+    /// Of two bodies.
+    pub(super) fn of_two(node_pairs: u64, candidates: u64) -> Self {
+        Self {
+            node_pairs: node_pairs as f64,
+            of_two: OF_TWO * candidates as f64,
+            ..Self::default()
+        }
+    }
+
+    /// Of a body of so many triangles with itself.
+    pub(super) fn of_one(node_pairs: u64, candidates: u64, triangles: usize) -> Self {
+        Self {
+            node_pairs: node_pairs as f64,
+            of_one: OF_ONE * candidates as f64,
+            of_triangles: OF_TRIANGLE * triangles as f64,
+            ..Self::default()
+        }
+    }
+}
+
+/// What queries did with the tree of a body since it was built.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Decay {
+    /// In the shape of now, or in the last in which somebody looked.
+    last: Work,
+    epoch: u64,
+    /// Factors for triangles, and for candidates of two bodies; none before a query that says something.
+    for_triangles: Option<f64>,
+    for_two: Option<f64>,
+    /// Pairs of nodes that a fresh tree would have spared, of all shapes before.
+    spared: f64,
+}
+
+impl Decay {
+    /// A body was looked at, in a shape of some number.
+    pub(super) fn note(&mut self, work: Work, epoch: u64) {
+        if self.epoch != epoch {
+            self.settle();
+            self.epoch = epoch;
+        }
+        self.last.node_pairs += work.node_pairs;
+        self.last.of_two += work.of_two;
+        self.last.of_one += work.of_one;
+        self.last.of_triangles += work.of_triangles;
+    }
+
+    /// What was done in the last shape counts as done.
+    fn settle(&mut self) {
+        let last = self.last;
+        if last.of_triangles >= FEWEST {
+            let rest = (last.node_pairs - last.of_one - last.of_two).max(0.0);
+            self.for_triangles.get_or_insert(rest / last.of_triangles);
+        } else if last.of_two >= FEWEST {
+            self.for_two.get_or_insert(last.node_pairs / last.of_two);
+        }
+        if let Some(expected) = self.expected() {
+            self.spared += (last.node_pairs - expected).max(0.0);
+        }
+        self.last = Work::default();
+    }
+
+    /// What a fresh tree would have looked at in the last shape, if that is known.
+    fn expected(&self) -> Option<f64> {
+        let last = self.last;
+        let of_two = self.for_two.unwrap_or(1.0) * last.of_two;
+        let expected = match self.for_triangles {
+            Some(factor) => factor * last.of_triangles + last.of_one + of_two,
+            None if last.of_triangles == 0.0 && self.for_two.is_some() => of_two,
+            None => return None,
+        };
+        (expected >= FEWEST && last.node_pairs >= FEWEST).then_some(expected)
+    }
+
+    /// How many pairs of nodes are looked at for one that a fresh tree would; 1 before anything is known.
+    pub(super) fn quality(&self) -> f64 {
+        let expected = self.expected();
+        expected.map_or(1.0, |expected| self.last.node_pairs / expected)
+    }
+
+    /// How many pairs of nodes a fresh tree would have spared since this one was built; and how many were looked at in the last shape.
+    pub(super) fn spared(&mut self) -> [f64; 2] {
+        let last = self.last.node_pairs;
+        self.settle();
+        [self.spared, last]
+    }
+
+    /// The tree is another, of the same kind: the factors stay.
+    pub(super) fn begin_anew(&mut self) {
+        self.last = Work::default();
+        self.spared = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_more_than_at_first_is_decay() {
+        let mut decay = Decay::default();
+        assert_eq!(decay.quality(), 1.0);
+        let is = |found: f64, expected: f64| (found - expected).abs() < 1e-6;
+        decay.note(Work::of_one(7_200, 1_000, 10_000), 1);
+        assert_eq!(decay.quality(), 1.0);
+        decay.note(Work::of_one(14_400, 1_000, 10_000), 2);
+        assert!(is(decay.quality(), 2.0));
+        let [spared, last] = decay.spared();
+        assert!(is(spared, 7_200.0) && last == 14_400.0);
+        decay.begin_anew();
+        assert_eq!(decay.spared(), [0.0, 0.0]);
+        // More triangles and candidates are no decay, nor is another body.
+        decay.note(Work::of_one(14_400, 2_000, 20_000), 3);
+        assert!(is(decay.quality(), 1.0));
+        decay.note(Work::of_two(4_500, 10_000), 3);
+        assert!(is(decay.quality(), 1.0));
+    }
+}

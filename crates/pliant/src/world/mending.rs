@@ -4,7 +4,7 @@
 //! each new shape of the body:
 //!     nothing is being built:     begin, if by now a fresh tree would have spared what it costs   (rent, then buy)
 //!     a division is on its way:   some parts of it, in proportion to what the last query did
-//!     it is done:                 order and tree; then, in another step, what neighbours are; then the tree is exchanged
+//!     it is done:                 in one step order and tree; in another what neighbours are, and the tree is exchanged
 //! ```
 //!
 //! The division is that of the shape of some steps before, which is as good. The mesh may be edited meanwhile: what is gone is marked in the
@@ -39,7 +39,9 @@ type Rule = Box<dyn Split + Send + Sync>;
 pub(super) enum Mending<const N: usize> {
     /// The division of these triangles, as the caller numbers them.
     Dividing(Planner<Rule>, Vec<u32>),
-    /// The tree over them, of a mesh that had this number.
+    /// It is done.
+    Divided(Plan),
+    /// The tree of it, of a mesh that had this number.
     Built(Plan, Box<(Order, Tree<N>)>, u64),
 }
 
@@ -58,12 +60,15 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             Some(Mending::Dividing(mut planner, numbers)) => {
                 let is_done = planner.advance(((PACE * last) as usize).max(LEAST));
                 self.mending = Some(Box::new(if is_done {
-                    let plan = planner.finish().with_numbers(&numbers);
-                    let built = Box::new(self.build(&plan));
-                    Mending::Built(plan, built, self.meshes)
+                    Mending::Divided(planner.finish().with_numbers(&numbers))
                 } else {
                     Mending::Dividing(planner, numbers)
                 }));
+                false
+            }
+            Some(Mending::Divided(plan)) => {
+                let built = Box::new(self.build(&plan));
+                self.mending = Some(Box::new(Mending::Built(plan, built, self.meshes)));
                 false
             }
             Some(Mending::Built(plan, built, meshes)) => {
@@ -155,6 +160,7 @@ impl<const N: usize> Held for Mending<N> {
     fn held(&self) -> usize {
         match self {
             Self::Dividing(planner, numbers) => planner.held() + held::list(numbers),
+            Self::Divided(plan) => plan.held(),
             Self::Built(plan, built, _) => {
                 let (order, tree) = &**built;
                 plan.held() + size_of_val(&**built) + order.held() + tree.held()

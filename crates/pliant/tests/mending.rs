@@ -1,0 +1,177 @@
+//! Trees that mend themselves change no answer, and do less; and what a tree says of its decay is near what is measured.
+
+mod common;
+
+use common::every_configuration;
+use pliant::{BodyId, Edit, Options, Pair, Partition, Selection, World};
+use pliant_scenes::{Change, ChangingScene, Event};
+
+/// A world that plays a scene.
+struct Player {
+    world: World<f32>,
+    ids: Vec<BodyId>,
+}
+
+impl Player {
+    fn new(scene: &ChangingScene, options: Options) -> Self {
+        let mut world = World::with_options(options);
+        let bodies = 0..scene.body_count();
+        let ids = bodies.map(|body| {
+            let positions = scene.first_positions(body);
+            world.add(scene.triangles(body), &positions).unwrap()
+        });
+        let ids = ids.collect();
+        Self { world, ids }
+    }
+
+    fn step(&mut self, scene: &ChangingScene, step: u32) -> Vec<Pair> {
+        let Self { world, ids } = self;
+        let shape = |body: usize| {
+            let mut positions = Vec::new();
+            scene.positions(body, step, &mut positions);
+            positions
+        };
+        for event in scene.events(step) {
+            match event {
+                Event::Edit { body, changes } => {
+                    let mut edit = world.edit(ids[*body]).unwrap();
+                    let at = shape(*body);
+                    changes
+                        .iter()
+                        .for_each(|change| make(&mut edit, change, &at));
+                    world.apply(&edit).unwrap();
+                }
+                Event::Fuse { kept, gone } => {
+                    world.fuse(ids[*kept], ids[*gone]).unwrap();
+                }
+            }
+        }
+        for (body, &id) in ids.iter().enumerate() {
+            let positions = shape(body);
+            if !positions.is_empty() {
+                world.set_positions(id, &positions).unwrap();
+            }
+        }
+        let pairs = world.intersections(Selection::Everything).all();
+        pairs.unwrap().to_vec()
+    }
+}
+
+fn make(edit: &mut Edit<f32>, change: &Change, at: &[[f32; 3]]) {
+    match change {
+        Change::AddVertices(count) => {
+            let first = edit.vertex_count();
+            edit.add_vertices(&at[first..first + count]);
+        }
+        &Change::PlaceVertex(vertex) => edit.place_vertex(vertex, at[vertex as usize]),
+        Change::SplitVertex { vertex, triangles } => {
+            edit.split_vertex(*vertex, triangles);
+        }
+        &Change::MergeVertices { kept, gone } => edit.merge_vertices(kept, gone),
+        Change::AddTriangles(triangles) => {
+            edit.add_triangles(triangles);
+        }
+        &Change::SetTriangle { triangle, corners } => edit.set_triangle(triangle, corners),
+        Change::RemoveTriangles(triangles) => edit.remove_triangles(triangles),
+    }
+}
+
+fn scene(name: &str, size: usize) -> ChangingScene {
+    ChangingScene::new(name, Some(size), ChangingScene::DEFAULT_SEED).unwrap()
+}
+
+#[test]
+fn mended_worlds_answer_like_others() {
+    let all = every_configuration();
+    for (place, name) in (0..).zip(ChangingScene::NAMES) {
+        let size = match name {
+            "tear" => 2 * 30 * 30,
+            "shuffle" => 8 * 1024,
+            _ => 1280,
+        };
+        let scene = scene(name, size);
+        let mut options = all[17 * place % all.len()];
+        let mut plain = Player::new(&scene, options);
+        options.mending = true;
+        let mut mended = Player::new(&scene, options);
+        let mut default = Options::default();
+        default.mending = true;
+        let mut default = Player::new(&scene, default);
+        let mut exchanged = 0;
+        let mut revision = 0;
+        for step in 1..=scene.steps().min(220) {
+            let expected = plain.step(&scene, step);
+            assert_eq!(mended.step(&scene, step), expected, "{name}, {step}");
+            assert_eq!(default.step(&scene, step), expected, "{name}, {step}");
+            if step % 20 == 0 {
+                mended.world.validate().unwrap();
+                default.world.validate().unwrap();
+            }
+            let now = default.world.mesh_revision(default.ids[0]).unwrap();
+            exchanged += u32::from(now != revision && scene.events(step).is_empty());
+            revision = now;
+        }
+        assert!(name != "shuffle" || exchanged > 0);
+    }
+}
+
+/// Pairs of nodes, all counted.
+fn node_pairs(player: &Player) -> u64 {
+    player.world.statistics().node_pairs
+}
+
+#[test]
+fn a_mended_tree_does_little_more_than_a_fresh_one() {
+    let scene = scene("shuffle", 20 * 1024);
+    let mut options = Options::default();
+    let mut plain = Player::new(&scene, options);
+    options.mending = true;
+    let mut mended = Player::new(&scene, options);
+    let mut fresh = Player::new(&scene, options);
+    let mut sums = [0; 3];
+    for step in 1..=scene.steps() {
+        plain.step(&scene, step);
+        mended.step(&scene, step);
+        fresh.world.rebuild(fresh.ids[0]).unwrap();
+        fresh.step(&scene, step);
+        let work = [&plain, &mended, &fresh].map(node_pairs);
+        for (sum, work) in sums.iter_mut().zip(work) {
+            *sum += work;
+        }
+    }
+    println!("pairs of nodes, plain, mended and fresh: {sums:?}");
+    assert!(sums[0] > 5 * sums[2] && sums[1] < 2 * sums[2], "{sums:?}");
+}
+
+/// Of the scene at its own size: on a smaller one candidates are most of what there is.
+#[test]
+fn decay_is_said_within_a_quarter_of_what_is_measured() {
+    let scene = ChangingScene::new("shuffle", None, ChangingScene::DEFAULT_SEED).unwrap();
+    let mut plain = Player::new(&scene, Options::default());
+    let mut fresh = Player::new(&scene, Options::default());
+    for step in (1..=scene.steps()).step_by(20) {
+        let id = fresh.ids[0];
+        plain.step(&scene, step);
+        fresh.step(&scene, step);
+        fresh.world.rebuild(id).unwrap();
+        fresh.step(&scene, step);
+        let measured = node_pairs(&plain) as f64 / node_pairs(&fresh) as f64;
+        let said = plain.world.tree_quality(plain.ids[0]).unwrap();
+        println!("step {step}: {measured:.2} times, said to be {said:.2}");
+        assert!((said / measured - 1.0).abs() < 0.25);
+    }
+}
+
+/// A tree along the mesh would be the same again.
+#[test]
+fn trees_along_the_mesh_are_left_alone() {
+    let scene = scene("shuffle", 8 * 1024);
+    let mut options = Options::default();
+    options.partition = Partition::Connectivity;
+    options.mending = true;
+    let mut player = Player::new(&scene, options);
+    for step in (1..=scene.steps()).step_by(10) {
+        player.step(&scene, step);
+    }
+    assert_eq!(player.world.mesh_revision(player.ids[0]), Ok(0));
+}

@@ -39,6 +39,7 @@ pub(crate) struct Keywords {
     pub(crate) level: Option<i64>,
     pub(crate) broad: String,
     pub(crate) threads: i64,
+    pub(crate) mending: bool,
 }
 
 impl Keywords {
@@ -66,6 +67,7 @@ impl Keywords {
         }
         options.broad_phase = named("broad", &self.broad, BROAD_PHASES)?;
         options.threads = with_threads(self.threads)?.threads;
+        options.mending = self.mending;
         Ok(options)
     }
 
@@ -79,6 +81,7 @@ impl Keywords {
         dict.set_item("level", self.level)?;
         dict.set_item("broad", &self.broad)?;
         dict.set_item("threads", self.threads)?;
+        dict.set_item("mending", self.mending)?;
         Ok(dict)
     }
 }

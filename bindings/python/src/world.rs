@@ -36,6 +36,8 @@ use std::sync::Mutex;
 ///   level       the level down to which the hybrid works bottom-up; None: half the depth of the tree
 ///   broad       how bodies that may meet are found: "brute", "sweep", or by their number ("auto")
 ///   threads     how many share the work of a query; no number changes an answer
+///   mending     whether a tree that has decayed so far that a fresh one would have paid is built anew, a part of the work at each
+///               set_positions
 ///
 /// The interpreter lock is released while a call computes. Arrays are copied before: whoever writes to one while a call is given it
 /// may see some of what was written in the shape, but never what was not checked. A world is in use by one call at a time; a second
@@ -107,7 +109,7 @@ impl World {
 #[pymethods]
 impl World {
     #[new]
-    #[pyo3(signature = (*, degree=8, partition="balanced", leaf_size=8, update="hybrid", level=None, broad="auto", threads=1))]
+    #[pyo3(signature = (*, degree=8, partition="balanced", leaf_size=8, update="hybrid", level=None, broad="auto", threads=1, mending=false))]
     fn new(
         degree: i64,
         partition: &str,
@@ -116,6 +118,7 @@ impl World {
         level: Option<i64>,
         broad: &str,
         threads: i64,
+        mending: bool,
     ) -> Result<Self, Refused> {
         let keywords = Keywords {
             degree,
@@ -125,6 +128,7 @@ impl World {
             level,
             broad: broad.to_owned(),
             threads,
+            mending,
         };
         let state = State::new(keywords.to_options()?);
         Ok(Self {
@@ -515,6 +519,16 @@ impl World {
             Ok(with_world!(&state.world, world => world.edges(body.0))?.to_vec())
         })?;
         Ok(arrays::rows_of(py, edges)?)
+    }
+
+    /// How much more the tree of a body does than a fresh one would, estimated from what queries for triangles did in the shape of now: pairs
+    /// of nodes that were looked at, for one that a fresh tree would look at. 1.0 before a query says anything, or where little was looked
+    /// at. With mending=True trees that have decayed mend themselves.
+    fn tree_quality(&self, py: Python<'_>, body: Body) -> Result<f64, Refused> {
+        self.with(
+            py,
+            |state| with_world!(&state.world, world => Ok(world.tree_quality(body.0)?)),
+        )
     }
 
     /// Builds the tree of a body anew, on the shape it has now. Worth it when a shape has become very different from the one

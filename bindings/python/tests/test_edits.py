@@ -85,6 +85,23 @@ def test_an_edited_world_is_pickled_and_copied() -> None:
         again.validate()
 
 
+def test_trees_that_mend_themselves_answer_like_others() -> None:
+    faces, flat = grid(1)
+    pieces = np.concatenate([faces + 4 * piece for piece in range(2000)])
+    rng = np.random.default_rng(3)
+    from_, to = rng.random((2, 2000, 1, 3)) * 20
+    worlds = [pliant.World(mending=mending) for mending in (False, True)]
+    for world in worlds:
+        world.add(pieces, (from_ + flat).reshape(-1, 3))
+    for step in range(40):
+        shape = (from_ + (to - from_) * step / 40 + flat * [1, 1, 1]).reshape(-1, 3)
+        for world in worlds:
+            world.set_positions(0, shape)
+        assert (pairs_within(worlds[0], 0) == pairs_within(worlds[1], 0)).all()
+    assert worlds[0].tree_quality(0) > 2 * worlds[1].tree_quality(0)
+    assert worlds[0].mesh_revision(0) == 0 < worlds[1].mesh_revision(0)
+
+
 def test_float32() -> None:
     faces, flat = grid(4)
     world = pliant.World()

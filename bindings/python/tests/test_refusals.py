@@ -134,7 +134,7 @@ def test_options_that_are_none(options: dict[str, Any], message: str) -> None:
 
 
 def test_options_make_another_world_like_it() -> None:
-    given: Any = dict(degree=4, partition="mean", leaf_size=3, update="hybrid", level=2, broad="sweep", threads=2)
+    given: Any = dict(degree=4, partition="mean", leaf_size=3, update="hybrid", level=2, broad="sweep", threads=2, mending=True)
     world = pliant.World(**given)
     assert world.options() == given
     assert pliant.World(**world.options()).options() == given

@@ -22,6 +22,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 };
 
 const EDITED: &str = "pliant";
+const MENDED: &str = "pliant, mending";
 const REBUILT: &str = "pliant, built anew";
 const UNEDITED: &str = "pliant, without edits";
 const FRESH: &str = "pliant, fresh trees";
@@ -31,12 +32,21 @@ fn ours() -> Ours<f32> {
     Ours::new("pliant", Options::default()).intersections()
 }
 
+fn mended() -> Ours<f32> {
+    let mut options = Options::default();
+    options.mending = true;
+    Ours::new("pliant", options).intersections()
+}
+
 fn everywhere() -> Everywhere {
     Everywhere::new(exact)
 }
 
 fn methods(scene: &str) -> Vec<Contender> {
-    let mut methods = vec![Contender::new(EDITED, ours())];
+    let mut methods = vec![
+        Contender::new(EDITED, ours()),
+        Contender::new(MENDED, mended()),
+    ];
     match scene {
         "tear" => methods.push(
             Contender::new(UNEDITED, Unedited::new(ours()))
@@ -97,16 +107,26 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
             verdict: Verdict::Measured,
             figure,
         };
-        let against = |other: &str| format!("{:.2} times", times(contest, EDITED, other));
-        for (other, what) in [
-            (UNEDITED, "a step, against the same step without edits"),
+        for (method, other, what) in [
             (
+                EDITED,
+                UNEDITED,
+                "a step, against the same step without edits",
+            ),
+            (
+                EDITED,
                 FRESH,
                 "a step, against fresh trees whose building is not counted",
             ),
+            (
+                MENDED,
+                FRESH,
+                "a step with mending, against fresh trees whose building is not counted",
+            ),
         ] {
             if contest.method(other).is_some() {
-                claims.push(measured(what, against(other)));
+                let figure = format!("{:.2} times", times(contest, method, other));
+                claims.push(measured(what, figure));
             }
         }
         for (other, what) in [
@@ -121,14 +141,14 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
                 claims.push(measured(what, format!("{factor:.2} times")));
             }
         }
-        let worst = contest.method(EDITED).map_or(f64::NAN, |it| {
+        let worst = contest.method(MENDED).map_or(f64::NAN, |it| {
             let both = it.update_ms.iter().zip(&it.query_ms).map(|(a, b)| a + b);
             let mut steps: Vec<f64> = both.collect();
             steps.sort_by(f64::total_cmp);
             let median = steps.get(steps.len() / 2).copied().unwrap_or(f64::NAN);
             steps.last().map_or(f64::NAN, |worst| worst / median)
         });
-        let what = "the longest step against the median";
+        let what = "with mending, the longest step against the median";
         claims.push(measured(what, format!("{worst:.2} times")));
     }
     claims

@@ -205,6 +205,9 @@ impl<S: Precision> Method for Ours<S> {
                 // Bodies that are fused with others are no more.
                 let _ = self.world.rebuild(body);
             }
+            // What neighbours are is part of building.
+            let prepared = self.world.intersections(Selection::Everything).prepare();
+            prepared.expect("the whole world is there");
         }
     }
 

@@ -19,7 +19,7 @@ const FEWEST: f64 = 256.0;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Work {
     /// Pairs of nodes that were looked at.
-    node_pairs: f64,
+    node_pairs: u64,
     /// Those of a fresh tree for candidates of this and another body, but for a factor,
     of_two: f64,
     /// for candidates of the body with itself,
@@ -32,7 +32,7 @@ impl Work {
     /// Of two bodies.
     pub(super) fn of_two(node_pairs: u64, candidates: u64) -> Self {
         Self {
-            node_pairs: node_pairs as f64,
+            node_pairs,
             of_two: OF_TWO * candidates as f64,
             ..Self::default()
         }
@@ -41,7 +41,7 @@ impl Work {
     /// Of a body of so many triangles with itself.
     pub(super) fn of_one(node_pairs: u64, candidates: u64, triangles: usize) -> Self {
         Self {
-            node_pairs: node_pairs as f64,
+            node_pairs,
             of_one: OF_ONE * candidates as f64,
             of_triangles: OF_TRIANGLE * triangles as f64,
             ..Self::default()
@@ -79,13 +79,14 @@ impl Decay {
     fn settle(&mut self) {
         let last = self.last;
         if last.of_triangles >= FEWEST {
-            let rest = (last.node_pairs - last.of_one - last.of_two).max(0.0);
+            let rest = (last.node_pairs as f64 - last.of_one - last.of_two).max(0.0);
             self.for_triangles.get_or_insert(rest / last.of_triangles);
         } else if last.of_two >= FEWEST {
-            self.for_two.get_or_insert(last.node_pairs / last.of_two);
+            self.for_two
+                .get_or_insert(last.node_pairs as f64 / last.of_two);
         }
         if let Some(expected) = self.expected() {
-            self.spared += (last.node_pairs - expected).max(0.0);
+            self.spared += (last.node_pairs as f64 - expected).max(0.0);
         }
         self.last = Work::default();
     }
@@ -99,20 +100,20 @@ impl Decay {
             None if last.of_triangles == 0.0 && self.for_two.is_some() => of_two,
             None => return None,
         };
-        (expected >= FEWEST && last.node_pairs >= FEWEST).then_some(expected)
+        (expected >= FEWEST && last.node_pairs as f64 >= FEWEST).then_some(expected)
     }
 
     /// How many pairs of nodes are looked at for one that a fresh tree would; 1 before anything is known.
     pub(super) fn quality(&self) -> f64 {
         let expected = self.expected();
-        expected.map_or(1.0, |expected| self.last.node_pairs / expected)
+        expected.map_or(1.0, |expected| self.last.node_pairs as f64 / expected)
     }
 
     /// How many pairs of nodes a fresh tree would have spared since this one was built; and how many were looked at in the last shape.
-    pub(super) fn spared(&mut self) -> [f64; 2] {
+    pub(super) fn spared(&mut self) -> (f64, u64) {
         let last = self.last.node_pairs;
         self.settle();
-        [self.spared, last]
+        (self.spared, last)
     }
 
     /// The tree is another, of the same kind: the factors stay.
@@ -135,10 +136,10 @@ mod tests {
         assert_eq!(decay.quality(), 1.0);
         decay.note(Work::of_one(14_400, 1_000, 10_000), 2);
         assert!(is(decay.quality(), 2.0));
-        let [spared, last] = decay.spared();
-        assert!(is(spared, 7_200.0) && last == 14_400.0);
+        let (spared, last) = decay.spared();
+        assert!(is(spared, 7_200.0) && last == 14_400);
         decay.begin_anew();
-        assert_eq!(decay.spared(), [0.0, 0.0]);
+        assert_eq!(decay.spared(), (0.0, 0));
         // More triangles and candidates are no decay, nor is another body.
         decay.note(Work::of_one(14_400, 2_000, 20_000), 3);
         assert!(is(decay.quality(), 1.0));

@@ -427,7 +427,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let all = &mut self.positions;
         self.order
             .cut_back(triangles, used, &mut edits.slots, |moved| {
-                all.follow(&moved)
+                all.follow(&moved);
             });
         let all = &mut self.positions;
         self.order

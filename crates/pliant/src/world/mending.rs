@@ -28,7 +28,7 @@ const COST: f64 = 2.0;
 
 /// While a query looks at one pair of nodes, so many triangles are put into parts: what is built in a step takes about half as long as
 /// its query.
-const PACE: f64 = 2.0;
+const PACE: u64 = 2;
 
 /// But so many at least.
 const LEAST: usize = 1 << 12;
@@ -48,7 +48,7 @@ pub(super) enum Mending<const N: usize> {
 impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
     pub(super) fn mend(&mut self, options: &Options, executor: Executor) -> bool {
-        let [spared, last] = self.decay.spared();
+        let (spared, last) = self.decay.spared();
         match self.mending.take().map(|mending| *mending) {
             None => {
                 let is_worth_it = spared > COST * self.topology.live_count() as f64;

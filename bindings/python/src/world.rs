@@ -109,6 +109,7 @@ impl World {
 #[pymethods]
 impl World {
     #[new]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords")]
     #[pyo3(signature = (*, degree=8, partition="balanced", leaf_size=8, update="hybrid", level=None, broad="auto", threads=1, mending=false))]
     fn new(
         degree: i64,

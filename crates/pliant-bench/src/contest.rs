@@ -125,25 +125,7 @@ impl Contest {
             .iter()
             .map(|body| body.first.clone())
             .collect();
-        let build = |method: &mut Box<dyn Method>, motion: &Motion| {
-            let start = Instant::now();
-            method.build(&motion.meshes());
-            milliseconds(start, Instant::now())
-        };
-        build(&mut self.truth, &self.motion);
-        for truth in self.methods.iter_mut().filter_map(|it| it.truth.as_mut()) {
-            build(truth, &self.motion);
-        }
-        let build_ms: Vec<f64> = self
-            .methods
-            .iter_mut()
-            .map(|entry| build(&mut entry.method, &self.motion))
-            .collect();
-
-        // What building counted is not work of a step.
-        for entry in &mut self.methods {
-            entry.method.take_counters();
-        }
+        let build_ms = self.build();
         let mut wrong: Vec<Option<Wrong>> = vec![None; self.methods.len()];
         let mut counters: Vec<Vec<Counters>> = vec![Vec::new(); self.methods.len()];
         let mut pairs = Vec::new();
@@ -219,6 +201,30 @@ impl Contest {
             }
         }
         self.record(&build_ms, wrong, counters, pairs, &played)
+    }
+
+    /// Has every method build its own; in milliseconds for each.
+    fn build(&mut self) -> Vec<f64> {
+        let build = |method: &mut Box<dyn Method>, motion: &Motion| {
+            let start = Instant::now();
+            method.build(&motion.meshes());
+            milliseconds(start, Instant::now())
+        };
+        build(&mut self.truth, &self.motion);
+        for truth in self.methods.iter_mut().filter_map(|it| it.truth.as_mut()) {
+            build(truth, &self.motion);
+        }
+        let build_ms: Vec<f64> = self
+            .methods
+            .iter_mut()
+            .map(|entry| build(&mut entry.method, &self.motion))
+            .collect();
+
+        // What building counted is not work of a step.
+        for entry in &mut self.methods {
+            entry.method.take_counters();
+        }
+        build_ms
     }
 
     fn play_round(

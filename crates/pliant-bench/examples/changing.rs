@@ -8,7 +8,7 @@
 //! ```
 
 use pliant::{BodyId, Options, Selection, World};
-use pliant_bench::methods::make;
+use pliant_bench::methods::add_step;
 use pliant_scenes::{ChangingScene, Event};
 use std::time::Instant;
 
@@ -47,7 +47,7 @@ fn main() {
                     let mut edit = world.edit(ids[*body]).expect("it is there");
                     changes
                         .iter()
-                        .for_each(|it| make(&mut edit, it, &shapes[*body]));
+                        .for_each(|it| add_step(&mut edit, it, &shapes[*body]));
                     world.apply(&edit).expect("a scene's events are good");
                 }
                 Event::Fuse { kept, gone } => {

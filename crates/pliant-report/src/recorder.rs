@@ -11,6 +11,7 @@ use crate::frames::{
     BodyRecord, Frame, Gap, GapShown, Hits, Moment, MomentShown, Motion, Shape, Spot,
 };
 use pliant::{BodyId, Scalar, World};
+use std::borrow::Cow;
 
 /// The most bytes of frames that go into a page, before they are compressed: positions rounded to two bytes, pairs as eight.
 /// In memory a frame takes twice as much.
@@ -271,10 +272,10 @@ impl Recorder {
     /// Another mesh, or the first, of a body.
     fn record<S: Scalar>(&mut self, world: &World<S>, id: BodyId, label: BodyLabel) {
         let vertices = world.vertex_count(id).unwrap_or_default();
-        let triangles = world.triangles(id).unwrap_or_default().to_vec();
+        let triangles = drawn_triangles(world, id).unwrap_or_default().into_owned();
         let depth = world.tree_shape(id).map_or(0, |shape| shape.depth);
         let levels: Vec<Vec<u32>> = (0..=depth.min(MOST_LEVELS - 1))
-            .map(|level| world.tree_cut(id, level).unwrap_or_default())
+            .map(|level| drawn_parts(world, id, level))
             .collect();
         self.fixed += 20 * triangles.len();
         self.bodies
@@ -285,13 +286,13 @@ impl Recorder {
     fn meet_meshes<S: Scalar>(&mut self, world: &World<S>) -> bool {
         for place in 0..self.known.len() {
             let (id, record) = self.known[place];
-            let (Ok(triangles), Ok(vertices)) = (world.triangles(id), world.vertex_count(id))
-            else {
+            let triangles = drawn_triangles(world, id);
+            let (Some(triangles), Ok(vertices)) = (triangles, world.vertex_count(id)) else {
                 // It was removed.
                 continue;
             };
             let is_mesh = |record: &BodyRecord| {
-                record.id == id && record.vertices == vertices && record.triangles == triangles
+                record.id == id && record.vertices == vertices && record.triangles == *triangles
             };
             if is_mesh(&self.bodies[record]) {
                 continue;
@@ -380,7 +381,7 @@ impl Recorder {
         let (mut shapes, mut made) = (Vec::with_capacity(self.bodies.len()), Vec::new());
         for (number, body) in self.bodies.iter().enumerate() {
             let is_now = self.known.contains(&(body.id, number));
-            let positions = world.positions(body.id).ok().filter(|_| is_now);
+            let positions = drawn_positions(world, body.id).filter(|_| is_now);
             let positions = positions.filter(|positions| positions.len() == body.vertices);
             let is_shown = positions.is_some();
             shapes.push(positions.map(|positions| Shape::of(&positions)));
@@ -412,9 +413,50 @@ impl Recorder {
     }
 }
 
+/// A vertex of a body that is there.
+fn some_vertex(triangles: &[[u32; 3]]) -> u32 {
+    let mut live = triangles.iter().filter(|corners| **corners != EMPTY);
+    live.next().map_or(0, |corners| corners[0])
+}
+
+/// The corners of a number that an edit has left empty.
+const EMPTY: [u32; 3] = [u32::MAX; 3];
+
+/// The triangles of a body; a number that is empty is drawn as a point.
+fn drawn_triangles<S: Scalar>(world: &World<S>, id: BodyId) -> Option<Cow<'_, [[u32; 3]]>> {
+    let triangles = world.triangles(id).ok()?;
+    if !triangles.contains(&EMPTY) {
+        return Some(Cow::Borrowed(triangles));
+    }
+    let point = [some_vertex(triangles); 3];
+    let drawn = |&corners: &[u32; 3]| if corners == EMPTY { point } else { corners };
+    Some(triangles.iter().map(drawn).collect())
+}
+
+/// Where the vertices of a body are; one that is empty is where another is.
+fn drawn_positions<S: Scalar>(world: &World<S>, id: BodyId) -> Option<Vec<[S; 3]>> {
+    let mut positions = world.positions(id).ok()?;
+    let is_live = world.live_vertices(id).ok()?;
+    let place = positions.get(some_vertex(world.triangles(id).ok()?) as usize);
+    let place = place.copied()?;
+    for (position, _) in positions.iter_mut().zip(is_live).filter(|(_, is)| !is) {
+        *position = place;
+    }
+    Some(positions)
+}
+
+/// The parts of a tree that is cut at a level; a number that is empty is in the first.
+fn drawn_parts<S: Scalar>(world: &World<S>, id: BodyId, level: u32) -> Vec<u32> {
+    let mut parts = world.tree_cut(id, level).unwrap_or_default();
+    for part in parts.iter_mut().filter(|part| **part == u32::MAX) {
+        *part = 0;
+    }
+    parts
+}
+
 /// Where the vertices of a body are on their way.
 fn positions_at<S: Scalar>(world: &World<S>, id: BodyId, time: f64) -> Option<Vec<[f64; 3]>> {
-    let start = world.positions(id).ok()?;
+    let start = drawn_positions(world, id)?;
     let start: Vec<[f64; 3]> = start.iter().map(|at| at.map(S::to_f64)).collect();
     let Some(end) = world.end_positions(id).ok()? else {
         return Some(start);

@@ -26,7 +26,7 @@ pub use changing_obvhs::ChangingObvhs;
 pub use floor::Floor;
 pub use near::NearSweep;
 pub use obvhs::{NearObvhs, Obvhs};
-pub use ours::{Ours, Precision, make};
+pub use ours::{Ours, Precision, add_step};
 pub use parry::{FarParry, NearParry, Parry};
 pub use rebuilt::{Rebuilt, Unedited};
 pub use smith::Smith;

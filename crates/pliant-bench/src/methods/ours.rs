@@ -146,7 +146,7 @@ impl<S: Scalar> Ours<S> {
 }
 
 /// Makes a step of an edit; vertices that come are where `at` says.
-pub fn make<S: Scalar>(edit: &mut Edit<S>, change: &Change, at: &[[S; 3]]) {
+pub fn add_step<S: Scalar>(edit: &mut Edit<S>, change: &Change, at: &[[S; 3]]) {
     match change {
         Change::AddVertices(count) => {
             let first = edit.vertex_count();
@@ -188,7 +188,7 @@ impl<S: Precision> Method for Ours<S> {
                 Event::Edit { body, changes } => {
                     let at = S::of(shapes[*body].world, &mut self.positions);
                     let mut edit = self.world.edit(self.bodies[*body]).expect("it is there");
-                    changes.iter().for_each(|it| make(&mut edit, it, at));
+                    changes.iter().for_each(|it| add_step(&mut edit, it, at));
                     self.world.apply(&edit).expect("a scene's events are good");
                 }
                 Event::Fuse { kept, gone } => {

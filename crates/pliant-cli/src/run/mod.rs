@@ -1,6 +1,7 @@
 //! `pliant run`: play a scene, time every step, report.
 
 mod record;
+mod scene;
 
 use crate::report::{PictureOptions, Watcher};
 use crate::tree_options::{TreeOptions, value_name};
@@ -9,14 +10,15 @@ use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use indicatif::ProgressStyle;
 use pliant::{Scalar, Selection, World};
-use pliant_scenes::{Asks, Scene};
+use pliant_scenes::Scene;
 use record::{Record, StepRecord};
+use scene::AnyScene;
 use std::time::Instant;
 
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// spheres: two move into each other; crowd: 27 jostle; arms: 27 bodies with arms; gather: many move to one place; cloth: a sheet folds onto itself
+    /// spheres: two move into each other; crowd: 27 jostle; arms: 27 bodies with arms; gather: many move to one place; cloth: a sheet folds onto itself. Meshes change in cut: a sphere is sliced; tear: a sheet is torn, then folds; fuse: two merge; shuffle: pieces that all go elsewhere; remesh: triangles are split and collapsed
     #[arg(default_value = "spheres")]
     scene: String,
     /// Triangles of a body [default: the scene's]
@@ -28,7 +30,7 @@ pub(crate) struct Arguments {
     /// Play every S-th step: S, 2 S, ...
     #[arg(long, value_name = "S", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
     stride: u32,
-    /// All pairs between bodies, the first pair between bodies, or all pairs of each body with itself [default: all; self for cloth]
+    /// All pairs between bodies, the first pair between bodies, all pairs of each body with itself, or both [default: all; self for cloth; everything where meshes change]
     #[arg(long, value_enum)]
     query: Option<Query>,
     /// Coordinates; f64 are the same values widened
@@ -54,6 +56,7 @@ Examples:
   pliant run                                     two spheres, 200 steps
   pliant run crowd --steps 50 --threads 2        27 bodies, two threads
   pliant run cloth --precision f64               a folding sheet with itself
+  pliant run tear --stride 10 --report tear.html a sheet is torn, to look at
   pliant run spheres --query first               is there any pair? much cheaper
   pliant run spheres --triangles 80 --stride 20  small bodies, every 20th step
   pliant run --partition centre --leaf-size 1    the trees of the paper
@@ -72,6 +75,7 @@ enum Query {
     First,
     #[value(name = "self")]
     Itself,
+    Everything,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -88,7 +92,7 @@ enum Format {
 
 /// Plays the scene and prints what happened.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let scene = Scene::new(&arguments.scene, arguments.triangles, arguments.seed)?;
+    let scene = AnyScene::new(&arguments.scene, arguments.triangles, arguments.seed)?;
     let last = arguments.steps.unwrap_or(scene.steps());
     if last > scene.steps() {
         bail!(
@@ -106,10 +110,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
             arguments.stride
         );
     }
-    let query = arguments.query.unwrap_or(match scene.asks() {
-        Asks::BetweenBodies => Query::All,
-        Asks::Itself => Query::Itself,
-    });
+    let query = arguments.query.unwrap_or(scene.query());
 
     let mut watcher = Watcher::new(&arguments.pictures, Vec::new, "step", steps.iter().copied())?;
     let played = match arguments.precision {
@@ -142,7 +143,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
 /// One world, step by step. Positions are computed before the clock starts, so vertices are in cache where they fit.
 fn play<S: Scalar>(
     arguments: &Arguments,
-    scene: &Scene,
+    scene: &AnyScene,
     query: Query,
     steps: &[u32],
     convert: impl Fn(f32) -> S,
@@ -150,8 +151,11 @@ fn play<S: Scalar>(
 ) -> anyhow::Result<Vec<StepRecord>> {
     let mut world = World::<S>::with_options(arguments.trees.to_options()?);
     let mut single = Vec::new();
-    let mut shape = |body: usize, step: u32, out: &mut Vec<[S; 3]>| {
-        scene.positions(body, step, &mut single);
+    let mut shape = |body: usize, step: Option<u32>, out: &mut Vec<[S; 3]>| {
+        match step {
+            Some(step) => scene.positions(body, step, &mut single),
+            None => scene.first_positions(body, &mut single),
+        }
         out.clear();
         out.extend(single.iter().map(|position| position.map(&convert)));
     };
@@ -160,7 +164,7 @@ fn play<S: Scalar>(
     let mut bodies = Vec::new();
     for (body, positions) in shapes.iter_mut().enumerate() {
         // Trees are built on the shape of the first step, whatever steps are played.
-        shape(body, 1, positions);
+        shape(body, None, positions);
         bodies.push(
             world
                 .add(scene.triangles(body), positions)
@@ -168,25 +172,38 @@ fn play<S: Scalar>(
         );
     }
 
-    let asked = match query {
-        Query::Itself => bodies.iter().map(|&body| Selection::Within(body)).collect(),
-        Query::All | Query::First => vec![Selection::World],
-    };
-
     let bar = progress(steps.len() as u64, arguments.quiet)
         .with_style(ProgressStyle::with_template(
             "{msg} {wide_bar} {pos}/{len} steps, {eta} to go",
         )?)
         .with_message(scene.name());
     let mut played = Vec::with_capacity(steps.len());
+    let mut before = 0;
     for &step in steps {
+        // What happens in steps that are not played happens off the clock.
+        for passed in (before + 1..step).filter(|&step| scene.changes(step)) {
+            for (body, positions) in shapes.iter_mut().enumerate() {
+                shape(body, Some(passed), positions);
+            }
+            scene.change(&mut world, &bodies, passed, &shapes)?;
+        }
+        before = step;
         for (body, positions) in shapes.iter_mut().enumerate() {
-            shape(body, step, positions);
+            shape(body, Some(step), positions);
         }
         let start = Instant::now();
+        scene.change(&mut world, &bodies, step, &shapes)?;
         for (&body, positions) in bodies.iter().zip(&shapes) {
-            world.set_positions(body, positions)?;
+            // A body that is fused with another is no more.
+            if !positions.is_empty() {
+                world.set_positions(body, positions)?;
+            }
         }
+        let asked = match query {
+            Query::Itself => world.bodies().map(Selection::Within).collect(),
+            Query::All | Query::First => vec![Selection::World],
+            Query::Everything => vec![Selection::Everything],
+        };
         for &of in &asked {
             world.intersections(of).prepare()?;
         }

@@ -160,6 +160,7 @@ impl Record<'_> {
         match self.query.as_str() {
             "first" => "first pair between bodies",
             "self" => "all pairs of each body with itself",
+            "everything" => "all pairs between bodies and of each with itself",
             _ => "all pairs between bodies",
         }
     }

@@ -253,7 +253,10 @@ fn seen_of<S: Scalar>(
                 }
             }
         }
-        triangles.extend(corners.iter().enumerate().map(|(triangle, corners)| {
+        // Numbers that an edit has left empty are nothing to see.
+        let live = corners.iter().enumerate();
+        let live = live.filter(|(_, corners)| corners.iter().all(|&it| it != u32::MAX));
+        triangles.extend(live.map(|(triangle, corners)| {
             let is_hit = is_red[triangle];
             Seen {
                 corners: corners.map(|vertex| places[vertex as usize]),

@@ -3,7 +3,7 @@
 use super::BodyId;
 use super::decay::Decay;
 use super::edit_state::EditState;
-use super::mending::Mending;
+use super::mending_state::Mending;
 use super::part::{OfElements, Part};
 use super::positions::Positions;
 use crate::error::ErrorKind;

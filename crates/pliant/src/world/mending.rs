@@ -13,14 +13,14 @@
 
 use super::body::{Body, Parts};
 use super::edit_state::NOWHERE;
-use crate::held::{self, Held};
+use super::mending_state::{Mending, Rule};
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::Coordinate;
 use crate::mesh::{EMPTY, Order};
 use crate::options::{Options, Partition};
 use crate::threads::Executor;
 use crate::tree::Tree;
-use crate::tree::build::{Balanced, CutAt, InitialShape, Plan, Planner, Split};
+use crate::tree::build::{Balanced, CutAt, InitialShape, Plan, Planner};
 use std::borrow::Cow;
 
 /// A fresh tree costs as much as looking at so many pairs of nodes, for each triangle.
@@ -32,18 +32,6 @@ const PACE: u64 = 2;
 
 /// But so many at least.
 const LEAST: usize = 1 << 12;
-
-type Rule = Box<dyn Split + Send + Sync>;
-
-/// A tree that is being built.
-pub(super) enum Mending<const N: usize> {
-    /// The division of these triangles, as the caller numbers them.
-    Dividing(Planner<Rule>, Vec<u32>),
-    /// It is done.
-    Divided(Plan),
-    /// The tree of it, of a mesh that had this number.
-    Built(Plan, Box<(Order, Tree<N>)>, u64),
-}
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
@@ -153,18 +141,5 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.epoch += 1;
         self.revision += 1;
         self.decay.begin_anew();
-    }
-}
-
-impl<const N: usize> Held for Mending<N> {
-    fn held(&self) -> usize {
-        match self {
-            Self::Dividing(planner, numbers) => planner.held() + held::list(numbers),
-            Self::Divided(plan) => plan.held(),
-            Self::Built(plan, built, _) => {
-                let (order, tree) = &**built;
-                plan.held() + size_of_val(&**built) + order.held() + tree.held()
-            }
-        }
     }
 }

@@ -20,6 +20,7 @@ mod engine;
 mod impacts;
 mod interruptible;
 mod mending;
+mod mending_state;
 mod origin;
 mod part;
 mod pieces;

@@ -1,0 +1,112 @@
+//! A scene of either kind: one whose meshes stay, or one in which they change.
+
+use super::Query;
+use pliant::{BodyId, Scalar, World};
+use pliant_bench::methods::add_step;
+use pliant_scenes::{Asks, ChangingScene, Event, Scene, SceneError};
+
+/// A scene to be played.
+pub(super) enum AnyScene {
+    Still(Scene),
+    Changing(ChangingScene),
+}
+
+impl AnyScene {
+    pub(super) fn new(name: &str, triangles: Option<usize>, seed: u64) -> Result<Self, SceneError> {
+        if ChangingScene::NAMES.contains(&name) {
+            return ChangingScene::new(name, triangles, seed).map(Self::Changing);
+        }
+        Scene::new(name, triangles, seed).map(Self::Still)
+    }
+
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Self::Still(scene) => scene.name(),
+            Self::Changing(scene) => scene.name(),
+        }
+    }
+
+    pub(super) fn steps(&self) -> u32 {
+        match self {
+            Self::Still(scene) => scene.steps(),
+            Self::Changing(scene) => scene.steps(),
+        }
+    }
+
+    /// What is asked if nothing else is said.
+    pub(super) fn query(&self) -> Query {
+        match self {
+            Self::Changing(_) => Query::Everything,
+            Self::Still(scene) => match scene.asks() {
+                Asks::BetweenBodies => Query::All,
+                Asks::Itself => Query::Itself,
+            },
+        }
+    }
+
+    /// How many bodies there are at the beginning.
+    pub(super) fn body_count(&self) -> usize {
+        match self {
+            Self::Still(scene) => scene.body_count(),
+            Self::Changing(scene) => scene.body_count(),
+        }
+    }
+
+    /// The triangles of a body at the beginning.
+    pub(super) fn triangles(&self, body: usize) -> &[[u32; 3]] {
+        match self {
+            Self::Still(scene) => scene.triangles(body),
+            Self::Changing(scene) => scene.triangles(body),
+        }
+    }
+
+    /// Where a body is when its tree is built, whatever steps are played.
+    pub(super) fn first_positions(&self, body: usize, out: &mut Vec<[f32; 3]>) {
+        match self {
+            Self::Still(scene) => scene.positions(body, 1, out),
+            Self::Changing(scene) => *out = scene.first_positions(body),
+        }
+    }
+
+    /// Where a body is at a step; nothing once it is fused with another.
+    pub(super) fn positions(&self, body: usize, step: u32, out: &mut Vec<[f32; 3]>) {
+        match self {
+            Self::Still(scene) => scene.positions(body, step, out),
+            Self::Changing(scene) => scene.positions(body, step, out),
+        }
+    }
+
+    /// Whether meshes change in a step.
+    pub(super) fn changes(&self, step: u32) -> bool {
+        matches!(self, Self::Changing(scene) if !scene.events(step).is_empty())
+    }
+
+    /// Lets happen to the meshes of a world what happens in a step; the shapes are those of the step.
+    pub(super) fn change<S: Scalar>(
+        &self,
+        world: &mut World<S>,
+        bodies: &[BodyId],
+        step: u32,
+        shapes: &[Vec<[S; 3]>],
+    ) -> Result<(), pliant::Error> {
+        let Self::Changing(scene) = self else {
+            return Ok(());
+        };
+        for event in scene.events(step) {
+            match event {
+                Event::Edit { body, changes } => {
+                    let mut edit = world.edit(bodies[*body])?;
+                    let at = &shapes[*body];
+                    changes
+                        .iter()
+                        .for_each(|change| add_step(&mut edit, change, at));
+                    world.apply(&edit)?;
+                }
+                Event::Fuse { kept, gone } => {
+                    world.fuse(bodies[*kept], bodies[*gone])?;
+                }
+            }
+        }
+        Ok(())
+    }
+}

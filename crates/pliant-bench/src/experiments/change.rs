@@ -69,7 +69,7 @@ fn plan(form: Form) -> Vec<Planned> {
             let (size, last) = match (form, name) {
                 (Form::Full, _) => (None, u32::MAX),
                 (Form::Small, "tear") => (Some(2 * 20 * 20), 220),
-                (Form::Small, "shuffle") => (Some(4 * 1024), 10),
+                (Form::Small, "shuffle") => (Some(8 * 1024), 60),
                 (Form::Small, _) => (Some(320), 110),
             };
             let scene = ChangingScene::new(name, size, ChangingScene::DEFAULT_SEED)

@@ -14,6 +14,9 @@ use crate::tree::BoxSource;
 use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
 
+/// Fewer pairs of nodes say nothing of how trees have decayed, and are not worth writing down.
+const SAYS_NOTHING: u64 = 64;
+
 /// What a query needs besides bodies.
 pub(super) struct Step<'q, K: Kind> {
     pub(super) kind: &'q K,
@@ -48,7 +51,7 @@ where
         sink: Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
-        let before = *self.statistics;
+        let before = self.looked_at();
         let [body_a, body_b] = both;
         self.bring_body_into_tree_order(body_a)?;
         self.bring_body_into_tree_order(body_b)?;
@@ -60,8 +63,7 @@ where
                 self.descend_two(TwoTrees { a, b }, parts_a + parts_b > 2, sink)?;
             }
         }
-        if K::LEAVES == Leaves::Triangles {
-            let [node_pairs, candidates] = self.since(&before);
+        if let Some([node_pairs, candidates]) = self.much_since(before) {
             let work = Work::of_two(node_pairs, candidates);
             body_a.decay.note(work, body_a.epoch);
             body_b.decay.note(work, body_b.epoch);
@@ -76,7 +78,7 @@ where
         sink: Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
-        let before = *self.statistics;
+        let before = self.looked_at();
         self.bring_body_into_tree_order(body)?;
         let parts = body.parts.len();
         for part in 0..parts {
@@ -94,8 +96,7 @@ where
                 self.descend_two(TwoTrees { a, b }, true, sink)?;
             }
         }
-        if K::LEAVES == Leaves::Triangles {
-            let [node_pairs, candidates] = self.since(&before);
+        if let Some([node_pairs, candidates]) = self.much_since(before) {
             let triangles = body.topology.live_count();
             let work = Work::of_one(node_pairs, candidates, triangles);
             body.decay.note(work, body.epoch);
@@ -103,13 +104,16 @@ where
         ControlFlow::Continue(())
     }
 
-    /// Pairs of nodes and candidates that were looked at since the counters were so.
-    fn since(&self, before: &Statistics) -> [u64; 2] {
-        let now = &self.statistics;
-        [
-            now.node_pairs - before.node_pairs,
-            now.candidate_pairs - before.candidate_pairs,
-        ]
+    /// Pairs of nodes and candidates that were looked at so far.
+    fn looked_at(&self) -> [u64; 2] {
+        [self.statistics.node_pairs, self.statistics.candidate_pairs]
+    }
+
+    /// The same since they were so, if that says anything of how trees have decayed.
+    fn much_since(&self, before: [u64; 2]) -> Option<[u64; 2]> {
+        let now = self.looked_at();
+        let is_much = K::LEAVES == Leaves::Triangles && now[0] - before[0] >= SAYS_NOTHING;
+        is_much.then(|| [now[0] - before[0], now[1] - before[1]])
     }
 
     /// Two trees; those of which bodies have several perhaps do not overlap.

@@ -56,7 +56,7 @@ Examples:
   pliant run                                     two spheres, 200 steps
   pliant run crowd --steps 50 --threads 2        27 bodies, two threads
   pliant run cloth --precision f64               a folding sheet with itself
-  pliant run tear --stride 10 --report tear.html a sheet is torn, to look at
+  pliant run tear --stride 10 --report tear.html  a sheet is torn
   pliant run spheres --query first               is there any pair? much cheaper
   pliant run spheres --triangles 80 --stride 20  small bodies, every 20th step
   pliant run --partition centre --leaf-size 1    the trees of the paper

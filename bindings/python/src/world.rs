@@ -271,7 +271,7 @@ impl World {
     /// box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends.
     ///
     /// Costs by what the edit names and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit of
-    /// a body, and when an eighth of the triangles were changed since, for the tree is then built anew.
+    /// a body, and when a sixteenth of the triangles were changed since, for the tree is then built anew.
     fn apply<'py>(&self, py: Python<'py>, edit: &Edit) -> Result<Bound<'py, PyAny>, Refused> {
         let edited = edit.with(|edit| self.with(py, |state| edit.apply(state)))?;
         Ok(edit::edited(py, edited)?)

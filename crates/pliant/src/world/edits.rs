@@ -28,9 +28,11 @@ const MUCH_LARGER: usize = 4;
 /// A part of so few triangles is made anew with whatever comes.
 const FEW: usize = 64;
 /// The tree is built anew when this part of its triangles was taken out or came behind it,
-const OUT_OF_DATE: usize = 8;
+const OUT_OF_DATE: usize = 16;
 /// but not for so few.
 const FEWEST: usize = 32;
+/// A mesh of which more than this part differs is taken as another.
+const MUCH: usize = 8;
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
     /// An edit of the mesh of now, without steps.
@@ -103,7 +105,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             )
         };
         let changed = numbers.map(both).filter(|(_, [old, new])| old != new);
-        let is_much = changed.clone().count() * OUT_OF_DATE > self.topology.live_count();
+        let is_much = changed.clone().count() * MUCH > self.topology.live_count();
         if is_much || positions.len() < self.vertex_count() {
             *self = self.with_mesh(triangles, positions, options);
             return Ok(());

@@ -276,7 +276,7 @@ impl<S: Scalar> World<S> {
     /// ignored pairs and loose box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends.
     ///
     /// Cost: by what the edit names, and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit
-    /// of a body, and when an eighth of the triangles were changed since, for the tree is then built anew.
+    /// of a body, and when a sixteenth of the triangles were changed since, for the tree is then built anew.
     ///
     /// # Errors
     ///

@@ -145,7 +145,7 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: building a tree for what comes; for both, if the second has more than an eighth of the triangles of the first.
+    /// Cost: building a tree for what comes; for both, if the second has more than a sixteenth of the triangles of the first.
     ///
     /// # Errors
     ///

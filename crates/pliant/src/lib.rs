@@ -30,6 +30,7 @@
 //! | a first loop, step by step, and what to do with hits | [`guide`] |
 //! | bodies | [`World::add`], [`remove`](World::remove), [`bodies`](World::bodies), [`BodyId`] |
 //! | moving them | [`World::set_positions`], [`write_positions`](World::write_positions); [`rebuild`](World::rebuild); other meshes, [`set_mesh`](World::set_mesh) |
+//! | meshes that change | [`World::edit`], [`Edit`], [`apply`](World::apply), [`Edited`]; [`components`](World::components), [`split`](World::split), [`fuse`](World::fuse), [`weld`](World::weld); [`tree_quality`](World::tree_quality), [`Options::mending`] |
 //! | asking: what | [`World::intersections`]; [`Pair`]; how they intersect, [`contacts`](World::contacts), [`ContactKind`] |
 //! | what is near, now or on the way | [`World::vertex_triangle_candidates`], [`edge_edge_candidates`](World::edge_edge_candidates); [`VertexTriangle`], [`EdgeEdge`]; [`World::edges`] |
 //! | what is close, how far apart | [`World::close_vertex_triangle_pairs`], [`close_edge_edge_pairs`](World::close_edge_edge_pairs), [`close_triangle_pairs`](World::close_triangle_pairs); [`distance`](World::distance), [`nearest_body`](World::nearest_body); [`clearance`](World::clearance) |

@@ -484,9 +484,8 @@ fn other_mesh<S: Number>(world: &mut World<S>, known: &mut Known<S>, random: &mu
 }
 
 /// A life of a world of two bodies that are edited again and again; returns how many edits there were.
-fn life<S: Number>(mut options: Options, seed: u64, edits: usize) -> usize {
+fn life<S: Number>(options: Options, seed: u64, edits: usize) -> usize {
     let mut random = Lcg(seed);
-    options.mending = seed % 2 == 1;
     let mut world = World::<S>::with_options(options);
     let mut known: Vec<Known<S>> = (0..2)
         .map(|body| {

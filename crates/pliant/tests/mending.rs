@@ -115,6 +115,33 @@ fn mended_worlds_answer_like_others() {
     }
 }
 
+/// A body that is given other meshes while its tree is being built: with fewer triangles, and with more again.
+#[test]
+fn meshes_may_change_while_a_tree_is_built() {
+    let scene = scene("shuffle", 20 * 1024);
+    let mut options = Options::default();
+    let mut plain = World::<f32>::with_options(options);
+    options.mending = true;
+    let mut mended = World::<f32>::with_options(options);
+    let triangles = scene.triangles(0);
+    let first = scene.first_positions(0);
+    let id = plain.add(triangles, &first).unwrap();
+    mended.add(triangles, &first).unwrap();
+    let mut positions = Vec::new();
+    for step in 1..=scene.steps() / 2 {
+        scene.positions(0, step, &mut positions);
+        let count = triangles.len() - 7 * (step % 3) as usize;
+        for world in [&mut plain, &mut mended] {
+            world.set_positions(id, &positions).unwrap();
+            world.set_mesh(id, &triangles[..count], &positions).unwrap();
+        }
+        let of = Selection::Everything;
+        let expected = plain.intersections(of).all().unwrap();
+        assert_eq!(mended.intersections(of).all().unwrap(), expected, "{step}");
+        mended.validate().unwrap();
+    }
+}
+
 /// Pairs of nodes, all counted.
 fn node_pairs(player: &Player) -> u64 {
     player.world.statistics().node_pairs

@@ -69,7 +69,6 @@ pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene
     let mut rest = surface.rest.clone();
     let mut sides: Vec<bool> = rest.iter().map(|&point| is_above(point)).collect();
     let mut timeline = Timeline::new(vec![rest.len()], ABOUT.steps);
-    let mut next_triangle = surface.triangles.len() as u32;
     let mut of_edges: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
     let corners_of = |triangle: u32| surface.triangles[triangle as usize];
     let x = |triangle: u32| {
@@ -109,12 +108,10 @@ pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene
         if added.is_empty() {
             continue;
         }
-        next_triangle += added.len() as u32;
         changes.insert(0, Change::AddVertices(rest.len() - before));
         changes.push(Change::AddTriangles(added));
         timeline.edit(step, 0, changes, rest.len());
     }
-    debug_assert!(next_triangle as usize > surface.triangles.len());
     let bumps = Bumps::new(&mut Rng::new(seed, STREAM, 0), HEIGHT);
     Ok(ChangingScene {
         about: ABOUT,

@@ -3,44 +3,45 @@
 use super::topology::EMPTY;
 
 /// The component of an empty number.
-pub(crate) const NO_COMPONENT: u32 = u32::MAX;
+const NO_COMPONENT: u32 = u32::MAX;
 
 /// For each triangle its component; numbered in the order of their first triangles. How many there are. Cost: O(m + n), about.
 pub(crate) fn components(triangles: &[[u32; 3]], vertices: usize) -> (Vec<u32>, usize) {
     // Of each vertex another of its component, of one of them itself.
     let mut next: Vec<u32> = (0..vertices as u32).collect();
     for &[a, b, c] in triangles.iter().filter(|&&corners| corners != EMPTY) {
-        let root = root(&mut next, a);
+        let first = leader(&mut next, a);
         for other in [b, c] {
-            let other = self::root(&mut next, other);
-            next[other as usize] = root;
+            let other = leader(&mut next, other);
+            next[other as usize] = first;
         }
     }
-    let mut of_root = vec![NO_COMPONENT; vertices];
+    let mut of_leader = vec![NO_COMPONENT; vertices];
     let mut count = 0;
     let of_triangle = |&corners: &[u32; 3]| {
         if corners == EMPTY {
             return NO_COMPONENT;
         }
-        let of_root = &mut of_root[root(&mut next, corners[0]) as usize];
-        if *of_root == NO_COMPONENT {
-            *of_root = count;
+        let of_leader = &mut of_leader[leader(&mut next, corners[0]) as usize];
+        if *of_leader == NO_COMPONENT {
+            *of_leader = count;
             count += 1;
         }
-        *of_root
+        *of_leader
     };
     let of_triangles = triangles.iter().map(of_triangle).collect();
     (of_triangles, count as usize)
 }
 
-/// The vertex that stands for a component. The way to it is halved in passing.
-fn root(next: &mut [u32], mut vertex: u32) -> u32 {
-    while next[vertex as usize] != vertex {
-        let other = next[next[vertex as usize] as usize];
-        next[vertex as usize] = other;
-        vertex = other;
+/// What stands for all things that one is joined with, of things each of which has another that it is joined with, or itself. The way to
+/// it is halved in passing.
+pub(crate) fn leader(next: &mut [u32], mut thing: u32) -> u32 {
+    while next[thing as usize] != thing {
+        let nearer = next[next[thing as usize] as usize];
+        next[thing as usize] = nearer;
+        thing = nearer;
     }
-    vertex
+    thing
 }
 
 #[cfg(test)]

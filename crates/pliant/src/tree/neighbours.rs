@@ -1,6 +1,6 @@
 //! Which triangles of a body share a vertex, block by block: for a body that meets itself.
 //!
-//! Triangles that share a vertex always touch, and are no answer. The mesh never changes, so for every two blocks that hold such
+//! Triangles that share a vertex always touch, and are no answer. The mesh of a tree stays, so for every two blocks that hold such
 //! triangles the others, which are to be compared, are known beforehand, as a mask in the order of
 //! [`overlap_mask`](crate::kernels::overlap_mask). On a surface a block of eight triangles has about ten neighbours; half of them come
 //! later, and are on its list.

@@ -270,6 +270,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                     coming.push(triangle);
                 }
             }
+            if outcome.triangles < edits.places.len() {
+                // A tree that is being built has numbers that are no more.
+                self.mending = None;
+            }
             edits.places.truncate(outcome.triangles);
             let behind = self.order.all_corners().len() - first_of_others as usize;
             let out_of_date = edits.gone.count() + behind + coming.len();

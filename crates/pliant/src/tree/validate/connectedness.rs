@@ -1,6 +1,7 @@
 //! What is always true of a mesh connectivity tree: below every node there is one connected piece of the mesh, or components of
 //! it, each whole. By union and find over edges: nothing in common with how the tree was built.
 
+use crate::mesh::leader;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -66,16 +67,6 @@ fn components(triangles: &[[u32; 3]]) -> Vec<u32> {
     (0..triangles.len() as u32)
         .map(|triangle| leader(&mut leaders, triangle))
         .collect()
-}
-
-/// The first triangle known to be connected with a triangle.
-fn leader(leaders: &mut [u32], mut triangle: u32) -> u32 {
-    while leaders[triangle as usize] != triangle {
-        let nearer = leaders[leaders[triangle as usize] as usize];
-        leaders[triangle as usize] = nearer;
-        triangle = nearer;
-    }
-    triangle
 }
 
 #[cfg(test)]

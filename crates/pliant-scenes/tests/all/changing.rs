@@ -1,6 +1,6 @@
 //! Scenes whose meshes change: what happens is possible, ends as described, and is the same on every machine.
 
-use pliant_scenes::{Change, ChangingScene, Event};
+use pliant_scenes::{Change, ChangingMesh, ChangingScene, Event};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A mesh as events leave it.
@@ -103,12 +103,21 @@ fn play(scene: &ChangingScene, mut look: impl FnMut(u32, &[Mesh])) -> Vec<Mesh> 
         is_vertex: vec![true; scene.vertex_count(body, 0)],
     };
     let mut meshes: Vec<Mesh> = (0..scene.body_count()).map(mesh).collect();
+    let bodies = 0..scene.body_count();
+    let mut played: Vec<ChangingMesh> = bodies
+        .map(|body| ChangingMesh::new(scene.triangles(body), scene.vertex_count(body, 0)))
+        .collect();
     let mut positions = Vec::new();
     for step in 1..=scene.steps() {
         for event in scene.events(step) {
             match event {
-                Event::Edit { body, changes } => meshes[*body].change(changes),
+                Event::Edit { body, changes } => {
+                    meshes[*body].change(changes);
+                    played[*body].change(changes);
+                }
                 Event::Fuse { kept, gone } => {
+                    let other = std::mem::take(&mut played[*gone]);
+                    played[*kept].append(&other);
                     let gone = std::mem::take(&mut meshes[*gone]);
                     let kept = &mut meshes[*kept];
                     let by = kept.is_vertex.len() as u32;
@@ -120,6 +129,10 @@ fn play(scene: &ChangingScene, mut look: impl FnMut(u32, &[Mesh])) -> Vec<Mesh> 
         }
         for (body, mesh) in meshes.iter().enumerate() {
             assert_eq!(scene.vertex_count(body, step), mesh.is_vertex.len());
+            let there = mesh.triangles.iter();
+            let there = there.map(|it| it.unwrap_or(ChangingMesh::EMPTY));
+            assert!(there.eq(played[body].triangles.iter().copied()));
+            assert_eq!(played[body].vertices, mesh.is_vertex.len());
             scene.positions(body, step, &mut positions);
             assert_eq!(positions.len(), mesh.is_vertex.len());
             assert!(positions.as_flattened().iter().all(|x| x.is_finite()));

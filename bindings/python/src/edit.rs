@@ -106,9 +106,9 @@ impl Steps for PlaceVertex {
 
 /// Changes of one body's mesh, to be made all at once by World.apply, or not at all. World.edit gives one that has no steps yet.
 ///
-/// Each step goes on from the mesh that the steps before it leave. Numbers stay: a triangle or a vertex that goes leaves its number empty, and
-/// what comes is numbered behind all others, so that its numbers are known at once. An empty number is used again where a step names it. A
-/// vertex that loses its last triangle by the edit goes; one that never had any stays.
+/// Each step goes on from the mesh that the steps before it leave. Numbers stay: a triangle or a vertex that goes leaves its number empty,
+/// and what comes is numbered behind all others, so that its numbers are known at once. An empty number is used again where a step names it.
+/// A vertex that loses its last triangle by the edit goes; one that never had any stays.
 ///
 ///     edit = world.edit(body)
 ///     new = edit.split_vertex(0, [1])     # triangle 1 is torn off at vertex 0

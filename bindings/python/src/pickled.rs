@@ -1,9 +1,8 @@
 //! A world as Python's pickle writes it down, and what is read back: bodies with their numbers, in their shapes of now, with their motions,
 //! filters, groups of vertices, ignored pairs and loose boxes. Options are arguments of what makes the new world.
 //!
-//! Trees are not written: they are built anew, on the shapes of now, which changes no answer. Nor are numbers of edges: those of a mesh that
-//! was edited are numbered anew. What is read is checked as if it was
-//! given to a world by calls, which it is.
+//! Trees are not written: they are built anew, on the shapes of now, which changes no answer. Nor are numbers of edges: those of a mesh
+//! that was edited are numbered anew. What is read is checked as if it was given to a world by calls, which it is.
 
 use crate::arrays::{CopiedCoordinates, CopiedFaces, rows_of};
 use crate::error::{Refused, caught};

@@ -270,8 +270,8 @@ impl World {
     /// number; rows of empty vertices are not looked at when they are set, and NaN when they are asked for. Filter, ignored pairs and loose
     /// box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends.
     ///
-    /// Costs by what the edit names and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit of
-    /// a body, and when a sixteenth of the triangles were changed since, for the tree is then built anew.
+    /// Costs by what the edit names and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit
+    /// of a body, and when a sixteenth of the triangles were changed since, for the tree is then built anew.
     fn apply<'py>(&self, py: Python<'py>, edit: &Edit) -> Result<Bound<'py, PyAny>, Refused> {
         let edited = edit.with(|edit| self.with(py, |state| edit.apply(state)))?;
         Ok(edit::edited(py, edited)?)
@@ -505,8 +505,8 @@ impl World {
         Ok(groups.into_pyarray(py))
     }
 
-    /// The edges of a body: a new array (k, 2) uint32, two vertices each, the smaller first. Every edge once, whatever triangles share it. The
-    /// number of an edge is its row here.
+    /// The edges of a body: a new array (k, 2) uint32, two vertices each, the smaller first. Every edge once, whatever triangles share it.
+    /// The number of an edge is its row here.
     ///
     /// They are sorted when they are first asked for, here or by a query for edges. From then on an edge keeps its number while there is a
     /// triangle that has it, however the mesh is edited: a number whose edge is gone is empty, 0xFFFFFFFF twice, until an edge that comes
@@ -522,8 +522,8 @@ impl World {
         Ok(arrays::rows_of(py, edges)?)
     }
 
-    /// How much more the tree of a body does than a fresh one would, estimated from what queries for triangles did in the shape of now: pairs
-    /// of nodes that were looked at, for one that a fresh tree would look at. 1.0 before a query says anything, or where little was looked
+    /// How much more the tree of a body does than a fresh one would, estimated from what queries for triangles did in the shape of now:
+    /// pairs of nodes that were looked at, for one that a fresh tree would look at. 1.0 before a query says anything, or where little was looked
     /// at. With mending=True trees that have decayed mend themselves.
     fn tree_quality(&self, py: Python<'_>, body: Body) -> Result<f64, Refused> {
         self.with(

@@ -29,8 +29,8 @@ pub trait Method {
     /// method has nothing any more of what it had. Not part of any time.
     fn build(&mut self, bodies: &[BodyMesh<'_>]);
 
-    /// What happens to meshes before a step, the shapes of that step, and what the meshes are then. Part of the time of the step. A method that
-    /// has no such mode builds anew; it is never given meshes with empty numbers.
+    /// What happens to meshes before a step, the shapes of that step, and what the meshes are then. Part of the time of the step. A method
+    /// that has no such mode builds anew; it is never given meshes with empty numbers.
     fn change(&mut self, events: &[Event], shapes: &[Shape<'_>], meshes: &[ChangingMesh]) {
         let _ = events;
         let bodies: Vec<_> = meshes

@@ -246,4 +246,20 @@ fn within_one_edit_numbers_go_and_come() {
     assert!(outcome.removed_triangles.is_empty());
     assert!(!world.live_triangles(*body).unwrap()[added as usize]);
     world.validate().unwrap();
+
+    // One that comes, goes and comes again comes once.
+    let before = world.vertex_count(*body).unwrap();
+    world.set_vertex_groups(*body, &vec![7; before]).unwrap();
+    let mut edit = world.edit(*body).unwrap();
+    let new = edit.split_vertex(corners[0], &[live[0]]);
+    edit.merge_vertices(corners[1], new);
+    edit.place_vertex(new, [0.5, 0.5, 4.0]);
+    let again = edit.add_triangle([corners[0], corners[1], new]);
+    let outcome = world.apply(&edit).unwrap();
+    assert_eq!(outcome.new_vertices, [new]);
+    assert_eq!(outcome.new_triangles, [again]);
+    assert_eq!(world.vertex_count(*body).unwrap(), before + 1);
+    assert_eq!(world.positions(*body).unwrap()[before], [0.5, 0.5, 4.0]);
+    assert_eq!(world.vertex_groups(*body).unwrap()[before], 0);
+    world.validate().unwrap();
 }

@@ -1,7 +1,7 @@
 //! "Bodies that are cut and torn, and bodies that merge" (paper, future work): meshes that change, and trees that follow.
 //!
-//! Every scene is played by our edits, by what people do today (all is built anew when a mesh changes), and by obvhs with its own insertion and
-//! removal. `shuffle` and `remesh` also have a fresh tree for every query, whose building is not counted; `tear` the same
+//! Every scene is played by our edits, by what people do today (all is built anew when a mesh changes), and by obvhs with its own insertion
+//! and removal. `shuffle` and `remesh` also have a fresh tree for every query, whose building is not counted; `tear` the same
 //! shapes without edits.
 
 use super::{Experiment, Form, Planned, whole};

@@ -22,8 +22,7 @@ pub(crate) struct Draft<'m, S> {
     /// The corners of triangles that were changed, and the vertices that came to have triangles by that.
     corners: BTreeMap<u32, [u32; 3]>,
     came: BTreeMap<u32, Vec<u32>>,
-    /// Vertices that have come, or come again, in order; and where they are.
-    placed: Vec<u32>,
+    /// Where vertices are that have come, or come again.
     positions: BTreeMap<u32, [S; 3]>,
     /// Of vertices that have come, the one they were split from.
     split_from: BTreeMap<u32, u32>,
@@ -63,7 +62,6 @@ impl<'m, S: Copy> Draft<'m, S> {
             vertices: topology.vertex_count(),
             corners: BTreeMap::new(),
             came: BTreeMap::new(),
-            placed: Vec::new(),
             positions: BTreeMap::new(),
             split_from: BTreeMap::new(),
             merged: BTreeSet::new(),
@@ -154,17 +152,11 @@ impl<'m, S: Copy> Draft<'m, S> {
             }
         }
         emptied.retain(|&vertex| self.triangles_at(vertex).is_empty());
-        let is_new = |vertex: &&u32| self.positions.contains_key(vertex);
-        let mut new: Vec<u32> = self.placed.iter().filter(is_new).copied().collect();
-        new.sort_unstable();
         Ok(Outcome {
             changed,
             triangles: self.triangles,
             vertices: self.vertices,
-            new_vertices: new
-                .into_iter()
-                .map(|it| (it, self.positions[&it]))
-                .collect(),
+            new_vertices: self.positions.into_iter().collect(),
             split_from: self.split_from,
             emptied: emptied.into_iter().collect(),
         })
@@ -181,9 +173,9 @@ impl<'m, S: Copy> Draft<'m, S> {
     }
 
     fn place(&mut self, vertex: u32, position: [S; 3]) {
-        self.placed.push(vertex);
         self.positions.insert(vertex, position);
         self.merged.remove(&vertex);
+        self.split_from.remove(&vertex);
     }
 
     fn position(&self, vertex: u32) -> [S; 3] {

@@ -256,8 +256,12 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// Builds the tree anew, on the shape of now.
     pub(super) fn rebuild(&mut self, options: &Options) {
-        let positions = self.stored_positions();
-        let (order, tree) = build(&self.topology, &positions, options);
+        let (order, tree) = build(&self.topology, &self.stored_positions(), options);
+        self.exchange_tree(order, tree);
+    }
+
+    /// Has another tree from now on, over all triangles in another order.
+    pub(super) fn exchange_tree(&mut self, order: Order, tree: Tree<N>) {
         self.positions.forget_tree_order(&self.order);
         if let Some(motion) = &mut self.motion {
             motion.end.forget_tree_order(&self.order);
@@ -266,12 +270,12 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         if let Some(elements) = self.elements.get_mut().filter(|it| it.follows()) {
             elements.append(&order, TreeTriangle(0), 0);
         } else {
-            self.elements = OnceLock::new();
+            self.elements.take();
         }
         if let Some(groups) = &mut self.groups {
             groups.of_elements = None;
         }
-        self.parts = Parts::of(tree, self.topology.live_count());
+        self.parts = Parts::of(tree, order.all_corners().len());
         self.order = order;
         if let Some(edits) = &mut self.edits {
             edits.find_places(&self.order);
@@ -879,7 +883,7 @@ impl<S: Coordinate> Taking<'_, S> {
 
 impl<const N: usize> Parts<N> {
     /// Of a tree over all of so many triangles.
-    pub(super) fn of(tree: Tree<N>, triangles: usize) -> Self {
+    fn of(tree: Tree<N>, triangles: usize) -> Self {
         Self {
             first: Part::new(tree, 0..triangles as u32, TreeVertex(0)),
             others: Vec::new(),

@@ -11,10 +11,10 @@
 //! new tree, what has come is put behind it (`edits`). No answer depends on a tree. A tree along the mesh would be the same again, so it
 //! is not mended.
 
-use super::body::{Body, Parts};
+use super::body::Body;
 use super::edit_state::NOWHERE;
 use super::mending_state::{Mending, Rule};
-use crate::ids::{TreeTriangle, TreeVertex};
+use crate::ids::TreeVertex;
 use crate::kernels::Coordinate;
 use crate::mesh::{EMPTY, Order};
 use crate::options::{Options, Partition};
@@ -68,7 +68,8 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                 if self.parts.first.tree.knows_neighbours() {
                     tree.know_neighbours(&order, executor);
                 }
-                self.exchange_tree(order, tree, options);
+                self.exchange_tree(order, tree);
+                self.follow_edits(options);
                 true
             }
         }
@@ -107,39 +108,21 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         )
     }
 
-    /// Has another tree from now on, over triangles that were those of the mesh some steps ago.
-    fn exchange_tree(&mut self, order: Order, tree: Tree<N>, options: &Options) {
-        self.positions.forget_tree_order(&self.order);
-        let count = order.all_corners().len();
-        self.parts = Parts::of(tree, count);
-        self.order = order;
-        if let Some(elements) = self.elements.get_mut().filter(|it| it.follows()) {
-            elements.append(&self.order, TreeTriangle(0), 0);
-        } else {
-            self.elements.take();
-        }
-        if let Some(groups) = &mut self.groups {
-            groups.of_elements = None;
-        }
-        if let Some(edits) = &mut self.edits {
-            edits.find_places(&self.order);
-            let numbers = 0..self.topology.triangles().len() as u32;
-            let (topology, is_there) = (&self.topology, |it: &u32| {
-                edits.places[*it as usize] != NOWHERE
-            });
-            let coming = numbers
-                .filter(|it| topology.is_live(*it) && !is_there(it))
-                .collect();
-            for (place, &triangle) in (0..).zip(self.order.triangle_order()) {
-                if !topology.is_live(triangle) {
-                    edits.places[triangle as usize] = NOWHERE;
-                    edits.gone.insert(place);
-                }
+    /// In a tree that was begun some steps ago marks what is gone, and puts behind it what has come.
+    fn follow_edits(&mut self, options: &Options) {
+        let Some(edits) = &mut self.edits else {
+            return;
+        };
+        let topology = &self.topology;
+        let numbers = 0..topology.triangles().len() as u32;
+        let is_missing = |it: &u32| topology.is_live(*it) && edits.places[*it as usize] == NOWHERE;
+        let coming = numbers.filter(is_missing).collect();
+        for (place, &triangle) in (0..).zip(self.order.triangle_order()) {
+            if !topology.is_live(triangle) {
+                edits.places[triangle as usize] = NOWHERE;
+                edits.gone.insert(place);
             }
-            self.append(coming, options);
         }
-        self.epoch += 1;
-        self.revision += 1;
-        self.decay.begin_anew();
+        self.append(coming, options);
     }
 }

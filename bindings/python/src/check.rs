@@ -105,6 +105,9 @@ impl Name {
 ///   itself    check each body against itself too; one body alone always is
 ///   within    a distance, at least 0: the pairs are those of triangles of different bodies that are at most so far apart, and
 ///             Frame.distance is that of the nearest; not of one body alone, nor with itself or swept
+///   crossing  leave out places where surfaces only touch, as along a cut: where no triangles cross and no surface passes through another,
+///             not even exactly at edges and vertices; Frame.only_touching says how many pairs. Where it is not clear what a side
+///             is, a place stays. Not with within
 ///   swept     besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line:
 ///             Frame.interval; not with baseline. A frame is then handed out when the next has been read
 ///   first     stop at the first pair of each frame; of what meets on the way to the next, the first
@@ -126,7 +129,7 @@ impl Name {
 ///   fps       frames a second at which animations of glTF files are evaluated
 ///   threads   how many share the work of a frame; no number changes an answer
 #[pyfunction]
-#[pyo3(signature = (*paths, itself=false, within=None, swept=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0, threads=1))]
+#[pyo3(signature = (*paths, itself=false, within=None, crossing=false, swept=false, first=false, weld=true, weld_tolerance=0.0, split=None, groups=None, ignore=None, baseline=None, skip_degenerate=false, places=false, frames=None, clip=None, fps=30.0, threads=1))]
 #[expect(
     clippy::too_many_arguments,
     clippy::fn_params_excessive_bools,
@@ -137,6 +140,7 @@ pub(crate) fn check(
     paths: Vec<PathBuf>,
     itself: bool,
     within: Option<f64>,
+    crossing: bool,
     swept: bool,
     first: bool,
     weld: bool,
@@ -162,6 +166,7 @@ pub(crate) fn check(
     let settings = Settings {
         itself,
         within,
+        crossing,
         swept,
         first,
         split: split.map(split_named).transpose()?,
@@ -280,6 +285,7 @@ impl Check {
             distance,
             pairs,
             left_out,
+            only_touching,
             degenerate,
             complete,
             places,
@@ -303,6 +309,7 @@ impl Check {
         fields.set_item("kinds", kinds.transpose()?)?;
         fields.set_item("complete", complete)?;
         fields.set_item("left_out", left_out)?;
+        fields.set_item("only_touching", only_touching)?;
         fields.set_item("degenerate", degenerate)?;
         fields.set_item("changed", changed)?;
         fields.set_item("pairs", arrays::rows_of(py, pairs)?)?;

@@ -181,13 +181,16 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         Error::WithinItself => {
             Some("name another body, and leave out itself=, or leave out within=")
         }
+        Error::CrossingWithin => Some("leave out within= or crossing=, and check twice"),
         Error::SweptWithin => Some("leave out within= or swept=, and check twice"),
         Error::SweptOneFrame => Some("name a sequence of frames, or leave out swept="),
         Error::SweptBaseline => Some("leave out baseline= or swept=, and check twice"),
         Error::TooManyPairs { .. }
         | Error::Endless { .. }
         | Error::TooManyImpacts { .. }
-        | Error::EndlessImpacts { .. } => Some("ask for one pair of each frame with first=True"),
+        | Error::EndlessImpacts { .. } => {
+            Some("ask for one pair of each frame with first=True, without crossing=")
+        }
         Error::OnePoint { .. } => Some("export the mesh without them"),
         _ => None,
     }

@@ -495,6 +495,9 @@ def test_what_comes_close(jumping: tuple[Path, Path]) -> None:
     assert [frame.distance for frame in plain] == [None] * 4
     assert [frame.kinds for frame in plain] == [pliant.Kinds(0, 0, 0)] * 2 + [pliant.Kinds(crossing=0, overlapping=0, touching=1)] * 2
     assert [frame.kinds for frame in pliant.check(*jumping, first=True)] == [None] * 4
+    assert [frame.only_touching for frame in plain] == [None] * 4
+    crossing = list(pliant.check(*jumping, crossing=True))
+    assert [(frame.count, frame.only_touching) for frame in crossing] == [(0, 0)] * 2 + [(0, 1)] * 2
 
 
 def test_what_cannot_be_close_is_refused(jumping: tuple[Path, Path]) -> None:
@@ -503,6 +506,7 @@ def test_what_cannot_be_close_is_refused(jumping: tuple[Path, Path]) -> None:
         (jumping, {"within": float("nan")}, "a distance must be a finite number"),
         (jumping[:1], {"within": 1.0}, "neighbouring triangles .*; name another body, and leave out itself="),
         (jumping, {"within": 1.0, "itself": True}, "neighbouring triangles"),
+        (jumping, {"within": 1.0, "crossing": True}, "cannot be asked at once; leave out within= or crossing="),
         (jumping, {"within": 1.0, "swept": True}, "both cannot be asked at once; leave out within= or swept="),
     ]
     for paths, more, message in refused:

@@ -8,15 +8,17 @@ use crate::error::Error;
 use crate::filter::Filter;
 use crate::found::{Closeness, Found, Gap, How, MOST_COUNTED, Row, Stop, Taker};
 use crate::interval::{Elements, Impact, ImpactTaker, Interval, WIDTH};
+use crate::joined::Meshes;
 use crate::lives::{Life, Lives};
 use crate::one_point;
 use crate::opened::Opened;
-use crate::places::{Meshes, Places};
+use crate::places::Places;
 use crate::remarks::{AtSeams, Remarks, has_degenerate};
 use crate::sequence::{FIRST, MeshNumber, Sequence};
 use crate::settings::{self, Frames, Settings};
+use crate::touching::{BYTES_OF_TOUCHING, only_touch};
 use crate::with_world;
-use pliant::{ErrorKind, Pair, Query, Selection};
+use pliant::{ContactKind, ErrorKind, Query, Selection};
 use pliant_io::{Body as Source, OpenOptions};
 use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
@@ -47,6 +49,14 @@ pub struct Check {
     failed: bool,
 }
 
+/// A pair in terms of sources as it is in answers, if its bodies are to meet: the world knows sources only.
+fn row_asked(bodies: &Bodies, filter: &Filter, itself: bool, of_sources: Row) -> Option<Row> {
+    let row = bodies.row(of_sources)?;
+    let [body_a, _, body_b, _] = row;
+    let is_asked = (body_a != body_b || itself) && filter.meet(body_a, body_b);
+    is_asked.then_some(row)
+}
+
 /// A query that is interrupted if the caller wants that.
 fn unless<'q, H: Copy>(stop: Option<Question<'q>>, query: Query<'q, H>) -> Query<'q, H> {
     match stop {
@@ -57,8 +67,11 @@ fn unless<'q, H: Copy>(stop: Option<Question<'q>>, query: Query<'q, H>) -> Query
 
 /// What is asked of one frame.
 #[derive(Clone, Copy)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a choice of its own")]
 struct Wanted {
     first: bool,
+    /// Whether places that only touch are left out.
+    crossing: bool,
     listed: bool,
     places: bool,
 }
@@ -227,6 +240,7 @@ impl Check {
                 return Err(Error::Distance(distance));
             }
             Some(_) if asked.itself => return Err(Error::WithinItself),
+            Some(_) if asked.crossing => return Err(Error::CrossingWithin),
             _ => {}
         }
         if asked.swept {
@@ -367,6 +381,7 @@ impl Check {
         {
             let wanted = Wanted {
                 first: false,
+                crossing: false,
                 listed: true,
                 places: false,
             };
@@ -378,6 +393,7 @@ impl Check {
         let frame = self.frames.start;
         let wanted = Wanted {
             first: self.asked.first,
+            crossing: self.asked.crossing,
             listed: self.asked.listed,
             places: self.asked.places && !self.asked.first,
         };
@@ -547,12 +563,21 @@ impl Check {
         wanted: Wanted,
         stop: Option<Question>,
     ) -> Result<Found, Error> {
-        let Wanted { first, listed, .. } = wanted;
+        let Wanted {
+            first,
+            crossing,
+            listed,
+            ..
+        } = wanted;
         let baseline = self.baseline.take();
         let known = baseline.as_ref().and_then(|it| it.pairs.as_deref());
         let lists_gaps = self.asked.within.is_some() && self.asked.closest_points;
-        let gap = if lists_gaps { size_of::<Gap>() } else { 0 };
-        let most = self.asked.max_list / (size_of::<Row>() + gap) as u64;
+        let more = match crossing {
+            true => BYTES_OF_TOUCHING,
+            false if lists_gaps => size_of::<Gap>(),
+            false => 0,
+        };
+        let most = self.asked.max_list / (size_of::<Row>() + more) as u64;
         let most = usize::try_from(most).unwrap_or(usize::MAX);
         let skip = self.asked.skip_degenerate;
         let mut taker = Taker::new(frame, first, listed, most, known)
@@ -562,11 +587,11 @@ impl Check {
         self.remarks.begin(frame);
         self.places.begin();
         let comparable = baseline.as_ref().map(|it| &it.comparable[..]);
-        let any_will_do = first && self.asked.within.is_none();
+        let any_will_do = first && !crossing && self.asked.within.is_none();
         let visited = if any_will_do && known.is_none() && !skip && !self.bodies.are_split() {
             self.take_first(&mut taker, stop)
         } else {
-            self.take_all(&mut taker, wanted.places, comparable.unwrap_or(&[]), stop)
+            self.take_all(&mut taker, wanted, comparable.unwrap_or(&[]), stop)
         };
         let found = taker.end();
         self.baseline = baseline;
@@ -747,10 +772,17 @@ impl Check {
     fn take_all(
         &mut self,
         taker: &mut Taker,
-        finds_places: bool,
+        wanted: Wanted,
         comparable: &[bool],
         question: Option<Question>,
     ) -> Result<ControlFlow<Stop>, pliant::Error> {
+        let crossing = match wanted.crossing.then(|| self.all_crossing(taker, question)) {
+            None => Vec::new(),
+            Some(crossing) => match crossing? {
+                ControlFlow::Continue(pairs) => pairs,
+                ControlFlow::Break(stop) => return Ok(ControlFlow::Break(stop)),
+            },
+        };
         let Self {
             of,
             sequence,
@@ -764,15 +796,8 @@ impl Check {
         let counts_kinds = taker.counts_kinds();
         let mut stop = ControlFlow::Continue(());
         let Sequence { world, sources, .. } = sequence;
-        let mut take = |pair: Pair, how: How| {
-            let of_sources = pair.into();
-            let Some(row) = bodies.row(of_sources) else {
-                return ControlFlow::Continue(());
-            };
-            let [body_a, _, body_b, _] = row;
-            // The world knows sources only.
-            let is_asked = (body_a != body_b || *itself) && filter.meet(body_a, body_b);
-            if is_asked {
+        let mut take = |of_sources: Row, how: How| {
+            if let Some(row) = row_asked(bodies, filter, *itself, of_sources) {
                 if !matches!(how, How::Close(_)) {
                     remarks.take(taker.frame(), sources, of_sources);
                 }
@@ -781,7 +806,7 @@ impl Check {
                 let degenerate = has_degenerate(sources, of_sources);
                 let before = taker.count();
                 stop = taker.take(row, how, degenerate, comparable == [true; 2]);
-                if finds_places && taker.count() > before {
+                if wanted.places && taker.count() > before {
                     places.take(&Split(sources, bodies), of_sources, row);
                 }
             }
@@ -791,20 +816,65 @@ impl Check {
                 ControlFlow::Continue(())
             }
         };
+        if wanted.crossing {
+            for (of_sources, kind) in crossing {
+                if take(of_sources, How::Intersecting(Some(kind))).is_break() {
+                    break;
+                }
+            }
+            return Ok(stop);
+        }
         let _ = with_world!(world, world => match *within {
             None if counts_kinds => unless(question, world.contacts(*of))
-                .visit(|contact| take(contact.pair, How::Intersecting(Some(contact.kind)))),
+                .visit(|contact| take(contact.pair.into(), How::Intersecting(Some(contact.kind)))),
             None => unless(question, world.intersections(*of))
-                .visit(|pair| take(pair, How::Intersecting(None))),
+                .visit(|pair| take(pair.into(), How::Intersecting(None))),
             Some(most) => unless(question, world.close_triangle_pairs(*of, most))
                 .visit(|close| {
                     // What is known of a distance is off by a billionth; that it is at most this is known exactly.
                     let distance = close.distance.min(most);
                     let points = [close.point_a, close.point_b];
-                    take(close.pair, How::Close(Closeness { distance, points }))
+                    take(close.pair.into(), How::Close(Closeness { distance, points }))
                 }),
         })?;
         Ok(stop)
+    }
+
+    /// All pairs, in terms of sources, of places that do not only touch; tells `taker` how many others there are.
+    fn all_crossing(
+        &mut self,
+        taker: &mut Taker,
+        question: Option<Question>,
+    ) -> Result<ControlFlow<Stop, Vec<(Row, ContactKind)>>, pliant::Error> {
+        let Self {
+            of,
+            sequence,
+            bodies,
+            filter,
+            asked: Settings { itself, .. },
+            ..
+        } = self;
+        let Sequence { world, sources, .. } = sequence;
+        let mut pairs: Vec<(Row, ContactKind)> = Vec::new();
+        let visited = with_world!(world, world => unless(question, world.contacts(*of))
+        .visit(|contact| {
+            let of_sources = contact.pair.into();
+            if row_asked(bodies, filter, *itself, of_sources).is_some() {
+                if pairs.len() >= taker.most() || pairs.try_reserve(1).is_err() {
+                    return ControlFlow::Break(());
+                }
+                pairs.push((of_sources, contact.kind));
+            }
+            ControlFlow::Continue(())
+        }))?;
+        if visited.is_break() {
+            return Ok(ControlFlow::Break(Stop::Full));
+        }
+        let only_touch = only_touch(&Split(sources, bodies), &pairs);
+        taker.leave_touching(only_touch.iter().filter(|&&it| it).count());
+        let mut only_touch = only_touch.into_iter();
+        pairs.retain(|_| only_touch.next() == Some(false));
+        Ok(ControlFlow::Continue(pairs))
     }
 
     /// Sources that are to be asked for pairs with themselves: of one body, or of its pieces.

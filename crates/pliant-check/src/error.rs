@@ -31,6 +31,11 @@ pub enum Error {
         "neighbouring triangles of a body always are close to each other: a distance is kept between two bodies or more, and not with themselves"
     )]
     WithinItself,
+    /// It is asked what crosses, and how close triangles are.
+    #[error(
+        "triangles that are close need not even touch: what crosses, and how close triangles are, cannot be asked at once"
+    )]
+    CrossingWithin,
     /// It is asked what meets between frames, and only one is checked.
     #[error(
         "one frame alone is checked: there is no other to move to, and nothing to meet on the way"

@@ -35,6 +35,9 @@ pub struct Found {
     /// How many were left out because they intersect in the baseline frame. `None` where there is no such frame, and where the
     /// search stopped at the first new pair.
     pub left_out: Option<usize>,
+    /// How many were left out because their places only touch; `None` if that was not asked for:
+    /// [`crossing`](crate::Settings::crossing).
+    pub only_touching: Option<usize>,
     /// How many pairs have a triangle without area: of these, or, where such are left out, how many were for that.
     pub degenerate: usize,
     /// Whether these are all; not if only the first was asked for.
@@ -138,6 +141,7 @@ impl<'a> Taker<'a> {
             pairs: Vec::new(),
             gaps: Vec::new(),
             left_out: baseline.map(|_| 0),
+            only_touching: None,
             degenerate: 0,
             complete: !first,
             places: None,
@@ -248,9 +252,19 @@ impl<'a> Taker<'a> {
         ControlFlow::Break(Stop::First)
     }
 
+    /// Says how many pairs it is not shown, for their places only touch.
+    pub(crate) fn leave_touching(&mut self, count: usize) {
+        self.found.only_touching = Some(count);
+    }
+
     /// Whether pairs are counted by their kinds.
     pub(crate) fn counts_kinds(&self) -> bool {
         self.found.kinds.is_some()
+    }
+
+    /// The most pairs that may be kept.
+    pub(crate) fn most(&self) -> usize {
+        self.most
     }
 
     /// How many pairs it has taken.

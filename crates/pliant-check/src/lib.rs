@@ -51,7 +51,8 @@
 //! | `filter.rs` | names and groups; who may meet whom |
 //! | `found.rs`, `remarks.rs` | the pairs of one frame; what is to be said of them |
 //! | `interval.rs`, `elements.rs` | what meets on the way from a frame to the next; whose vertices and edges are |
-//! | `places.rs`, `lives.rs` | hits that hang together, the same from frame to frame; their lives |
+//! | `joined.rs`, `places.rs`, `lives.rs` | vertices that hits join; places, the same from frame to frame; their lives |
+//! | `touching.rs` | places where surfaces touch, and none passes through another |
 //! | `baseline.rs` | the pairs of an earlier check, which are left out |
 //! | `one_point.rs` | what cannot be checked for the number of pairs |
 //! | `error.rs` | one type, one line |
@@ -65,6 +66,7 @@ mod error;
 mod filter;
 mod found;
 mod interval;
+mod joined;
 mod lives;
 mod one_point;
 mod opened;
@@ -73,6 +75,7 @@ mod places;
 mod remarks;
 mod sequence;
 mod settings;
+mod touching;
 
 pub use any_world::{AnyWorld, NotTaken, double, single};
 pub use bodies::BodyFacts;
@@ -80,7 +83,8 @@ pub use check::Check;
 pub use error::Error;
 pub use found::{Found, Gap, Kinds, Row};
 pub use interval::{FirstImpact, Impact, Interval};
+pub use joined::Meshes;
 pub use lives::{Life, Lives};
-pub use places::{BodyThere, Meshes, Place, Places};
+pub use places::{BodyThere, Place, Places};
 pub use remarks::AtSeams;
 pub use settings::{Baseline, Frames, Group, Settings, Split};

@@ -4,8 +4,8 @@
 //! Two pairs are of one place if a triangle of the one and a triangle of the other, of the same source, are equal or neighbours; and
 //! so on from pair to pair. A place is then a set of vertices, those of its triangles, no two places of a frame share one, and a place
 //! shares a triangle or a neighbour with one of another frame exactly if it shares a vertex with it. So pairs are joined by union-find
-//! over vertices, as they are found and in any order: three vertices of a triangle that is new, and one step a pair. It takes four
-//! bytes a vertex and a triangle of sources that are hit, and about 60 bytes a vertex that is.
+//! over vertices (`joined`), as they are found and in any order: three vertices of a triangle that is new, and one step a pair. It takes
+//! four bytes a vertex and a triangle of sources that are hit, and about 60 bytes a vertex that is.
 //!
 //! **Numbers.** Places of a frame are ordered by their pairs, most first; of equally many, the one with the smaller first pair. In this
 //! order each takes the lowest number, not yet taken in this frame, of the places that it shares a vertex with in the frame before. So
@@ -15,7 +15,8 @@
 //! was: places go on through sources that kept theirs only.
 
 use crate::found::Row;
-use crate::pieces::{NONE, find, join};
+use crate::joined::{Joined, Meshes};
+use crate::pieces::NONE;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap};
 
@@ -60,43 +61,15 @@ impl Place {
     }
 }
 
-/// Where triangles are. Sources and their triangles are numbered as in pairs.
-pub trait Meshes {
-    /// How many vertices a source has, and how many triangles.
-    fn sizes(&self, source: u32) -> [usize; 2];
-    /// The vertices of a triangle.
-    fn corners(&self, source: u32, triangle: u32) -> [u32; 3];
-    /// Where a vertex is.
-    fn position(&self, source: u32, vertex: u32) -> [f64; 3];
-    /// What a triangle is a part of in answers: the source, where that is not split.
-    fn body(&self, source: u32, _triangle: u32) -> u32 {
-        source
-    }
-}
-
 /// Finds places, frame by frame.
 #[derive(Debug, Default)]
 pub struct Places {
-    sources: Vec<Marks>,
-    /// Of each vertex that is hit in this frame, by slot.
-    vertices: Vec<[u32; 2]>,
-    leaders: Vec<u32>,
+    hits: Joined,
     /// The pairs whose first triangle has this slot for its first corner: how many, and the smallest.
     pairs: Vec<(u32, Row)>,
-    /// Source and triangle.
-    triangles: Vec<[u32; 2]>,
     /// Source and vertex of the places of the frame before, and their number.
     before: Vec<([u32; 2], usize)>,
     next: usize,
-}
-
-/// What is marked of a source while a frame is looked at.
-#[derive(Debug, Default)]
-struct Marks {
-    /// For each vertex its slot, or none.
-    slots: Vec<u32>,
-    /// For each triangle that of its first corner, once it was seen.
-    of_triangles: Vec<u32>,
 }
 
 impl Places {
@@ -107,73 +80,22 @@ impl Places {
 
     /// Begins a frame, or begins it again: pairs since the last [`end`](Self::end) are forgotten.
     pub fn begin(&mut self) {
-        for [source, vertex] in self.vertices.drain(..) {
-            self.sources[source as usize].slots[vertex as usize] = NONE;
-        }
-        for [source, triangle] in self.triangles.drain(..) {
-            self.sources[source as usize].of_triangles[triangle as usize] = NONE;
-        }
-        self.leaders.clear();
+        self.hits.clear();
         self.pairs.clear();
     }
 
     /// Takes a pair of triangles of sources, and what it is in answers. Each pair of a frame is to be taken once; a triangle, or a
     /// vertex, that the meshes have not is ignored.
     pub fn take(&mut self, meshes: &impl Meshes, of_sources: Row, row: Row) {
-        let [source_a, a, source_b, b] = of_sources;
-        let (Some(of_a), Some(of_b)) = (
-            self.slot(meshes, source_a, a),
-            self.slot(meshes, source_b, b),
-        ) else {
+        let slot = self.hits.join(meshes, of_sources);
+        let slots = self.hits.vertices().len();
+        self.pairs.resize(slots, (0, [NONE; 4]));
+        let Some(slot) = slot else {
             return;
         };
-        let (count, smallest) = &mut self.pairs[of_a as usize];
+        let (count, smallest) = &mut self.pairs[slot as usize];
         *count += 1;
         *smallest = row.min(*smallest);
-        join(&mut self.leaders, of_a, of_b);
-    }
-
-    /// The slot of a triangle's first corner, joined with those of the others.
-    fn slot(&mut self, meshes: &impl Meshes, source: u32, triangle: u32) -> Option<u32> {
-        let place = source as usize;
-        if place >= self.sources.len() {
-            self.sources.resize_with(place + 1, Marks::default);
-        }
-        let marks = &mut self.sources[place];
-        let known = marks.of_triangles.get(triangle as usize);
-        if let Some(&slot) = known.filter(|&&slot| slot != NONE) {
-            return Some(slot);
-        }
-        let [vertices, triangles] = meshes.sizes(source);
-        if triangle as usize >= triangles {
-            return None;
-        }
-        let corners = meshes.corners(source, triangle);
-        if corners.iter().any(|&vertex| vertex as usize >= vertices) {
-            return None;
-        }
-        // Everything in them was taken back at the end of the frame before, whatever mesh that had.
-        if marks.of_triangles.len() < triangles {
-            marks.of_triangles.resize(triangles, NONE);
-        }
-        if marks.slots.len() < vertices {
-            marks.slots.resize(vertices, NONE);
-        }
-        let slots = corners.map(|vertex| {
-            let slot = &mut marks.slots[vertex as usize];
-            if *slot == NONE {
-                *slot = self.leaders.len() as u32;
-                self.leaders.push(*slot);
-                self.pairs.push((0, [NONE; 4]));
-                self.vertices.push([source, vertex]);
-            }
-            *slot
-        });
-        marks.of_triangles[triangle as usize] = slots[0];
-        self.triangles.push([source, triangle]);
-        join(&mut self.leaders, slots[0], slots[1]);
-        join(&mut self.leaders, slots[1], slots[2]);
-        Some(slots[0])
     }
 
     /// The sources that have another mesh than in the frame before: what is known of their vertices is forgotten.
@@ -188,9 +110,9 @@ impl Places {
     pub fn end(&mut self, meshes: &impl Meshes) -> Vec<Place> {
         // The smallest of a set leads it, so that its place is there before any other slot of it comes.
         let mut found: Vec<Place> = Vec::new();
-        let mut place_of = vec![0_u32; self.leaders.len()];
-        for slot in 0..self.leaders.len() {
-            let leader = find(&mut self.leaders, slot as u32) as usize;
+        let mut place_of = vec![0_u32; self.pairs.len()];
+        for slot in 0..self.pairs.len() {
+            let leader = self.hits.leader(slot as u32) as usize;
             if leader == slot {
                 place_of[slot] = found.len() as u32;
                 found.push(Place {
@@ -208,7 +130,7 @@ impl Places {
             let (count, smallest) = self.pairs[slot];
             place.count += count as usize;
             place.first_pair = place.first_pair.min(smallest);
-            let [source, vertex] = self.vertices[slot];
+            let [source, vertex] = self.hits.vertices()[slot];
             let position = meshes.position(source, vertex);
             for axis in 0..3 {
                 place.lower[axis] = place.lower[axis].min(position[axis]);
@@ -222,7 +144,7 @@ impl Places {
             (Reverse(place.count), place.first_pair)
         });
         self.number(&place_of, &order, &mut found);
-        let vertices = self.vertices.iter().zip(&place_of);
+        let vertices = self.hits.vertices().iter().zip(&place_of);
         self.before.clear();
         self.before
             .extend(vertices.map(|(&vertex, &place)| (vertex, found[place as usize].number)));
@@ -236,8 +158,8 @@ impl Places {
         // Which of its place's bodies the one of each is. Mostly they are few, but a hundred thousand pieces may meet in a place.
         let mut known: HashMap<[u32; 2], usize> = HashMap::new();
         let mut last = ([NONE; 2], 0);
-        for &[source, triangle] in &self.triangles {
-            let slot = self.sources[source as usize].of_triangles[triangle as usize];
+        for &[source, triangle] in self.hits.triangles() {
+            let slot = self.hits.slot_of_triangle(source, triangle);
             let key = [place_of[slot as usize], meshes.body(source, triangle)];
             let bodies = &mut found[key[0] as usize].bodies;
             if key != last.0 {
@@ -265,9 +187,7 @@ impl Places {
     fn number(&mut self, place_of: &[u32], order: &[u32], found: &mut [Place]) {
         let mut shared: Vec<(u32, usize)> = Vec::new();
         for &([source, vertex], number) in &self.before {
-            let slots = self.sources.get(source as usize).map(|marks| &marks.slots);
-            let slot = slots.and_then(|slots| slots.get(vertex as usize));
-            if let Some(&slot) = slot.filter(|&&slot| slot != NONE) {
+            if let Some(slot) = self.hits.slot(source, vertex) {
                 let place = place_of[slot as usize];
                 if shared.last() != Some(&(place, number)) {
                     shared.push((place, number));

@@ -12,6 +12,11 @@ pub struct Settings {
     /// Pairs of different bodies that are at most so far apart, intersecting ones at distance 0, instead of those that intersect. Of
     /// one body neighbours always are that close: it cannot be asked of one alone, nor with [`itself`](Self::itself).
     pub within: Option<f64>,
+    /// Only places in which surfaces cross, or pass through each other at edges and vertices: pairs of others, where they touch and each stays
+    /// on one closed side of the other, are left out. Along a cut for example, or where parts lie on each other. A place in which it is
+    /// not clear what a side is stays: with a triangle without area, an edge of more than two triangles, or a sheet folded onto itself. All
+    /// pairs are looked at, those that are left out for another reason too. Not with [`within`](Self::within).
+    pub crossing: bool,
     /// Where pairs of [`within`](Self::within) are listed, so are the points in which they are closest: [`Found::gaps`](crate::Found). A
     /// pair then takes 88 bytes of [`max_list`](Self::max_list).
     pub closest_points: bool,
@@ -25,7 +30,8 @@ pub struct Settings {
     /// Pairs are kept in a list; if not, they are only counted.
     pub listed: bool,
     /// The most bytes that a list of pairs may take, and again the list of those of [`baseline`](Self::baseline); a pair
-    /// takes 16, two elements that meet on the way to the next frame take 40.
+    /// takes 16, with [`crossing`](Self::crossing) 32 whether it is listed or not, and two elements that meet on the way to the next frame
+    /// take 40.
     pub max_list: u64,
     /// What is a body, if not each source.
     pub split: Option<Split>,
@@ -98,6 +104,7 @@ impl Default for Settings {
             itself: false,
             within: None,
             swept: false,
+            crossing: false,
             closest_points: false,
             first: false,
             listed: true,

@@ -102,9 +102,9 @@ fn checking(error: &CheckError) -> Option<&'static str> {
             Some("ask for less with `--first`, or mend the mesh")
         }
         CheckError::OnePoint { .. } => Some("mend it, or export it without them"),
-        CheckError::TooManyPairs { .. } | CheckError::TooManyImpacts { .. } => {
-            Some("allow more with `--max-memory`, or ask for less with `--count` or `--first`")
-        }
+        CheckError::TooManyPairs { .. } | CheckError::TooManyImpacts { .. } => Some(
+            "allow more with `--max-memory`, or ask for less with `--count` or `--first`, which keep no list without `--crossing`",
+        ),
         _ => None,
     }
 }

@@ -108,7 +108,7 @@ pub use impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 pub use kernels::Instructions;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
 pub use pair_impacts::{edge_edge_impacts, vertex_triangle_impacts};
-pub use predicates::is_degenerate;
+pub use predicates::{is_degenerate, side_of_plane};
 pub use statistics::Statistics;
 pub use world::{
     Fused, Interruptible, NodeBox, Piece, Query, Scalar, Selection, Timed, TreeShape, World,

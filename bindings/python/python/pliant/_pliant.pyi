@@ -200,6 +200,7 @@ def check(
     *paths: str | PathLike[str],
     itself: bool = False,
     within: float | None = None,
+    crossing: bool = False,
     swept: bool = False,
     first: bool = False,
     weld: bool = True,

@@ -376,6 +376,8 @@ class Frame:
     left_out: int | None
     """How many pairs were left out because the baseline has them; None where there is no baseline, and where the search stopped at
     the first new pair."""
+    only_touching: int | None
+    """How many pairs were left out because in their places surfaces only touch; None if crossing was not asked for."""
     degenerate: int
     """How many pairs have a triangle without area: of these, or with skip_degenerate of those that were left out for it."""
     changed: dict[int, Body]

@@ -308,6 +308,56 @@ proptest! {
         }
     }
 
+    /// Whatever else is asked: places that only touch are pairs of the same check, none of which crosses, and no more is lost.
+    #[test]
+    fn what_crosses_is_not_left_out(
+        mut sources in prop::collection::vec(source(), 1..4),
+        split: bool,
+        itself: bool,
+        baseline in prop::option::of(0..FRAMES),
+        ignored in prop::option::of((0..30_u32, 0..30_u32)),
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut arguments = Vec::new();
+        for (number, source) in sources.iter_mut().enumerate() {
+            // So close that much of it touches.
+            let corners = source.frames.iter_mut().flatten().flatten().flatten();
+            corners.for_each(|x| *x %= 3);
+            let name = format!("s{number}");
+            source.write(folder.path(), &name);
+            arguments.push(folder.path().join(name + "_*.obj").display().to_string());
+        }
+        let count = sources.iter().map(|it| if split { it.pieces().len() } else { 1 }).sum::<usize>() as u32;
+        let checked = |crossing, listed, first| {
+            let settings = Settings {
+                itself,
+                crossing,
+                listed,
+                first,
+                split: split.then_some(Split::Components),
+                ignore: ignored.iter().map(|&(a, b)| [a, b].map(|it| (it % count).to_string())).collect(),
+                baseline: baseline.map(Baseline::Frame),
+                ..Settings::default()
+            };
+            let reading = OpenOptions { weld: false, ..OpenOptions::default() };
+            all_frames(Check::open(&arguments, &reading, &settings).unwrap())
+        };
+        let (all, crossing) = (checked(false, true, false), checked(true, true, false));
+        let (counted, first) = (checked(true, false, false), checked(true, true, true));
+        for (place, (all, crossing)) in all.iter().zip(&crossing).enumerate() {
+            prop_assert_eq!(all.only_touching, None);
+            let only_touching = crossing.only_touching.unwrap();
+            prop_assert!(crossing.pairs.iter().all(|row| all.pairs.binary_search(row).is_ok()));
+            let [without, with] = [all, crossing].map(|it| it.count + it.left_out.unwrap_or(0));
+            prop_assert_eq!(without, with + only_touching);
+            prop_assert_eq!(all.kinds.unwrap().crossing, crossing.kinds.unwrap().crossing);
+            prop_assert_eq!(counted[place].count, crossing.count);
+            prop_assert_eq!(counted[place].only_touching, Some(only_touching));
+            prop_assert_eq!(first[place].count, crossing.count.min(1));
+            prop_assert!(first[place].smallest.is_none_or(|row| crossing.pairs.contains(&row)));
+        }
+    }
+
     #[test]
     fn what_is_asked_of_the_way_is_what_is_found(
         sources in prop::collection::vec(source(), 1..4),

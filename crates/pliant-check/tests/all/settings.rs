@@ -333,6 +333,15 @@ fn lists_have_a_limit_that_of_the_baseline_too() {
             "{full}"
         );
     }
+    for (max_list, is_enough) in [(3 * 32, true), (3 * 32 - 1, false)] {
+        let crossing = Settings {
+            max_list,
+            listed: false,
+            crossing: true,
+            ..Settings::default()
+        };
+        assert_eq!(counts(&arguments, &crossing).is_ok(), is_enough);
+    }
     let counted = Settings {
         max_list: 0,
         listed: false,

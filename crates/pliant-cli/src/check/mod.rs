@@ -37,6 +37,9 @@ pub(crate) struct Arguments {
     /// Instead of what intersects, the triangles of different bodies that are at most D apart, in the unit of the files; those that intersect are 0 apart. Of one body neighbours always are that close: not with --self
     #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = distance, conflicts_with = "png")]
     within: Option<f64>,
+    /// Leave out places where surfaces only touch, as along a cut: where no triangles cross and no surface passes through another, not even exactly at edges and vertices. Where it is not clear what a side is, a place stays. Not with --within
+    #[arg(long, conflicts_with = "within")]
+    crossing: bool,
     /// Besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line: a vertex and a triangle, or two edges, and when first. Not with --within, --baseline, --hits, --format lines or github
     #[arg(long)]
     swept: bool,
@@ -111,6 +114,7 @@ Examples:
   pliant check fox.glb --clip Run --baseline 0       what frame 0 does not have
   pliant check new.ply --baseline old.json           what an older check had not
   pliant check part.stl --weld 1e-6                  corners nearly coincide
+  pliant check left.ply right.ply --crossing         parts that lie on each other
   pliant check walk.npz --report walk.html           a page: in motion, hits red
   pliant check walk.npz --png worst.png --frame 50   its largest place
   pliant check a.ply --png a.png --view top --size 800x600
@@ -122,7 +126,7 @@ Examples:
 
 With --swept all elements that meet on the way count, but those that meet in the frame before already. They are of both bodies where two share them. It looks from each frame to the next only: where a mesh changes in between, nothing moves, and that is said.
 Exit code 0: nothing intersects, is as close as that, or meets on the way. 1: something does. 2: it could not be checked; standard error says why.
-Memory: at most 3.5 times two frames (positions and triangles) and 10 MB, however many frames there are, 7.5 times two frames where the mesh changes from file to file, and 11 times with --swept; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), and of glTF bodies that move the rest positions, joints, deltas and keys.
+Memory: at most 3.5 times two frames (positions and triangles) and 12 MB, however many frames there are, 7.5 times two frames where the mesh changes from file to file, and 11 times with --swept; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), with --crossing 32 bytes a pair and 200 a triangle near one, and of glTF bodies that move the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
 
 /// `A,B`.
@@ -209,6 +213,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
     let settings = Settings {
         itself: arguments.itself,
         within: arguments.within,
+        crossing: arguments.crossing,
         swept: arguments.swept,
         closest_points: arguments.pictures.any(),
         max_list: arguments.max_memory,

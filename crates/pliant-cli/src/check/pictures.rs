@@ -171,6 +171,10 @@ impl Pictures {
                     shown(file)
                 )),
             }
+            if arguments.crossing {
+                play.notes
+                    .push("Places where surfaces only touch are left out.".to_owned());
+            }
             if arguments.skip_degenerate {
                 play.notes
                     .push("Pairs with a triangle without area are left out.".to_owned());

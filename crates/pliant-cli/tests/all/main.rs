@@ -5,6 +5,7 @@ mod bench;
 mod check;
 mod common;
 mod convert;
+mod crossing;
 mod formats;
 mod hits;
 mod memory;

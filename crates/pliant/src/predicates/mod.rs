@@ -25,9 +25,10 @@ pub(crate) use contact_kind::contact_kind;
 pub(crate) use gap::are_within;
 use lattice::{Lattice, on_lattice};
 pub(crate) use orientation::Exact;
-use orientation::Filtered;
+use orientation::{Filtered, Orientation};
 use point::Point;
 pub(crate) use point::Triangle;
+use std::cmp::Ordering;
 pub(crate) use triangles::triangles_intersect;
 
 /// Whether a triangle has no area: its corners lie on a line, or in a point. Exact, for coordinates that a body may have: finite and at
@@ -38,8 +39,7 @@ pub(crate) use triangles::triangles_intersect;
 /// assert!(!pliant::is_degenerate([[0.0; 3], [1.0; 3], [3.0, 3.0, 3.0 + 1e-15]]));
 /// ```
 pub fn is_degenerate([a, b, c]: [[f64; 3]; 3]) -> bool {
-    let is_in_range = |x: &f64| x.abs() <= f64::from(f32::MAX);
-    if ![a, b, c].as_flattened().iter().all(is_in_range) {
+    if ![a, b, c].iter().all(is_in_range) {
         return false;
     }
     // Two corners in one place need no arithmetic, and are most of what there is.
@@ -50,6 +50,31 @@ pub fn is_degenerate([a, b, c]: [[f64; 3]; 3]) -> bool {
             let flat = |point: Point| [point[(axis + 1) % 3], point[(axis + 2) % 3]];
             orientation::orientation_2d(flat(a), flat(b), flat(c)) == 0
         })
+}
+
+/// On which side of a triangle's plane a point lies: `Greater` where its normal (b - a) x (c - a) points to, `Less` behind it, `Equal` in the
+/// plane, and of a triangle without area always. Exact, for coordinates that a body may have: finite and at most `f32::MAX` in
+/// magnitude; with others the answer is `Equal`. Single precision, widened, is as good.
+///
+/// ```
+/// use std::cmp::Ordering::{Equal, Greater, Less};
+///
+/// let floor = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// let sides = [1e-300, 0.0, -1e-300].map(|z| pliant::side_of_plane(floor, [5.0, 7.0, z]));
+/// assert_eq!(sides, [Greater, Equal, Less]);
+/// ```
+pub fn side_of_plane([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> Ordering {
+    if [a, b, c, point].iter().all(is_in_range) {
+        let mut filtered = Filtered::new(f64::UNDERFLOW);
+        filtered.sign(&a, &b, &c, &point).cmp(&0)
+    } else {
+        Ordering::Equal
+    }
+}
+
+/// Whether predicates are exact on a point: its coordinates are those that a body may have.
+fn is_in_range(point: &Point) -> bool {
+    point.iter().all(|x| x.abs() <= f64::from(f32::MAX))
 }
 
 /// Whether two closed triangles have a point in common; a degenerate triangle is the segment or point that it is. `S` is the type

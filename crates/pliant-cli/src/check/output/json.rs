@@ -53,6 +53,8 @@
 //! {"frame":0,"count":3,"kinds":{"crossing":2,"overlapping":0,"touching":1},"pairs":[[0,3,0,9],[0,4,0,9],[0,5,0,9]]}
 //! ```
 //!
+//! With `--crossing`, which is repeated, `only_touching` of a frame says how many pairs are left out because their places only touch.
+//!
 //! `degenerate` says how many pairs have a triangle without area, where there are any: of those counted, or with
 //! `"skip_degenerate": true` of those that were left out for it.
 
@@ -73,6 +75,7 @@ pub(super) struct Json {
     baseline: Option<Baseline>,
     skip_degenerate: bool,
     within: Option<f64>,
+    crossing: bool,
     swept: bool,
     has_frames: bool,
     lists_places: bool,
@@ -138,6 +141,8 @@ struct FrameEntry<'a> {
     distance: Option<serde_json::Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     left_out: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    only_touching: Option<usize>,
     #[serde(skip_serializing_if = "is_zero")]
     degenerate: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -273,6 +278,7 @@ impl Json {
             baseline: arguments.baseline.clone(),
             skip_degenerate: arguments.skip_degenerate,
             within: arguments.within,
+            crossing: arguments.crossing,
             swept: arguments.swept,
             has_frames: false,
             lists_places: !arguments.count && !arguments.first,
@@ -335,6 +341,9 @@ impl Form for Json {
         if let Some(within) = self.within {
             write!(out, r#","within":{}"#, json!(within))?;
         }
+        if self.crossing {
+            write!(out, r#","crossing":true"#)?;
+        }
         if self.swept {
             write!(out, r#","swept":true"#)?;
         }
@@ -362,6 +371,7 @@ impl Form for Json {
             complete: (!found.complete).then_some(false),
             distance: self.within.map(|_| json!(found.distance)),
             left_out: found.left_out,
+            only_touching: found.only_touching,
             degenerate: found.degenerate,
             pairs: (!self.count_only).then_some(&found.pairs),
             places: places.map(|places| places.iter().map(PlaceEntry::of).collect()),

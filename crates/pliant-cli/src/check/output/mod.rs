@@ -11,7 +11,7 @@ use super::{Arguments, Format};
 use crate::Outcome;
 use crate::table::grouped;
 use anyhow::Context;
-use pliant_check::{Check, Found, Interval};
+use pliant_check::{Check, Found, Interval, Kinds};
 use std::io::{self, BufWriter, Stdout, Write};
 
 /// What a failing write is the failure of.
@@ -56,6 +56,10 @@ struct Tally {
     nearest: Option<(usize, f64)>,
     /// The frame with the most pairs, and their number; none where not all pairs are known.
     worst: Option<(usize, usize)>,
+    /// How many pairs are of which kind, in frames of which all were asked for.
+    kinds: Kinds,
+    /// Pairs that are left out, for their places only touch.
+    only_touching: usize,
     /// Pairs with a triangle that has no area, counted or left out.
     degenerate: usize,
     /// Intervals between frames that were looked at, and those in which something meets.
@@ -69,6 +73,11 @@ impl Tally {
         self.frames += 1;
         self.intersecting += usize::from(found.count > 0);
         self.degenerate += found.degenerate;
+        self.only_touching += found.only_touching.unwrap_or(0);
+        let kinds = found.kinds.unwrap_or_default();
+        self.kinds.crossing += kinds.crossing;
+        self.kinds.overlapping += kinds.overlapping;
+        self.kinds.touching += kinds.touching;
         if let Some(distance) = found.distance
             && self.nearest.is_none_or(|(_, least)| distance < least)
         {
@@ -89,6 +98,26 @@ impl Tally {
                 .get_or_insert(([interval.frame, interval.until], 0));
             *count += 1;
         }
+    }
+
+    /// One line for people about pairs that do not cross: those counted, or those of places that were left out.
+    fn kinds(&self, leaves_touching_out: bool) -> Option<String> {
+        if leaves_touching_out {
+            let pairs = counted((self.only_touching, "pair of a place", "pairs of places"));
+            return Some(format!("left out: {pairs} where surfaces only touch"));
+        }
+        let Kinds {
+            crossing,
+            overlapping,
+            touching,
+        } = self.kinds;
+        if overlapping + touching == 0 {
+            return None;
+        }
+        let [cross, overlap, touch] = [crossing, overlapping, touching].map(|n| grouped(n as u64));
+        Some(format!(
+            "{cross} of these pairs cross, {overlap} overlap in a plane, {touch} touch; `--crossing` leaves out places where surfaces only touch"
+        ))
     }
 
     /// One line for people about what meets between frames, if that was asked.

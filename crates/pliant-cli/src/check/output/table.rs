@@ -23,6 +23,7 @@ pub(super) struct Table {
     baseline: Option<Baseline>,
     skip_degenerate: bool,
     within: Option<f64>,
+    crossing: bool,
     swept: bool,
     /// Known from the head on.
     files: Option<Files>,
@@ -37,6 +38,7 @@ impl Table {
             baseline: arguments.baseline.clone(),
             skip_degenerate: arguments.skip_degenerate,
             within: arguments.within,
+            crossing: arguments.crossing,
             swept: arguments.swept,
             files: None,
         }
@@ -63,7 +65,11 @@ impl Table {
         let degenerate = self
             .skip_degenerate
             .then(|| "pairs with a triangle without area".to_owned());
-        let left_out: Vec<_> = known.into_iter().chain(degenerate).collect();
+        let touching = self
+            .crossing
+            .then(|| "places where surfaces only touch".to_owned());
+        let left_out = [known, degenerate, touching].into_iter().flatten();
+        let left_out: Vec<_> = left_out.collect();
         let left_out = match left_out.join(", and ") {
             none if none.is_empty() => none,
             some => format!("; left out: {some}"),
@@ -223,6 +229,9 @@ impl Form for Table {
                 writeln!(out, "\n{}", tally.summary())?;
                 if let Some(swept) = tally.swept() {
                     writeln!(out, "{swept}")?;
+                }
+                if let Some(kinds) = tally.kinds(self.crossing) {
+                    writeln!(out, "{kinds}")?;
                 }
                 if tally.degenerate == 0 {
                     return Ok(());

@@ -94,8 +94,16 @@ fn read_body(mut body: Body, bits: &mut Vec<[u64; 3]>) -> Result<(), Error> {
     }
     let groups = body.groups()?;
     let names = groups.names.len();
-    assert!(groups.of_triangles.iter().all(|&group| (group as usize) < names));
-    assert_eq!(groups.of_triangles.len(), if names > 0 { triangles } else { 0 });
+    assert!(
+        groups
+            .of_triangles
+            .iter()
+            .all(|&group| (group as usize) < names)
+    );
+    assert_eq!(
+        groups.of_triangles.len(),
+        if names > 0 { triangles } else { 0 }
+    );
     let frames = body.frame_count();
     let mut read = 0;
     // Few kilobytes can hold a great many frames.

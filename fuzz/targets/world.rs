@@ -81,6 +81,19 @@ enum Call {
     Close(u8, u8, u8),
     Distance(u8, u8, Option<u8>),
     Meet(u8, u8, u8, u8),
+    Edit(u8, Vec<Change>),
+}
+
+/// A step of an edit; numbers are counted round those that there are and one more, so that some are of nothing.
+#[derive(Arbitrary, Debug)]
+enum Change {
+    AddVertex([i8; 3]),
+    PlaceVertex(u8, [i8; 3]),
+    SplitVertex(u8, Vec<u8>),
+    MergeVertices(u8, u8),
+    AddTriangle([u8; 3]),
+    SetTriangle(u8, [u8; 3]),
+    RemoveTriangle(u8),
 }
 
 libfuzzer_sys::fuzz_target!(|life: Life| {
@@ -125,8 +138,13 @@ fn options(life: &Life) -> Options {
 /// What is known of a body: enough to ask the reference.
 struct Known<S> {
     id: BodyId,
+    /// Those that are not empty, and their numbers; and how many numbers there are.
     triangles: Vec<[u32; 3]>,
+    numbers: Vec<u32>,
+    count: usize,
+    /// Of an empty vertex anything.
     positions: Vec<[S; 3]>,
+    empty: Vec<bool>,
     /// Where a motion ends; and the group of every vertex.
     end: Option<Vec<[S; 3]>>,
     groups: Vec<u32>,
@@ -200,11 +218,11 @@ impl<S: Scalar> Lived<S> {
         (triangles, self.places(shape, count))
     }
 
-    fn all_inside(corners: Option<([S; 3], [S; 3])>, positions: &[[S; 3]]) -> bool {
+    /// Whether a loose box holds all vertices that are not empty.
+    fn all_inside(corners: Option<([S; 3], [S; 3])>, positions: &[[S; 3]], empty: &[bool]) -> bool {
+        let mut live = positions.iter().zip(empty).filter(|(_, empty)| !**empty);
         corners.is_none_or(|(lo, hi)| {
-            positions
-                .iter()
-                .all(|p| (0..3).all(|axis| lo[axis] <= p[axis] && p[axis] <= hi[axis]))
+            live.all(|(p, _)| (0..3).all(|axis| lo[axis] <= p[axis] && p[axis] <= hi[axis]))
         })
     }
 
@@ -219,7 +237,7 @@ impl<S: Scalar> Lived<S> {
         };
         assert_eq!(
             moved.is_ok(),
-            Self::all_inside(known.loose, &positions),
+            Self::all_inside(known.loose, &positions, &known.empty),
             "{moved:?}"
         );
         if moved.is_ok() {
@@ -255,7 +273,10 @@ impl<S: Scalar> Lived<S> {
                 let (membership, mask, loose) = (u32::MAX, u32::MAX, None);
                 self.known.push(Known {
                     id,
+                    numbers: (0..triangles.len() as u32).collect(),
+                    count: triangles.len(),
                     triangles,
+                    empty: vec![false; positions.len()],
                     groups: vec![0; positions.len()],
                     end: None,
                     positions,
@@ -294,12 +315,20 @@ impl<S: Scalar> Lived<S> {
                 let (triangles, positions) = self.mesh(vertices, triangles, shape);
                 let known = &mut self.known[body];
                 let set = self.world.set_mesh(known.id, &triangles, &positions);
-                let is_good = !triangles.is_empty() && Self::all_inside(known.loose, &positions);
+                let none_is_empty = vec![false; positions.len()];
+                let is_good = !triangles.is_empty()
+                    && Self::all_inside(known.loose, &positions, &none_is_empty);
                 assert_eq!(set.is_ok(), is_good, "{set:?}");
                 if is_good {
-                    if triangles != known.triangles || positions.len() != known.positions.len() {
+                    let is_same = triangles == known.triangles
+                        && triangles.len() == known.count
+                        && known.empty == none_is_empty;
+                    if !is_same {
                         known.groups = vec![0; positions.len()];
                     }
+                    known.numbers = (0..triangles.len() as u32).collect();
+                    known.count = triangles.len();
+                    known.empty = none_is_empty;
                     (known.triangles, known.positions) = (triangles, positions);
                     known.end = None;
                 }
@@ -351,7 +380,8 @@ impl<S: Scalar> Lived<S> {
                 let end = known.end.as_deref().unwrap_or(&[]);
                 assert_eq!(
                     set.is_ok(),
-                    Self::all_inside(corners, &known.positions) && Self::all_inside(corners, end),
+                    Self::all_inside(corners, &known.positions, &known.empty)
+                        && Self::all_inside(corners, end, &known.empty),
                     "{set:?}"
                 );
                 if set.is_ok() {
@@ -369,6 +399,9 @@ impl<S: Scalar> Lived<S> {
                 let known = &self.known[body];
                 let mut positions = known.positions.clone();
                 let vertex = usize::from(vertex) % positions.len();
+                if known.empty[vertex] {
+                    return;
+                }
                 let bad =
                     [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX][usize::from(which % 4)];
                 positions[vertex][usize::from(axis % 3)] = (self.convert)(bad);
@@ -402,6 +435,9 @@ impl<S: Scalar> Lived<S> {
                 };
                 let known = &self.known[body];
                 let vertex = usize::from(vertex) % known.positions.len();
+                if known.empty[vertex] {
+                    return;
+                }
                 let refused = self.world.write_positions(known.id, |there| {
                     there[..vertex].copy_from_slice(&known.positions[..vertex]);
                     there[vertex + 1..].copy_from_slice(&known.positions[vertex + 1..]);
@@ -535,7 +571,8 @@ impl<S: Scalar> Lived<S> {
                 let end = self.places(shape, self.known[body].positions.len());
                 let known = &mut self.known[body];
                 let set = self.world.set_motion(known.id, &end);
-                assert_eq!(set.is_ok(), Self::all_inside(known.loose, &end), "{set:?}");
+                let is_inside = Self::all_inside(known.loose, &end, &known.empty);
+                assert_eq!(set.is_ok(), is_inside, "{set:?}");
                 if set.is_ok() {
                     known.end = Some(end);
                 }
@@ -555,13 +592,15 @@ impl<S: Scalar> Lived<S> {
                     };
                     let now = self.world.positions(known.id).expect("the body is there");
                     let all = now.iter().zip(&known.positions).zip(&end);
-                    for ((now, from), to) in all {
+                    let all = all.zip(&known.empty).filter(|(_, empty)| !**empty);
+                    for (((now, from), to), _) in all {
                         for axis in 0..3 {
                             let (x, from, to) = (now[axis], from[axis], to[axis]);
                             assert!(from <= x && x <= to || to <= x && x <= from);
                         }
                     }
                     known.positions = now;
+                    known.fill_empty((self.convert)(0.0));
                 }
             }
             Call::Groups(number, ref groups) => {
@@ -608,7 +647,99 @@ impl<S: Scalar> Lived<S> {
                 };
                 self.meet(a, b, width, f64::from(gap / 64) / 16.0);
             }
+            Call::Edit(number, ref changes) => {
+                let Some(body) = self.body(number) else {
+                    return;
+                };
+                self.edit(body, changes);
+            }
         }
+    }
+
+    /// Makes changes to a body all at once, or has them refused, as an edit of a few lines says.
+    fn edit(&mut self, body: usize, changes: &[Change]) {
+        let known = &self.known[body];
+        let mut mesh = Draft::of(known);
+        let mut edit = self.world.edit(known.id).expect("the body is there");
+        let point = |point: [i8; 3]| point.map(|x| (self.convert)(f64::from(x) / 8.0));
+        let mut is_good = true;
+        for change in changes.iter().take(TRIANGLES) {
+            let [vertices, triangles] = [mesh.vertices.len(), mesh.triangles.len()];
+            if vertices > 2 * VERTICES || triangles > 2 * TRIANGLES {
+                break;
+            }
+            let vertex = |number: u8| u32::from(number) % (vertices as u32 + 1);
+            let triangle = |number: u8| u32::from(number) % (triangles as u32 + 1);
+            is_good &= match *change {
+                Change::AddVertex(at) => {
+                    edit.add_vertex(point(at));
+                    mesh.add_vertex(point(at), 0);
+                    true
+                }
+                Change::PlaceVertex(number, at) => {
+                    edit.place_vertex(vertex(number), point(at));
+                    mesh.place_vertex(vertex(number), point(at))
+                }
+                Change::SplitVertex(number, ref of) => {
+                    let of: Vec<u32> = of.iter().take(4).map(|&it| triangle(it)).collect();
+                    edit.split_vertex(vertex(number), &of);
+                    mesh.split_vertex(vertex(number), &of)
+                }
+                Change::MergeVertices(kept, gone) => {
+                    edit.merge_vertices(vertex(kept), vertex(gone));
+                    mesh.merge_vertices(vertex(kept), vertex(gone))
+                }
+                Change::AddTriangle(corners) => {
+                    edit.add_triangle(corners.map(vertex));
+                    mesh.triangles.push(None);
+                    mesh.set_triangle(triangles as u32, corners.map(vertex))
+                }
+                Change::SetTriangle(number, corners) => {
+                    edit.set_triangle(triangle(number), corners.map(vertex));
+                    mesh.set_triangle(triangle(number), corners.map(vertex))
+                }
+                Change::RemoveTriangle(number) => {
+                    edit.remove_triangle(triangle(number));
+                    mesh.remove_triangle(triangle(number))
+                }
+            };
+            if !is_good {
+                break;
+            }
+        }
+        is_good &= mesh.triangles.iter().any(Option::is_some);
+        let edited = self.world.apply(&edit);
+        if is_good && known.loose.is_some() {
+            // One that came and went in between might be outside.
+            is_good = edited.is_ok();
+        }
+        assert_eq!(edited.is_ok(), is_good, "{edited:?}");
+        if is_good {
+            mesh.into_known(&mut self.known[body], (self.convert)(0.0));
+            let known = &self.known[body];
+            let all_inside = Self::all_inside(known.loose, &known.positions, &known.empty);
+            assert!(all_inside);
+        }
+        let known = &self.known[body];
+        let mut triangles = vec![[u32::MAX; 3]; known.count];
+        for (&number, corners) in known.numbers.iter().zip(&known.triangles) {
+            triangles[number as usize] = *corners;
+        }
+        assert_eq!(self.world.triangles(known.id), Ok(&triangles[..]));
+        let live = self
+            .world
+            .live_vertices(known.id)
+            .expect("the body is there");
+        assert!(live.into_iter().eq(known.empty.iter().map(|empty| !empty)));
+        let groups = self
+            .world
+            .vertex_groups(known.id)
+            .expect("the body is there");
+        let live = known.empty.iter().zip(known.groups.iter().zip(groups));
+        assert!(
+            live.filter(|(empty, _)| !**empty)
+                .all(|(_, (known, group))| *known == group)
+        );
     }
 
     /// The candidates of two bodies, or of one with itself.
@@ -618,7 +749,8 @@ impl<S: Scalar> Lived<S> {
         let [moving_a, moving_b] = [one, other].map(Known::moving);
         let mut expected = Vec::new();
         let mut add = |(of, with): (&Known<S>, &Known<S>), pairs: Vec<[u32; 2]>| {
-            expected.extend(pairs.into_iter().map(|[i, j]| [of.id.0, i, with.id.0, j]));
+            let row = |[i, j]: [u32; 2]| [of.id.0, i, with.id.0, with.numbers[j as usize]];
+            expected.extend(pairs.into_iter().map(row));
         };
         if a == b {
             let pairs = reference::self_vertex_triangle_pairs(&moving_a, radius);
@@ -642,10 +774,11 @@ impl<S: Scalar> Lived<S> {
             reference::edge_edge_pairs(&moving_a, &moving_b, radius)
         };
         let pairs = pairs.expect("the bodies were taken").into_iter();
-        let expected = pairs.map(|[i, j]| [one.id.0, i, other.id.0, j]);
+        let expected = by_ends(one.edges(), other.edges(), pairs.map(|it| (it, ())));
         let found = self.world.edge_edge_candidates(of, radius).all();
-        let found = found.expect("both are there").iter();
-        assert!(found.map(|&hit| <[u32; 4]>::from(hit)).eq(expected));
+        let found = found.expect("both are there").to_vec().into_iter();
+        let found = found.map(|hit| ([hit.edge_a, hit.edge_b], ()));
+        assert_eq!(self.found_by_ends([one.id, other.id], found), expected);
     }
 
     /// The close pairs of two bodies, or of one with itself.
@@ -655,7 +788,8 @@ impl<S: Scalar> Lived<S> {
         let [moving_a, moving_b] = [one, other].map(Known::moving);
         let mut expected = Vec::new();
         let mut add = |(of, with): (&Known<S>, &Known<S>), pairs: Vec<[u32; 2]>| {
-            expected.extend(pairs.into_iter().map(|[i, j]| [of.id.0, i, with.id.0, j]));
+            let row = |[i, j]: [u32; 2]| [of.id.0, i, with.id.0, with.numbers[j as usize]];
+            expected.extend(pairs.into_iter().map(row));
         };
         if a == b {
             let pairs = reference::self_close_vertex_triangle_pairs(&moving_a, distance);
@@ -681,12 +815,13 @@ impl<S: Scalar> Lived<S> {
             reference::close_edge_edge_pairs(&moving_a, &moving_b, distance)
         };
         let pairs = pairs.expect("the bodies were taken").into_iter();
-        let expected = pairs.map(|[i, j]| [one.id.0, i, other.id.0, j]);
+        let expected = by_ends(one.edges(), other.edges(), pairs.map(|it| (it, ())));
         let found = self.world.close_edge_edge_pairs(of, distance).all();
-        let found = found.expect("both are there").iter();
+        let found = found.expect("both are there").to_vec().into_iter();
         let figures = found.clone().map(|it| (it.distance, it.direction));
         figures.for_each(|it| check_figures(it, distance));
-        assert!(found.map(|it| <[u32; 4]>::from(it.pair)).eq(expected));
+        let found = found.map(|it| ([it.pair.edge_a, it.pair.edge_b], ()));
+        assert_eq!(self.found_by_ends([one.id, other.id], found), expected);
 
         // Of two bodies that are named, the first is the one named first.
         let expected = close_triangles(&self.known[a], &self.known[b], distance);
@@ -705,7 +840,8 @@ impl<S: Scalar> Lived<S> {
         let mut expected = Vec::new();
         let mut add = |(of, with): (&Known<S>, &Known<S>), met: Vec<Timed>| {
             let rows = met.into_iter();
-            expected.extend(rows.map(|([i, j], cell)| ([of.id.0, i, with.id.0, j], cell)));
+            let number = |j: u32| with.numbers[j as usize];
+            expected.extend(rows.map(|([i, j], cell)| ([of.id.0, i, with.id.0, number(j)], cell)));
         };
         if a == b {
             let met = reference::self_vertex_triangle_impacts(&moving_a, width);
@@ -731,12 +867,11 @@ impl<S: Scalar> Lived<S> {
             reference::edge_edge_impacts(&moving_a, &moving_b, width)
         };
         let met = met.expect("the bodies were taken").into_iter();
-        let expected = met.map(|([i, j], cell)| ([one.id.0, i, other.id.0, j], cell));
-        let expected = expected.collect::<Vec<_>>();
+        let expected = by_ends(one.edges(), other.edges(), met);
         let found = self.world.edge_edge_impacts(of).width(width).all();
-        let found = found.expect("both are there").iter();
-        let rows = found.map(|it| (<[u32; 4]>::from(it.pair), [it.low, it.high]));
-        assert!(rows.eq(expected.iter().copied()));
+        let found = found.expect("both are there").to_vec().into_iter();
+        let found = found.map(|it| ([it.pair.edge_a, it.pair.edge_b], [it.low, it.high]));
+        assert_eq!(self.found_by_ends([one.id, other.id], found), expected);
 
         earliest.extend(expected.iter().map(|&(_, cell)| cell));
         let earliest = earliest.into_iter().min_by(|p, q| p[1].total_cmp(&q[1]));
@@ -812,6 +947,16 @@ impl<S: Scalar> Lived<S> {
         }
     }
 
+    /// Pairs of edges of the world, by their ends.
+    fn found_by_ends<T>(
+        &self,
+        bodies: [BodyId; 2],
+        found: impl Iterator<Item = ([u32; 2], T)>,
+    ) -> Vec<([[u32; 2]; 2], T)> {
+        let [a, b] = bodies.map(|id| self.world.edges(id).expect("both are there").to_vec());
+        by_ends(a, b, found)
+    }
+
     fn all(&mut self) {
         let expected = self.expected();
         assert_eq!(
@@ -858,8 +1003,8 @@ impl<S: Scalar> Lived<S> {
 
     fn itself(&mut self, body: usize) {
         let known = &self.known[body];
-        let expected = reference::self_intersection_pairs(&known.triangles, &known.positions)
-            .expect("the body was taken");
+        let expected = reference::self_intersection_pairs(&known.triangles, &known.positions);
+        let expected = numbered(known, known, expected.expect("the body was taken"));
         let answer = self.world.intersections(Selection::Within(known.id)).all();
         let found = answer.expect("the body is there").iter();
         assert!(found.map(Pair::triangles).eq(expected.iter().copied()));
@@ -901,7 +1046,138 @@ impl<S: Scalar> Lived<S> {
     }
 }
 
+/// A mesh and what an edit makes of it, without any cleverness; a step that is refused makes nothing good.
+struct Draft<S> {
+    triangles: Vec<Option<[u32; 3]>>,
+    /// Where a vertex is, and its group.
+    vertices: Vec<Option<([S; 3], u32)>>,
+    /// The triangles before all steps.
+    before: Vec<[u32; 3]>,
+}
+
+impl<S: Scalar> Draft<S> {
+    fn of(known: &Known<S>) -> Self {
+        let mut triangles = vec![None; known.count];
+        for (&number, &corners) in known.numbers.iter().zip(&known.triangles) {
+            triangles[number as usize] = Some(corners);
+        }
+        let vertices = known.positions.iter().zip(&known.groups).zip(&known.empty);
+        let vertices = vertices.map(|((&at, &group), empty)| (!empty).then_some((at, group)));
+        Self {
+            triangles,
+            vertices: vertices.collect(),
+            before: known.triangles.clone(),
+        }
+    }
+
+    fn is_live(&self, vertex: u32) -> bool {
+        matches!(self.vertices.get(vertex as usize), Some(Some(_)))
+    }
+
+    fn is_used(&self, vertex: u32) -> bool {
+        let mut triangles = self.triangles.iter().flatten();
+        triangles.any(|corners| corners.contains(&vertex))
+    }
+
+    fn add_vertex(&mut self, at: [S; 3], group: u32) -> u32 {
+        self.vertices.push(Some((at, group)));
+        self.vertices.len() as u32 - 1
+    }
+
+    fn place_vertex(&mut self, vertex: u32, at: [S; 3]) -> bool {
+        match self.vertices.get_mut(vertex as usize) {
+            Some(place @ None) => {
+                *place = Some((at, 0));
+                true
+            }
+            _ => false,
+        }
+    }
+
+    fn split_vertex(&mut self, vertex: u32, of: &[u32]) -> bool {
+        let Some(&Some((at, group))) = self.vertices.get(vertex as usize) else {
+            return false;
+        };
+        let new = self.add_vertex(at, group);
+        of.iter().all(|&triangle| {
+            let corners = self.triangles.get_mut(triangle as usize);
+            let Some(Some(corners)) =
+                corners.filter(|it| it.is_some_and(|it| it.contains(&vertex)))
+            else {
+                return false;
+            };
+            *corners = corners.map(|it| if it == vertex { new } else { it });
+            true
+        })
+    }
+
+    fn merge_vertices(&mut self, kept: u32, gone: u32) -> bool {
+        if !self.is_live(kept) || !self.is_live(gone) {
+            return false;
+        }
+        if kept != gone {
+            for corners in self.triangles.iter_mut().flatten() {
+                *corners = corners.map(|it| if it == gone { kept } else { it });
+            }
+            self.vertices[gone as usize] = None;
+        }
+        true
+    }
+
+    fn set_triangle(&mut self, triangle: u32, corners: [u32; 3]) -> bool {
+        let are_live = corners.iter().all(|&it| self.is_live(it));
+        let place = self.triangles.get_mut(triangle as usize);
+        place
+            .filter(|_| are_live)
+            .map(|it| *it = Some(corners))
+            .is_some()
+    }
+
+    fn remove_triangle(&mut self, triangle: u32) -> bool {
+        let place = self.triangles.get_mut(triangle as usize);
+        place.is_some_and(|it| it.take().is_some())
+    }
+
+    /// What is known after all steps: vertices that lost their last triangle are empty.
+    fn into_known(mut self, known: &mut Known<S>, anything: S) {
+        for vertex in self.before.concat() {
+            if !self.is_used(vertex) {
+                self.vertices[vertex as usize] = None;
+            }
+        }
+        let live = (0..).zip(&self.triangles);
+        let live = live.filter_map(|(number, corners)| Some((number, (*corners)?)));
+        (known.numbers, known.triangles) = live.unzip();
+        known.count = self.triangles.len();
+        known.empty = self.vertices.iter().map(Option::is_none).collect();
+        let vertices = self.vertices.into_iter();
+        let vertices = vertices.map(|it| it.unwrap_or(([anything; 3], 0)));
+        (known.positions, known.groups) = vertices.unzip();
+        known.end = None;
+    }
+}
+
 impl<S> Known<S> {
+    /// As they are numbered where none was ever asked for.
+    fn edges(&self) -> Vec<[u32; 2]> {
+        reference::edges(&self.triangles)
+    }
+
+    /// What is in the rows of empty vertices.
+    fn fill_empty(&mut self, anything: S)
+    where
+        S: Copy,
+    {
+        for (position, _) in self
+            .positions
+            .iter_mut()
+            .zip(&self.empty)
+            .filter(|(_, it)| **it)
+        {
+            *position = [anything; 3];
+        }
+    }
+
     fn moving(&self) -> Moving<'_, S> {
         Moving {
             triangles: &self.triangles,
@@ -927,8 +1203,9 @@ fn in_order<'k, S>(a: &'k Known<S>, b: &'k Known<S>) -> (&'k Known<S>, &'k Known
 }
 
 fn pairs<S: Scalar>(a: &Known<S>, b: &Known<S>) -> Vec<[u32; 2]> {
-    reference::intersection_pairs(&a.triangles, &a.positions, &b.triangles, &b.positions)
-        .expect("the bodies were taken")
+    let pairs =
+        reference::intersection_pairs(&a.triangles, &a.positions, &b.triangles, &b.positions);
+    numbered(a, b, pairs.expect("the bodies were taken"))
 }
 
 fn close_triangles<S: Scalar>(a: &Known<S>, b: &Known<S>, distance: f64) -> Vec<[u32; 2]> {
@@ -938,7 +1215,32 @@ fn close_triangles<S: Scalar>(a: &Known<S>, b: &Known<S>, distance: f64) -> Vec<
         let (of_a, of_b) = ((&a.triangles, &a.positions), (&b.triangles, &b.positions));
         reference::close_triangle_pairs(of_a.0, of_a.1, of_b.0, of_b.1, distance)
     };
-    pairs.expect("the bodies were taken")
+    numbered(a, b, pairs.expect("the bodies were taken"))
+}
+
+/// Pairs of triangles that are not empty, by their numbers.
+fn numbered<S>(a: &Known<S>, b: &Known<S>, pairs: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
+    let pairs = pairs.into_iter();
+    let numbers = pairs.map(|[i, j]| [a.numbers[i as usize], b.numbers[j as usize]]);
+    numbers.collect()
+}
+
+/// Pairs of edges by their ends, whatever the edges are called; in order.
+fn by_ends<T>(
+    edges_a: Vec<[u32; 2]>,
+    edges_b: Vec<[u32; 2]>,
+    pairs: impl Iterator<Item = ([u32; 2], T)>,
+) -> Vec<([[u32; 2]; 2], T)> {
+    // Of one body with itself either may come first; of two that is known.
+    let is_one = edges_a == edges_b;
+    let pairs = pairs.map(|([a, b], more)| {
+        let ends = [edges_a[a as usize], edges_b[b as usize]];
+        let [a, b] = ends;
+        (if is_one { [a.min(b), a.max(b)] } else { ends }, more)
+    });
+    let mut pairs: Vec<_> = pairs.collect();
+    pairs.sort_by_key(|&(ends, _)| ends);
+    pairs
 }
 
 /// A distance is as good as it is said to be, and has a direction unless it is 0.

@@ -576,3 +576,29 @@ fn edited_worlds_equal_fresh_ones() {
     }
     println!("{done} edits");
 }
+
+/// Vertices may be there from the beginning on, and have no triangle until an edit gives them one.
+#[test]
+fn a_triangle_of_vertices_that_none_had_is_met() {
+    let far = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [9.0, 0.0, 0.0],
+        [9.0, 1.0, 0.0],
+        [9.0, 0.0, 1.0],
+    ];
+    let through = [[8.0, 0.25, 0.25], [10.0, 0.25, 0.25], [8.0, 0.25, 0.5]];
+    for options in every_configuration() {
+        let mut world = World::<f64>::with_options(options);
+        let body = world.add(&[[0, 1, 2]], &far).unwrap();
+        world.add(&[[0, 1, 2]], &through).unwrap();
+        assert_eq!(world.intersections(Selection::World).all().unwrap(), []);
+        let mut edit = world.edit(body).unwrap();
+        let triangle = edit.add_triangle([3, 4, 5]);
+        world.apply(&edit).unwrap();
+        let pairs = world.intersections(Selection::World).all().unwrap();
+        let pairs: Vec<_> = pairs.iter().map(|it| it.triangles()).collect();
+        assert_eq!(pairs, [[triangle, 0]]);
+    }
+}

@@ -287,6 +287,13 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             for &vertex in &outcome.emptied {
                 edits.empty.insert(vertex);
             }
+            // Those that had no triangle until now, whether they are new or not, are not in the bounds.
+            let new = outcome.changed.iter().flat_map(|&(_, [_, new])| new);
+            let order = self.order.vertex_order();
+            for vertex in new.filter(|&vertex| vertex != u32::MAX) {
+                let slot = edits.slots[vertex as usize];
+                self.bounds.include(self.positions.get(slot, order));
+            }
         }
         if is_much {
             self.rebuild(options);
@@ -307,8 +314,6 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.order.add_vertices(first..first + new.len() as u32);
         let new: Vec<[S; 3]> = new.iter().map(|&(_, position)| position).collect();
         self.positions.push(&new);
-        new.into_iter()
-            .for_each(|position| self.bounds.include(position));
     }
 
     /// Vertices that were empty are somewhere. One that went and came within one edit still has triangles that were taken out, whose boxes
@@ -322,7 +327,6 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             let slot = edits.slots[vertex as usize];
             self.positions.place(CallerVertex(vertex), slot, position);
             self.epoch += u64::from(slot.index() < self.order.used_vertices());
-            self.bounds.include(position);
         }
     }
 

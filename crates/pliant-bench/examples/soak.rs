@@ -75,11 +75,12 @@ struct Memory {
 
 fn play<S: Scalar>(name: &str, mut soak: Soak<S>, steps: u64, until: Instant) -> Result<(), Wrong> {
     println!(
-        "{name:<4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9}   {:>11} {:>7} {:>9}",
+        "{name:<4} {:>8} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9}   {:>11} {:>7} {:>9}",
         "steps",
         "added",
         "removed",
         "moved",
+        "edited",
         "refused",
         "compared",
         "equal pairs",
@@ -148,11 +149,12 @@ fn line(tally: &Tally, memory: &Memory) {
         |bytes| format!("{:.1} MB", bytes as f64 / 1e6),
     );
     println!(
-        "{:>13} {:>8} {:>8} {:>9} {:>8} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9}   {:>11} {:>7} {:>9}",
+        "{:>13} {:>8} {:>8} {:>9} {:>8} {:>8} {:>9} {:>12} {:>12} {:>12} {:>11} {:>9}   {:>11} {:>7} {:>9}",
         tally.steps,
         tally.added,
         tally.removed,
         tally.moved,
+        tally.edited,
         tally.refused,
         tally.compared,
         tally.pairs,

@@ -1,9 +1,10 @@
 //! The comparison: every answer of the world that lives against that of a world that was never anything else, and a few of
 //! them against the reference, which has no tree.
 
+use super::edits::EMPTY;
 use super::{AllClose, FAR_APART, FAR_BUT_CLOSE, Met, SIDE, Soak, Wrong, rows};
 use pliant::{
-    BodyId, Degree, EdgeEdgeImpact, Impact, Options, Pair, Partition, Scalar, Selection, Update,
+    BodyId, Degree, EdgeEdge, Impact, Options, Pair, Partition, Scalar, Selection, Update,
     VertexTriangleImpact, World, reference,
 };
 use std::num::NonZeroU32;
@@ -16,8 +17,22 @@ impl<S: Scalar> Soak<S> {
         let options = self.other_options();
         let mut fresh = World::with_options(options);
         for body in &self.known {
-            let added = fresh.add(&self.surfaces[body.surface].triangles, &body.positions);
+            let mesh = self.mesh(body);
+            // Numbers that are empty were never anything but points there.
+            let is_there = |it: &&[u32; 3]| **it != EMPTY;
+            let [point, ..] = mesh.iter().find(is_there).copied().unwrap_or_default();
+            let filled = mesh
+                .iter()
+                .map(|&it| if it == EMPTY { [point; 3] } else { it });
+            let added = fresh.add(&filled.collect::<Vec<_>>(), &body.positions);
             let id = self.good("add to a fresh world", added)?;
+            let empty = (0..).zip(mesh).filter(|(_, it)| **it == EMPTY);
+            let empty: Vec<u32> = empty.map(|(number, _)| number).collect();
+            let edit = fresh.edit(id);
+            let mut edit = self.good("edit of a fresh world", edit)?;
+            edit.remove_triangles(&empty);
+            let applied = fresh.apply(&edit);
+            self.good("apply in a fresh world", applied)?;
             let set = fresh.set_filter(id, body.membership, body.mask);
             self.good("set_filter of a fresh world", set)?;
             if let Some(end) = &body.end {
@@ -138,16 +153,40 @@ impl<S: Scalar> Soak<S> {
         let expected = self.good("what is near in a fresh world", rows(fresh, radius))?;
         let found = rows(&mut self.world, radius);
         let found = self.good("what is near", found)?;
-        for (found, mut expected) in found.into_iter().zip(expected) {
-            for [a, _, b, _] in &mut expected {
-                (*a, *b) = (self.known[*a as usize].id.0, self.known[*b as usize].id.0);
-            }
-            if found != expected {
-                let counts = [found.len(), expected.len()];
-                return self.wrong(format!("found and expected within {radius}: {counts:?}"));
-            }
-            self.tally.near += found.len() as u64;
+        let [found_vertices, found_edges] = found;
+        let [mut vertices, edges] = expected;
+        for [a, _, b, _] in &mut vertices {
+            (*a, *b) = (self.known[*a as usize].id.0, self.known[*b as usize].id.0);
         }
+        let pair = |&[body_a, edge_a, body_b, edge_b]: &[u32; 4]| {
+            let [body_a, body_b] = [body_a, body_b].map(BodyId);
+            EdgeEdge {
+                body_a,
+                edge_a,
+                body_b,
+                edge_b,
+            }
+        };
+        let expected = self.by_ends(fresh, true, edges.iter().map(|it| (pair(it), ())));
+        let found = self.by_ends(
+            &self.world,
+            false,
+            found_edges.iter().map(|it| (pair(it), ())),
+        );
+        let are_same = found
+            .iter()
+            .map(|it| it.0)
+            .eq(expected.iter().map(|it| it.0));
+        if found_vertices != vertices || !are_same {
+            let counts = [
+                found_vertices.len(),
+                vertices.len(),
+                found.len(),
+                expected.len(),
+            ];
+            return self.wrong(format!("found and expected within {radius}: {counts:?}"));
+        }
+        self.tally.near += (found.len() + vertices.len()) as u64;
         Ok(())
     }
 
@@ -161,17 +200,39 @@ impl<S: Scalar> Soak<S> {
             known_id(&mut close.pair.vertex_body);
             known_id(&mut close.pair.triangle_body);
         }
-        for close in &mut expected.edge_edge {
-            known_id(&mut close.pair.body_a);
-            known_id(&mut close.pair.body_b);
-        }
         for close in &mut expected.triangles {
             known_id(&mut close.pair.body_a);
             known_id(&mut close.pair.body_b);
         }
         let found = AllClose::of(&mut self.world, distance);
         let found = self.good("what is close", found)?;
-        if found != expected {
+        let edges = |all: &AllClose| -> Vec<_> {
+            let edges = all.edge_edge.iter();
+            edges.map(|&close| (close.pair, close)).collect()
+        };
+        let expected_edges = self.by_ends(fresh, true, edges(&expected).into_iter());
+        let found_edges = self.by_ends(&self.world, false, edges(&found).into_iter());
+        let are_same_edges = found_edges.len() == expected_edges.len()
+            && found_edges
+                .iter()
+                .zip(&expected_edges)
+                .all(|(found, expected)| {
+                    // Which of two edges of one body comes first is up to their numbers, and to that what is rounded how.
+                    let slack = expected.2.distance * f64::powi(0.5, 29);
+                    let is_near = (found.2.distance - expected.2.distance).abs() <= slack;
+                    let (mut one, other) = (found.2, expected.2);
+                    one.pair = other.pair;
+                    found.0 == expected.0
+                        && if found.1 == expected.1 {
+                            one == other
+                        } else {
+                            is_near
+                        }
+                });
+        let is_same = found.vertex_triangle == expected.vertex_triangle
+            && found.triangles == expected.triangles
+            && are_same_edges;
+        if !is_same {
             let counts = [found.counts(), expected.counts()];
             return self.wrong(format!(
                 "found and expected at most {distance} apart: {counts:?}, or figures differ"
@@ -192,20 +253,30 @@ impl<S: Scalar> Soak<S> {
             known_id(&mut impact.pair.vertex_body);
             known_id(&mut impact.pair.triangle_body);
         };
-        let name_edges = |impact: &mut EdgeEdgeImpact| {
-            known_id(&mut impact.pair.body_a);
-            known_id(&mut impact.pair.body_b);
-        };
         expected.vertex_triangle.iter_mut().for_each(name_vertex);
-        expected.edge_edge.iter_mut().for_each(name_edges);
-        match &mut expected.first {
-            Some(Impact::VertexTriangle(impact)) => name_vertex(impact),
-            Some(Impact::EdgeEdge(impact)) => name_edges(impact),
-            None => {}
-        }
         let found = Met::of(&mut self.world, width, distance);
         let found = self.good("what meets", found)?;
-        if found != expected {
+        let edges = |all: &Met| -> Vec<_> {
+            let edges = all.edge_edge.iter();
+            edges.map(|it| (it.pair, [it.low, it.high])).collect()
+        };
+        let expected_edges = self.by_ends(fresh, true, edges(&expected).into_iter());
+        let found_edges = self.by_ends(&self.world, false, edges(&found).into_iter());
+        let timed = |it: &(_, bool, [f64; 2])| (it.0, it.2);
+        // Of several edges that meet first it is the lowest, by numbers that edits give.
+        let first = |met: &Met| match met.first {
+            Some(Impact::VertexTriangle(impact)) => Some((0, impact.low, impact.high)),
+            Some(Impact::EdgeEdge(impact)) => Some((1, impact.low, impact.high)),
+            None => None,
+        };
+        let is_same = found.vertex_triangle == expected.vertex_triangle
+            && found_edges
+                .iter()
+                .map(timed)
+                .eq(expected_edges.iter().map(timed))
+            && first(&found) == first(&expected)
+            && found.step == expected.step;
+        if !is_same {
             return self.wrong(format!(
                 "found and expected on the way, {distance} apart: {}, {}",
                 found.summary(),
@@ -214,6 +285,35 @@ impl<S: Scalar> Soak<S> {
         }
         self.tally.met += (found.vertex_triangle.len() + found.edge_edge.len()) as u64;
         Ok(())
+    }
+
+    /// Pairs of edges by their bodies and ends, in order, as the world that lives calls them; and whether the edges changed places for
+    /// that. `is_fresh`: whether they are of the world that was never anything else.
+    fn by_ends<T>(
+        &self,
+        world: &World<S>,
+        is_fresh: bool,
+        pairs: impl Iterator<Item = (EdgeEdge, T)>,
+    ) -> Vec<([(BodyId, [u32; 2]); 2], bool, T)> {
+        let named = |body: BodyId, edge: u32| {
+            let ends = world
+                .edges(body)
+                .map_or([0; 2], |edges| edges[edge as usize]);
+            let body = if is_fresh {
+                self.known[body.0 as usize].id
+            } else {
+                body
+            };
+            (body, ends)
+        };
+        let pairs = pairs.map(|(pair, more)| {
+            let a = named(pair.body_a, pair.edge_a);
+            let b = named(pair.body_b, pair.edge_b);
+            ([a.min(b), a.max(b)], a > b, more)
+        });
+        let mut pairs: Vec<_> = pairs.collect();
+        pairs.sort_by_key(|pair| pair.0);
+        pairs
     }
 
     /// How far some bodies are apart, and one from all others.
@@ -263,15 +363,29 @@ impl<S: Scalar> Soak<S> {
         };
         let [a, b] = two.map(|id| self.fresh_id(id));
         let bodies = [a, b].map(|id| &self.known[id.0 as usize]);
-        let [triangles_a, triangles_b] =
-            bodies.map(|body| &self.surfaces[body.surface].triangles[..]);
+        let meshes = bodies.map(|body| {
+            let mesh = self.mesh(body).iter().copied();
+            mesh.filter(|it| *it != EMPTY).collect::<Vec<_>>()
+        });
+        let [triangles_a, triangles_b] = meshes.each_ref().map(|it| &it[..]);
+        let numbers = bodies.map(|body| {
+            let numbers = (0..).zip(self.mesh(body));
+            let numbers = numbers.filter(|(_, it)| **it != EMPTY);
+            numbers.map(|(number, _)| number).collect::<Vec<u32>>()
+        });
+        let [numbers_a, numbers_b] = numbers.each_ref().map(|it| &it[..]);
+        let named = |pairs: Vec<[u32; 2]>, others: &[u32]| -> Vec<[u32; 2]> {
+            let pairs = pairs.into_iter();
+            let named = pairs.map(|[a, b]| [numbers_a[a as usize], others[b as usize]]);
+            named.collect()
+        };
         let [positions_a, positions_b] = bodies.map(|body| &body.positions[..]);
         let truth =
             reference::intersection_pairs(triangles_a, positions_a, triangles_b, positions_b);
         let truth_itself = reference::self_intersection_pairs(triangles_a, positions_a);
         let (truth, truth_itself) = (
-            self.good("reference", truth)?,
-            self.good("reference", truth_itself)?,
+            named(self.good("reference", truth)?, numbers_b),
+            named(self.good("reference", truth_itself)?, numbers_a),
         );
         let [id_a, id_b] = two;
         let ours = triangles(&mut self.world, Selection::Between(id_a, id_b))

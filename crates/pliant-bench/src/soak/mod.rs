@@ -3,7 +3,8 @@
 //!
 //! ```text
 //! a step     bodies move: none, one, a few, all; some twice; some far away, some out of their loose boxes
-//!            one other call: add, remove, rebuild, filter, ignore, loose box, motions, or something that must be refused
+//!            one other call: add, remove, rebuild, filter, ignore, loose box, motions, another mesh, or something that must be refused
+//!            perhaps an edit of a mesh
 //!            perhaps a query before it, and one after
 //!            one step in eight: the comparison   (`fresh`)
 //! a parade   every body goes, always the same ones come and meet in one heap, all queries are asked
@@ -14,6 +15,7 @@
 //!
 //! Nothing here reads a clock or prints; the seed determines everything.
 
+mod edits;
 mod fresh;
 mod random;
 mod shapes;
@@ -62,6 +64,8 @@ pub struct Tally {
     pub removed: u64,
     /// Shapes taken over.
     pub moved: u64,
+    /// Edits of meshes.
+    pub edited: u64,
     /// Calls that were refused, as they had to be.
     pub refused: u64,
     /// Comparisons with a fresh world.
@@ -81,7 +85,9 @@ pub struct Tally {
 /// What is known of a body: enough to build it anew.
 struct Known<S> {
     id: BodyId,
+    /// That it came with, or was given since; and its mesh, if edits have changed it.
     surface: usize,
+    edited: Option<Vec<[u32; 3]>>,
     place: [f64; 3],
     positions: Vec<[S; 3]>,
     /// The shape at the end of its motion, if it has one.
@@ -146,7 +152,7 @@ impl<S: Scalar> Soak<S> {
 
     /// The bodies there are now, and their triangles.
     pub fn size(&self) -> [usize; 2] {
-        let triangles = |body: &Known<S>| self.surfaces[body.surface].triangles.len();
+        let triangles = |body: &Known<S>| self.mesh(body).len();
         [self.known.len(), self.known.iter().map(triangles).sum()]
     }
 
@@ -166,6 +172,9 @@ impl<S: Scalar> Soak<S> {
         // Asked before and after: what is true or found already must not outlive the call.
         self.ask_something()?;
         self.call_something()?;
+        if self.random.one_in(2) {
+            self.edit()?;
+        }
         self.ask_something()?;
         // Movement makes much be found anew; where there was none, more can be stale.
         if self.random.one_in(if still { 3 } else { 12 }) {
@@ -262,6 +271,16 @@ impl<S: Scalar> Soak<S> {
             .collect()
     }
 
+    /// Another shape of a body at a place: vertices that edits have added go round those of the surface again.
+    fn shape_of(&mut self, body: usize, place: [f64; 3]) -> Vec<[S; 3]> {
+        let Known {
+            surface, positions, ..
+        } = &self.known[body];
+        let (surface, count) = (*surface, positions.len());
+        let shape = self.shape(surface, place);
+        shape.iter().copied().cycle().take(count).collect()
+    }
+
     fn add(&mut self) -> Result<(), Wrong> {
         let surface = self.random.index(self.surfaces.len());
         let place = self.somewhere();
@@ -281,6 +300,7 @@ impl<S: Scalar> Soak<S> {
         self.known.push(Known {
             id,
             surface,
+            edited: None,
             place,
             positions,
             end: None,
@@ -325,7 +345,7 @@ impl<S: Scalar> Soak<S> {
                 _ if self.random.one_in(10) => [self.far[1] * self.random.unit(); 3],
                 _ => self.known[body].place,
             };
-            let positions = self.shape(self.known[body].surface, place);
+            let positions = self.shape_of(body, place);
             let written = self.random.one_in(2);
             if self.take_over(body, &positions, written)? {
                 self.known[body].place = place;
@@ -427,7 +447,7 @@ impl<S: Scalar> Soak<S> {
             let Known { id, place, .. } = self.known[some];
             // One goes anywhere on its way; many a little, or there were more to find than at any parade.
             let end = if count == 1 {
-                self.shape(self.known[some].surface, place)
+                self.shape_of(some, place)
             } else {
                 let by = [(); 3].map(|()| (self.random.unit() - 0.5) * SHIFT);
                 self.shifted(some, by)
@@ -499,6 +519,7 @@ impl<S: Scalar> Soak<S> {
         let set = self.world.set_mesh(id, triangles, &positions);
         if self.is_held(some, &positions, set)? {
             (self.known[some].surface, self.known[some].positions) = (surface, positions);
+            self.known[some].edited = None;
         }
         Ok(())
     }
@@ -565,7 +586,7 @@ impl<S: Scalar> Soak<S> {
         let Known {
             id, surface, place, ..
         } = self.known[some];
-        let mut bad = self.shape(surface, place);
+        let mut bad = self.shape_of(some, place);
         let vertex = self.random.index(bad.len());
         bad[vertex][self.random.index(3)] = (self.convert)(
             [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e39][self.random.index(4)],

@@ -36,6 +36,7 @@ fn check<S: pliant::Scalar>(soak: Soak<S>) {
         tally.removed - 400,
         tally.refused,
         tally.compared - 3,
+        tally.edited,
     ];
     assert!(least.iter().all(|&count| count >= 5), "{tally:?}");
     assert!(tally.moved > 1000 && tally.pairs > 10_000, "{tally:?}");

@@ -3,7 +3,9 @@
 mod common;
 
 use common::{Lcg, every_configuration, sheet};
-use pliant::{BodyId, EdgeEdge, Edit, Edited, Options, Scalar, Selection, VertexTriangle, World};
+use pliant::{
+    BodyId, EdgeEdge, Edit, Edited, Options, Pair, Scalar, Selection, VertexTriangle, World,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a test knows of a body, empty numbers as none.
@@ -598,7 +600,41 @@ fn a_triangle_of_vertices_that_none_had_is_met() {
         let triangle = edit.add_triangle([3, 4, 5]);
         world.apply(&edit).unwrap();
         let pairs = world.intersections(Selection::World).all().unwrap();
-        let pairs: Vec<_> = pairs.iter().map(|it| it.triangles()).collect();
+        let pairs: Vec<_> = pairs.iter().map(Pair::triangles).collect();
         assert_eq!(pairs, [[triangle, 0]]);
     }
+}
+
+/// A mesh that is set has no empty number, be it the one that an edit left.
+#[test]
+fn a_mesh_that_is_set_has_all_its_vertices() {
+    let shape = [
+        [0.0; 3],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [5.0; 3],
+        [7.0; 3],
+    ];
+    let mut world = World::<f32>::new();
+    let body = world.add(&[[0, 1, 2]], &shape).unwrap();
+    let mut edit = world.edit(body).unwrap();
+    edit.merge_vertices(0, 3);
+    assert_eq!(world.apply(&edit).unwrap().removed_vertices, [3]);
+    assert_eq!(
+        world.live_vertices(body).unwrap(),
+        [true, true, true, false, true]
+    );
+    world.set_mesh(body, &[[0, 1, 2]], &shape).unwrap();
+    assert_eq!(world.live_vertices(body).unwrap(), [true; 5]);
+    assert_eq!(world.positions(body).unwrap()[3], [5.0; 3]);
+    // A triangle that is given back its corners.
+    let mut edit = world.edit(body).unwrap();
+    let added = edit.add_triangle([0, 1, 4]);
+    world.apply(&edit).unwrap();
+    let mut edit = world.edit(body).unwrap();
+    edit.remove_triangle(added);
+    world.apply(&edit).unwrap();
+    world.set_mesh(body, &[[0, 1, 2]], &shape).unwrap();
+    assert_eq!(world.triangle_count(body).unwrap(), 1);
+    world.validate().unwrap();
 }

@@ -63,6 +63,13 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         vertices.map(|vertex| !is_empty(vertex)).collect()
     }
 
+    /// Whether a triangle or a vertex is gone whose number was not used again.
+    pub(super) fn has_empty_numbers(&self) -> bool {
+        let edits = self.edits.as_deref();
+        self.topology.live_count() < self.triangle_numbers()
+            || edits.is_some_and(|edits| edits.empty.count() > 0)
+    }
+
     /// Makes all changes of an edit; or leaves the body as it is and says what was wrong.
     pub(super) fn apply(&mut self, edit: &Edit<S>, options: &Options) -> Result<Edited, ErrorKind> {
         if edit.mesh != self.meshes {

@@ -333,7 +333,9 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         positions: &[[S; 3]],
     ) -> Result<(), Error> {
         let body = self.body(id)?;
-        if body.vertex_count() == positions.len() && body.topology.triangles() == triangles {
+        let is_same =
+            body.vertex_count() == positions.len() && body.topology.triangles() == triangles;
+        if is_same && !body.has_empty_numbers() {
             return self.move_body(id, positions);
         }
         let options = self.common.options;

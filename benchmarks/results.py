@@ -333,7 +333,8 @@ of its that go beyond the first contact, none of ours does.
 ## Change
 
 Meshes that change, a step with everything that an edit costs (`pliant bench change --rounds {change_record.rounds}`, [text](records/{change.stem}.txt),
-[JSON](records/{change.name}); one thread of an {change_record.machine['processor']}). Trees are not mended here, as they are not unless that is asked for:
+[JSON](records/{change.name}); one thread of an {change_record.machine['processor']}). Trees mend themselves only where it
+says so:
 
 | | | |
 |---|---|---|

@@ -39,6 +39,17 @@ def test_readme(readme: Path) -> None:
     assert len(names["hits"]) > 0
 
 
+def test_tearing_cloth_of_the_guide() -> None:
+    """Its last block of Python: along the middle a cloth of 128 triangles comes to have two edges that part."""
+    names: dict[str, Any] = {}
+    guide = (HERE.parents[2] / "crates/pliant/guide.md").read_text()
+    exec(guide.split("```python\n")[-1].split("```")[0], names)
+    world, cloth = names["world"], names["cloth"]
+    assert world.bodies() == [cloth, cloth + 1]
+    assert sum(int(world.live_triangles(body).sum()) for body in world.bodies()) == 128
+    assert len(names["positions"]) == 81 + 9
+
+
 def test_human_morph(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """Frames 0, 30 and 59 were counted in rational arithmetic: shared/data/SOURCES.md."""
     file = data("human-morph.npz")

@@ -17,10 +17,11 @@
 //! **Along the whole contact** it has to be the same side: a sheet may come from the front, lie on another, and leave it behind. Triangles of a
 //! *patch* hang together through edges and turn the same way round, or are taken so. A place only touches if of no two patches in it, or of
 //! one and itself, one is both in front of and behind the other. A contact that hangs together lies in one patch of either surface, for all
-//! triangles round vertices that are hit are looked at, whether they are hit or not. So a surface that passes is always seen. The other way round, two contacts that have
-//! nothing to do with each other can be of one place and of the same patches, on other sides; such a place is kept, and so is one in which it is
-//! not clear what a side is: with a triangle that has no area; along an edge of more than two triangles; where a patch can not turn one way round
-//! (a Möbius strip), or is folded onto itself.
+//! triangles round vertices that are hit are looked at, whether they are hit or not. So a surface that passes is always seen.
+//!
+//! The other way round, two contacts that have nothing to do with each other can be of one place and of the same patches, on other sides; such a
+//! place is kept, and so is one in which it is not clear what a side is: with a triangle that has no area; along an edge of more than two
+//! triangles; where a patch cannot turn one way round (a Möbius strip), or is folded onto itself.
 //!
 //! Takes up to 200 bytes a triangle round a vertex that is hit, and 32 a pair. Linear in these and in the triangles of sources that are hit.
 
@@ -75,7 +76,7 @@ fn points(meshes: &impl Meshes, source: u32, triangle: u32) -> [Point; 3] {
     corners.map(|vertex| meshes.position(source, vertex))
 }
 
-/// A place is kept: a surface passes through another there, or it is not known.
+/// A place is kept: a surface passes through another there, or it is not clear what a side is.
 struct Passes;
 
 /// The triangles round places that are not known to be kept, and what is known of their sides.

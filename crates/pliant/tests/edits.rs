@@ -638,3 +638,34 @@ fn a_mesh_that_is_set_has_all_its_vertices() {
     assert_eq!(world.triangle_count(body).unwrap(), 1);
     world.validate().unwrap();
 }
+
+/// Boxes of a motion that an edit ended are not taken for those of the next.
+#[test]
+fn the_motion_after_an_edit_is_another() {
+    let shape = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let there = shape.map(|[x, y, _]| [x, y, 9.0]);
+    let away = shape.map(|[x, y, _]| [x, y, -9.0]);
+    for options in every_configuration() {
+        let mut world = World::<f32>::with_options(options);
+        let body = world.add(&[[0, 1, 2]], &shape).unwrap();
+        let sheets = [5.0, -5.0]
+            .map(|z| shape.map(|[x, y, _]| [x, y, z]))
+            .concat();
+        let other = world.add(&[[0, 1, 2], [3, 4, 5]], &sheets).unwrap();
+        let of = Selection::Between(body, other);
+        let met = |world: &mut World<f32>| -> BTreeSet<u32> {
+            let met = world.vertex_triangle_impacts(of).all().unwrap();
+            let met = met.iter().filter(|it| it.pair.vertex_body == body);
+            met.map(|it| it.pair.triangle).collect()
+        };
+        world.set_motion(body, &away).unwrap();
+        assert_eq!(met(&mut world), BTreeSet::from([1]));
+        let mut edit = world.edit(body).unwrap();
+        edit.add_vertex([0.5, 0.5, 0.0]);
+        world.apply(&edit).unwrap();
+        let end = [there[0], there[1], there[2], [0.5, 0.5, 9.0]];
+        world.set_motion(body, &end).unwrap();
+        world.validate().unwrap();
+        assert_eq!(met(&mut world), BTreeSet::from([0]));
+    }
+}

@@ -114,7 +114,7 @@ Examples:
   pliant check fox.glb --clip Run --baseline 0       what frame 0 does not have
   pliant check new.ply --baseline old.json           what an older check had not
   pliant check part.stl --weld 1e-6                  corners nearly coincide
-  pliant check left.ply right.ply --crossing         parts that lie on each other
+  pliant check left.ply right.ply --crossing         not what only touches
   pliant check walk.npz --report walk.html           a page: in motion, hits red
   pliant check walk.npz --png worst.png --frame 50   its largest place
   pliant check a.ply --png a.png --view top --size 800x600

@@ -47,6 +47,8 @@ pub(super) struct Body<const N: usize, S> {
     pub(super) loose: Option<Bounds<S>>,
     /// None before the first.
     pub(super) motion: Option<Box<Motion<S>>>,
+    /// The last number of motions that were forgotten: boxes of one of them are not those of another.
+    motions: u64,
     /// Edges, and who owns what, once somebody asks.
     pub(super) elements: OnceLock<Box<Elements>>,
     /// None where all vertices meet.
@@ -101,7 +103,7 @@ pub(super) struct Motion<S> {
     end: Positions<S>,
     /// Of the vertices that triangles use.
     bounds: Bounds<S>,
-    /// Counts motions, and shapes on the way, from 1.
+    /// Counts motions, and shapes on the way; from where those that were forgotten ended.
     epochs: u64,
     /// The number of this one.
     epoch: u64,
@@ -209,6 +211,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             mask: u32::MAX,
             loose: None,
             motion: None,
+            motions: 0,
             elements: OnceLock::new(),
             groups: None,
             edits: None,
@@ -243,6 +246,9 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                     ..*motion
                 })
             }),
+            motions: self
+                .motions
+                .max(self.motion.as_ref().map_or(0, |it| it.epochs)),
             elements: self.edited_elements(),
             groups: self.groups.as_ref().map(|groups| {
                 Box::new(VertexGroups {
@@ -665,12 +671,19 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.motion = Some(Box::new(Motion {
             end: place,
             bounds,
-            epochs: 1,
-            epoch: 1,
+            epochs: self.motions + 1,
+            epoch: self.motions + 1,
             is_on: true,
             partway: None,
         }));
         Ok(())
+    }
+
+    /// Ends a motion whose vertices are not those of the body any more.
+    pub(super) fn forget_motion(&mut self) {
+        if let Some(motion) = self.motion.take() {
+            self.motions = motion.epochs;
+        }
     }
 
     /// The end of a motion is the shape of now.

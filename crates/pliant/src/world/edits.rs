@@ -133,7 +133,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             emptied: Vec::new(),
         };
         self.follow(&outcome);
-        self.motion = None;
+        self.forget_motion();
         self.take_in(&outcome, options);
         self.set_positions(instructions, executor, positions)
     }
@@ -209,7 +209,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// Makes changes that were found good. A motion ends.
     fn commit(&mut self, outcome: &Outcome<S>, options: &Options) {
-        self.motion = None;
+        self.forget_motion();
         self.follow(outcome);
         self.take_in(outcome, options);
     }

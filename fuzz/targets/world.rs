@@ -774,7 +774,11 @@ impl<S: Scalar> Lived<S> {
             reference::edge_edge_pairs(&moving_a, &moving_b, radius)
         };
         let pairs = pairs.expect("the bodies were taken").into_iter();
-        let expected = by_ends(one.edges(), other.edges(), pairs.map(|it| (it, ())));
+        let expected = by_ends(
+            one.id == other.id,
+            [one.edges(), other.edges()],
+            pairs.map(|it| (it, ())),
+        );
         let found = self.world.edge_edge_candidates(of, radius).all();
         let found = found.expect("both are there").to_vec().into_iter();
         let found = found.map(|hit| ([hit.edge_a, hit.edge_b], ()));
@@ -815,7 +819,11 @@ impl<S: Scalar> Lived<S> {
             reference::close_edge_edge_pairs(&moving_a, &moving_b, distance)
         };
         let pairs = pairs.expect("the bodies were taken").into_iter();
-        let expected = by_ends(one.edges(), other.edges(), pairs.map(|it| (it, ())));
+        let expected = by_ends(
+            one.id == other.id,
+            [one.edges(), other.edges()],
+            pairs.map(|it| (it, ())),
+        );
         let found = self.world.close_edge_edge_pairs(of, distance).all();
         let found = found.expect("both are there").to_vec().into_iter();
         let figures = found.clone().map(|it| (it.distance, it.direction));
@@ -867,7 +875,7 @@ impl<S: Scalar> Lived<S> {
             reference::edge_edge_impacts(&moving_a, &moving_b, width)
         };
         let met = met.expect("the bodies were taken").into_iter();
-        let expected = by_ends(one.edges(), other.edges(), met);
+        let expected = by_ends(one.id == other.id, [one.edges(), other.edges()], met);
         let found = self.world.edge_edge_impacts(of).width(width).all();
         let found = found.expect("both are there").to_vec().into_iter();
         let found = found.map(|it| ([it.pair.edge_a, it.pair.edge_b], [it.low, it.high]));
@@ -954,7 +962,7 @@ impl<S: Scalar> Lived<S> {
         found: impl Iterator<Item = ([u32; 2], T)>,
     ) -> Vec<([[u32; 2]; 2], T)> {
         let [a, b] = bodies.map(|id| self.world.edges(id).expect("both are there").to_vec());
-        by_ends(a, b, found)
+        by_ends(bodies[0] == bodies[1], [a, b], found)
     }
 
     fn all(&mut self) {
@@ -1051,8 +1059,6 @@ struct Draft<S> {
     triangles: Vec<Option<[u32; 3]>>,
     /// Where a vertex is, and its group.
     vertices: Vec<Option<([S; 3], u32)>>,
-    /// The triangles before all steps.
-    before: Vec<[u32; 3]>,
     /// Vertices that have come again.
     placed: Vec<u32>,
 }
@@ -1068,7 +1074,6 @@ impl<S: Scalar> Draft<S> {
         Self {
             triangles,
             vertices: vertices.collect(),
-            before: known.triangles.clone(),
             placed: Vec::new(),
         }
     }
@@ -1142,25 +1147,23 @@ impl<S: Scalar> Draft<S> {
         place.is_some_and(|it| it.take().is_some())
     }
 
-    /// Whether all is as it was, but for numbers that have come.
-    fn steps_made_nothing(&self, known: &Known<S>) -> bool {
+    /// Whether the steps have come to nothing: then a motion goes on.
+    fn is_nothing(&self, known: &Known<S>) -> bool {
         let before = Self::of(known);
-        let is_same = self.triangles.starts_with(&before.triangles);
-        let vertices = self.vertices.iter().zip(&before.vertices);
-        is_same
+        let are_live = |mesh: &Self| -> Vec<bool> {
+            mesh.vertices.iter().map(Option::is_some).collect()
+        };
+        self.triangles == before.triangles
+            && are_live(self) == are_live(&before)
             && self.placed.is_empty()
-            && vertices
-                .into_iter()
-                .all(|(a, b)| a.is_some() == b.is_some())
     }
 
     /// What is known after all steps: vertices that lost their last triangle are empty.
     fn into_known(mut self, known: &mut Known<S>, anything: S) {
-        let [came, count] = [self.triangles.len(), self.vertices.len()];
-        if self.steps_made_nothing(known) && [came, count] == [known.count, known.positions.len()] {
+        if self.is_nothing(known) {
             return;
         }
-        for vertex in self.before.concat() {
+        for vertex in known.triangles.concat() {
             if !self.is_used(vertex) {
                 self.vertices[vertex as usize] = None;
             }
@@ -1245,14 +1248,12 @@ fn numbered<S>(a: &Known<S>, b: &Known<S>, pairs: Vec<[u32; 2]>) -> Vec<[u32; 2]
     numbers.collect()
 }
 
-/// Pairs of edges by their ends, whatever the edges are called; in order.
+/// Pairs of edges by their ends, whatever the edges are called; in order. Of one body with itself either edge may come first.
 fn by_ends<T>(
-    edges_a: Vec<[u32; 2]>,
-    edges_b: Vec<[u32; 2]>,
+    is_one: bool,
+    [edges_a, edges_b]: [Vec<[u32; 2]>; 2],
     pairs: impl Iterator<Item = ([u32; 2], T)>,
 ) -> Vec<([[u32; 2]; 2], T)> {
-    // Of one body with itself either may come first; of two that is known.
-    let is_one = edges_a == edges_b;
     let pairs = pairs.map(|([a, b], more)| {
         let ends = [edges_a[a as usize], edges_b[b as usize]];
         let [a, b] = ends;

@@ -776,13 +776,13 @@ impl Check {
         comparable: &[bool],
         question: Option<Question>,
     ) -> Result<ControlFlow<Stop>, pliant::Error> {
-        let crossing = match wanted.crossing.then(|| self.all_crossing(taker, question)) {
-            None => Vec::new(),
-            Some(crossing) => match crossing? {
-                ControlFlow::Continue(pairs) => pairs,
+        let mut crossing = Vec::new();
+        if wanted.crossing {
+            match self.all_crossing(taker, question)? {
+                ControlFlow::Continue(pairs) => crossing = pairs,
                 ControlFlow::Break(stop) => return Ok(ControlFlow::Break(stop)),
-            },
-        };
+            }
+        }
         let Self {
             of,
             sequence,

@@ -16,7 +16,7 @@ impl<S: Scalar> Soak<S> {
         body.edited.as_deref().unwrap_or(surface)
     }
 
-    /// Changes a few triangles of some body: takes one out, puts one in again, tears one off, gives it other corners.
+    /// Changes a few triangles of some body: takes one out, puts one in again, tears one off, adds one.
     pub(super) fn edit(&mut self) -> Result<(), Wrong> {
         let some = self.random.index(self.known.len());
         let mut mesh = self.mesh(&self.known[some]).to_vec();
@@ -27,25 +27,21 @@ impl<S: Scalar> Soak<S> {
         for _ in 0..=self.random.below(4) {
             let triangle = self.random.index(mesh.len());
             let corners = mesh[triangle];
+            let stays = |vertex: &u32| {
+                let mut others = mesh.iter().enumerate();
+                others.any(|(other, it)| other != triangle && it.contains(vertex))
+            };
             match self.random.below(4) {
+                // Vertices stay, with other triangles.
                 0 if corners != EMPTY => {
-                    let used = |vertex: &u32| {
-                        let mut others = mesh.iter().enumerate();
-                        others.any(|(other, it)| other != triangle && it.contains(vertex))
-                    };
-                    // Its vertices stay, with other triangles.
-                    if corners.iter().all(used) {
+                    if corners.iter().all(stays) {
                         edit.remove_triangle(triangle as u32);
                         mesh[triangle] = EMPTY;
                     }
                 }
                 1 if corners != EMPTY && positions.len() < MOST_VERTICES => {
                     let vertex = corners[self.random.index(3)];
-                    let others = mesh.iter().enumerate();
-                    let stays = others
-                        .filter(|&(other, it)| other != triangle && it.contains(&vertex))
-                        .count();
-                    if stays > 0 {
+                    if stays(&vertex) {
                         let new = edit.split_vertex(vertex, &[triangle as u32]);
                         mesh[triangle] = corners.map(|it| if it == vertex { new } else { it });
                         positions.push(positions[vertex as usize]);

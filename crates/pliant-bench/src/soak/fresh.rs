@@ -2,10 +2,10 @@
 //! them against the reference, which has no tree.
 
 use super::edits::EMPTY;
-use super::{AllClose, FAR_APART, FAR_BUT_CLOSE, Met, SIDE, Soak, Wrong, rows};
+use super::{AllClose, FAR_APART, FAR_BUT_CLOSE, Met, Near, SIDE, Soak, Wrong};
 use pliant::{
-    BodyId, Degree, EdgeEdge, Impact, Options, Pair, Partition, Scalar, Selection, Update,
-    VertexTriangleImpact, World, reference,
+    BodyId, CloseEdgeEdge, Degree, EdgeEdge, EdgeEdgeImpact, Impact, Options, Pair, Partition,
+    Scalar, Selection, Update, VertexTriangleImpact, World, reference,
 };
 use std::num::NonZeroU32;
 
@@ -150,43 +150,26 @@ impl<S: Scalar> Soak<S> {
     /// What is near, on the way too.
     fn compare_near(&mut self, fresh: &mut World<S>) -> Result<(), Wrong> {
         let radius = [0.0, 0.01, FAR_APART][self.random.index(3)];
-        let expected = self.good("what is near in a fresh world", rows(fresh, radius))?;
-        let found = rows(&mut self.world, radius);
-        let found = self.good("what is near", found)?;
-        let [found_vertices, found_edges] = found;
-        let [mut vertices, edges] = expected;
-        for [a, _, b, _] in &mut vertices {
-            (*a, *b) = (self.known[*a as usize].id.0, self.known[*b as usize].id.0);
+        let expected = Near::of(fresh, radius);
+        let mut expected = self.good("what is near in a fresh world", expected)?;
+        for near in &mut expected.vertex_triangle {
+            near.vertex_body = self.known_id(near.vertex_body);
+            near.triangle_body = self.known_id(near.triangle_body);
         }
-        let pair = |&[body_a, edge_a, body_b, edge_b]: &[u32; 4]| {
-            let [body_a, body_b] = [body_a, body_b].map(BodyId);
-            EdgeEdge {
-                body_a,
-                edge_a,
-                body_b,
-                edge_b,
-            }
-        };
-        let expected = self.by_ends(fresh, true, edges.iter().map(|it| (pair(it), ())));
-        let found = self.by_ends(
-            &self.world,
-            false,
-            found_edges.iter().map(|it| (pair(it), ())),
-        );
-        let are_same = found
-            .iter()
-            .map(|it| it.0)
-            .eq(expected.iter().map(|it| it.0));
-        if found_vertices != vertices || !are_same {
-            let counts = [
-                found_vertices.len(),
-                vertices.len(),
-                found.len(),
-                expected.len(),
-            ];
+        let found = Near::of(&mut self.world, radius);
+        let found = self.good("what is near", found)?;
+        let edges = |near: &Near| near.edge_edge.iter().map(|&it| (it, ())).collect();
+        let [found_edges, expected_edges] = self.by_ends([edges(&found), edges(&expected)], fresh);
+        let pairs = |edges: &[Named<()>]| edges.iter().map(|it| it.ends).collect::<Vec<_>>();
+        if found.vertex_triangle != expected.vertex_triangle
+            || pairs(&found_edges) != pairs(&expected_edges)
+            || !found.edge_edge.is_sorted()
+        {
+            let count = |near: &Near| [near.vertex_triangle.len(), near.edge_edge.len()];
+            let counts = [&found, &expected].map(count);
             return self.wrong(format!("found and expected within {radius}: {counts:?}"));
         }
-        self.tally.near += (found.len() + vertices.len()) as u64;
+        self.tally.near += (found.vertex_triangle.len() + found.edge_edge.len()) as u64;
         Ok(())
     }
 
@@ -195,43 +178,35 @@ impl<S: Scalar> Soak<S> {
         let distance = [0.0, FAR_BUT_CLOSE / 4.0, FAR_BUT_CLOSE][self.random.index(3)];
         let expected = AllClose::of(fresh, distance);
         let mut expected = self.good("what is close in a fresh world", expected)?;
-        let known_id = |id: &mut BodyId| *id = self.known[id.0 as usize].id;
         for close in &mut expected.vertex_triangle {
-            known_id(&mut close.pair.vertex_body);
-            known_id(&mut close.pair.triangle_body);
+            close.pair.vertex_body = self.known_id(close.pair.vertex_body);
+            close.pair.triangle_body = self.known_id(close.pair.triangle_body);
         }
         for close in &mut expected.triangles {
-            known_id(&mut close.pair.body_a);
-            known_id(&mut close.pair.body_b);
+            close.pair.body_a = self.known_id(close.pair.body_a);
+            close.pair.body_b = self.known_id(close.pair.body_b);
         }
         let found = AllClose::of(&mut self.world, distance);
         let found = self.good("what is close", found)?;
-        let edges = |all: &AllClose| -> Vec<_> {
-            let edges = all.edge_edge.iter();
-            edges.map(|&close| (close.pair, close)).collect()
+        let edges = |all: &AllClose| all.edge_edge.iter().map(|&it| (it.pair, it)).collect();
+        let [found_edges, expected_edges] = self.by_ends([edges(&found), edges(&expected)], fresh);
+        // Which of two edges of one body comes first is up to their numbers, and to that what is rounded how.
+        let is_same_edge = |(found, expected): (&Named<_>, &Named<_>)| {
+            let (mut one, other): (CloseEdgeEdge, CloseEdgeEdge) = (found.more, expected.more);
+            one.pair = other.pair;
+            let slack = other.distance * f64::powi(0.5, 29);
+            found.ends == expected.ends
+                && if found.is_turned == expected.is_turned {
+                    one == other
+                } else {
+                    (one.distance - other.distance).abs() <= slack
+                }
         };
-        let expected_edges = self.by_ends(fresh, true, edges(&expected).into_iter());
-        let found_edges = self.by_ends(&self.world, false, edges(&found).into_iter());
-        let are_same_edges = found_edges.len() == expected_edges.len()
-            && found_edges
-                .iter()
-                .zip(&expected_edges)
-                .all(|(found, expected)| {
-                    // Which of two edges of one body comes first is up to their numbers, and to that what is rounded how.
-                    let slack = expected.2.distance * f64::powi(0.5, 29);
-                    let is_near = (found.2.distance - expected.2.distance).abs() <= slack;
-                    let (mut one, other) = (found.2, expected.2);
-                    one.pair = other.pair;
-                    found.0 == expected.0
-                        && if found.1 == expected.1 {
-                            one == other
-                        } else {
-                            is_near
-                        }
-                });
+        let mut edges = found_edges.iter().zip(&expected_edges);
         let is_same = found.vertex_triangle == expected.vertex_triangle
             && found.triangles == expected.triangles
-            && are_same_edges;
+            && found_edges.len() == expected_edges.len()
+            && edges.all(is_same_edge);
         if !is_same {
             let counts = [found.counts(), expected.counts()];
             return self.wrong(format!(
@@ -248,33 +223,35 @@ impl<S: Scalar> Soak<S> {
         let distance = [0.0, FAR_BUT_CLOSE / 8.0][self.random.index(2)];
         let expected = Met::of(fresh, width, distance);
         let mut expected = self.good("what meets in a fresh world", expected)?;
-        let known_id = |id: &mut BodyId| *id = self.known[id.0 as usize].id;
         let name_vertex = |impact: &mut VertexTriangleImpact| {
-            known_id(&mut impact.pair.vertex_body);
-            known_id(&mut impact.pair.triangle_body);
+            impact.pair.vertex_body = self.known_id(impact.pair.vertex_body);
+            impact.pair.triangle_body = self.known_id(impact.pair.triangle_body);
         };
         expected.vertex_triangle.iter_mut().for_each(name_vertex);
+        if let Some(Impact::VertexTriangle(impact)) = &mut expected.first {
+            name_vertex(impact);
+        }
         let found = Met::of(&mut self.world, width, distance);
         let found = self.good("what meets", found)?;
-        let edges = |all: &Met| -> Vec<_> {
-            let edges = all.edge_edge.iter();
-            edges.map(|it| (it.pair, [it.low, it.high])).collect()
-        };
-        let expected_edges = self.by_ends(fresh, true, edges(&expected).into_iter());
-        let found_edges = self.by_ends(&self.world, false, edges(&found).into_iter());
-        let timed = |it: &(_, bool, [f64; 2])| (it.0, it.2);
-        // Of several edges that meet first it is the lowest, by numbers that edits give.
-        let first = |met: &Met| match met.first {
-            Some(Impact::VertexTriangle(impact)) => Some((0, impact.low, impact.high)),
-            Some(Impact::EdgeEdge(impact)) => Some((1, impact.low, impact.high)),
-            None => None,
+        let timed = |it: &EdgeEdgeImpact| (it.pair, [it.low, it.high]);
+        let edges = |met: &Met| met.edge_edge.iter().map(timed).collect();
+        let edges = self.by_ends([edges(&found), edges(&expected)], fresh);
+        let [found_edges, expected_edges] = edges.map(|edges| {
+            edges
+                .iter()
+                .map(|it| (it.ends, it.more))
+                .collect::<Vec<_>>()
+        });
+        let is_same_first = match (found.first, expected.first) {
+            // Of several edges that meet first it is the lowest, by numbers that edits give.
+            (Some(Impact::EdgeEdge(found)), Some(Impact::EdgeEdge(expected))) => {
+                [found.low, found.high] == [expected.low, expected.high]
+            }
+            (found, expected) => found == expected,
         };
         let is_same = found.vertex_triangle == expected.vertex_triangle
-            && found_edges
-                .iter()
-                .map(timed)
-                .eq(expected_edges.iter().map(timed))
-            && first(&found) == first(&expected)
+            && found_edges == expected_edges
+            && is_same_first
             && found.step == expected.step;
         if !is_same {
             return self.wrong(format!(
@@ -287,33 +264,24 @@ impl<S: Scalar> Soak<S> {
         Ok(())
     }
 
-    /// Pairs of edges by their bodies and ends, in order, as the world that lives calls them; and whether the edges changed places for
-    /// that. `is_fresh`: whether they are of the world that was never anything else.
+    /// What the world that lives calls a body of a fresh one.
+    fn known_id(&self, fresh_id: BodyId) -> BodyId {
+        self.known[fresh_id.0 as usize].id
+    }
+
+    /// Pairs of edges of the world that lives and of a fresh one, by their ends: edits number edges in another way.
     fn by_ends<T>(
         &self,
-        world: &World<S>,
-        is_fresh: bool,
-        pairs: impl Iterator<Item = (EdgeEdge, T)>,
-    ) -> Vec<([(BodyId, [u32; 2]); 2], bool, T)> {
-        let named = |body: BodyId, edge: u32| {
-            let ends = world
-                .edges(body)
-                .map_or([0; 2], |edges| edges[edge as usize]);
-            let body = if is_fresh {
-                self.known[body.0 as usize].id
-            } else {
-                body
-            };
-            (body, ends)
+        [found, expected]: [Vec<(EdgeEdge, T)>; 2],
+        fresh: &World<S>,
+    ) -> [Vec<Named<T>>; 2] {
+        let ends = |world: &World<S>, body: BodyId, edge: u32| {
+            let edges = world.edges(body);
+            edges.map_or([u32::MAX; 2], |edges| edges[edge as usize])
         };
-        let pairs = pairs.map(|(pair, more)| {
-            let a = named(pair.body_a, pair.edge_a);
-            let b = named(pair.body_b, pair.edge_b);
-            ([a.min(b), a.max(b)], a > b, more)
-        });
-        let mut pairs: Vec<_> = pairs.collect();
-        pairs.sort_by_key(|pair| pair.0);
-        pairs
+        let of_found = |body, edge| (body, ends(&self.world, body, edge));
+        let of_expected = |body, edge| (self.known_id(body), ends(fresh, body, edge));
+        [named(found, of_found), named(expected, of_expected)]
     }
 
     /// How far some bodies are apart, and one from all others.
@@ -363,17 +331,11 @@ impl<S: Scalar> Soak<S> {
         };
         let [a, b] = two.map(|id| self.fresh_id(id));
         let bodies = [a, b].map(|id| &self.known[id.0 as usize]);
-        let meshes = bodies.map(|body| {
-            let mesh = self.mesh(body).iter().copied();
-            mesh.filter(|it| *it != EMPTY).collect::<Vec<_>>()
+        let live = bodies.map(|body| -> (Vec<u32>, Vec<[u32; 3]>) {
+            let mesh = (0..).zip(self.mesh(body).iter().copied());
+            mesh.filter(|(_, it)| *it != EMPTY).unzip()
         });
-        let [triangles_a, triangles_b] = meshes.each_ref().map(|it| &it[..]);
-        let numbers = bodies.map(|body| {
-            let numbers = (0..).zip(self.mesh(body));
-            let numbers = numbers.filter(|(_, it)| **it != EMPTY);
-            numbers.map(|(number, _)| number).collect::<Vec<u32>>()
-        });
-        let [numbers_a, numbers_b] = numbers.each_ref().map(|it| &it[..]);
+        let [(numbers_a, triangles_a), (numbers_b, triangles_b)] = &live;
         let named = |pairs: Vec<[u32; 2]>, others: &[u32]| -> Vec<[u32; 2]> {
             let pairs = pairs.into_iter();
             let named = pairs.map(|[a, b]| [numbers_a[a as usize], others[b as usize]]);
@@ -401,6 +363,37 @@ impl<S: Scalar> Soak<S> {
         }
         Ok(())
     }
+}
+
+/// Two edges that are close or meet, and what is known of them.
+struct Named<T> {
+    /// Their bodies and ends, the lower first.
+    ends: [(BodyId, [u32; 2]); 2],
+    /// Whether by its number the other was first.
+    is_turned: bool,
+    more: T,
+}
+
+/// Pairs by the ends that `ends` says, in their order.
+fn named<T>(
+    pairs: Vec<(EdgeEdge, T)>,
+    ends: impl Fn(BodyId, u32) -> (BodyId, [u32; 2]),
+) -> Vec<Named<T>> {
+    let pairs = pairs.into_iter().map(|(pair, more)| {
+        let [a, b] = [
+            ends(pair.body_a, pair.edge_a),
+            ends(pair.body_b, pair.edge_b),
+        ];
+        let ends = [a.min(b), a.max(b)];
+        Named {
+            ends,
+            is_turned: a > b,
+            more,
+        }
+    });
+    let mut pairs: Vec<_> = pairs.collect();
+    pairs.sort_by_key(|pair| pair.ends);
+    pairs
 }
 
 /// All pairs, without their bodies.

@@ -21,8 +21,9 @@ mod random;
 mod shapes;
 
 use pliant::{
-    BodyId, CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, EdgeEdgeImpact, Error, ErrorKind,
-    Impact, Options, Pair, Scalar, Selection, VertexTriangleImpact, World,
+    BodyId, CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, EdgeEdge, EdgeEdgeImpact, Error,
+    ErrorKind, Impact, Options, Pair, Scalar, Selection, VertexTriangle, VertexTriangleImpact,
+    World,
 };
 use random::Random;
 use shapes::Surface;
@@ -243,7 +244,7 @@ impl<S: Scalar> Soak<S> {
             self.good("set_motion", set)?;
             self.known[number].end = Some(end);
         }
-        let near = rows(&mut self.world, FAR_APART);
+        let near = Near::of(&mut self.world, FAR_APART);
         self.good("what is near", near)?;
         let close = AllClose::of(&mut self.world, FAR_BUT_CLOSE);
         self.good("what is close", close)?;
@@ -699,20 +700,23 @@ fn inside<S: Scalar>((lo, hi): ([S; 3], [S; 3]), point: [S; 3]) -> bool {
     (0..3).all(|axis| lo[axis] <= point[axis] && point[axis] <= hi[axis])
 }
 
-/// Vertices near triangles, and edges near edges, as rows of numbers.
-fn rows<S: Scalar>(world: &mut World<S>, radius: f64) -> Result<[Vec<[u32; 4]>; 2], Error> {
-    let of = Selection::Everything;
-    let near = world.vertex_triangle_candidates(of, radius).all()?;
-    let vertex_triangle = near.iter().map(|&hit| hit.into()).collect();
-    let near = world.edge_edge_candidates(of, radius).all()?;
-    Ok([
-        vertex_triangle,
-        near.iter().map(|&hit| hit.into()).collect(),
-    ])
+/// Vertices near triangles, and edges near edges.
+struct Near {
+    vertex_triangle: Vec<VertexTriangle>,
+    edge_edge: Vec<EdgeEdge>,
+}
+
+impl Near {
+    fn of<S: Scalar>(world: &mut World<S>, radius: f64) -> Result<Self, Error> {
+        let of = Selection::Everything;
+        Ok(Self {
+            vertex_triangle: world.vertex_triangle_candidates(of, radius).all()?.to_vec(),
+            edge_edge: world.edge_edge_candidates(of, radius).all()?.to_vec(),
+        })
+    }
 }
 
 /// All that is close, with figures.
-#[derive(PartialEq)]
 struct AllClose {
     vertex_triangle: Vec<CloseVertexTriangle>,
     edge_edge: Vec<CloseEdgeEdge>,
@@ -742,7 +746,6 @@ impl AllClose {
 }
 
 /// All that meets on the way, and how far everything may go.
-#[derive(PartialEq)]
 struct Met {
     vertex_triangle: Vec<VertexTriangleImpact>,
     edge_edge: Vec<EdgeEdgeImpact>,

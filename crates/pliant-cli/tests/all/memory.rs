@@ -281,6 +281,32 @@ fn memory_of_hits() {
     assert!((peak as f64) < MULTIPLE * 2.0 * frame + hits + PROGRAM as f64);
 }
 
+/// A sheet on its like: every triangle is in the place that they make, and is looked at from all sides.
+#[test]
+fn memory_of_what_only_touches() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let surface = Surface::new(200, 1);
+    for name in ["a.npz", "b.npz"] {
+        fs::write(path.join(name), surface.file()).unwrap();
+    }
+    let asked = ["check", "a.npz", "b.npz", "--count", "--format", "json"];
+    let of = |more: &[&str]| measured(path, &[&asked[..], more].concat());
+    let (plain, crossing) = (of(&[]), of(&["--crossing"]));
+    let frame = &crossing.said.json()["frames"][0];
+    assert_eq!(frame["count"], 0, "{frame}");
+    let pairs = frame["only_touching"].as_u64().unwrap();
+    let triangles = 2 * surface.triangles() as u64;
+    let (Some(plain), Some(peak)) = (plain.peak, crossing.peak) else {
+        eprintln!("skipped: this system does not tell the memory of a process");
+        return;
+    };
+    println!("{peak} bytes, {plain} without, {pairs} pairs, {triangles} triangles");
+    let frames = MULTIPLE * 2.0 * 2.0 * surface.bytes_of_a_frame() as f64;
+    let said = (32 * pairs + 200 * triangles + PROGRAM) as f64;
+    assert!((peak as f64) < frames + said, "{peak}");
+}
+
 /// A glTF file of so many bodies, each a triangle of one mesh: side by side, at this distance.
 fn many_triangles(count: u32, distance: f32) -> String {
     // (0, 0, 0), (1, 1, 0.25), (1, 0, 1)

@@ -246,9 +246,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                     ..*motion
                 })
             }),
-            motions: self
-                .motions
-                .max(self.motion.as_ref().map_or(0, |it| it.epochs)),
+            motions: self.motions,
             elements: self.edited_elements(),
             groups: self.groups.as_ref().map(|groups| {
                 Box::new(VertexGroups {

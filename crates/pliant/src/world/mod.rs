@@ -273,7 +273,8 @@ impl<S: Scalar> World<S> {
     ///
     /// A number that is left empty is [`u32::MAX`] three times in [`triangles`](Self::triangles), and nothing in any answer. Positions keep
     /// one row for every number; rows of empty vertices are not looked at when they are set, and NaN when they are asked for. Filter,
-    /// ignored pairs and loose box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends if anything changes.
+    /// ignored pairs and loose box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends if anything
+    /// changes.
     ///
     /// Cost: by what the edit names, and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit
     /// of a body, and when a sixteenth of the triangles were changed since, for the tree is then built anew.

@@ -302,6 +302,34 @@ fn a_place_is_left_out_only_if_nothing_passes() {
     assert!(seen.passing > 100 && seen.touching > 100, "{seen:?}");
 }
 
+#[test]
+fn a_pin_in_its_hole_only_touches() {
+    let whole = |lower: Point, upper: Point| (lower, upper, (0, 1), -CELLS);
+    let solid = |boxes: &[Cut]| Solid {
+        size: 1,
+        boxes: boxes.to_vec(),
+    };
+    let hub = solid(&[
+        whole([1, 1, 2], [4, 2, 3]),
+        whole([1, 3, 2], [4, 4, 3]),
+        whole([1, 1, 2], [2, 4, 3]),
+        whole([3, 1, 2], [4, 4, 3]),
+    ]);
+    let pin = whole([2, 2, 1], [3, 3, 4]);
+    let key = whole([3, 2, 2], [4, 3, 3]);
+    let mut seen = Seen::default();
+    for (other, [touching, passing]) in [(solid(&[pin]), [1, 0]), (solid(&[pin, key]), [1, 1])] {
+        look_at(
+            [&hub, &other],
+            [1, 0, 0, 0, 1, 0, 0, 0, 1],
+            0,
+            false,
+            &mut seen,
+        );
+        assert_eq!([seen.touching, seen.passing], [touching, passing]);
+    }
+}
+
 /// `map`: a linear map of the whole; `flips`: triangles that turn the other way; `together`: in one body.
 fn look_at(solids: [&Solid; 2], map: [i32; 9], mut flips: u64, together: bool, seen: &mut Seen) {
     let surfaces = solids.map(Solid::surface);

@@ -37,17 +37,19 @@ impl Bits {
         }
     }
 
-    /// Takes out all numbers from one on.
+    /// Takes out all numbers from one on. Cost: linear in how far the largest is behind that one.
     pub(crate) fn cut_back(&mut self, first: u32) {
-        self.words.truncate((first as usize).div_ceil(64));
-        if let Some(last) = self.words.get_mut(first as usize / 64) {
-            *last &= (1 << (first % 64)) - 1;
+        let place = first as usize / 64;
+        let Some(last) = self.words.get_mut(place) else {
+            return;
+        };
+        let below = (1 << (first % 64)) - 1;
+        let mut gone = (*last & !below).count_ones() as usize;
+        *last &= below;
+        for word in self.words.drain(place + 1..) {
+            gone += word.count_ones() as usize;
         }
-        self.count = self
-            .words
-            .iter()
-            .map(|word| word.count_ones() as usize)
-            .sum();
+        self.count -= gone;
     }
 }
 

@@ -19,9 +19,9 @@ pub(crate) struct Draft<'m, S> {
     /// How many numbers of triangles and of vertices there are by now.
     triangles: usize,
     vertices: usize,
-    /// The corners of triangles that were changed, and the vertices that came to have triangles by that.
+    /// The corners of triangles that were changed, and the vertices that came to have triangles by that, with these.
     corners: BTreeMap<u32, [u32; 3]>,
-    came: BTreeMap<u32, Vec<u32>>,
+    came: BTreeSet<[u32; 2]>,
     /// Where vertices are that have come, or come again.
     positions: BTreeMap<u32, [S; 3]>,
     /// Of vertices that have come, the one they were split from.
@@ -61,7 +61,7 @@ impl<'m, S: Copy> Draft<'m, S> {
             triangles: topology.triangles().len(),
             vertices: topology.vertex_count(),
             corners: BTreeMap::new(),
-            came: BTreeMap::new(),
+            came: BTreeSet::new(),
             positions: BTreeMap::new(),
             split_from: BTreeMap::new(),
             merged: BTreeSet::new(),
@@ -105,7 +105,8 @@ impl<'m, S: Copy> Draft<'m, S> {
                 self.check_vertex(kept)?;
                 self.check_vertex(gone)?;
                 if kept != gone {
-                    for triangle in self.triangles_at(gone) {
+                    let triangles: Vec<u32> = self.triangles_at(gone).collect();
+                    for triangle in triangles {
                         self.set(triangle, renamed(self.corners(triangle), gone, kept));
                     }
                     self.merged.insert(gone);
@@ -151,7 +152,7 @@ impl<'m, S: Copy> Draft<'m, S> {
                 emptied.extend(old.into_iter().filter(|&vertex| vertex != u32::MAX));
             }
         }
-        emptied.retain(|&vertex| self.triangles_at(vertex).is_empty());
+        emptied.retain(|&vertex| self.triangles_at(vertex).next().is_none());
         Ok(Outcome {
             changed,
             triangles: self.triangles,
@@ -199,19 +200,18 @@ impl<'m, S: Copy> Draft<'m, S> {
         self.live += usize::from(corners != EMPTY);
         if corners != EMPTY {
             for vertex in corners {
-                self.came.entry(vertex).or_default().push(triangle);
+                self.came.insert([vertex, triangle]);
             }
         }
         self.corners.insert(triangle, corners);
     }
 
-    /// The triangles that have a vertex, each once, in order.
-    fn triangles_at(&self, vertex: u32) -> Vec<u32> {
+    /// The triangles that have a vertex; some of them more than once.
+    fn triangles_at(&self, vertex: u32) -> impl Iterator<Item = u32> {
         let before = self.at.of(vertex);
-        let came = self.came.get(&vertex).into_iter().flatten().copied();
-        let here = |&triangle: &u32| self.corners(triangle).contains(&vertex);
-        let all: BTreeSet<u32> = before.chain(came).filter(here).collect();
-        all.into_iter().collect()
+        let came = self.came.range([vertex, 0]..=[vertex, u32::MAX]);
+        let all = before.chain(came.map(|&[_, triangle]| triangle));
+        all.filter(move |&triangle| self.corners(triangle).contains(&vertex))
     }
 
     fn is_empty(&self, vertex: u32) -> bool {

@@ -57,19 +57,35 @@ impl VertexSets {
             used_before.push(used);
         }
 
+        // Those that an earlier tree uses first are few; where a vertex is among them and then this tree's own.
+        let mut earlier: Vec<u32> = order.all_corners()[start..end]
+            .as_flattened()
+            .iter()
+            .map(|vertex| vertex.0)
+            .filter(|&vertex| vertex < first_vertex.0)
+            .collect();
+        earlier.sort_unstable();
+        earlier.dedup();
+        let place = |vertex: u32| match vertex.checked_sub(first_vertex.0) {
+            Some(own) => earlier.len() + own as usize,
+            None => earlier.partition_point(|&it| it < vertex),
+        };
+
         let mut sets = Vec::with_capacity(plan.parts.len());
         let mut border = Vec::new();
-        // Nodes are counted from 1 here, so that memory that comes as zeros is not written where few of many vertices are used.
-        let mut seen_by = vec![0; order.used_vertices()];
+        let mut seen_by = vec![u32::MAX; earlier.len() + (used - first_vertex.0) as usize];
         for (node, part) in plan.parts.iter().enumerate() {
             let triangles = part.triangles.start as usize..part.triangles.end as usize;
             let mut run =
                 [triangles.start, triangles.end].map(|triangle| used_before[triangle - start]);
             let first = border.len();
             for &vertex in order.all_corners()[triangles].as_flattened() {
-                let seen_by = &mut seen_by[vertex.index()];
-                if vertex.0 < run[0] && *seen_by != node as u32 + 1 {
-                    *seen_by = node as u32 + 1;
+                if vertex.0 >= run[0] {
+                    continue;
+                }
+                let seen_by = &mut seen_by[place(vertex.0)];
+                if *seen_by != node as u32 {
+                    *seen_by = node as u32;
                     border.push(vertex);
                 }
             }

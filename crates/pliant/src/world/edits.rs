@@ -21,10 +21,10 @@ use crate::mesh::{Bits, Draft, EMPTY, Outcome};
 use crate::options::Options;
 use crate::threads::Executor;
 use crate::tree::Tree;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// A part that is at most so many times as large as what comes is made anew with it.
-const MUCH_LARGER: usize = 4;
+const MUCH_LARGER: usize = 2;
 /// A part of so few triangles is made anew with whatever comes.
 const FEW: usize = 64;
 /// The tree is built anew when this part of its triangles was taken out or came behind it,
@@ -424,8 +424,9 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             .iter()
             .map(|&triangle| self.topology.triangles()[triangle as usize])
             .collect();
-        let used: BTreeSet<u32> = corners.as_flattened().iter().copied().collect();
-        let used: Vec<u32> = used.into_iter().collect();
+        let mut used: Vec<u32> = corners.as_flattened().to_vec();
+        used.sort_unstable();
+        used.dedup();
         let vertex_order = self.order.vertex_order();
         let position = |vertex: &u32| {
             self.positions

@@ -481,6 +481,37 @@ fn steps_keep_a_distance() {
     );
 }
 
+/// Where one body is far away, others are looked at no more closely than without it.
+#[test]
+fn a_body_far_away_costs_others_nothing() {
+    let mut world = World::<f32>::new();
+    let (triangles, low) = sheet(16);
+    let moved = |shape: &[[f32; 3]], by: [f32; 3]| -> Vec<[f32; 3]> {
+        let moved = shape
+            .iter()
+            .map(|it| std::array::from_fn(|axis| it[axis] + by[axis]));
+        moved.collect()
+    };
+    let high = moved(&low, [0.0, 0.0, 0.5]);
+    let down = moved(&high, [0.02, 0.0, -0.6]);
+    world.add(&triangles, &low).unwrap();
+    let body = world.add(&triangles, &high).unwrap();
+    world.set_motion(body, &down).unwrap();
+    let ask = |world: &mut World<f32>, distance: f64| {
+        let step = world.collision_free_step(Selection::World, distance);
+        let work = *world.statistics();
+        (step.unwrap(), [work.node_pairs, work.candidate_pairs])
+    };
+    let before = [0.0, 0.1].map(|distance| ask(&mut world, distance));
+    let far = moved(&high, [3e8, 0.0, 0.0]);
+    let further = moved(&far, [0.0, -0.2, 0.0]);
+    let body = world.add(&triangles, &far).unwrap();
+    world.set_motion(body, &further).unwrap();
+    let after = [0.0, 0.1].map(|distance| ask(&mut world, distance));
+    assert_eq!(before, after);
+    assert!(before.iter().all(|(_, [_, candidates])| *candidates > 0));
+}
+
 /// A sheet that crumples, advanced by free steps alone, never meets itself nor a ball, at any time that is looked at; with a distance it keeps it.
 #[test]
 fn worlds_that_take_free_steps_never_intersect() {

@@ -30,8 +30,8 @@ pub(crate) trait Real:
     /// Whether boxes are exact, so that an origin has no use.
     const BOXES_ARE_EXACT: bool;
 
-    /// What [`toward`](Self::toward) is off by, at most: this part of the larger end, and [`LEAST`](Self::LEAST).
-    const STEP: f64;
+    /// How much further [`past`](Self::past) goes: this part of the larger end, and [`LEAST`](Self::LEAST).
+    const FURTHER: f64;
     const LEAST: f64;
 
     /// The same value; exact.
@@ -43,6 +43,9 @@ pub(crate) trait Real:
     /// What is the part `t`, from 0 to 1, of the way from here to another: `self + t (to - self)` in `f64`, each operation rounded, and the
     /// result rounded to this type; never beyond either end.
     fn toward(self, to: Self, t: f64) -> Self;
+    /// A place that is at least the part `t`, from 0 to 1, of the way from here to another in exact arithmetic, and at most all of it; if
+    /// subnormal numbers are flushed too, and read as zero.
+    fn past(self, to: Self, t: f64) -> Self;
     /// An `f32` that is not above `self - origin`; for `f32` itself, the origin being zero.
     fn round_down(self, origin: f64) -> f32;
     /// An `f32` that is not below `self - origin`; for `f32` itself, the origin being zero.
@@ -56,9 +59,10 @@ impl Real for f32 {
     // The smallest difference of two f32 is 2^-149; the product of three of them is far inside f64.
     const UNDERFLOW: f64 = 0.0;
     const BOXES_ARE_EXACT: bool = true;
-    // Rounded to f32, after roundings that are 2^29 times smaller; to zero, if subnormal numbers are flushed.
-    const STEP: f64 = f64::from_bits((1023 - 23) << 52);
-    const LEAST: f64 = f64::from_bits((1023 - 125) << 52);
+    // `past` rounds once to f32, after roundings that are 2^29 times smaller: together less than 2^-23. A result below 2^-126 may be taken
+    // for zero.
+    const FURTHER: f64 = f64::from_bits((1023 - 22) << 52);
+    const LEAST: f64 = f64::from_bits((1023 - 124) << 52);
 
     #[inline]
     fn to_f64(self) -> f64 {
@@ -77,6 +81,11 @@ impl Real for f32 {
         f64::from(self).toward(to.into(), t) as f32
     }
     #[inline]
+    fn past(self, to: Self, t: f64) -> Self {
+        // Roundings are monotone, so this is not beyond the other end either.
+        past(self.into(), to.into(), t, Self::FURTHER, Self::LEAST) as f32
+    }
+    #[inline]
     fn round_down(self, _origin: f64) -> f32 {
         self
     }
@@ -93,9 +102,10 @@ impl Real for f64 {
     // 2^-1018, sixteen times the smallest normal number.
     const UNDERFLOW: f64 = f64::from_bits(5 << 52);
     const BOXES_ARE_EXACT: bool = false;
-    // A difference of twice the larger end, a product with it and a sum, each rounded to 2^-53 of itself: 2^-53 times 5.
-    const STEP: f64 = f64::from_bits((1023 - 50) << 52);
-    const LEAST: f64 = f64::from_bits((1023 - 1019) << 52);
+    // With L for the larger end: a difference of at most 2 L, a product with it and a sum of at most 3 L, and what is added to it, each rounded
+    // to 2^-53 of itself: less than 2^-49 L. Each result below 2^-1022 may be taken for zero.
+    const FURTHER: f64 = f64::from_bits((1023 - 49) << 52);
+    const LEAST: f64 = f64::from_bits((1023 - 1018) << 52);
 
     #[inline]
     fn to_f64(self) -> f64 {
@@ -116,6 +126,10 @@ impl Real for f64 {
         larger(smaller(there, larger(self, to)), smaller(self, to))
     }
     #[inline]
+    fn past(self, to: Self, t: f64) -> Self {
+        past(self, to, t, Self::FURTHER, Self::LEAST)
+    }
+    #[inline]
     fn round_down(self, origin: f64) -> f32 {
         // Two roundings to nearest, to f64 and to f32, are off by less than a quarter of what is taken away here; so is that
         // of this line itself. Below the normal range the absolute term is for what is lost there. A difference beyond
@@ -127,6 +141,18 @@ impl Real for f64 {
     fn round_up(self, origin: f64) -> f32 {
         let nearest = larger((self - origin) as f32, -f32::MAX);
         nearest + (nearest.abs() * OUTWARD + f32::MIN_POSITIVE)
+    }
+}
+
+fn past(from: f64, to: f64, t: f64, further: f64, least: f64) -> f64 {
+    let there = from.toward(to, t);
+    let further = larger(from.abs(), to.abs()) * further + least;
+    if from < to {
+        smaller(there + further, to)
+    } else if from > to {
+        larger(there - further, to)
+    } else {
+        from
     }
 }
 
@@ -200,6 +226,85 @@ mod tests {
         assert!(1e-300.round_down(0.0) <= 0.0);
         assert!(1e-300.round_up(0.0) > 0.0);
         assert!((-1e-300).round_down(0.0) < 0.0);
+    }
+
+    #[test]
+    fn past_is_at_least_as_far_as_in_exact_arithmetic_and_never_beyond_the_end() {
+        let coordinates = [
+            0.0,
+            1.0,
+            -1.0,
+            3.5,
+            1023.0,
+            -1_000_001.0,
+            f64::from(2f32.powi(24) - 1.0),
+            -2f64.powi(30),
+        ];
+        for from in coordinates {
+            for to in coordinates {
+                for parts in [0_i128, 1, 3, 64, 511, 512, 1023, 1024] {
+                    let t = parts as f64 / 1024.0;
+                    // Multiples of 2^-50 are multiples of 2^-40 divided by 1024.
+                    let place = exact(from) * 1024 + parts * (exact(to) - exact(from));
+                    let single = f64::from((from as f32).past(to as f32, t));
+                    for (found, further) in [
+                        (single, f32::FURTHER),
+                        (from.past(to, t), <f64 as Real>::FURTHER),
+                    ] {
+                        let [low, high] = [from.min(to), from.max(to)];
+                        assert!((low..=high).contains(&found), "{from} {to} {t}: {found}");
+                        // Rounded down to a multiple of 2^-40, which is allowed for.
+                        let more = (exact(found) * 1024 - place) * if from < to { 1 } else { -1 };
+                        let most = from.abs().max(to.abs()) * 2.0 * further + 2f64.powi(-39);
+                        assert!(more >= -1024, "{from} {to} {t}: {found}");
+                        assert!(more <= exact(most) * 1024, "{from} {to} {t}: {found}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_thread_that_flushes_goes_past_too() {
+        let smallest = 2f64.powi(-969);
+        let ways = [
+            (0.0, 1e-37, 0.1),
+            (-1e-37, 1.2e-38, 0.9),
+            (1e-37, -1e-37, 0.5 + 2f64.powi(-30)),
+            (-3e-38, 0.0, 0.7),
+        ];
+        let doubles = ways.map(|(from, to, t)| (from * smallest * 1e45, to * smallest * 1e45, t));
+        let single = |(from, to, t): (f64, f64, f64)| (from as f32).past(to as f32, t);
+        let double = |(from, to, t): (f64, f64, f64)| from.past(to, t);
+        let places = || {
+            let (ways, doubles) = (black_box(ways), black_box(doubles));
+            (ways.map(single), doubles.map(double))
+        };
+        // Compared here, where no operand is taken for zero. What is read as zero has to be as good.
+        let check = |(singles, found): ([f32; 4], [f64; 4])| {
+            let read = |place: f64, smallest: f64| if place.abs() < smallest { 0.0 } else { place };
+            for ((from, to, t), found) in ways.into_iter().zip(singles) {
+                let [from, to] = [from, to].map(|it| f64::from(it as f32));
+                let place = (1.0 - t) * from + t * to;
+                let found = read(found.into(), f32::MIN_POSITIVE.into());
+                assert!((found - place) * (to - from) >= 0.0, "{from} {to} {t}");
+            }
+            for ((from, to, t), found) in doubles.into_iter().zip(found) {
+                let place = (1.0 - t) * from + t * to;
+                let found = read(found, f64::MIN_POSITIVE);
+                // The sign of a product that could be lost.
+                let is_past = if from < to {
+                    found >= place
+                } else {
+                    found <= place
+                };
+                assert!(is_past, "{from:e} {to:e} {t}: {found:e}");
+            }
+        };
+        check(places());
+        if let Some(flushed) = pliant_oracle::subnormals_flushed(places) {
+            check(flushed);
+        }
     }
 
     #[test]

@@ -120,7 +120,7 @@ pub(crate) trait Kind: Sync {
 pub(crate) enum Reach {
     /// To the end.
     End,
-    /// Boxes hold the way up to this time, where the shape at it is rounded, which the kind allows for. What moves goes on to the end.
+    /// Boxes hold the way up to this time, and a little more. What moves goes on to the end.
     Until(f64),
     /// To the shape at this time, rounded, as if the motion ended there.
     To(f64),

@@ -112,12 +112,12 @@ pub(super) struct Motion<S> {
     partway: Option<Partway<S>>,
 }
 
-/// The shape at some time of a motion, rounded.
+/// The shape in which what is looked at ends before the motion does.
 struct Partway<S> {
     /// In tree order.
     points: Points<S>,
-    /// Of which shape and which motion, and when.
-    of: (u64, u64, f64),
+    /// Of which shape and which motion, and how far.
+    of: (u64, u64, Reach),
     /// Its own number among motions.
     epoch: u64,
 }
@@ -338,9 +338,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         if !is_in_order || !end.bring_into_tree_order(instructions, executor, order) {
             return false;
         }
-        if let Reach::Until(t) | Reach::To(t) = reach {
-            motion.make_partway(self.positions.in_tree_order(), self.epoch, t);
-        }
+        motion.make_partway(self.positions.in_tree_order(), self.epoch, reach);
         true
     }
 
@@ -467,14 +465,6 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             sides += way(from(a), from(b));
         }
         if ways == 0.0 { 0.0 } else { ways / sides }
-    }
-
-    /// The largest magnitude of a coordinate, now or at the end of the motion.
-    pub(super) fn largest_coordinate(&self) -> f64 {
-        let motion = self.motion();
-        let bounds = motion.map_or(self.bounds, |motion| self.bounds.union(&motion.bounds));
-        let sides = bounds.lo.iter().chain(&bounds.hi);
-        sides.fold(0.0, |most, side| most.max(side.to_f64().abs()))
     }
 
     /// Gives every vertex a group; those of one group do not meet, unless it is 0.
@@ -793,9 +783,21 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 }
 
 impl<S: Coordinate> Motion<S> {
-    /// Makes the shape at a time, unless it is there; both ends are in tree order.
-    fn make_partway(&mut self, from: &Points<S>, epoch: u64, t: f64) {
-        let of = (epoch, self.epoch, t);
+    /// Makes the shape in which what is looked at ends before the motion does, unless it is there; both ends are in tree order.
+    fn make_partway(&mut self, from: &Points<S>, epoch: u64, reach: Reach) {
+        let (t, is_rounded) = match reach {
+            Reach::End => return,
+            Reach::Until(t) => (t, false),
+            Reach::To(t) => (t, true),
+        };
+        let at = |from: S, to: S| {
+            if is_rounded {
+                from.toward(to, t)
+            } else {
+                from.past(to, t)
+            }
+        };
+        let of = (epoch, self.epoch, reach);
         if self
             .partway
             .as_ref()
@@ -809,13 +811,7 @@ impl<S: Coordinate> Motion<S> {
             None => Points::with_len(0),
         };
         let ways = from.points.iter().zip(&self.end.in_tree_order().points);
-        points.refill(ways.map(|(from, to)| {
-            [
-                from[0].toward(to[0], t),
-                from[1].toward(to[1], t),
-                from[2].toward(to[2], t),
-            ]
-        }));
+        points.refill(ways.map(|(from, to)| std::array::from_fn(|axis| at(from[axis], to[axis]))));
         self.partway = Some(Partway {
             points,
             of,

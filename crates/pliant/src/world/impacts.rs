@@ -148,13 +148,13 @@ impl<S: Coordinate> AskedImpacts<S> {
                 Reach::End
             };
             if of != OfKind::Edges {
-                let kind = impacts_until(common, VertexTriangleCandidates::within, reach, distance);
+                let kind = impacts_until(VertexTriangleCandidates::within, reach, distance);
                 let asked = &mut self.vertex_triangle;
                 search(asked, &kind, common, request, &mut earliest)?;
                 statistics += common.statistics;
             }
             if of != OfKind::VerticesAndTriangles {
-                let kind = impacts_until(common, EdgeEdgeCandidates::within, reach, distance);
+                let kind = impacts_until(EdgeEdgeCandidates::within, reach, distance);
                 let asked = &mut self.edge_edge;
                 search(asked, &kind, common, request, &mut earliest)?;
                 statistics += common.statistics;
@@ -217,13 +217,13 @@ impl<S: Coordinate> AskedImpacts<S> {
             return Ok(true);
         }
         let reach = Reach::To(time);
-        let kind = impacts_until(common, VertexTriangleCandidates::within, reach, distance);
+        let kind = impacts_until(VertexTriangleCandidates::within, reach, distance);
         let asked = &mut self.vertex_triangle;
         if !is_free(asked, &kind, common, request, distance > 0.0)? {
             return Ok(false);
         }
         let statistics = common.statistics;
-        let kind = impacts_until(common, EdgeEdgeCandidates::within, reach, distance);
+        let kind = impacts_until(EdgeEdgeCandidates::within, reach, distance);
         let asked = &mut self.edge_edge;
         let is_free = is_free(asked, &kind, common, request, distance > 0.0)?;
         common.statistics += statistics;
@@ -248,23 +248,10 @@ fn first_part<const N: usize, S: Coordinate>(common: &Common<N, S>, of: Selectio
     part
 }
 
-/// Contacts up to a time, or what comes as near as a distance. Boxes are grown by what rounding takes away from the shape at the time.
-fn impacts_until<const N: usize, S: Coordinate, K>(
-    common: &Common<N, S>,
-    within: impl Fn(Margin) -> K,
-    reach: Reach,
-    distance: f64,
-) -> Impacts<K> {
-    let rounded = match reach {
-        Reach::Until(_) => {
-            let bodies = common.bodies.list.iter();
-            let most = bodies.fold(0.0, |most: f64, body| most.max(body.largest_coordinate()));
-            most * S::STEP + S::LEAST
-        }
-        Reach::End | Reach::To(_) => 0.0,
-    };
+/// Contacts up to a time, or what comes as near as a distance.
+fn impacts_until<K>(within: impl Fn(Margin) -> K, reach: Reach, distance: f64) -> Impacts<K> {
     // Half the distance for each of two, and a little more than the lanes look for.
-    let margin = Margin::new((rounded + distance * (LIMIT / 2.0 + 0.001)).min(f64::MAX));
+    let margin = Margin::new((distance * (LIMIT / 2.0 + 0.001)).min(f64::MAX));
     Impacts::of(within(margin), Grid::new(SEARCHED), reach).or_near(distance)
 }
 

@@ -93,7 +93,7 @@ impl MayMeet for EdgeEdge {
 }
 
 impl<K> Impacts<K> {
-    /// Of candidates whose margin is zero, but for what boxes that reach up to a time are off by.
+    /// Of candidates whose margin is zero.
     pub(crate) fn of(candidates: K, grid: Grid, reach: Reach) -> Self {
         Self {
             distance: 0.0,

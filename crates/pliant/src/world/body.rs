@@ -572,10 +572,16 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     }
 
     /// The corners of a triangle, whether the shape was brought into tree order or not; exact.
+    #[inline]
     pub(super) fn corners_now(&self, triangle: TreeTriangle) -> [[f64; 3]; 3] {
         let order = self.order.vertex_order();
-        let corners = self.order.corners(triangle);
-        corners.map(|vertex| self.positions.get(vertex, order).map(S::to_f64))
+        // Loops, which are compiled into their callers where closures may not be.
+        let mut corners = [[0.0; 3]; 3];
+        for (corner, vertex) in corners.iter_mut().zip(self.order.corners(triangle)) {
+            let [x, y, z] = self.positions.get(vertex, order);
+            *corner = [x.to_f64(), y.to_f64(), z.to_f64()];
+        }
+        corners
     }
 
     /// The corners of a triangle, with padding; of a body that was brought into tree order.

@@ -42,6 +42,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     }
 
     /// Whether a triangle in tree order was taken out of the mesh.
+    #[inline]
     pub(super) fn is_gone(&self, triangle: TreeTriangle) -> bool {
         let edits = self.edits.as_ref();
         edits.is_some_and(|edits| edits.gone.has(triangle.0))

@@ -13,7 +13,7 @@ pub(crate) use bits::Bits;
 pub(crate) use components::{components, leader};
 pub(crate) use draft::{Draft, Outcome};
 pub(crate) use elements::{Changed, Elements, TriangleRun};
-pub(crate) use order::{Moved, Order};
+pub(crate) use order::{Moved, Order, OrderBuilder};
 pub(crate) use topology::{EMPTY, Topology, share_a_vertex, validate};
 pub(crate) use triangles_at::TrianglesAt;
 pub(crate) use weld::coinciding;

@@ -11,6 +11,7 @@
 use super::{Bits, Topology};
 use crate::held::{self, Held};
 use crate::ids::{CallerTriangle, CallerVertex, TreeTriangle, TreeVertex};
+use crate::threads::Budget;
 use std::ops::Range;
 
 /// A mesh in tree order.
@@ -26,7 +27,18 @@ pub(crate) struct Order {
     orphans: Bits,
 }
 
+/// An order on its way, made some triangles at a time.
+pub(crate) struct OrderBuilder {
+    order: Order,
+    /// For each of the caller's vertices its number in tree order, if a triangle that was looked at uses it.
+    tree_vertices: Vec<u32>,
+}
+
 const UNSEEN: u32 = u32::MAX;
+
+/// Looks at a triangle that its corners take, and triangles between two looks at the budget.
+const LOOKS: usize = 3;
+const AT_ONCE: usize = 256;
 
 /// What happens to the numbers of vertices.
 pub(crate) enum Moved {
@@ -39,39 +51,9 @@ pub(crate) enum Moved {
 impl Order {
     /// With triangle `triangles[t]` of the caller as triangle `t` of the tree.
     pub(crate) fn new(topology: &Topology, triangles: Vec<u32>) -> Self {
-        let count = topology.vertex_count();
-        let mut tree_vertex = vec![UNSEEN; count];
-        let mut vertices = Vec::with_capacity(count);
-        let mut renumber = |vertex: CallerVertex| {
-            let number = &mut tree_vertex[vertex.index()];
-            if *number == UNSEEN {
-                *number = vertices.len() as u32;
-                vertices.push(vertex.0);
-            }
-            TreeVertex(*number)
-        };
-        // One that is no more has the corners of the one before, or of some.
-        let is_live = |triangle: &&u32| topology.is_live(**triangle);
-        let mut last = triangles.iter().find(is_live).copied().unwrap_or_default();
-        let corners = triangles
-            .iter()
-            .map(|&triangle| {
-                if topology.is_live(triangle) {
-                    last = triangle;
-                }
-                topology.corners(CallerTriangle(last)).map(&mut renumber)
-            })
-            .collect();
-        let used = vertices.len();
-        let unused = (0..count as u32).filter(|&vertex| tree_vertex[vertex as usize] == UNSEEN);
-        vertices.extend(unused);
-        Self {
-            corners,
-            triangles,
-            vertices,
-            used,
-            orphans: Bits::default(),
-        }
+        let mut order = OrderBuilder::new(topology.vertex_count(), triangles);
+        order.advance(topology.triangles(), &mut Budget::whole());
+        order.finish()
     }
 
     /// Forgets the triangles from a place on, and the vertices that they use first, of which there are `used` before them: these go with
@@ -202,6 +184,64 @@ impl Order {
     #[inline]
     pub(crate) fn share_a_vertex(&self, a: TreeTriangle, b: TreeTriangle) -> bool {
         super::share_a_vertex(self.corners(a), self.corners(b))
+    }
+}
+
+impl OrderBuilder {
+    /// Of a mesh of so many vertices, as [`Order::new`].
+    pub(crate) fn new(vertices: usize, triangles: Vec<u32>) -> Self {
+        Self {
+            order: Order {
+                corners: Vec::with_capacity(triangles.len()),
+                triangles,
+                vertices: Vec::with_capacity(vertices),
+                used: 0,
+                orphans: Bits::default(),
+            },
+            tree_vertices: vec![UNSEEN; vertices],
+        }
+    }
+
+    /// Goes on, with the corners of the caller's triangles; returns whether all have their numbers.
+    pub(crate) fn advance(&mut self, all: &[[u32; 3]], budget: &mut Budget) -> bool {
+        let Self {
+            order,
+            tree_vertices,
+        } = self;
+        let mut renumber = |vertex: u32| {
+            let number = &mut tree_vertices[vertex as usize];
+            if *number == UNSEEN {
+                *number = order.vertices.len() as u32;
+                order.vertices.push(vertex);
+            }
+            TreeVertex(*number)
+        };
+        while order.corners.len() < order.triangles.len() {
+            if budget.is_spent() {
+                return false;
+            }
+            let some = order.triangles[order.corners.len()..].iter().take(AT_ONCE);
+            budget.spend(LOOKS * some.len());
+            let corners = some.map(|&triangle| all[triangle as usize].map(&mut renumber));
+            order.corners.extend(corners);
+        }
+        true
+    }
+
+    /// The order, when it is done.
+    pub(crate) fn finish(self) -> Order {
+        let mut order = self.order;
+        order.used = order.vertices.len();
+        let unused = (0..).zip(self.tree_vertices);
+        let unused = unused.filter(|&(_, number)| number == UNSEEN);
+        order.vertices.extend(unused.map(|(vertex, _)| vertex));
+        order
+    }
+}
+
+impl Held for OrderBuilder {
+    fn held(&self) -> usize {
+        self.order.held() + held::list(&self.tree_vertices)
     }
 }
 

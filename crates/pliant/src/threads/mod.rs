@@ -10,9 +10,11 @@
 //! these are done: what a thread wrote in one part it is likely to read in the next. The threads of a pool that an application has
 //! lent are not kept awake: they have other things to do. The child of a fork has none of these threads: see [`Threads::here`].
 
+mod budget;
 mod conflict_free;
 mod interrupt;
 
+pub(crate) use budget::Budget;
 pub(crate) use interrupt::{Interrupt, Question};
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -2,59 +2,100 @@
 //! neighbours are looked for.
 
 use super::{BLOCK_LANES, Leaves};
-use crate::ids::{BlockId, TreeVertex};
+use crate::held::{self, Held};
+use crate::ids::{BlockId, LeafId, TreeVertex};
 use crate::mesh::Order;
-use crate::threads::Interrupt;
+use crate::threads::Budget;
 use std::mem::replace;
 use std::ops::Range;
 
-/// So many triangles are looked at before it is asked whether the query was interrupted.
-const UNINTERRUPTED: usize = 1 << 14;
+/// Leaves that are gone through before the budget is looked at; and looks at a triangle that this takes.
+const AT_ONCE: usize = 64;
+const LOOKS: usize = 2;
 
 /// No block.
 const NONE: BlockId = BlockId(u32::MAX);
 
-/// The blocks that have triangles at every vertex, one vertex after the other.
+/// The blocks that have triangles at every vertex, one vertex after the other; made some leaves at a time.
 pub(super) struct LanesAtVertices {
     starts: Vec<u32>,
     blocks: Vec<BlockId>,
     /// Of each of these blocks, the lanes of the triangles with a corner at the vertex.
     lanes: Vec<u8>,
+    stage: Stage,
+    /// The next leaf to be gone through.
+    next: usize,
+    /// The last block that was seen at each vertex: blocks come in order, so it is new where it is another.
+    last: Vec<BlockId>,
+}
+
+/// How far they are.
+#[derive(PartialEq)]
+enum Stage {
+    /// How many blocks there are at each vertex is counted, in the place behind it.
+    Counting,
+    /// Each start is that of its vertex now; it goes up to that of the next while blocks are put down.
+    Filling,
+    Done,
 }
 
 impl LanesAtVertices {
-    /// Cost: linear in triangles and vertices. `None` if it was interrupted.
-    pub(super) fn new(leaves: &Leaves, order: &Order, interrupt: &Interrupt) -> Option<Self> {
-        let mut starts = vec![0; order.used_vertices() + 1];
-        // The last block that was seen at each vertex: blocks come in order, so it is new where it is another.
-        let mut last = vec![NONE; order.used_vertices()];
-        for_each_corner(leaves, order, interrupt, |vertex, block, _| {
-            if replace(&mut last[vertex], block) != block {
-                starts[vertex + 1] += 1;
-            }
-        })?;
-        for vertex in 1..starts.len() {
-            starts[vertex] += starts[vertex - 1];
+    /// Of a mesh in tree order, none yet.
+    pub(super) fn new(order: &Order) -> Self {
+        Self {
+            starts: vec![0; order.used_vertices() + 1],
+            blocks: Vec::new(),
+            lanes: Vec::new(),
+            stage: Stage::Counting,
+            next: 0,
+            last: vec![NONE; order.used_vertices()],
         }
-        // Each start is that of its vertex now; it goes up to that of the next while blocks are put down.
-        let count = starts[starts.len() - 1] as usize;
-        let (mut blocks, mut lanes) = (vec![BlockId(0); count], vec![0; count]);
-        last.fill(NONE);
-        for_each_corner(leaves, order, interrupt, |vertex, block, lane| {
-            let place = &mut starts[vertex];
-            if replace(&mut last[vertex], block) != block {
-                blocks[*place as usize] = block;
-                *place += 1;
-            }
-            lanes[*place as usize - 1] |= 1 << lane;
-        })?;
-        starts.rotate_right(1);
-        starts[0] = 0;
-        Some(Self {
+    }
+
+    /// Goes on with the same leaves and order; returns whether it is done. Cost of all: linear in triangles and vertices.
+    pub(super) fn advance(&mut self, leaves: &Leaves, order: &Order, budget: &mut Budget) -> bool {
+        let Self {
             starts,
             blocks,
             lanes,
-        })
+            stage,
+            next,
+            last,
+        } = self;
+        if *stage == Stage::Counting {
+            let is_done = for_each_corner(leaves, order, next, budget, |vertex, block, _| {
+                if replace(&mut last[vertex], block) != block {
+                    starts[vertex + 1] += 1;
+                }
+            });
+            if !is_done {
+                return false;
+            }
+            for vertex in 1..starts.len() {
+                starts[vertex] += starts[vertex - 1];
+            }
+            let count = starts[starts.len() - 1] as usize;
+            (*blocks, *lanes) = (vec![BlockId(0); count], vec![0; count]);
+            last.fill(NONE);
+            (*stage, *next) = (Stage::Filling, 0);
+        }
+        if *stage == Stage::Filling {
+            let is_done = for_each_corner(leaves, order, next, budget, |vertex, block, lane| {
+                let place = &mut starts[vertex];
+                if replace(&mut last[vertex], block) != block {
+                    blocks[*place as usize] = block;
+                    *place += 1;
+                }
+                lanes[*place as usize - 1] |= 1 << lane;
+            });
+            if !is_done {
+                return false;
+            }
+            starts.rotate_right(1);
+            starts[0] = 0;
+            (*stage, *last) = (Stage::Done, Vec::new());
+        }
+        true
     }
 
     /// How many blocks have triangles at a vertex.
@@ -75,27 +116,42 @@ impl LanesAtVertices {
     }
 }
 
-/// Calls with the vertex, block and lane of every corner, in the order of blocks. `None` if it was interrupted.
+/// Calls with the vertex, block and lane of every corner from a leaf on, in the order of blocks. Returns whether all leaves were gone through,
+/// of which `next` is the first that was not.
 fn for_each_corner(
     leaves: &Leaves,
     order: &Order,
-    interrupt: &Interrupt,
+    next: &mut usize,
+    budget: &mut Budget,
     mut corner: impl FnMut(usize, BlockId, usize),
-) -> Option<()> {
-    for (number, leaf) in leaves.ids().enumerate() {
-        if number.is_multiple_of(UNINTERRUPTED / BLOCK_LANES) && interrupt.is_set() {
-            return None;
+) -> bool {
+    while *next < leaves.len() {
+        if budget.is_spent() {
+            return false;
         }
-        let triangles = &order.all_corners()[leaves.triangles(leaf)];
-        for (block, triangles) in leaves.blocks(leaf).zip(triangles.chunks(BLOCK_LANES)) {
-            for (lane, corners) in triangles.iter().enumerate() {
-                for vertex in corners {
-                    corner(vertex.index(), BlockId(block), lane);
+        for leaf in (*next..leaves.len().min(*next + AT_ONCE)).map(|leaf| LeafId(leaf as u32)) {
+            let triangles = &order.all_corners()[leaves.triangles(leaf)];
+            budget.spend(LOOKS * triangles.len());
+            for (block, triangles) in leaves.blocks(leaf).zip(triangles.chunks(BLOCK_LANES)) {
+                for (lane, corners) in triangles.iter().enumerate() {
+                    for vertex in corners {
+                        corner(vertex.index(), BlockId(block), lane);
+                    }
                 }
             }
         }
+        *next = leaves.len().min(*next + AT_ONCE);
     }
-    Some(())
+    true
+}
+
+impl Held for LanesAtVertices {
+    fn held(&self) -> usize {
+        held::list(&self.starts)
+            + held::list(&self.blocks)
+            + held::list(&self.lanes)
+            + held::list(&self.last)
+    }
 }
 
 #[cfg(test)]
@@ -111,7 +167,9 @@ mod tests {
         let mut leaves = Leaves::new(8, crate::ids::TreeTriangle(0));
         leaves.push(0..1);
         leaves.push(1..3);
-        let lanes = LanesAtVertices::new(&leaves, &order, &Interrupt::default()).unwrap();
+        let mut lanes = LanesAtVertices::new(&order);
+        // A look at a time is enough.
+        while !lanes.advance(&leaves, &order, &mut Budget::of(1)) {}
         let expected: [&[(u32, u8)]; 4] = [
             &[(0, 0b01), (1, 0b10)],
             &[(0, 0b01), (1, 0b01)],

@@ -71,10 +71,6 @@ impl Leaves {
         self.runs.len()
     }
 
-    pub(crate) fn ids(&self) -> impl Iterator<Item = LeafId> {
-        (0..self.runs.len() as u32).map(LeafId)
-    }
-
     /// The triangles of a leaf, as places in tree order.
     #[inline]
     pub(crate) fn triangles(&self, leaf: LeafId) -> Range<usize> {

@@ -25,14 +25,15 @@ mod wide_node;
 use crate::held::{self, Held};
 use crate::ids::{NodeId, TreeTriangle, TreeVertex, WideNodeId};
 use crate::mesh::Order;
-use crate::threads::Executor;
+use crate::threads::{Budget, Executor};
 pub(crate) use boxes::{
     Block, BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodesMut, Quantized, Swept, Version,
 };
 use build::Plan;
 pub(crate) use leaves::{BLOCK_LANES, FirstsOfBlocks, Leaves};
-pub(crate) use neighbours::{Neighbours, STRICT_UPPER};
+pub(crate) use neighbours::{Neighbours, NeighboursBuilder, STRICT_UPPER};
 pub(crate) use vertex_sets::VertexSets;
+use vertex_sets::VertexSetsBuilder;
 pub(crate) use wide_node::{Child, WideNode};
 
 /// The tree of one body, of degree `N`.
@@ -54,6 +55,103 @@ pub(crate) struct Tree<const N: usize> {
 impl<const N: usize> Tree<N> {
     /// The tree of a plan over a mesh that is in the plan's order, or over a run of its triangles, which are the first to use vertices from
     /// `first_vertex` on.
+    pub(crate) fn new(plan: &Plan, order: &Order, first_vertex: TreeVertex) -> Self {
+        let mut tree = TreeBuilder::new(plan, order, first_vertex);
+        tree.advance(plan, order, &mut Budget::whole());
+        tree.finish(plan)
+    }
+
+    /// The wide nodes of a level, as places in their list; behind the last level there are none.
+    pub(crate) fn level(&self, level: u32) -> std::ops::Range<usize> {
+        let start = |level: u32| match self.level_starts.get(level as usize) {
+            Some(&start) => start as usize,
+            None => self.wide_nodes.len(),
+        };
+        start(level)..start(level + 1)
+    }
+
+    /// The level of a wide node.
+    pub(crate) fn level_of(&self, wide_node: WideNodeId) -> u32 {
+        let upto = |&start: &u32| start <= wide_node.0;
+        self.level_starts.partition_point(upto) as u32 - 1
+    }
+
+    /// How many nodes there are, leaves included: the boxes of a complete update.
+    pub(crate) fn node_count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Whether the table of neighbours is there.
+    pub(crate) fn knows_neighbours(&self) -> bool {
+        self.neighbours.is_some()
+    }
+
+    /// Makes the table of neighbours, unless it is there, or there are no blocks that it could be of. Interrupted, it makes none.
+    pub(crate) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
+        if let Some(mut neighbours) = self.begin_neighbours(order)
+            && neighbours.advance(&self.leaves, order, &mut Budget::until(executor.interrupt))
+        {
+            self.take_neighbours(neighbours, order);
+        }
+    }
+
+    /// Begins the table of neighbours, unless it is there, or there are no blocks that it could be of.
+    pub(crate) fn begin_neighbours(&self, order: &Order) -> Option<NeighboursBuilder> {
+        let are_to_come = self.leaves.have_blocks() && self.neighbours.is_none();
+        are_to_come.then(|| NeighboursBuilder::new(&self.leaves, order))
+    }
+
+    /// Takes the table of neighbours, when it is done.
+    pub(crate) fn take_neighbours(&mut self, neighbours: NeighboursBuilder, order: &Order) {
+        let neighbours = neighbours.finish(&self.wide_nodes, &self.leaves, order);
+        self.neighbours = Some(Box::new(neighbours));
+    }
+
+    /// Which triangles share a vertex, if that was asked for before.
+    #[inline]
+    pub(crate) fn neighbours(&self) -> Option<&Neighbours> {
+        self.neighbours.as_deref()
+    }
+
+    /// All wide nodes, level by level.
+    pub(crate) fn with_ids(&self) -> impl Iterator<Item = (WideNodeId, &WideNode<N>)> {
+        (0..).map(WideNodeId).zip(&self.wide_nodes)
+    }
+
+    /// The structure, for a loop over many nodes.
+    #[inline(always)]
+    pub(crate) fn nodes(&self) -> Nodes<'_, N> {
+        Nodes(&self.wide_nodes)
+    }
+
+    #[inline(always)]
+    pub(crate) fn wide_node(&self, wide_node: WideNodeId) -> &WideNode<N> {
+        self.nodes().wide(wide_node)
+    }
+
+    /// What is below a node.
+    #[inline(always)]
+    pub(crate) fn child(&self, node: NodeId) -> Child {
+        self.nodes().child(node)
+    }
+
+    /// The nodes in a wide node.
+    pub(crate) fn nodes_in(&self, wide_node: WideNodeId) -> impl Iterator<Item = NodeId> + use<N> {
+        let lanes = 0..self.wide_node(wide_node).len();
+        lanes.map(move |lane| NodeId::new::<N>(wide_node, lane))
+    }
+}
+
+/// A tree on its way: its nodes are there, the vertices below them come some at a time.
+pub(crate) struct TreeBuilder<const N: usize> {
+    wide_nodes: Vec<WideNode<N>>,
+    level_starts: Vec<u32>,
+    vertices: VertexSetsBuilder,
+    leaves: Leaves,
+}
+
+impl<const N: usize> TreeBuilder<N> {
+    /// As [`Tree::new`].
     pub(crate) fn new(plan: &Plan, order: &Order, first_vertex: TreeVertex) -> Self {
         let mut wide_nodes = vec![WideNode::<N>::new(0)];
         let first = plan.parts.first().map_or(0, |root| root.triangles.start);
@@ -96,83 +194,38 @@ impl<const N: usize> Tree<N> {
         }
         wide_nodes.shrink_to_fit();
         leaves.shrink_to_fit();
-        let depth = plan.parts.last().map_or(0, |deepest| deepest.level);
         Self {
             wide_nodes,
             level_starts,
-            vertices: VertexSets::new(plan, order, first_vertex, N),
+            vertices: VertexSetsBuilder::new(plan, order, first_vertex),
             leaves,
+        }
+    }
+
+    /// Goes on with the same plan and order; returns whether it is done.
+    pub(crate) fn advance(&mut self, plan: &Plan, order: &Order, budget: &mut Budget) -> bool {
+        self.vertices.advance(plan, order, budget)
+    }
+
+    /// The tree, when it is done.
+    pub(crate) fn finish(self, plan: &Plan) -> Tree<N> {
+        Tree {
+            wide_nodes: self.wide_nodes,
+            level_starts: self.level_starts,
+            vertices: self.vertices.finish(plan, N),
+            leaves: self.leaves,
             neighbours: None,
-            depth,
+            depth: plan.parts.last().map_or(0, |deepest| deepest.level),
         }
     }
+}
 
-    /// The wide nodes of a level, as places in their list; behind the last level there are none.
-    pub(crate) fn level(&self, level: u32) -> std::ops::Range<usize> {
-        let start = |level: u32| match self.level_starts.get(level as usize) {
-            Some(&start) => start as usize,
-            None => self.wide_nodes.len(),
-        };
-        start(level)..start(level + 1)
-    }
-
-    /// The level of a wide node.
-    pub(crate) fn level_of(&self, wide_node: WideNodeId) -> u32 {
-        let upto = |&start: &u32| start <= wide_node.0;
-        self.level_starts.partition_point(upto) as u32 - 1
-    }
-
-    /// How many nodes there are, leaves included: the boxes of a complete update.
-    pub(crate) fn node_count(&self) -> usize {
-        self.vertices.len()
-    }
-
-    /// Whether the table of neighbours is there.
-    pub(crate) fn knows_neighbours(&self) -> bool {
-        self.neighbours.is_some()
-    }
-
-    /// Makes the table of neighbours, unless it is there, or there are no blocks that it could be of. Interrupted, it makes none.
-    pub(crate) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
-        if self.leaves.have_blocks() && self.neighbours.is_none() {
-            let wide_nodes = &self.wide_nodes;
-            let neighbours = Neighbours::new(wide_nodes, &self.leaves, order, executor);
-            self.neighbours = neighbours.map(Box::new);
-        }
-    }
-
-    /// Which triangles share a vertex, if that was asked for before.
-    #[inline]
-    pub(crate) fn neighbours(&self) -> Option<&Neighbours> {
-        self.neighbours.as_deref()
-    }
-
-    /// All wide nodes, level by level.
-    pub(crate) fn with_ids(&self) -> impl Iterator<Item = (WideNodeId, &WideNode<N>)> {
-        (0..).map(WideNodeId).zip(&self.wide_nodes)
-    }
-
-    /// The structure, for a loop over many nodes.
-    #[inline(always)]
-    pub(crate) fn nodes(&self) -> Nodes<'_, N> {
-        Nodes(&self.wide_nodes)
-    }
-
-    #[inline(always)]
-    pub(crate) fn wide_node(&self, wide_node: WideNodeId) -> &WideNode<N> {
-        self.nodes().wide(wide_node)
-    }
-
-    /// What is below a node.
-    #[inline(always)]
-    pub(crate) fn child(&self, node: NodeId) -> Child {
-        self.nodes().child(node)
-    }
-
-    /// The nodes in a wide node.
-    pub(crate) fn nodes_in(&self, wide_node: WideNodeId) -> impl Iterator<Item = NodeId> + use<N> {
-        let lanes = 0..self.wide_node(wide_node).len();
-        lanes.map(move |lane| NodeId::new::<N>(wide_node, lane))
+impl<const N: usize> Held for TreeBuilder<N> {
+    fn held(&self) -> usize {
+        held::list(&self.wide_nodes)
+            + held::list(&self.level_starts)
+            + self.vertices.held()
+            + self.leaves.held()
     }
 }
 

@@ -19,13 +19,16 @@ use crate::held::{self, Held};
 use crate::ids::{BlockId, LeafId, TreeTriangle, WideNodeId};
 use crate::kernels::{Simd, find_lane};
 use crate::mesh::Order;
-use crate::threads::Executor;
+use crate::threads::Budget;
 use std::ops::Range;
 
 /// A block with more later neighbours is crowded.
 const MOST_NEIGHBOURS: usize = 32;
 /// A block with a vertex at which more blocks meet is crowded, too: only so far are they looked through.
 const MOST_AT_A_VERTEX: usize = 64;
+
+/// Looks at a triangle that its lists take.
+const LOOKS: usize = 10;
 
 /// Of the pairs (i, j) of eight lanes, bit 8 i + j, those with j > i.
 pub(crate) const STRICT_UPPER: u64 = {
@@ -112,49 +115,6 @@ pub(crate) struct Neighbours {
 }
 
 impl Neighbours {
-    /// Of leaves that have blocks; `None` if it was interrupted. Cost: linear in the triangles, whatever the mesh.
-    pub(super) fn new<const N: usize>(
-        wide_nodes: &[WideNode<N>],
-        leaves: &Leaves,
-        order: &Order,
-        executor: Executor,
-    ) -> Option<Self> {
-        let blocks = Blocks::new(leaves, order, executor)?;
-        // On a surface a block has four to six later neighbours.
-        let count = leaves.block_count();
-        let mut of_blocks = LaneLists::with_capacity(count, 6 * count);
-        let mut list = Vec::new();
-        for leaf in leaves.ids() {
-            if executor.is_interrupted() {
-                return None;
-            }
-            let triangles = leaves.triangles(leaf);
-            for (block, start) in leaves
-                .blocks(leaf)
-                .zip(triangles.clone().step_by(BLOCK_LANES))
-            {
-                let end = triangles.end.min(start + BLOCK_LANES);
-                blocks.list_neighbours(block, start..end, &mut list);
-                of_blocks.push(&list);
-            }
-        }
-        of_blocks.finish();
-        // As much memory as the lists, and no longer needed.
-        drop(blocks);
-        let wide_nodes = if leaves.are_blocks() { wide_nodes } else { &[] };
-        let is_crowded = |block: u32| of_blocks.list(block).is_empty();
-        let fans = if (0..count as u32).any(is_crowded) {
-            Fans::new(wide_nodes, leaves, order)
-        } else {
-            Fans::default()
-        };
-        Some(Self {
-            fans,
-            of_wide_nodes: lists_of_wide_nodes(wide_nodes, leaves, &of_blocks),
-            of_blocks,
-        })
-    }
-
     /// Bit 8 i + j is set if triangle i of block `a` and triangle j of block `b` are to be compared, because they share no
     /// vertex; within one block, each pair once. `None` if that is not known.
     ///
@@ -223,44 +183,73 @@ fn pairs_of_lanes(rows: usize, columns: usize) -> u64 {
     (0..rows).fold(0, |mask, lane| mask | row << (8 * lane))
 }
 
-/// Blocks and their triangles, while neighbours are looked for.
-struct Blocks<'m> {
-    order: &'m Order,
+/// Neighbours on their way, made some leaves at a time. Cost of all: linear in the triangles, whatever the mesh.
+pub(crate) struct NeighboursBuilder {
     at_vertices: LanesAtVertices,
-    /// How many triangles every block has.
-    sizes: Vec<u8>,
+    /// The next leaf whose lists are to come.
+    next: u32,
+    of_blocks: LaneLists,
+    list: Vec<(u32, u64)>,
 }
 
-impl<'m> Blocks<'m> {
-    fn new(leaves: &Leaves, order: &'m Order, executor: Executor) -> Option<Self> {
-        let mut sizes = Vec::with_capacity(leaves.block_count());
-        for leaf in leaves.ids() {
-            let mut left = leaves.triangles(leaf).len();
-            for _ in leaves.blocks(leaf) {
-                let size = left.min(BLOCK_LANES);
-                sizes.push(size as u8);
-                left -= size;
-            }
+impl NeighboursBuilder {
+    /// Of leaves that have blocks.
+    pub(super) fn new(leaves: &Leaves, order: &Order) -> Self {
+        // On a surface a block has four to six later neighbours.
+        let count = leaves.block_count();
+        Self {
+            at_vertices: LanesAtVertices::new(order),
+            next: 0,
+            of_blocks: LaneLists::with_capacity(count, 6 * count),
+            list: Vec::new(),
         }
-        Some(Self {
-            order,
-            at_vertices: LanesAtVertices::new(leaves, order, executor.interrupt)?,
-            sizes,
-        })
+    }
+
+    /// Goes on with the same leaves and order; returns whether all have their lists.
+    pub(crate) fn advance(&mut self, leaves: &Leaves, order: &Order, budget: &mut Budget) -> bool {
+        if !self.at_vertices.advance(leaves, order, budget) {
+            return false;
+        }
+        while (self.next as usize) < leaves.len() {
+            if budget.is_spent() {
+                return false;
+            }
+            let leaf = LeafId(self.next);
+            let triangles = leaves.triangles(leaf);
+            budget.spend(LOOKS * triangles.len());
+            for (block, start) in leaves
+                .blocks(leaf)
+                .zip(triangles.clone().step_by(BLOCK_LANES))
+            {
+                let end = triangles.end.min(start + BLOCK_LANES);
+                self.list_neighbours((leaves, order), block, start..end);
+                self.of_blocks.push(&self.list);
+            }
+            self.next += 1;
+        }
+        true
     }
 
     /// Lists a block and its later neighbours, with the pairs of triangles that are to be compared; nothing if the block is crowded.
-    fn list_neighbours(&self, block: u32, own: Range<usize>, list: &mut Vec<(u32, u64)>) {
+    fn list_neighbours(
+        &mut self,
+        (leaves, order): (&Leaves, &Order),
+        block: u32,
+        own: Range<usize>,
+    ) {
+        let Self {
+            at_vertices, list, ..
+        } = self;
         list.clear();
         // First the pairs that share a vertex.
         list.push((block, 0));
         for (lane, place) in own.enumerate() {
-            for vertex in self.order.corners(TreeTriangle(place as u32)) {
-                if self.at_vertices.count(vertex) > MOST_AT_A_VERTEX {
+            for vertex in order.corners(TreeTriangle(place as u32)) {
+                if at_vertices.count(vertex) > MOST_AT_A_VERTEX {
                     list.clear();
                     return;
                 }
-                for (other, other_lanes) in self.at_vertices.at(vertex) {
+                for (other, other_lanes) in at_vertices.at(vertex) {
                     if other.0 < block {
                         continue;
                     }
@@ -275,13 +264,44 @@ impl<'m> Blocks<'m> {
         if list.len() > 1 + MOST_NEIGHBOURS {
             list.clear();
         }
-        let lanes = |block: u32| usize::from(self.sizes[block as usize]);
+        let lanes = |block: u32| leaves.run_of_block(BlockId(block)).count as usize;
         for (other, mask) in &mut *list {
             *mask = !*mask & pairs_of_lanes(lanes(block), lanes(*other));
         }
         if let Some((_, within)) = list.first_mut() {
             *within &= STRICT_UPPER;
         }
+    }
+
+    /// The table, when it is done.
+    pub(super) fn finish<const N: usize>(
+        self,
+        wide_nodes: &[WideNode<N>],
+        leaves: &Leaves,
+        order: &Order,
+    ) -> Neighbours {
+        let mut of_blocks = self.of_blocks;
+        of_blocks.finish();
+        // As much memory as the lists, and no longer needed.
+        drop(self.at_vertices);
+        let wide_nodes = if leaves.are_blocks() { wide_nodes } else { &[] };
+        let is_crowded = |block: u32| of_blocks.list(block).is_empty();
+        let fans = if (0..leaves.block_count() as u32).any(is_crowded) {
+            Fans::new(wide_nodes, leaves, order)
+        } else {
+            Fans::default()
+        };
+        Neighbours {
+            fans,
+            of_wide_nodes: lists_of_wide_nodes(wide_nodes, leaves, &of_blocks),
+            of_blocks,
+        }
+    }
+}
+
+impl Held for NeighboursBuilder {
+    fn held(&self) -> usize {
+        self.at_vertices.held() + self.of_blocks.held() + held::list(&self.list)
     }
 }
 
@@ -341,7 +361,6 @@ mod tests {
     use super::*;
     use crate::kernels::{Instructions, dispatch};
     use crate::mesh::Topology;
-    use crate::threads::{Interrupt, Threads};
 
     /// Every two blocks against a comparison of all their corners. Returns the number of crowded blocks.
     fn check(triangles: &[[u32; 3]], vertices: usize, leaf_sizes: &[u32]) -> usize {
@@ -358,11 +377,9 @@ mod tests {
                 break;
             }
         }
-        let executor = Executor {
-            threads: &Threads::one(),
-            interrupt: &Interrupt::default(),
-        };
-        let neighbours = Neighbours::new::<8>(&[], &leaves, &order, executor).unwrap();
+        let mut neighbours = NeighboursBuilder::new(&leaves, &order);
+        while !neighbours.advance(&leaves, &order, &mut Budget::of(1)) {}
+        let neighbours = neighbours.finish::<8>(&[], &leaves, &order);
         let blocks = || (0..leaves.block_count() as u32).map(BlockId);
         let first = |block: BlockId| leaves.first_of_block(block).0;
         let end = |block: BlockId| {

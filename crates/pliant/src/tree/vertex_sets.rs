@@ -15,6 +15,7 @@ use crate::held::{self, Held};
 use crate::ids::TreeVertex;
 use crate::kernels::extent::TWELVE;
 use crate::mesh::Order;
+use crate::threads::Budget;
 
 /// A leaf of so many vertices has few: eight triangles that share none have no more.
 const FEW: usize = 24;
@@ -38,54 +39,89 @@ struct Set {
     in_twelves: bool,
 }
 
-impl VertexSets {
+/// Vertex sets on their way, made some nodes at a time.
+pub(super) struct VertexSetsBuilder {
+    all: VertexSets,
+    /// The first triangle, and how many vertices are used before each one, and by all.
+    start: usize,
+    used_before: Vec<u32>,
+    /// The vertices that an earlier tree uses first, of which there are few; and which this tree does, the first of them.
+    earlier: Vec<u32>,
+    first_vertex: u32,
+    /// The last node that was seen to have each of these, and each of its own.
+    seen_by: Vec<u32>,
+}
+
+impl VertexSetsBuilder {
     /// Of a plan over some triangles, which are the first to use vertices from `first_vertex` on.
-    pub(crate) fn new(plan: &Plan, order: &Order, first_vertex: TreeVertex, degree: usize) -> Self {
+    pub(super) fn new(plan: &Plan, order: &Order, TreeVertex(first_vertex): TreeVertex) -> Self {
         let all = plan
             .parts
             .first()
             .map_or(0..0, |root| root.triangles.clone());
         let [start, end] = [all.start as usize, all.end as usize];
-        // How many vertices the triangles before each triangle use.
+        let corners = &order.all_corners()[start..end];
         let mut used_before = Vec::with_capacity(end - start + 1);
-        let mut used = first_vertex.0;
+        let mut used = first_vertex;
         used_before.push(used);
-        for corners in &order.all_corners()[start..end] {
+        for corners in corners {
             used = corners
                 .iter()
                 .fold(used, |used, vertex| used.max(vertex.0 + 1));
             used_before.push(used);
         }
+        let mut earlier: Vec<u32> = Vec::new();
+        if first_vertex > 0 {
+            let vertices = corners.as_flattened().iter().map(|vertex| vertex.0);
+            earlier.extend(vertices.filter(|&vertex| vertex < first_vertex));
+            earlier.sort_unstable();
+            earlier.dedup();
+        }
+        let seen_by = vec![u32::MAX; earlier.len() + (used - first_vertex) as usize];
+        Self {
+            all: VertexSets {
+                sets: Vec::with_capacity(plan.parts.len()),
+                border: Vec::new(),
+            },
+            start,
+            used_before,
+            earlier,
+            first_vertex,
+            seen_by,
+        }
+    }
 
-        // Those that an earlier tree uses first are few; where a vertex is among them and then this tree's own.
-        let mut earlier: Vec<u32> = order.all_corners()[start..end]
-            .as_flattened()
-            .iter()
-            .map(|vertex| vertex.0)
-            .filter(|&vertex| vertex < first_vertex.0)
-            .collect();
-        earlier.sort_unstable();
-        earlier.dedup();
-        let place = |vertex: u32| match vertex.checked_sub(first_vertex.0) {
+    /// Goes on with the same plan and order; returns whether all nodes have their vertices.
+    pub(super) fn advance(&mut self, plan: &Plan, order: &Order, budget: &mut Budget) -> bool {
+        let Self {
+            all: VertexSets { sets, border },
+            start,
+            used_before,
+            earlier,
+            first_vertex,
+            seen_by,
+        } = self;
+        let place = |vertex: u32| match vertex.checked_sub(*first_vertex) {
             Some(own) => earlier.len() + own as usize,
             None => earlier.partition_point(|&it| it < vertex),
         };
-
-        let mut sets = Vec::with_capacity(plan.parts.len());
-        let mut border = Vec::new();
-        let mut seen_by = vec![u32::MAX; earlier.len() + (used - first_vertex.0) as usize];
-        for (node, part) in plan.parts.iter().enumerate() {
+        while let Some(part) = plan.parts.get(sets.len()) {
+            if budget.is_spent() {
+                return false;
+            }
+            let node = sets.len() as u32;
             let triangles = part.triangles.start as usize..part.triangles.end as usize;
+            budget.spend(triangles.len());
             let mut run =
-                [triangles.start, triangles.end].map(|triangle| used_before[triangle - start]);
+                [triangles.start, triangles.end].map(|triangle| used_before[triangle - *start]);
             let first = border.len();
             for &vertex in order.all_corners()[triangles].as_flattened() {
                 if vertex.0 >= run[0] {
                     continue;
                 }
                 let seen_by = &mut seen_by[place(vertex.0)];
-                if *seen_by != node as u32 {
-                    *seen_by = node as u32;
+                if *seen_by != node {
+                    *seen_by = node;
                     border.push(vertex);
                 }
             }
@@ -103,6 +139,15 @@ impl VertexSets {
                 in_twelves: false,
             });
         }
+        true
+    }
+
+    /// The sets, when they are done, of a tree of some degree.
+    pub(super) fn finish(self, plan: &Plan, degree: usize) -> VertexSets {
+        let VertexSets {
+            mut sets,
+            mut border,
+        } = self.all;
         for part in &plan.parts {
             let group = &mut sets[part.children.start as usize..part.children.end as usize];
             let is_twelve = |set: &Set| set.borders as usize == TWELVE && set.run[0] == set.run[1];
@@ -111,9 +156,20 @@ impl VertexSets {
             }
         }
         border.shrink_to_fit();
-        Self { sets, border }
+        VertexSets { sets, border }
     }
+}
 
+impl Held for VertexSetsBuilder {
+    fn held(&self) -> usize {
+        self.all.held()
+            + held::list(&self.used_before)
+            + held::list(&self.earlier)
+            + held::list(&self.seen_by)
+    }
+}
+
+impl VertexSets {
     /// The number of nodes.
     pub(crate) fn len(&self) -> usize {
         self.sets.len()

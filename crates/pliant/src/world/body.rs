@@ -11,7 +11,7 @@ use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape, denormals_are_k
 use crate::held::{self, Held};
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
-use crate::mesh::{self, Elements, Order, Topology};
+use crate::mesh::{self, Changed, Elements, Order, Topology};
 use crate::options::{Options, Partition};
 use crate::queries::{Groups, Kind, NearElements, Reach, Removed, Which};
 use crate::threads::Executor;
@@ -261,20 +261,15 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Builds the tree anew, on the shape of now.
     pub(super) fn rebuild(&mut self, options: &Options) {
         let (order, tree) = build(&self.topology, &self.stored_positions(), options);
-        self.exchange_tree(order, tree);
+        self.exchange_tree(order, tree, &[]);
     }
 
-    /// Has another tree from now on, over all triangles in another order.
-    pub(super) fn exchange_tree(&mut self, order: Order, tree: Tree<N>) {
+    /// Has another tree from now on, over all triangles in another order, but for some that were changed since these had their order.
+    pub(super) fn exchange_tree(&mut self, order: Order, tree: Tree<N>, changed: &[Changed]) {
         self.positions.forget_tree_order(&self.order);
         if let Some(motion) = &mut self.motion {
             motion.end.forget_tree_order(&self.order);
             motion.partway = None;
-        }
-        if let Some(elements) = self.elements.get_mut().filter(|it| it.follows()) {
-            elements.append(&order, TreeTriangle(0), 0);
-        } else {
-            self.elements.take();
         }
         if let Some(groups) = &mut self.groups {
             groups.of_elements = None;
@@ -283,6 +278,15 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.order = order;
         if let Some(edits) = &mut self.edits {
             edits.find_places(&self.order);
+            for &(triangle, _) in changed {
+                edits.take_out(triangle);
+            }
+        }
+        match (self.elements.get_mut(), &self.edits) {
+            (Some(elements), Some(edits)) if elements.follows() => {
+                elements.append(&self.order, &edits.gone, TreeTriangle(0), 0);
+            }
+            _ => drop(self.elements.take()),
         }
         self.epoch += 1;
         self.revision += 1;

@@ -20,6 +20,8 @@ const FEWEST: f64 = 256.0;
 pub(super) struct Work {
     /// Pairs of nodes that were looked at.
     node_pairs: u64,
+    /// And of triangles.
+    candidates: u64,
     /// Those of a fresh tree for candidates of this and another body, but for a factor,
     of_two: f64,
     /// for candidates of the body with itself,
@@ -33,6 +35,7 @@ impl Work {
     pub(super) fn of_two(node_pairs: u64, candidates: u64) -> Self {
         Self {
             node_pairs,
+            candidates,
             of_two: OF_TWO * candidates as f64,
             ..Self::default()
         }
@@ -42,6 +45,7 @@ impl Work {
     pub(super) fn of_one(node_pairs: u64, candidates: u64, triangles: usize) -> Self {
         Self {
             node_pairs,
+            candidates,
             of_one: OF_ONE * candidates as f64,
             of_triangles: OF_TRIANGLE * triangles as f64,
             ..Self::default()
@@ -70,6 +74,7 @@ impl Decay {
             self.epoch = epoch;
         }
         self.last.node_pairs += work.node_pairs;
+        self.last.candidates += work.candidates;
         self.last.of_two += work.of_two;
         self.last.of_one += work.of_one;
         self.last.of_triangles += work.of_triangles;
@@ -109,9 +114,10 @@ impl Decay {
         expected.map_or(1.0, |expected| self.last.node_pairs as f64 / expected)
     }
 
-    /// How many pairs of nodes a fresh tree would have spared since this one was built; and how many were looked at in the last shape.
+    /// How many pairs of nodes a fresh tree would have spared since this one was built; and how many, and pairs of triangles, were looked at
+    /// in the last shape.
     pub(super) fn spared(&mut self) -> (f64, u64) {
-        let last = self.last.node_pairs;
+        let last = self.last.node_pairs + self.last.candidates;
         self.settle();
         (self.spared, last)
     }
@@ -137,7 +143,7 @@ mod tests {
         decay.note(Work::of_one(14_400, 1_000, 10_000), 2);
         assert!(is(decay.quality(), 2.0));
         let (spared, last) = decay.spared();
-        assert!(is(spared, 7_200.0) && last == 14_400);
+        assert!(is(spared, 7_200.0) && last == 15_400);
         decay.begin_anew();
         assert_eq!(decay.spared(), (0.0, 0));
         // More triangles and candidates are no decay, nor is another body.

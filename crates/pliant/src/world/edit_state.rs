@@ -60,6 +60,15 @@ impl<S: Copy> EditState<S> {
         }
         self.gone = Bits::default();
         self.orphans_of.clear();
+        self.without_orphans.take();
+    }
+
+    /// A triangle has no place any more, if it had one.
+    pub(super) fn take_out(&mut self, triangle: u32) {
+        let place = std::mem::replace(&mut self.places[triangle as usize], NOWHERE);
+        if place != NOWHERE {
+            self.gone.insert(place);
+        }
     }
 
     /// What was taken out, if anything was.

@@ -17,7 +17,7 @@ use crate::edit::{Edit, Edited};
 use crate::error::ErrorKind;
 use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
-use crate::mesh::{Bits, Draft, EMPTY, Outcome};
+use crate::mesh::{Bits, Changed, Draft, EMPTY, Outcome};
 use crate::options::Options;
 use crate::threads::Executor;
 use crate::tree::Tree;
@@ -270,10 +270,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                 .places
                 .resize(outcome.triangles.max(edits.places.len()), NOWHERE);
             for &(triangle, [_, new]) in &outcome.changed {
-                let place = std::mem::replace(&mut edits.places[triangle as usize], NOWHERE);
-                if place != NOWHERE {
-                    edits.gone.insert(place);
-                }
+                edits.take_out(triangle);
                 if new != EMPTY {
                     coming.push(triangle);
                 }
@@ -288,7 +285,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             is_much = out_of_date > FEWEST.max(first_of_others as usize / OUT_OF_DATE);
         }
         if !is_much {
-            self.leave_orphans(outcome);
+            self.leave_orphans(&outcome.changed);
         }
         self.place_again(again);
         if let Some(edits) = &mut self.edits {
@@ -341,7 +338,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Vertices that lose their last triangle go to the end of tree order, and leave orphans. These stand where
     /// vertices do that are near them in the tree, each where another does: boxes over nothing but orphans are as large as others, and
     /// no more of them are in one place.
-    fn leave_orphans(&mut self, outcome: &Outcome<S>) {
+    pub(super) fn leave_orphans(&mut self, changed: &[Changed]) {
         let used = self.order.used_vertices();
         let Some(edits) = &mut self.edits else {
             return;
@@ -349,7 +346,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         let leaves =
             |edits: &EditState<S>, vertex: u32| edits.slots[vertex as usize].index() < used;
         let mut lost: BTreeMap<TreeVertex, Option<u32>> = BTreeMap::new();
-        for (_, [old, _]) in &outcome.changed {
+        for (_, [old, _]) in changed {
             let mut stay = old
                 .iter()
                 .filter(|&&vertex| vertex != u32::MAX && edits.is_used(vertex));
@@ -462,7 +459,12 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             .others
             .push(Part::new(tree, first..end, first_vertex));
         if let Some(elements) = self.elements.get_mut() {
-            elements.append(&self.order, TreeTriangle(first), first_vertex.0);
+            elements.append(
+                &self.order,
+                &edits.gone,
+                TreeTriangle(first),
+                first_vertex.0,
+            );
         }
     }
 

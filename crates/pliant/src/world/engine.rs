@@ -230,8 +230,8 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
         let options = self.common.options;
         if options.mending {
             let mut is_another = false;
-            self.change(id, |body, _, executor| {
-                is_another = body.mend(&options, executor);
+            self.change(id, |body, _, _| {
+                is_another = body.mend(&options);
                 Ok(())
             })?;
             if is_another {

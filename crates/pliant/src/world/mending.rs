@@ -2,127 +2,116 @@
 //!
 //! ```text
 //! each new shape of the body:
-//!     nothing is being built:     begin, if by now a fresh tree would have spared what it costs   (rent, then buy)
-//!     a division is on its way:   some parts of it, in proportion to what the last query did
-//!     it is done:                 in one step order and tree; in another what neighbours are, and the tree is exchanged
+//!     nothing is being built:  begin, if by now a fresh tree would have spared what it costs   (rent, then buy)
+//!     a tree is on its way:    a share of it, in proportion to what the last query did
+//!     it is done:              the trees are exchanged
 //! ```
 //!
-//! The division is that of the shape of some steps before, which is as good. The mesh may be edited meanwhile: what is gone is marked in the
-//! new tree, what has come is put behind it (`edits`). No answer depends on a tree. A tree along the mesh would be the same again, so it
-//! is not mended.
+//! The tree is that of the mesh and the shape of some steps before. For the shape that is as good. What was edited meanwhile follows as an
+//! edit does (`edits`): what is gone is marked in the new tree, what has come is put behind it. No answer depends on a tree. A tree along
+//! the mesh would be the same again, so it is not mended.
 
 use super::body::Body;
-use super::edit_state::NOWHERE;
-use super::mending_state::{Mending, Rule};
-use crate::ids::TreeVertex;
+use super::mending_state::{Mending, MeshThen, Rule};
+use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
-use crate::mesh::{EMPTY, Order};
+use crate::mesh::{Changed, EMPTY, Order};
 use crate::options::{Options, Partition};
-use crate::threads::Executor;
+use crate::threads::Budget;
 use crate::tree::Tree;
-use crate::tree::build::{Balanced, CutAt, InitialShape, Plan, Planner};
+use crate::tree::build::{CutAt, InitialShape, Planner, midpoint};
 use std::borrow::Cow;
 
 /// A fresh tree costs as much as looking at so many pairs of nodes, for each triangle.
-const COST: f64 = 2.0;
+const COST: f64 = 4.0;
 
-/// While a query looks at one pair of nodes, so many triangles are put into parts: what is built in a step takes about half as long as
-/// its query.
-const PACE: u64 = 2;
-
-/// But so many at least.
-const LEAST: usize = 1 << 12;
+/// While a query looks at one pair of nodes or of triangles, building looks at so many triangles: what is built in a step takes about half as
+/// long as its query.
+const PACE: u64 = 1;
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
-    pub(super) fn mend(&mut self, options: &Options, executor: Executor) -> bool {
+    pub(super) fn mend(&mut self, options: &Options) -> bool {
         let (spared, last) = self.decay.spared();
-        match self.mending.take().map(|mending| *mending) {
-            None => {
-                let is_worth_it = spared > COST * self.topology.live_count() as f64;
-                if is_worth_it && options.partition != Partition::Connectivity {
-                    self.mending = Some(Box::new(self.begin_to_mend(options)));
-                }
-                false
+        let Some(mending) = self.mending.take() else {
+            let is_worth_it = spared > COST * self.topology.live_count() as f64;
+            if is_worth_it && options.partition != Partition::Connectivity {
+                self.mending = Some(Box::new(self.begin_to_mend(options)));
             }
-            Some(Mending::Dividing(mut planner, numbers)) => {
-                let is_done = planner.advance(((PACE * last) as usize).max(LEAST));
-                self.mending = Some(Box::new(if is_done {
-                    Mending::Divided(planner.finish().with_numbers(&numbers))
-                } else {
-                    Mending::Dividing(planner, numbers)
-                }));
-                false
-            }
-            Some(Mending::Divided(plan)) => {
-                let built = Box::new(self.build(&plan));
-                self.mending = Some(Box::new(Mending::Built(plan, built, self.meshes)));
-                false
-            }
-            Some(Mending::Built(plan, built, meshes)) => {
-                let (order, mut tree) = if meshes == self.meshes {
-                    *built
-                } else {
-                    self.build(&plan)
-                };
-                if self.parts.first.tree.knows_neighbours() {
-                    tree.know_neighbours(&order, executor);
-                }
-                self.exchange_tree(order, tree);
-                self.follow_edits(options);
+            return false;
+        };
+        match mending.finish() {
+            Ok((mesh, order, tree)) => {
+                self.exchange_mended(&mesh, order, tree, options);
                 true
+            }
+            Err(mending) => {
+                let knows_neighbours = self.parts.first.tree.knows_neighbours();
+                let mut budget = Budget::of((PACE * last) as usize);
+                let vertices = self.order.vertex_order();
+                let at = |vertex| self.positions.get(vertex, vertices);
+                let midpoint_of = |place: usize, corners: [u32; 3]| {
+                    midpoint(match &self.edits {
+                        Some(edits) => corners.map(|vertex| at(edits.slots[vertex as usize])),
+                        None => self.order.corners(TreeTriangle(place as u32)).map(at),
+                    })
+                };
+                let mending = mending.advance(&midpoint_of, knows_neighbours, &mut budget);
+                self.mending = Some(Box::new(mending));
+                false
             }
         }
     }
 
-    /// The order and the tree of a division, of the mesh of now.
-    fn build(&self, plan: &Plan) -> (Order, Tree<N>) {
-        let order = Order::new(&self.topology, plan.order.clone());
-        let tree = Tree::new(plan, &order, TreeVertex(0));
-        (order, tree)
-    }
-
     fn begin_to_mend(&self, options: &Options) -> Mending<N> {
-        let triangles = self.topology.triangles();
-        let live = (0..)
-            .zip(triangles)
-            .filter(|(_, corners)| **corners != EMPTY);
-        let (numbers, corners): (Vec<u32>, Vec<[u32; 3]>) = live.unzip();
-        let positions = self.stored_positions();
+        // In the order of the tree, in which corners lie near each other.
+        let places = (0..).map(TreeTriangle).zip(self.order.triangle_order());
+        let places = places.filter(|&(place, _)| !self.is_gone(place));
+        let numbers: Vec<u32> = places.map(|(_, &number)| number).collect();
+        let mesh = MeshThen {
+            triangles: self.topology.triangles().to_vec(),
+            vertices: self.vertex_count(),
+            number: self.meshes,
+        };
         let (degree, leaf_size) = (options.degree.get(), options.leaf_size.get());
         let by_shape = |cut| -> Rule {
-            let (corners, positions) = (corners.clone(), positions.to_vec());
-            let (corners, positions) = (Cow::Owned(corners), Cow::Owned(positions));
+            let corners = numbers.iter().map(|&it| mesh.triangles[it as usize]);
+            let positions = self.stored_positions().into_owned();
+            let (corners, positions) = (Cow::Owned(corners.collect()), Cow::Owned(positions));
             Box::new(InitialShape::new(corners, positions, cut, degree))
         };
         let rule = match options.partition {
             Partition::Centre => by_shape(CutAt::Centre),
             Partition::Mean => by_shape(CutAt::Mean),
             Partition::Balanced | Partition::Connectivity => {
-                Box::new(Balanced::new(&corners, &positions, degree, leaf_size))
+                return Mending::balanced(mesh, numbers, (degree, leaf_size));
             }
         };
-        Mending::Dividing(
-            Planner::new(numbers.len(), degree, leaf_size, rule),
-            numbers,
-        )
+        let planner = Planner::new(numbers.len(), degree, leaf_size, rule);
+        Mending::by_rule(mesh, planner, numbers)
     }
 
-    /// In a tree that was begun some steps ago marks what is gone, and puts behind it what has come.
-    fn follow_edits(&mut self, options: &Options) {
-        let Some(edits) = &mut self.edits else {
-            return;
-        };
-        let topology = &self.topology;
-        let numbers = 0..topology.triangles().len() as u32;
-        let is_missing = |it: &u32| topology.is_live(*it) && edits.places[*it as usize] == NOWHERE;
-        let coming = numbers.filter(is_missing).collect();
-        for (place, &triangle) in (0..).zip(self.order.triangle_order()) {
-            if !topology.is_live(triangle) {
-                edits.places[triangle as usize] = NOWHERE;
-                edits.gone.insert(place);
-            }
+    /// Takes a tree of a mesh of some steps before. What was edited since is marked as gone in it, or comes behind it.
+    fn exchange_mended(
+        &mut self,
+        mesh: &MeshThen,
+        mut order: Order,
+        tree: Tree<N>,
+        options: &Options,
+    ) {
+        // Numbers of triangles and of vertices do not become fewer while a tree is built.
+        order.add_vertices(mesh.vertices as u32..self.vertex_count() as u32);
+        let mut changed: Vec<Changed> = Vec::new();
+        if mesh.number != self.meshes {
+            let then = mesh.triangles.iter().copied();
+            let then = then.chain(std::iter::repeat(EMPTY));
+            let now = self.topology.triangles().iter().copied();
+            let both = (0..).zip(then.zip(now).map(|(then, now)| [then, now]));
+            changed.extend(both.filter(|(_, [then, now])| then != now));
         }
-        self.append(coming, options);
+        self.exchange_tree(order, tree, &changed);
+        self.leave_orphans(&changed);
+        let coming = changed.iter().filter(|(_, [_, now])| *now != EMPTY);
+        self.append(coming.map(|&(triangle, _)| triangle).collect(), options);
     }
 }

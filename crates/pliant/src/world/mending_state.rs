@@ -1,32 +1,177 @@
 //! A tree that is being built beside the one that a body has: how far it has come.
+//!
+//! It is built of a copy of the mesh, so nothing that happens to the body meanwhile disturbs it.
 
 use crate::held::{self, Held};
-use crate::mesh::Order;
-use crate::tree::Tree;
-use crate::tree::build::{Plan, Planner, Split};
+use crate::ids::TreeVertex;
+use crate::mesh::{Order, OrderBuilder};
+use crate::threads::Budget;
+use crate::tree::build::{Balanced, Plan, Planner, Split};
+use crate::tree::{NeighboursBuilder, Tree, TreeBuilder};
 
 /// How its triangles are divided.
 pub(super) type Rule = Box<dyn Split + Send + Sync>;
 
+/// The mesh that a tree is built of.
+pub(super) struct MeshThen {
+    /// Triangles as the caller numbers them.
+    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) vertices: usize,
+    /// Its number among the meshes of the body.
+    pub(super) number: u64,
+}
+
 /// A tree that is being built.
-pub(super) enum Mending<const N: usize> {
-    /// The division of these triangles, as the caller numbers them.
+pub(super) struct Mending<const N: usize> {
+    pub(super) mesh: MeshThen,
+    stage: Stage<N>,
+}
+
+/// The midpoint of a triangle in the shape of now, by its place among those whose midpoints are asked for, and its corners as the caller
+/// numbers vertices.
+pub(super) type MidpointOf<'m> = &'m dyn Fn(usize, [u32; 3]) -> [f64; 3];
+
+enum Stage<const N: usize> {
+    /// The midpoints of these triangles, as the caller numbers them, are looked up, for a balanced tree of some degree and size of leaves.
+    Looking(Vec<u32>, Vec<[f64; 3]>, (usize, u32)),
+    /// These triangles, as the caller numbers them, are divided.
     Dividing(Planner<Rule>, Vec<u32>),
-    /// It is done.
-    Divided(Plan),
-    /// The tree of it, of a mesh that had this number.
-    Built(Plan, Box<(Order, Tree<N>)>, u64),
+    /// Triangles and vertices get their numbers in tree order.
+    Ordering(Plan, OrderBuilder),
+    /// The vertices below all nodes are found.
+    Growing(Plan, Order, TreeBuilder<N>),
+    /// Which triangles share a vertex is found, for a body that meets itself.
+    Meeting(Order, Tree<N>, NeighboursBuilder),
+    Done(Order, Tree<N>),
+}
+
+/// Looks at a triangle that its midpoint takes, and triangles between two looks at the budget.
+const LOOKS: usize = 2;
+const AT_ONCE: usize = 256;
+/// Looks at a triangle where all of them are gone through once more.
+const ONCE_MORE: usize = 1;
+
+impl<const N: usize> Mending<N> {
+    /// A balanced tree of these triangles, of some degree and size of leaves.
+    pub(super) fn balanced(
+        mesh: MeshThen,
+        numbers: Vec<u32>,
+        (degree, leaf_size): (usize, u32),
+    ) -> Self {
+        let midpoints = Vec::with_capacity(numbers.len());
+        let stage = Stage::Looking(numbers, midpoints, (degree, leaf_size));
+        Self { mesh, stage }
+    }
+
+    /// By a rule for so many triangles, which have these numbers.
+    pub(super) fn by_rule(mesh: MeshThen, planner: Planner<Rule>, numbers: Vec<u32>) -> Self {
+        let stage = Stage::Dividing(planner, numbers);
+        Self { mesh, stage }
+    }
+
+    /// Goes on. Whether which triangles share a vertex is to be found, too, is asked when it comes to that.
+    pub(super) fn advance(
+        mut self,
+        midpoint_of: MidpointOf,
+        knows_neighbours: bool,
+        budget: &mut Budget,
+    ) -> Self {
+        while !budget.is_spent() && !matches!(self.stage, Stage::Done(..)) {
+            let stage = self.stage;
+            self.stage = stage.advance(&self.mesh, midpoint_of, knows_neighbours, budget);
+        }
+        self
+    }
+
+    /// The tree and its order if they are done, else what is to be gone on with.
+    pub(super) fn finish(self) -> Result<(MeshThen, Order, Tree<N>), Self> {
+        match self.stage {
+            Stage::Done(order, tree) => Ok((self.mesh, order, tree)),
+            stage => Err(Self { stage, ..self }),
+        }
+    }
+}
+
+impl<const N: usize> Stage<N> {
+    /// Goes on with this stage, and comes to the next if it is done.
+    fn advance(
+        self,
+        mesh: &MeshThen,
+        midpoint_of: MidpointOf,
+        knows_neighbours: bool,
+        budget: &mut Budget,
+    ) -> Self {
+        match self {
+            Self::Looking(numbers, mut midpoints, (degree, leaf_size)) => {
+                while midpoints.len() < numbers.len() {
+                    if budget.is_spent() {
+                        return Self::Looking(numbers, midpoints, (degree, leaf_size));
+                    }
+                    let first = midpoints.len();
+                    let some = numbers[first..].iter().take(AT_ONCE);
+                    budget.spend(LOOKS * some.len());
+                    let corners = some.map(|&triangle| mesh.triangles[triangle as usize]);
+                    midpoints.extend((first..).zip(corners).map(|(it, of)| midpoint_of(it, of)));
+                }
+                let rule = Balanced::of_midpoints(midpoints, degree, leaf_size);
+                let planner =
+                    Planner::new(numbers.len(), degree, leaf_size, Box::new(rule) as Rule);
+                Self::Dividing(planner, numbers)
+            }
+            Self::Dividing(mut planner, numbers) => {
+                if !planner.advance(budget) {
+                    return Self::Dividing(planner, numbers);
+                }
+                budget.spend(ONCE_MORE * numbers.len());
+                let mut plan = planner.finish().with_numbers(&numbers);
+                let triangles = std::mem::take(&mut plan.order);
+                Self::Ordering(plan, OrderBuilder::new(mesh.vertices, triangles))
+            }
+            Self::Ordering(plan, mut order) => {
+                if !order.advance(&mesh.triangles, budget) {
+                    return Self::Ordering(plan, order);
+                }
+                let order = order.finish();
+                budget.spend(ONCE_MORE * order.all_corners().len());
+                let tree = TreeBuilder::new(&plan, &order, TreeVertex(0));
+                Self::Growing(plan, order, tree)
+            }
+            Self::Growing(plan, order, mut tree) => {
+                if !tree.advance(&plan, &order, budget) {
+                    return Self::Growing(plan, order, tree);
+                }
+                let tree = tree.finish(&plan);
+                budget.spend(ONCE_MORE * order.all_corners().len());
+                match tree.begin_neighbours(&order).filter(|_| knows_neighbours) {
+                    Some(neighbours) => Self::Meeting(order, tree, neighbours),
+                    None => Self::Done(order, tree),
+                }
+            }
+            Self::Meeting(order, mut tree, mut neighbours) => {
+                if !neighbours.advance(&tree.leaves, &order, budget) {
+                    return Self::Meeting(order, tree, neighbours);
+                }
+                budget.spend(ONCE_MORE * order.all_corners().len());
+                tree.take_neighbours(neighbours, &order);
+                Self::Done(order, tree)
+            }
+            Self::Done(order, tree) => Self::Done(order, tree),
+        }
+    }
 }
 
 impl<const N: usize> Held for Mending<N> {
     fn held(&self) -> usize {
-        match self {
-            Self::Dividing(planner, numbers) => planner.held() + held::list(numbers),
-            Self::Divided(plan) => plan.held(),
-            Self::Built(plan, built, _) => {
-                let (order, tree) = &**built;
-                plan.held() + size_of_val(&**built) + order.held() + tree.held()
+        let of_stage = match &self.stage {
+            Stage::Looking(numbers, midpoints, _) => held::list(numbers) + held::list(midpoints),
+            Stage::Dividing(planner, numbers) => planner.held() + held::list(numbers),
+            Stage::Ordering(plan, order) => plan.held() + order.held(),
+            Stage::Growing(plan, order, tree) => plan.held() + order.held() + tree.held(),
+            Stage::Meeting(order, tree, neighbours) => {
+                order.held() + tree.held() + neighbours.held()
             }
-        }
+            Stage::Done(order, tree) => order.held() + tree.held(),
+        };
+        held::list(&self.mesh.triangles) + of_stage
     }
 }

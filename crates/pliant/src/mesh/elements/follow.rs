@@ -143,8 +143,14 @@ impl Elements {
         index.of_triangles.truncate(topology.triangles().len());
     }
 
-    /// The triangles in tree order from a place on are others now: what belonged to them belongs to these.
-    pub(crate) fn append(&mut self, order: &Order, first: TreeTriangle, used_before: u32) {
+    /// The triangles in tree order from a place on are others now: what belonged to them belongs to these, but for those that are gone.
+    pub(crate) fn append(
+        &mut self,
+        order: &Order,
+        gone_triangles: &Bits,
+        first: TreeTriangle,
+        used_before: u32,
+    ) {
         self.tree_vertices.take();
         let Some(index) = &mut self.index else {
             return;
@@ -168,6 +174,9 @@ impl Elements {
             used = corners
                 .iter()
                 .fold(used, |used, corner| used.max(corner.0 + 1));
+            if gone_triangles.has(place.0) {
+                continue;
+            }
             let edges = index.of_triangles[order.caller_triangle(place).index()];
             for ([i, j], number) in [[0, 1], [1, 2], [2, 0]].into_iter().zip(edges) {
                 if number != UNSEEN && index.tree_edges[number as usize] == UNSEEN {

@@ -9,11 +9,15 @@ use super::Split;
 use super::initial_shape::midpoint;
 use crate::geometry::Real;
 use crate::held;
+use crate::threads::Budget;
 
 pub(crate) struct Balanced {
     midpoints: Vec<[f64; 3]>,
     degree: usize,
     leaf_size: usize,
+    /// Halves of the part at hand that are still to be divided, the first on top: first triangle, length, children. At most
+    /// log2(degree) + 1 of them.
+    halves: Vec<(usize, usize, usize)>,
 }
 
 impl Balanced {
@@ -27,10 +31,16 @@ impl Balanced {
         let midpoints = triangles
             .iter()
             .map(|corners| midpoint(corners.map(|vertex| positions[vertex as usize])));
+        Self::of_midpoints(midpoints.collect(), degree, leaf_size)
+    }
+
+    /// Of triangles by their midpoints.
+    pub(crate) fn of_midpoints(midpoints: Vec<[f64; 3]>, degree: usize, leaf_size: u32) -> Self {
         Self {
-            midpoints: midpoints.collect(),
+            midpoints,
             degree,
             leaf_size: leaf_size as usize,
+            halves: Vec::new(),
         }
     }
 
@@ -64,21 +74,35 @@ impl Split for Balanced {
         held::list(&self.midpoints)
     }
 
-    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
+    fn split(
+        &mut self,
+        triangles: &mut [u32],
+        pieces: &mut Vec<usize>,
+        budget: &mut Budget,
+    ) -> bool {
         let capacity = self.capacity(triangles.len());
-        let children = triangles.len().div_ceil(capacity);
-        // Halves still to be divided, the first on top: at most log2(degree) + 1 of them.
-        let mut halves = vec![(0, triangles.len(), children)];
-        while let Some((start, length, children)) = halves.pop() {
+        if self.halves.is_empty() {
+            let children = triangles.len().div_ceil(capacity);
+            self.halves.push((0, triangles.len(), children));
+        }
+        while let Some((start, length, children)) = self.halves.pop() {
             if children == 1 {
                 pieces.push(length);
                 continue;
             }
+            if budget.is_spent() {
+                self.halves.push((start, length, children));
+                return false;
+            }
+            budget.spend(length);
             let left_children = children / 2;
             let left = left_children * capacity;
             self.divide(&mut triangles[start..start + length], left);
-            halves.push((start + left, length - left, children - left_children));
-            halves.push((start, left, left_children));
+            let right_children = children - left_children;
+            self.halves
+                .push((start + left, length - left, right_children));
+            self.halves.push((start, left, left_children));
         }
+        true
     }
 }

@@ -7,6 +7,7 @@
 use super::Split;
 use crate::geometry::{Bounds, Real};
 use crate::held;
+use crate::threads::Budget;
 use std::borrow::Cow;
 
 /// Where a part is cut.
@@ -24,8 +25,16 @@ pub(crate) struct InitialShape<'a, S: Copy> {
     cut: CutAt,
     /// How many sides are cut: the degree is 2 to this power.
     sides: usize,
-    scratch: Vec<(u8, u32)>,
+    /// Of the part at hand: how many of its triangles were looked at, their box, and the sum of their midpoints.
+    seen: usize,
+    bounds: Bounds<S>,
+    sum: [f64; 3],
+    /// Then the sub-volume that each of them is in.
+    volumes: Vec<(u8, u32)>,
 }
+
+/// Triangles between two looks at the budget.
+const AT_ONCE: usize = 1024;
 
 impl<'a, S: Real> InitialShape<'a, S> {
     /// Triangles and positions in the caller's order.
@@ -40,7 +49,10 @@ impl<'a, S: Real> InitialShape<'a, S> {
             positions,
             cut,
             sides: degree.ilog2() as usize,
-            scratch: Vec::new(),
+            seen: 0,
+            bounds: Bounds::EMPTY,
+            sum: [0.0; 3],
+            volumes: Vec::new(),
         }
     }
 
@@ -54,52 +66,76 @@ impl<'a, S: Real> InitialShape<'a, S> {
 }
 
 /// The mean of three corners. In `f64`, where neither three coordinates of `f32::MAX` nor 2^28 midpoints can overflow.
-pub(super) fn midpoint<S: Real>([a, b, c]: [[S; 3]; 3]) -> [f64; 3] {
+pub(crate) fn midpoint<S: Real>([a, b, c]: [[S; 3]; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| (a[axis].to_f64() + b[axis].to_f64() + c[axis].to_f64()) / 3.0)
 }
 
 impl<S: Real> Split for InitialShape<'_, S> {
     fn held(&self) -> usize {
-        size_of_val(&*self.triangles) + size_of_val(&*self.positions) + held::list(&self.scratch)
+        size_of_val(&*self.triangles) + size_of_val(&*self.positions) + held::list(&self.volumes)
     }
 
-    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
-        let mut bounds = Bounds::EMPTY;
-        let mut sum = [0.0; 3];
-        for &triangle in &*triangles {
-            let corners = self.corners(triangle);
-            corners.iter().for_each(|&corner| bounds.include(corner));
-            let midpoint = midpoint(corners);
-            sum = std::array::from_fn(|axis| sum[axis] + midpoint[axis]);
+    fn split(
+        &mut self,
+        triangles: &mut [u32],
+        pieces: &mut Vec<usize>,
+        budget: &mut Budget,
+    ) -> bool {
+        let count = triangles.len();
+        while self.seen < count {
+            if budget.is_spent() {
+                return false;
+            }
+            let some = self.seen..count.min(self.seen + AT_ONCE);
+            budget.spend(some.len());
+            self.seen = some.end;
+            for &triangle in &triangles[some] {
+                let corners = self.corners(triangle);
+                let bounds = &mut self.bounds;
+                corners.iter().for_each(|&corner| bounds.include(corner));
+                let midpoint = midpoint(corners);
+                self.sum = std::array::from_fn(|axis| self.sum[axis] + midpoint[axis]);
+            }
         }
-        let (lo, hi) = (bounds.lo.map(S::to_f64), bounds.hi.map(S::to_f64));
+        let [lo, hi] = [self.bounds.lo, self.bounds.hi].map(|corner| corner.map(S::to_f64));
         let point = match self.cut {
             CutAt::Centre => std::array::from_fn(|axis| f64::midpoint(lo[axis], hi[axis])),
-            CutAt::Mean => sum.map(|sum| sum / triangles.len() as f64),
+            CutAt::Mean => self.sum.map(|sum| sum / count as f64),
         };
         let axes = super::axes_by_length(lo, hi);
         let axes = &axes[..self.sides];
 
+        while self.volumes.len() < count {
+            if budget.is_spent() {
+                return false;
+            }
+            let some = self.volumes.len()..count.min(self.volumes.len() + AT_ONCE);
+            budget.spend(some.len());
+            for &triangle in &triangles[some] {
+                let midpoint = self.midpoint(triangle);
+                let volume = axes.iter().fold(0, |volume, &axis| {
+                    volume << 1 | u8::from(midpoint[axis] >= point[axis])
+                });
+                self.volumes.push((volume, triangle));
+            }
+        }
+
         // Counting sort by sub-volume; stable, so that the order depends on nothing else.
         let mut counts = [0_usize; 8];
-        self.scratch.clear();
-        for &triangle in &*triangles {
-            let midpoint = self.midpoint(triangle);
-            let volume = axes.iter().fold(0, |volume, &axis| {
-                volume << 1 | u8::from(midpoint[axis] >= point[axis])
-            });
+        for &(volume, _) in &self.volumes {
             counts[volume as usize] += 1;
-            self.scratch.push((volume, triangle));
         }
         let mut places = [0; 8];
         for volume in 1..8 {
             places[volume] = places[volume - 1] + counts[volume - 1];
         }
-        for &(volume, triangle) in &self.scratch {
+        for (volume, triangle) in self.volumes.drain(..) {
             let place = &mut places[volume as usize];
             triangles[*place] = triangle;
             *place += 1;
         }
+        (self.seen, self.bounds, self.sum) = (0, Bounds::EMPTY, [0.0; 3]);
         pieces.extend(counts.into_iter().filter(|&count| count > 0));
+        true
     }
 }

@@ -15,9 +15,10 @@ mod connectivity;
 mod initial_shape;
 
 use crate::held::{self, Held};
+use crate::threads::Budget;
 pub(crate) use balanced::Balanced;
 pub(crate) use connectivity::Connectivity;
-pub(crate) use initial_shape::{CutAt, InitialShape};
+pub(crate) use initial_shape::{CutAt, InitialShape, midpoint};
 use std::ops::Range;
 
 /// A division of triangles.
@@ -64,7 +65,14 @@ pub(crate) struct Part {
 pub(crate) trait Split {
     /// Reorders `triangles` (caller's numbers, more than `leaf_size` of them) and appends the lengths of the pieces they fall
     /// into: at most the degree, none empty, in order. One piece means that the rule cannot tell the triangles apart.
-    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>);
+    ///
+    /// Returns whether that is done. If not, the budget is spent, and it is called again with the same triangles and pieces.
+    fn split(
+        &mut self,
+        triangles: &mut [u32],
+        pieces: &mut Vec<usize>,
+        budget: &mut Budget,
+    ) -> bool;
 
     /// Bytes that it holds.
     fn held(&self) -> usize {
@@ -75,7 +83,7 @@ pub(crate) trait Split {
 /// Divides `count` triangles until at most `leaf_size` are left in each part.
 pub(crate) fn plan(count: usize, degree: usize, leaf_size: u32, rule: impl Split) -> Plan {
     let mut planner = Planner::new(count, degree, leaf_size, rule);
-    planner.advance(usize::MAX);
+    planner.advance(&mut Budget::whole());
     planner.finish()
 }
 
@@ -86,6 +94,8 @@ pub(crate) struct Planner<R> {
     degree: usize,
     /// The first part that was not looked at.
     next: usize,
+    /// Whether its split was begun, and the pieces it has so far.
+    is_begun: bool,
     pieces: Vec<usize>,
 }
 
@@ -105,28 +115,34 @@ impl<R: Split> Planner<R> {
             },
             degree,
             next: 0,
+            is_begun: false,
             pieces: Vec::with_capacity(degree),
         }
     }
 
-    /// Divides parts that have so many triangles together, and the last of them whole; all that are left, if these have fewer. Returns
-    /// whether none is left.
-    pub(crate) fn advance(&mut self, triangles: usize) -> bool {
+    /// Goes on; returns whether all parts are divided.
+    pub(crate) fn advance(&mut self, budget: &mut Budget) -> bool {
         let Plan {
             order,
             parts,
             leaf_size,
         } = &mut self.plan;
-        let mut done = 0;
-        while self.next < parts.len() && done < triangles {
+        while self.next < parts.len() {
+            if budget.is_spent() {
+                return false;
+            }
             let Part {
                 triangles, level, ..
             } = parts[self.next].clone();
             if triangles.len() > *leaf_size as usize {
-                done += triangles.len();
                 let run = &mut order[triangles.start as usize..triangles.end as usize];
-                self.pieces.clear();
-                self.rule.split(run, &mut self.pieces);
+                if !self.is_begun {
+                    self.pieces.clear();
+                }
+                self.is_begun = !self.rule.split(run, &mut self.pieces, budget);
+                if self.is_begun {
+                    return false;
+                }
                 if self.pieces.len() == 1 {
                     cut_the_order(run.len(), self.degree, &mut self.pieces);
                 }
@@ -145,7 +161,7 @@ impl<R: Split> Planner<R> {
             }
             self.next += 1;
         }
-        self.next == parts.len()
+        true
     }
 
     /// The division, when no part is left.
@@ -156,14 +172,24 @@ impl<R: Split> Planner<R> {
 }
 
 impl<R: Split> Split for &mut R {
-    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
-        (**self).split(triangles, pieces);
+    fn split(
+        &mut self,
+        triangles: &mut [u32],
+        pieces: &mut Vec<usize>,
+        budget: &mut Budget,
+    ) -> bool {
+        (**self).split(triangles, pieces, budget)
     }
 }
 
 impl Split for Box<dyn Split + Send + Sync> {
-    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
-        (**self).split(triangles, pieces);
+    fn split(
+        &mut self,
+        triangles: &mut [u32],
+        pieces: &mut Vec<usize>,
+        budget: &mut Budget,
+    ) -> bool {
+        (**self).split(triangles, pieces, budget)
     }
 
     fn held(&self) -> usize {

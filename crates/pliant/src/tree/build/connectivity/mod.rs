@@ -37,6 +37,7 @@ mod search;
 mod subtree;
 
 use super::Split;
+use crate::threads::Budget;
 use bisection::Bisection;
 use dual_graph::DualGraph;
 use graph::Graph;
@@ -91,7 +92,13 @@ impl Connectivity {
 }
 
 impl Split for Connectivity {
-    fn split(&mut self, triangles: &mut [u32], pieces: &mut Vec<usize>) {
+    fn split(
+        &mut self,
+        triangles: &mut [u32],
+        pieces: &mut Vec<usize>,
+        budget: &mut Budget,
+    ) -> bool {
+        budget.spend(triangles.len());
         // Runs still to be cut, the first on top, and how many children each is to become.
         let mut runs = vec![(0, triangles.len(), self.degree)];
         while let Some((start, length, children)) = runs.pop() {
@@ -107,6 +114,7 @@ impl Split for Connectivity {
             runs.push((start + left, length - left, children - left_children));
             runs.push((start, left, left_children));
         }
+        true
     }
 }
 

@@ -33,6 +33,11 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
     pub(super) fn mend(&mut self, options: &Options) -> bool {
         let (spared, last) = self.decay.spared();
+        let done = self.mending.take_if(|it| it.is_done());
+        if let Some((mesh, order, tree)) = done.and_then(|it| it.finish()) {
+            self.exchange_mended(&mesh, order, tree, options);
+            return true;
+        }
         let Some(mending) = self.mending.take() else {
             let is_worth_it = spared > COST * self.topology.live_count() as f64;
             if is_worth_it && options.partition != Partition::Connectivity {
@@ -40,27 +45,19 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             }
             return false;
         };
-        match mending.finish() {
-            Ok((mesh, order, tree)) => {
-                self.exchange_mended(&mesh, order, tree, options);
-                true
-            }
-            Err(mending) => {
-                let knows_neighbours = self.parts.first.tree.knows_neighbours();
-                let mut budget = Budget::of((PACE * last) as usize);
-                let vertices = self.order.vertex_order();
-                let at = |vertex| self.positions.get(vertex, vertices);
-                let midpoint_of = |place: usize, corners: [u32; 3]| {
-                    midpoint(match &self.edits {
-                        Some(edits) => corners.map(|vertex| at(edits.slots[vertex as usize])),
-                        None => self.order.corners(TreeTriangle(place as u32)).map(at),
-                    })
-                };
-                let mending = mending.advance(&midpoint_of, knows_neighbours, &mut budget);
-                self.mending = Some(Box::new(mending));
-                false
-            }
-        }
+        let knows_neighbours = self.parts.first.tree.knows_neighbours();
+        let mut budget = Budget::of((PACE * last) as usize);
+        let vertices = self.order.vertex_order();
+        let at = |vertex| self.positions.get(vertex, vertices);
+        let midpoint_of = |place: usize, corners: [u32; 3]| {
+            midpoint(match &self.edits {
+                Some(edits) => corners.map(|vertex| at(edits.slots[vertex as usize])),
+                None => self.order.corners(TreeTriangle(place as u32)).map(at),
+            })
+        };
+        let mending = mending.advance(&midpoint_of, knows_neighbours, &mut budget);
+        self.mending = Some(Box::new(mending));
+        false
     }
 
     fn begin_to_mend(&self, options: &Options) -> Mending<N> {

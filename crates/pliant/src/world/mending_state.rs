@@ -76,18 +76,22 @@ impl<const N: usize> Mending<N> {
         knows_neighbours: bool,
         budget: &mut Budget,
     ) -> Self {
-        while !budget.is_spent() && !matches!(self.stage, Stage::Done(..)) {
+        while !budget.is_spent() && !self.is_done() {
             let stage = self.stage;
             self.stage = stage.advance(&self.mesh, midpoint_of, knows_neighbours, budget);
         }
         self
     }
 
-    /// The tree and its order if they are done, else what is to be gone on with.
-    pub(super) fn finish(self) -> Result<(MeshThen, Order, Tree<N>), Self> {
+    pub(super) fn is_done(&self) -> bool {
+        matches!(self.stage, Stage::Done(..))
+    }
+
+    /// The mesh that the tree is of, its order and the tree, if they are done.
+    pub(super) fn finish(self) -> Option<(MeshThen, Order, Tree<N>)> {
         match self.stage {
-            Stage::Done(order, tree) => Ok((self.mesh, order, tree)),
-            stage => Err(Self { stage, ..self }),
+            Stage::Done(order, tree) => Some((self.mesh, order, tree)),
+            _ => None,
         }
     }
 }

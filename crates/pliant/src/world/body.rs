@@ -346,6 +346,12 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         true
     }
 
+    /// Whether the mesh was edited since its tree was built.
+    pub(super) fn is_tree_edited(&self) -> bool {
+        let edits = self.edits.as_ref();
+        self.parts.len() > 1 || edits.is_some_and(|edits| edits.gone.count() > 0)
+    }
+
     /// Finds out which triangles of a part share a vertex, unless that is known.
     pub(super) fn know_neighbours(&mut self, part: usize, executor: Executor) {
         let part = self.parts.one_mut(part);

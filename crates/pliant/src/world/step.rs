@@ -65,8 +65,9 @@ where
         }
         if let Some([node_pairs, candidates]) = self.much_since(before) {
             let work = Work::of_two(node_pairs, candidates);
-            body_a.decay.note(work, body_a.epoch);
-            body_b.decay.note(work, body_b.epoch);
+            for body in [body_a, body_b] {
+                body.decay.note(work, body.epoch, body.is_tree_edited());
+            }
         }
         ControlFlow::Continue(())
     }
@@ -99,7 +100,7 @@ where
         if let Some([node_pairs, candidates]) = self.much_since(before) {
             let triangles = body.topology.live_count();
             let work = Work::of_one(node_pairs, candidates, triangles);
-            body.decay.note(work, body.epoch);
+            body.decay.note(work, body.epoch, body.is_tree_edited());
         }
         ControlFlow::Continue(())
     }

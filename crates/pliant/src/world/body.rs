@@ -182,6 +182,9 @@ impl<'b, S> Places<'b, S> {
     }
 }
 
+/// With fewer edited triangles, one of so many, a tree still tells what a fresh one does.
+const FEW_EDITED: usize = 256;
+
 impl<const N: usize, S: Coordinate> Body<N, S> {
     /// A body of validated parts; positions in the caller's order.
     pub(super) fn new(
@@ -346,10 +349,13 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         true
     }
 
-    /// Whether the mesh was edited since its tree was built.
+    /// Whether so much of the mesh was edited since its tree was built that the tree does not tell what a fresh one does: one triangle of
+    /// [`FEW_EDITED`] or more.
     pub(super) fn is_tree_edited(&self) -> bool {
-        let edits = self.edits.as_ref();
-        self.parts.len() > 1 || edits.is_some_and(|edits| edits.gone.count() > 0)
+        let first = self.parts.first.triangles.len();
+        let behind = self.order.all_corners().len() - first;
+        let gone = self.edits.as_ref().map_or(0, |edits| edits.gone.count());
+        (behind + gone) * FEW_EDITED >= first
     }
 
     /// Finds out which triangles of a part share a vertex, unless that is known.

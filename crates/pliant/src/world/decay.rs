@@ -3,7 +3,7 @@
 //! What a query of triangles finds near each other, its *candidates*, does not depend on the tree, nor does how many triangles there are;
 //! how many pairs of nodes it looks at on the way does. On the scenes of this project fresh trees look at a pair of nodes for every two
 //! candidates of two bodies, and in a body that meets itself at one for five candidates and, for its neighbours, at about two for three
-//! triangles. How many these are for a triangle depends on the options and the surface: the first query with a tree that was not edited since
+//! triangles. How many these are for a triangle depends on the options and the surface: the first query with a tree that was hardly edited since
 //! it was built tells, and of two bodies how many are for a candidate. What is more than that is decay: nodes that have grown into each
 //! other, or triangles that were taken out.
 

@@ -182,8 +182,8 @@ impl<'b, S> Places<'b, S> {
     }
 }
 
-/// With fewer edited triangles, one of so many, a tree still tells what a fresh one does.
-const FEW_EDITED: usize = 256;
+/// Fewer triangles than one of so many are few: a tree in which these were edited does about what a fresh one would.
+const OF_FEW: usize = 256;
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
     /// A body of validated parts; positions in the caller's order.
@@ -349,13 +349,12 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         true
     }
 
-    /// Whether so much of the mesh was edited since its tree was built that the tree does not tell what a fresh one does: one triangle of
-    /// [`FEW_EDITED`] or more.
-    pub(super) fn is_tree_edited(&self) -> bool {
+    /// Whether few triangles or none were edited since the tree was built.
+    pub(super) fn is_hardly_edited(&self) -> bool {
         let first = self.parts.first.triangles.len();
         let behind = self.order.all_corners().len() - first;
         let gone = self.edits.as_ref().map_or(0, |edits| edits.gone.count());
-        (behind + gone) * FEW_EDITED >= first
+        (behind + gone) * OF_FEW < first
     }
 
     /// Finds out which triangles of a part share a vertex, unless that is known.
@@ -1015,19 +1014,19 @@ pub(super) fn divide<S: Real>(
     let leaf_size = options.leaf_size.get();
     let count = triangles.len();
     let by_shape = |cut| {
-        let mut rule = InitialShape::new(triangles.into(), positions.into(), cut, degree);
-        plan(count, degree, leaf_size, &mut rule)
+        let rule = InitialShape::new(triangles.into(), positions.into(), cut, degree);
+        plan(count, degree, leaf_size, rule)
     };
     match options.partition {
         Partition::Centre => by_shape(CutAt::Centre),
         Partition::Mean => by_shape(CutAt::Mean),
         Partition::Balanced => {
-            let mut rule = Balanced::new(triangles, positions, degree, leaf_size);
-            plan(count, degree, leaf_size, &mut rule)
+            let rule = Balanced::new(triangles, positions, degree, leaf_size);
+            plan(count, degree, leaf_size, rule)
         }
         Partition::Connectivity => {
-            let mut rule = Connectivity::new(triangles, degree, leaf_size);
-            plan(count, degree, leaf_size, &mut rule)
+            let rule = Connectivity::new(triangles, degree, leaf_size);
+            plan(count, degree, leaf_size, rule)
         }
     }
 }

@@ -3,9 +3,9 @@
 //! What a query of triangles finds near each other, its *candidates*, does not depend on the tree, nor does how many triangles there are;
 //! how many pairs of nodes it looks at on the way does. On the scenes of this project fresh trees look at a pair of nodes for every two
 //! candidates of two bodies, and in a body that meets itself at one for five candidates and, for its neighbours, at about two for three
-//! triangles. How many these are for a triangle depends on the options and the surface: the first query with a tree that was hardly edited since
-//! it was built tells, and of two bodies how many are for a candidate. What is more than that is decay: nodes that have grown into each
-//! other, or triangles that were taken out.
+//! triangles. How many these are for a triangle depends on the options and the surface: the first query with a tree that was hardly
+//! edited since it was built tells, and of two bodies how many are for a candidate. What is more than that is decay: nodes that have grown
+//! into each other, or triangles that were taken out.
 
 /// Pairs of nodes that a fresh tree looks at for each candidate of two bodies, of one with itself, and for each triangle of that.
 const OF_TWO: f64 = 0.45;
@@ -59,8 +59,8 @@ pub(super) struct Decay {
     /// In the shape of now, or in the last in which somebody looked.
     last: Work,
     epoch: u64,
-    /// Whether the tree was of the mesh of then, without edits since it was built.
-    is_of_mesh: bool,
+    /// Whether the tree was hardly edited then, and tells what a fresh one does.
+    is_hardly_edited: bool,
     /// Factors for triangles, and for candidates of two bodies; none before a query that says something.
     for_triangles: Option<f64>,
     for_two: Option<f64>,
@@ -69,12 +69,12 @@ pub(super) struct Decay {
 }
 
 impl Decay {
-    /// A body was looked at, in a shape of some number, with a tree that was edited or not since it was built.
-    pub(super) fn note(&mut self, work: Work, epoch: u64, is_edited: bool) {
+    /// A body was looked at, in a shape of some number; its tree was hardly edited since it was built, or was.
+    pub(super) fn note(&mut self, work: Work, epoch: u64, is_hardly_edited: bool) {
         if self.epoch != epoch {
             self.settle();
             self.epoch = epoch;
-            self.is_of_mesh = !is_edited;
+            self.is_hardly_edited = is_hardly_edited;
         }
         self.last.node_pairs += work.node_pairs;
         self.last.candidates += work.candidates;
@@ -86,17 +86,16 @@ impl Decay {
     /// What was done in the last shape counts as done.
     fn settle(&mut self) {
         let last = self.last;
-        if !self.is_of_mesh {
-            // What was edited has decayed already.
-        } else if last.of_triangles >= FEWEST {
-            let rest = (last.node_pairs as f64 - last.of_one - last.of_two).max(0.0);
+        let node_pairs = last.node_pairs as f64;
+        // What was edited has decayed already.
+        if self.is_hardly_edited && last.of_triangles >= FEWEST {
+            let rest = (node_pairs - last.of_one - last.of_two).max(0.0);
             self.for_triangles.get_or_insert(rest / last.of_triangles);
-        } else if last.of_two >= FEWEST {
-            self.for_two
-                .get_or_insert(last.node_pairs as f64 / last.of_two);
+        } else if self.is_hardly_edited && last.of_two >= FEWEST {
+            self.for_two.get_or_insert(node_pairs / last.of_two);
         }
         if let Some(expected) = self.expected() {
-            self.spared += (last.node_pairs as f64 - expected).max(0.0);
+            self.spared += (node_pairs - expected).max(0.0);
         }
         self.last = Work::default();
     }
@@ -144,20 +143,20 @@ mod tests {
         assert_eq!(decay.quality(), 1.0);
         let is = |found: f64, expected: f64| (found - expected).abs() < 1e-6;
         // What was edited does not tell what a fresh tree does.
-        decay.note(Work::of_one(14_400, 1_000, 10_000), 7, true);
+        decay.note(Work::of_one(14_400, 1_000, 10_000), 7, false);
         assert_eq!(decay.quality(), 1.0);
-        decay.note(Work::of_one(7_200, 1_000, 10_000), 1, false);
+        decay.note(Work::of_one(7_200, 1_000, 10_000), 1, true);
         assert_eq!(decay.quality(), 1.0);
-        decay.note(Work::of_one(14_400, 1_000, 10_000), 2, false);
+        decay.note(Work::of_one(14_400, 1_000, 10_000), 2, true);
         assert!(is(decay.quality(), 2.0));
         let (spared, last) = decay.spared();
         assert!(is(spared, 7_200.0) && last == 15_400);
         decay.begin_anew();
         assert_eq!(decay.spared(), (0.0, 0));
         // More triangles and candidates are no decay, nor is another body.
-        decay.note(Work::of_one(14_400, 2_000, 20_000), 3, true);
+        decay.note(Work::of_one(14_400, 2_000, 20_000), 3, false);
         assert!(is(decay.quality(), 1.0));
-        decay.note(Work::of_two(4_500, 10_000), 3, true);
+        decay.note(Work::of_two(4_500, 10_000), 3, false);
         assert!(is(decay.quality(), 1.0));
     }
 }

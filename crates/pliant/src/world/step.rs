@@ -66,7 +66,7 @@ where
         if let Some([node_pairs, candidates]) = self.much_since(before) {
             let work = Work::of_two(node_pairs, candidates);
             for body in [body_a, body_b] {
-                body.decay.note(work, body.epoch, body.is_tree_edited());
+                body.decay.note(work, body.epoch, body.is_hardly_edited());
             }
         }
         ControlFlow::Continue(())
@@ -100,7 +100,7 @@ where
         if let Some([node_pairs, candidates]) = self.much_since(before) {
             let triangles = body.topology.live_count();
             let work = Work::of_one(node_pairs, candidates, triangles);
-            body.decay.note(work, body.epoch, body.is_tree_edited());
+            body.decay.note(work, body.epoch, body.is_hardly_edited());
         }
         ControlFlow::Continue(())
     }

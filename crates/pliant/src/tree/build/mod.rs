@@ -171,17 +171,6 @@ impl<R: Split> Planner<R> {
     }
 }
 
-impl<R: Split> Split for &mut R {
-    fn split(
-        &mut self,
-        triangles: &mut [u32],
-        pieces: &mut Vec<usize>,
-        budget: &mut Budget,
-    ) -> bool {
-        (**self).split(triangles, pieces, budget)
-    }
-}
-
 impl Split for Box<dyn Split + Send + Sync> {
     fn split(
         &mut self,

@@ -226,7 +226,7 @@ mod tests {
     use crate::tree::build::{Balanced, Connectivity, Split, plan};
 
     /// What is wrong with the tree that a rule makes of these triangles, as a mesh connectivity tree.
-    fn fault(triangles: &[[u32; 3]], vertices: usize, rule: &mut impl Split) -> String {
+    fn fault(triangles: &[[u32; 3]], vertices: usize, rule: impl Split) -> String {
         let mut plan = plan(triangles.len(), 8, 2, rule);
         let topology = Topology::new(triangles, vertices);
         let order = Order::new(&topology, std::mem::take(&mut plan.order));
@@ -244,10 +244,10 @@ mod tests {
         // A strip whose triangles lie to and fro.
         let strip: Vec<[u32; 3]> = (0..32).map(|i| [i, i + 1, i + 2]).collect();
         let positions: Vec<[f32; 3]> = (0..34).map(|i| [(i * 13 % 34) as f32, 0.0, 0.0]).collect();
-        let mut balanced = Balanced::new(&strip, &positions, 8, 2);
-        let found = fault(&strip, 34, &mut balanced);
+        let balanced = Balanced::new(&strip, &positions, 8, 2);
+        let found = fault(&strip, 34, balanced);
         assert!(found.contains("neither one connected piece"), "{found}");
-        let mut connectivity = Connectivity::new(&strip, 8, 2);
-        assert_eq!(fault(&strip, 34, &mut connectivity), "");
+        let connectivity = Connectivity::new(&strip, 8, 2);
+        assert_eq!(fault(&strip, 34, connectivity), "");
     }
 }

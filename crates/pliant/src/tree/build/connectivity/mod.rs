@@ -127,8 +127,8 @@ mod tests {
     /// Links read to build a tree of single triangles, for each triangle and level of halving.
     fn work(triangles: &[[u32; 3]]) -> f64 {
         let before = LINKS_READ.get();
-        let mut rule = Connectivity::new(triangles, 8, 1);
-        let plan = plan(triangles.len(), 8, 1, &mut rule);
+        let rule = Connectivity::new(triangles, 8, 1);
+        let plan = plan(triangles.len(), 8, 1, rule);
         assert!(plan.parts.len() > triangles.len());
         let levels = f64::from((triangles.len() as u32).ilog2());
         (LINKS_READ.get() - before) as f64 / triangles.len() as f64 / levels

@@ -36,8 +36,8 @@ use std::sync::Mutex;
 ///   level       the level down to which the hybrid works bottom-up; None: half the depth of the tree
 ///   broad       how bodies that may meet are found: "brute", "sweep", or by their number ("auto")
 ///   threads     how many share the work of a query; no number changes an answer
-///   mending     whether a tree that has decayed so far that a fresh one would have paid is built anew, a part of the work at each
-///               set_positions
+///   mending     whether a tree that has decayed so far that a fresh one would have paid is built anew, a part of the work whenever
+///               the body has a new shape
 ///
 /// The interpreter lock is released while a call computes. Arrays are copied before: whoever writes to one while a call is given it
 /// may see some of what was written in the shape, but never what was not checked. A world is in use by one call at a time; a second

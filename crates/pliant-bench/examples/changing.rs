@@ -6,6 +6,9 @@
 //! cargo run --release -p pliant-bench --example changing -- shuffle mended  # with trees that mend themselves
 //! cargo run --release -p pliant-bench --example changing -- shuffle fresh   # with fresh trees, which are built between steps
 //! ```
+//!
+//! No noise of the machine is in `valgrind --tool=callgrind --toggle-collect='changing::one_step'` before the built program: it counts the
+//! instructions of all steps, but not of what is built between them.
 
 use pliant::{BodyId, Options, Selection, World};
 use pliant_bench::methods::add_step;
@@ -42,31 +45,7 @@ fn main() {
         for (body, shape) in shapes.iter_mut().enumerate() {
             scene.positions(body, step, shape);
         }
-        let start = Instant::now();
-        for event in scene.events(step) {
-            match event {
-                Event::Edit { body, changes } => {
-                    let mut edit = world.edit(ids[*body]).expect("it is there");
-                    changes
-                        .iter()
-                        .for_each(|it| add_step(&mut edit, it, &shapes[*body]));
-                    world.apply(&edit).expect("a scene's events are good");
-                }
-                Event::Fuse { kept, gone } => {
-                    world.fuse(ids[*kept], ids[*gone]).expect("both are there");
-                }
-            }
-        }
-        let edited = Instant::now();
-        for (&id, shape) in ids.iter().zip(&shapes).filter(|(_, it)| !it.is_empty()) {
-            world
-                .set_positions(id, shape)
-                .expect("a scene's shapes are good");
-        }
-        let set = Instant::now();
-        let pairs = world.intersections(Selection::Everything).all();
-        let pairs = pairs.expect("the whole world is there").len();
-        let asked = Instant::now();
+        let (times, pairs) = one_step(&mut world, &ids, scene.events(step), &shapes);
         if how.as_deref() == Some("fresh") {
             for &id in &ids {
                 let _ = world.rebuild(id);
@@ -74,8 +53,6 @@ fn main() {
             // What neighbours are is part of building.
             let _ = world.intersections(Selection::Everything).prepare();
         }
-        let times = [edited - start, set - edited, asked - set];
-        let times = times.map(|time| time.as_secs_f64() * 1e3);
         for (sum, time) in sums.iter_mut().zip(times) {
             *sum += time;
         }
@@ -101,4 +78,42 @@ fn main() {
         .collect();
     println!("the longest: {}", longest.join(", "));
     println!("the longest that shapes took, mending included: {longest_shapes:.3} ms");
+}
+
+/// What edits, shapes and the query took, and how many pairs there are. A function of its own, so that instructions can be counted between its
+/// beginning and its end.
+#[inline(never)]
+fn one_step(
+    world: &mut World<f32>,
+    ids: &[BodyId],
+    events: &[Event],
+    shapes: &[Vec<[f32; 3]>],
+) -> ([f64; 3], usize) {
+    let start = Instant::now();
+    for event in events {
+        match event {
+            Event::Edit { body, changes } => {
+                let mut edit = world.edit(ids[*body]).expect("it is there");
+                changes
+                    .iter()
+                    .for_each(|it| add_step(&mut edit, it, &shapes[*body]));
+                world.apply(&edit).expect("a scene's events are good");
+            }
+            Event::Fuse { kept, gone } => {
+                world.fuse(ids[*kept], ids[*gone]).expect("both are there");
+            }
+        }
+    }
+    let edited = Instant::now();
+    for (&id, shape) in ids.iter().zip(shapes).filter(|(_, it)| !it.is_empty()) {
+        world
+            .set_positions(id, shape)
+            .expect("a scene's shapes are good");
+    }
+    let set = Instant::now();
+    let pairs = world.intersections(Selection::Everything).all();
+    let pairs = pairs.expect("the whole world is there").len();
+    let asked = Instant::now();
+    let times = [edited - start, set - edited, asked - set];
+    (times.map(|time| time.as_secs_f64() * 1e3), pairs)
 }

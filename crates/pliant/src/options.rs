@@ -31,8 +31,8 @@ pub struct Options {
     /// world look for more to do before they sleep. Where the system gives none, the calling thread does it all.
     pub threads: NonZeroUsize,
     /// Whether the trees of bodies [mend themselves](crate::World::tree_quality): one that has decayed so far that a fresh one would have
-    /// paid is built anew, a part of the work at each [`set_positions`](crate::World::set_positions). Default: no. A tree that is being
-    /// built takes memory beside the other, and most bodies stay near enough to the shape that they began with.
+    /// paid is built anew, a part of the work whenever the body has a new shape. Default: no. A tree that is being built takes memory beside
+    /// the other, and most bodies stay near enough to the shape that they began with.
     pub mending: bool,
 }
 

@@ -10,6 +10,8 @@ use pliant_scenes::{Change, ChangingScene, Event};
 struct Player {
     world: World<f32>,
     ids: Vec<BodyId>,
+    /// Whether shapes are ends of motions.
+    is_moved: bool,
 }
 
 impl Player {
@@ -21,11 +23,19 @@ impl Player {
             world.add(scene.triangles(body), &positions).unwrap()
         });
         let ids = ids.collect();
-        Self { world, ids }
+        Self {
+            world,
+            ids,
+            is_moved: false,
+        }
     }
 
     fn step(&mut self, scene: &ChangingScene, step: u32) -> Vec<Pair> {
-        let Self { world, ids } = self;
+        let Self {
+            world,
+            ids,
+            is_moved,
+        } = self;
         let shape = |body: usize| {
             let mut positions = Vec::new();
             scene.positions(body, step, &mut positions);
@@ -48,9 +58,19 @@ impl Player {
         }
         for (body, &id) in ids.iter().enumerate() {
             let positions = shape(body);
-            if !positions.is_empty() {
+            if positions.is_empty() {
+                continue;
+            }
+            if *is_moved {
+                world.set_motion(id, &positions).unwrap();
+            } else {
                 world.set_positions(id, &positions).unwrap();
             }
+        }
+        if *is_moved && step.is_multiple_of(2) {
+            world.finish_motion();
+        } else if *is_moved {
+            world.advance_motion(1.0).unwrap();
         }
         let pairs = world.intersections(Selection::Everything).all();
         pairs.unwrap().to_vec()
@@ -244,14 +264,18 @@ fn a_mended_tree_does_little_more_than_a_fresh_one() {
     let mut plain = Player::new(&scene, options);
     options.mending = true;
     let mut mended = Player::new(&scene, options);
+    let mut moved = Player::new(&scene, options);
+    moved.is_moved = true;
     let mut fresh = Player::new(&scene, options);
     let mut sums = [0; 3];
     for step in 1..=scene.steps() {
         plain.step(&scene, step);
         mended.step(&scene, step);
+        moved.step(&scene, step);
         fresh.world.rebuild(fresh.ids[0]).unwrap();
         fresh.step(&scene, step);
         let work = [&plain, &mended, &fresh].map(node_pairs);
+        assert_eq!(node_pairs(&moved), work[1], "step {step}");
         for (sum, work) in sums.iter_mut().zip(work) {
             *sum += work;
         }

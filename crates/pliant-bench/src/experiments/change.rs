@@ -10,7 +10,7 @@ use crate::decision::exact;
 use crate::method::Method;
 use crate::methods::{ChangingObvhs, Everywhere, Ours, Rebuilt, Unedited};
 use crate::motion::Motion;
-use crate::record::{Claim, ContestRecord, MethodRecord, Verdict};
+use crate::record::{Claim, ContestRecord, MethodRecord, Verdict, median};
 use pliant::Options;
 use pliant_scenes::ChangingScene;
 
@@ -99,15 +99,26 @@ fn times(contest: &ContestRecord, method: &str, other: &str) -> f64 {
     all(method) / all(other)
 }
 
+/// How long every step of a method takes.
+fn steps(method: &MethodRecord) -> Vec<f64> {
+    let both = method.update_ms.iter().zip(&method.query_ms);
+    both.map(|(update, query)| update + query).collect()
+}
+
 /// The longest step of a method against its median step.
 fn longest_against_median(method: &MethodRecord) -> f64 {
-    let both = method.update_ms.iter().zip(&method.query_ms);
-    let mut steps: Vec<f64> = both.map(|(update, query)| update + query).collect();
-    steps.sort_by(f64::total_cmp);
-    match (steps.last(), steps.get(steps.len() / 2)) {
-        (Some(longest), Some(median)) => longest / median,
-        _ => f64::NAN,
-    }
+    let steps = steps(method);
+    steps.iter().copied().fold(f64::NAN, f64::max) / median(&steps)
+}
+
+/// How much longer than the same step of another method a step takes at most, against the median step of that.
+fn most_added(method: &MethodRecord, other: &MethodRecord) -> f64 {
+    let [longer, steps] = [steps(method), steps(other)];
+    let added = longer
+        .iter()
+        .zip(&steps)
+        .map(|(longer, step)| longer - step);
+    added.fold(f64::NAN, f64::max) / median(&steps)
 }
 
 fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
@@ -153,6 +164,13 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
             }
         }
         // Edits make long steps of their own: what mending adds is seen beside the same steps without it.
+        if let (Some(mended), Some(edited)) = (contest.method(MENDED), contest.method(EDITED)) {
+            let added = most_added(mended, edited);
+            claims.push(measured(
+                "what mending adds to a step at most, against the median step without",
+                format!("{added:.2} times"),
+            ));
+        }
         let of_all = [
             (EDITED, ""),
             (MENDED, " with mending"),

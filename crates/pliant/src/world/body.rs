@@ -368,6 +368,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.motion.as_deref().filter(|motion| motion.is_on)
     }
 
+    pub(super) fn is_moving(&self) -> bool {
+        self.motion().is_some()
+    }
+
     /// Makes the boxes of elements, unless they are those of the shape and the motion of now. Returns false if it was interrupted. The body
     /// was brought into tree order, with its motion.
     pub(super) fn make_near_boxes(

@@ -227,16 +227,31 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             body.set_positions(instructions, executor, positions)
         })?;
         self.common.note_movement();
-        let options = self.common.options;
-        if options.mending {
-            let mut is_another = false;
-            self.change(id, |body, _, _| {
-                is_another = body.mend(&options);
-                Ok(())
-            })?;
-            if is_another {
-                self.forget_answers(id);
+        self.mend(id)
+    }
+
+    /// Ends the motion of every body that has one; the first that cannot be ended is said.
+    fn end_motions(
+        &mut self,
+        mut end: impl FnMut(&mut Body<N, S>, Instructions, Executor) -> Result<(), ErrorKind>,
+    ) -> Result<(), Error> {
+        let mut ended = Ok(());
+        for rank in 0..self.common.bodies.ids.len() {
+            let id = self.common.bodies.ids[rank];
+            if self.body(id)?.is_moving() {
+                ended = ended.and(self.change(id, &mut end));
+                self.mend(id)?;
             }
+        }
+        self.common.note_movement();
+        ended
+    }
+
+    /// A body has a new shape: its tree mends itself, if trees do.
+    fn mend(&mut self, id: BodyId) -> Result<(), Error> {
+        let options = self.common.options;
+        if options.mending && self.common.bodies.get_mut(id)?.mend(&options) {
+            self.forget_answers(id);
         }
         Ok(())
     }
@@ -393,11 +408,11 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
     }
 
     fn finish_motion(&mut self) {
-        let common = &mut self.common;
-        for body in &mut common.bodies.list {
+        let ended = self.end_motions(|body, _, _| {
             body.finish_motion();
-        }
-        common.note_movement();
+            Ok(())
+        });
+        debug_assert!(ended.is_ok(), "ends of motions were checked: {ended:?}");
     }
 
     fn advance_motion(&mut self, t: f64) -> Result<(), Error> {
@@ -405,15 +420,10 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             return Err(ErrorKind::BadTime { time: t }.of_query());
         }
         let mut shape = std::mem::take(&mut self.lent);
-        let mut advanced = Ok(());
-        for rank in 0..self.common.bodies.ids.len() {
-            let id = self.common.bodies.ids[rank];
-            advanced = advanced.and(self.change(id, |body, instructions, executor| {
-                body.advance_motion(instructions, executor, t, &mut shape)
-            }));
-        }
+        let advanced = self.end_motions(|body, instructions, executor| {
+            body.advance_motion(instructions, executor, t, &mut shape)
+        });
         self.lent = shape;
-        self.common.note_movement();
         advanced
     }
 

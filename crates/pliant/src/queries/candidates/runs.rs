@@ -23,25 +23,45 @@ pub(crate) type Ends<'p, S> = (&'p Shape<'p, S>, Option<&'p Points<S>>);
 pub(crate) struct RunBoxes<const C: usize> {
     /// What they were made of; none before the first time, and after one that was interrupted.
     version: Option<Version>,
-    /// For each run the elements that belong to it: those from this one on, up to that of the next.
-    elements: Vec<u32>,
-    /// For each run its first eight.
-    firsts: Vec<u32>,
-    eights: Vec<Eight>,
-    /// Of each eight the corners; those that are missing to the last one of a run are its first again.
-    corners: Vec<EightCorners<C>>,
-    /// For each run the box of all.
-    hulls: Vec<Aabb>,
+    runs: Vec<Run>,
+    eights: Vec<ElementEight<C>>,
     /// The largest coordinate.
     most: f32,
 }
 
-/// Some runs, and where their boxes are.
-struct Job<'b> {
-    runs: Range<usize>,
-    first: usize,
-    eights: &'b mut [Eight],
-    hulls: &'b mut [Aabb],
+/// All that is asked of a run before its elements are, side by side.
+#[derive(Debug)]
+struct Run {
+    /// The box of all elements.
+    hull: Aabb,
+    /// Its first eight.
+    first: u32,
+    /// Its elements: from this number on,
+    start: u32,
+    /// so many.
+    count: u32,
+}
+
+impl Run {
+    #[inline(always)]
+    fn eights(&self) -> Range<usize> {
+        let first = self.first as usize;
+        first..first + self.count.div_ceil(8) as usize
+    }
+}
+
+/// Eight elements side by side.
+#[derive(Debug)]
+pub(super) struct ElementEight<const C: usize> {
+    boxes: Eight,
+    /// Those that are missing to the last eight of a run are its first again.
+    corners: EightCorners<C>,
+}
+
+/// Some runs and their elements.
+struct Job<'b, const C: usize> {
+    runs: &'b mut [Run],
+    eights: &'b mut [ElementEight<C>],
     most: f32,
 }
 
@@ -51,37 +71,40 @@ impl<const C: usize> RunBoxes<C> {
         elements_of: impl ExactSizeIterator<Item = Range<u32>>,
         corners_of: impl Fn(u32) -> [TreeVertex; C],
     ) -> Self {
-        let runs = elements_of.len();
-        let mut firsts = Vec::with_capacity(runs + 1);
-        let mut elements = Vec::with_capacity(2 * runs);
-        let mut corners = Vec::new();
-        for run in elements_of {
+        let mut runs = Vec::with_capacity(elements_of.len());
+        let mut eights = Vec::new();
+        for elements in elements_of {
             // Up to three vertices, or edges, belong to a triangle.
-            debug_assert!(run.len() <= 24, "{run:?}");
-            firsts.push(corners.len() as u32);
-            elements.extend([run.start, run.end]);
-            for first in run.clone().step_by(8) {
-                let mut eight = [[0; 8]; C];
+            debug_assert!(elements.len() <= 24, "{elements:?}");
+            runs.push(Run {
+                hull: Eight::EMPTY.get(0),
+                first: eights.len() as u32,
+                start: elements.start,
+                count: elements.len() as u32,
+            });
+            for first in elements.clone().step_by(8) {
+                let mut corners = [[0; 8]; C];
                 for lane in 0..8 {
                     let element = first + lane as u32;
-                    let element = if element < run.end { element } else { first };
-                    let corners = corners_of(element);
+                    let element = if element < elements.end {
+                        element
+                    } else {
+                        first
+                    };
+                    let of_element = corners_of(element);
                     for which in 0..C {
-                        eight[which][lane] = corners[which].0;
+                        corners[which][lane] = of_element[which].0;
                     }
                 }
-                corners.push(eight);
+                let boxes = Eight::EMPTY;
+                eights.push(ElementEight { boxes, corners });
             }
         }
-        firsts.push(corners.len() as u32);
-        corners.shrink_to_fit();
+        eights.shrink_to_fit();
         Self {
             version: None,
-            elements,
-            firsts,
-            eights: vec![Eight::EMPTY; corners.len()],
-            corners,
-            hulls: vec![Eight::EMPTY.get(0); runs],
+            runs,
+            eights,
             most: 0.0,
         }
     }
@@ -97,34 +120,24 @@ impl<const C: usize> RunBoxes<C> {
             return true;
         }
         self.version = None;
-        let Self {
-            firsts,
-            eights,
-            corners,
-            hulls,
-            ..
-        } = self;
-        let (mut rest, mut start) = (&mut eights[..], 0);
-        let jobs = hulls.chunks_mut(JOB).map(|hulls| {
-            let runs = start..start + hulls.len();
-            start = runs.end;
-            let [first, end] = [runs.start, runs.end].map(|run| firsts[run] as usize);
+        let (mut rest, mut first) = (&mut self.eights[..], 0);
+        let jobs = self.runs.chunks_mut(JOB).map(|runs| {
+            let end = runs.last().map_or(first, |run| run.eights().end);
+            let eights = rest.split_off_mut(..end - first).unwrap_or_default();
+            first = end;
             Job {
-                first,
                 runs,
-                eights: rest.split_off_mut(..end - first).unwrap_or_default(),
-                hulls,
+                eights,
                 most: 0.0,
             }
         });
-        let make = |_, job: &mut Job| {
+        let make = |_, job: &mut Job<C>| {
             dispatch!(instructions, i => {
-                for run in job.runs.clone() {
-                    let [first, end] = [firsts[run], firsts[run + 1]].map(|at| at as usize);
-                    let eights = &mut job.eights[first - job.first..end - job.first];
-                    let all = make_run(i, positions, &corners[first..end], eights);
-                    job.hulls[run - job.runs.start] = all;
-                    for side in [all.lo, all.hi] {
+                let mut rest = &mut *job.eights;
+                for run in &mut *job.runs {
+                    let own = rest.split_off_mut(..run.eights().len());
+                    run.hull = make_run(i, positions, own.unwrap_or_default());
+                    for side in [run.hull.lo, run.hull.hi] {
                         for x in side {
                             // Of a run without elements it is no number, and passed over.
                             job.most = larger(job.most, x.abs());
@@ -134,7 +147,7 @@ impl<const C: usize> RunBoxes<C> {
             });
         };
         self.most = if executor.are_many() {
-            let mut jobs: Vec<Job> = jobs.collect();
+            let mut jobs: Vec<Job<C>> = jobs.collect();
             executor.run(&mut jobs, make);
             jobs.iter().fold(0.0, |most, job| larger(most, job.most))
         } else {
@@ -159,14 +172,9 @@ impl<const C: usize> RunBoxes<C> {
     /// The elements of a run and their boxes.
     #[inline(always)]
     pub(super) fn run(&self, run: u32) -> ElementRun<'_, C> {
-        let run = run as usize;
-        let [first, end] = [self.firsts[run], self.firsts[run + 1]].map(|at| at as usize);
-        ElementRun {
-            elements: self.elements[2 * run]..self.elements[2 * run + 1],
-            boxes: &self.eights[first..end],
-            corners: &self.corners[first..end],
-            all: &self.hulls[run],
-        }
+        let run = &self.runs[run as usize];
+        let eights = &self.eights[run.eights()];
+        ElementRun { run, eights }
     }
 }
 
@@ -175,13 +183,12 @@ impl<const C: usize> RunBoxes<C> {
 fn make_run<I: Simd, S: Coordinate, const C: usize>(
     i: I,
     (shape, end): Ends<S>,
-    corners: &[EightCorners<C>],
-    eights: &mut [Eight],
+    eights: &mut [ElementEight<C>],
 ) -> Aabb {
     let mut all = Eight::EMPTY.get(0);
-    for (place, (lanes, corners)) in eights.iter_mut().zip(corners).enumerate() {
-        gaps::of_elements(i, shape, end, corners, lanes);
-        let of_eight = lanes.union();
+    for (place, ElementEight { boxes, corners }) in eights.iter_mut().enumerate() {
+        gaps::of_elements(i, shape, end, corners, boxes);
+        let of_eight = boxes.union();
         all = if place == 0 {
             of_eight
         } else {
@@ -205,7 +212,10 @@ pub(super) fn near_runs<'k, const C: usize, const D: usize>(
 ) -> &'k [[u32; 2]] {
     let mut count = 0;
     for &pair in pairs {
-        let [a, b] = [&a.hulls[pair[0] as usize], &b.hulls[pair[1] as usize]];
+        let [a, b] = [
+            &a.runs[pair[0] as usize].hull,
+            &b.runs[pair[1] as usize].hull,
+        ];
         // Whether they are cannot be predicted. The box of no element is no number, and near nothing.
         kept[count] = pair;
         count += usize::from(limits.are_possibly_near(a, b));
@@ -214,26 +224,33 @@ pub(super) fn near_runs<'k, const C: usize, const D: usize>(
 }
 
 /// The elements of one kind that belong to a run of triangles, and their boxes.
-#[derive(Clone)]
 pub(super) struct ElementRun<'b, const C: usize> {
-    /// Numbers of the elements.
-    elements: Range<u32>,
-    boxes: &'b [Eight],
-    corners: &'b [EightCorners<C>],
-    /// The box of all.
-    all: &'b Aabb,
+    run: &'b Run,
+    eights: &'b [ElementEight<C>],
 }
 
 impl<const C: usize> ElementRun<'_, C> {
+    /// The first of its elements that belongs to the eight with this place.
+    #[inline(always)]
+    fn element(&self, eight: usize) -> u32 {
+        self.run.start + 8 * eight as u32
+    }
+
+    /// A bit for each of its elements.
+    #[inline(always)]
+    fn all(&self) -> u32 {
+        (1 << self.run.count) - 1
+    }
+
     /// Which elements are possibly near a box: bit i for the i-th.
     #[inline(always)]
     fn near<I: Simd>(&self, i: I, other: &Aabb, limits: Limits) -> u32 {
         let mut near = 0;
         // In one number: a list of masks would be written byte by byte and read as one, which processors wait for.
-        for (place, eight) in self.boxes.iter().enumerate() {
-            near |= (gaps::near_box(i, eight, other, limits) as u32) << (8 * place);
+        for (place, eight) in self.eights.iter().enumerate() {
+            near |= (gaps::near_box(i, &eight.boxes, other, limits) as u32) << (8 * place);
         }
-        near & ((1 << self.elements.len()) - 1)
+        near & self.all()
     }
 
     /// Shows `found` the pairs of elements, one of either run, that are possibly near each other and those that surely are, as bits
@@ -248,26 +265,26 @@ impl<const C: usize> ElementRun<'_, C> {
         limits: Limits,
         mut found: impl FnMut([u32; 2], u64, u64),
     ) {
-        let rows = self.near(i, other.all, limits);
+        let rows = self.near(i, &other.run.hull, limits);
         // Where all are side by side, asking which are near is as much work as a row.
-        let columns = if other.boxes.len() == 1 {
-            (1 << other.elements.len()) - 1
+        let columns = if other.eights.len() == 1 {
+            other.all()
         } else {
-            other.near(i, self.all, limits)
+            other.near(i, &self.run.hull, limits)
         };
-        for (a, boxes_a) in self.boxes.iter().enumerate() {
+        for (a, eight_a) in self.eights.iter().enumerate() {
             let rows = rows >> (8 * a) & 0xFF;
             if rows == 0 {
                 continue;
             }
-            let of_a = (boxes_a, &self.corners[a]);
+            let of_a = (&eight_a.boxes, &eight_a.corners);
             let first = if itself { a } else { 0 };
-            for (b, boxes_b) in other.boxes.iter().enumerate().skip(first) {
+            for (b, eight_b) in other.eights.iter().enumerate().skip(first) {
                 let columns = u64::from(columns >> (8 * b) & 0xFF);
                 if columns == 0 {
                     continue;
                 }
-                let of_b = (boxes_b, &other.corners[b]);
+                let of_b = (&eight_b.boxes, &eight_b.corners);
                 let (mut near, is_unsure) =
                     gaps::near_pairs(i, of_a, rows, of_b, is_one_body, limits);
                 // A byte of it for each row.
@@ -277,13 +294,11 @@ impl<const C: usize> ElementRun<'_, C> {
                 }
                 if near != 0 {
                     let sure = if is_unsure {
-                        gaps::sure_pairs(i, boxes_a, boxes_b, limits)
+                        gaps::sure_pairs(i, of_a.0, of_b.0, limits)
                     } else {
                         u64::MAX
                     };
-                    let [a, b] = [(&self.elements, a), (&other.elements, b)]
-                        .map(|(elements, eight)| elements.start + 8 * eight as u32);
-                    found([a, b], near, sure);
+                    found([self.element(a), other.element(b)], near, sure);
                 }
             }
         }
@@ -292,10 +307,6 @@ impl<const C: usize> ElementRun<'_, C> {
 
 impl<const C: usize> Held for RunBoxes<C> {
     fn held(&self) -> usize {
-        held::list(&self.elements)
-            + held::list(&self.firsts)
-            + held::list(&self.eights)
-            + held::list(&self.corners)
-            + held::list(&self.hulls)
+        held::list(&self.runs) + held::list(&self.eights)
     }
 }

@@ -7,7 +7,7 @@
 
 use super::Split;
 use super::initial_shape::midpoint;
-use crate::geometry::Real;
+use crate::geometry::{Real, larger, smaller};
 use crate::held;
 use crate::threads::Budget;
 
@@ -18,6 +18,8 @@ pub(crate) struct Balanced {
     /// Halves of the part at hand that are still to be divided, the first on top: first triangle, length, children. At most
     /// log2(degree) + 1 of them.
     halves: Vec<(usize, usize, usize)>,
+    /// What the triangles of a part are ordered by: a list that is kept from part to part.
+    keys: Vec<u128>,
 }
 
 impl Balanced {
@@ -41,6 +43,7 @@ impl Balanced {
             degree,
             leaf_size: leaf_size as usize,
             halves: Vec::new(),
+            keys: Vec::new(),
         }
     }
 
@@ -54,24 +57,49 @@ impl Balanced {
     }
 
     /// Orders the triangles so that the first `left` have the smaller midpoints along the longest side.
-    fn divide(&self, triangles: &mut [u32], left: usize) {
+    fn divide(&mut self, triangles: &mut [u32], left: usize) {
+        let Self {
+            midpoints, keys, ..
+        } = self;
         let mut lo = [f64::INFINITY; 3];
         let mut hi = [f64::NEG_INFINITY; 3];
         for &triangle in &*triangles {
-            let midpoint = self.midpoints[triangle as usize];
-            lo = std::array::from_fn(|axis| lo[axis].min(midpoint[axis]));
-            hi = std::array::from_fn(|axis| hi[axis].max(midpoint[axis]));
+            let midpoint = midpoints[triangle as usize];
+            for axis in 0..3 {
+                lo[axis] = smaller(lo[axis], midpoint[axis]);
+                hi[axis] = larger(hi[axis], midpoint[axis]);
+            }
         }
         let axis = super::axes_by_length(lo, hi)[0];
-        // Equal midpoints by number: the tree must not depend on how a selection algorithm treats ties.
-        let key = |triangle: u32| self.midpoints[triangle as usize][axis];
-        triangles.select_nth_unstable_by(left, |&a, &b| key(a).total_cmp(&key(b)).then(a.cmp(&b)));
+        keys.clear();
+        keys.extend(
+            triangles
+                .iter()
+                .map(|&triangle| key(midpoints[triangle as usize][axis], triangle)),
+        );
+        keys.select_nth_unstable(left);
+        for (triangle, key) in triangles.iter_mut().zip(&*keys) {
+            *triangle = *key as u32;
+        }
     }
+}
+
+/// Orders triangles by a coordinate, those with equal ones by number: the tree must not depend on how a selection algorithm treats ties. One
+/// integer, for comparisons through a list of midpoints are most of what building takes.
+fn key(coordinate: f64, triangle: u32) -> u128 {
+    let bits = coordinate.to_bits();
+    // Of negative numbers the larger magnitude is the smaller number.
+    let ordered = if bits >> 63 == 0 {
+        bits | 1 << 63
+    } else {
+        !bits
+    };
+    u128::from(ordered) << 32 | u128::from(triangle)
 }
 
 impl Split for Balanced {
     fn held(&self) -> usize {
-        held::list(&self.midpoints)
+        held::list(&self.midpoints) + held::list(&self.keys)
     }
 
     fn split(
@@ -104,5 +132,27 @@ impl Split for Balanced {
             self.halves.push((start, left, left_children));
         }
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_in_the_order_of_coordinates_and_then_of_numbers() {
+        let coordinates = [
+            f64::MIN,
+            -1.5,
+            -f64::MIN_POSITIVE,
+            -5e-324,
+            -0.0,
+            0.0,
+            5e-324,
+            1.0,
+            f64::MAX,
+        ];
+        let keys = coordinates.map(|coordinate| [0, 7, u32::MAX].map(|it| key(coordinate, it)));
+        assert!(keys.as_flattened().is_sorted_by(|a, b| a < b), "{keys:?}");
     }
 }

@@ -230,7 +230,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
         self.mend(id)
     }
 
-    /// Ends the motion of every body that has one; the first that cannot be ended is said.
+    /// Ends the motion of every body that has one. The error is that of the first body whose motion cannot be ended.
     fn end_motions(
         &mut self,
         mut end: impl FnMut(&mut Body<N, S>, Instructions, Executor) -> Result<(), ErrorKind>,
@@ -239,8 +239,8 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
         for rank in 0..self.common.bodies.ids.len() {
             let id = self.common.bodies.ids[rank];
             if self.body(id)?.is_moving() {
-                ended = ended.and(self.change(id, &mut end));
-                self.mend(id)?;
+                let one = self.change(id, &mut end).and_then(|()| self.mend(id));
+                ended = ended.and(one);
             }
         }
         self.common.note_movement();

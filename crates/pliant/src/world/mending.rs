@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! each new shape of the body:
-//!     nothing is being built:  begin, if by now a fresh tree would have spared what it costs   (rent, then buy)
-//!     a tree is on its way:    a share of it, in proportion to what the last query did
-//!     it is done:              the trees are exchanged
+//!     no tree is on its way:   begin one, if by now a fresh tree would have spared what it costs   (rent, then buy)
+//!     a tree is on its way:    build a share of it, in proportion to what the last query did
+//!     it is done:              exchange the trees
 //! ```
 //!
 //! The tree is that of the mesh and the shape of some steps before. For the shape that is as good. What was edited meanwhile follows as an
@@ -25,8 +25,8 @@ use std::borrow::Cow;
 /// A fresh tree costs as much as looking at so many pairs of nodes, for each triangle.
 const COST: f64 = 4.0;
 
-/// While a query looks at two pairs of nodes or of triangles, building looks at so many triangles: what is built in a step takes at most about
-/// two thirds as long as its query. Slower, the old tree decays meanwhile by more than that.
+/// While a query looks at two pairs of nodes or of triangles, building looks at so many triangles: in `shuffle` what is built in a step takes
+/// up to two thirds as long as its query. Slower, the old tree decays meanwhile by more than that.
 const PACE_FOR_TWO: u64 = 3;
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
@@ -53,12 +53,14 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             })
         };
         let advanced = mending.advance(&midpoint_of, knows_neighbours, &mut budget);
-        self.mending = Some(Box::new(advanced));
-        let done = self.mending.take_if(|it| it.is_done());
-        let Some((mesh, order, tree)) = done.and_then(|it| it.finish()) else {
+        if !advanced.is_done() {
+            self.mending = Some(Box::new(advanced));
             return false;
-        };
-        self.exchange_mended(&mesh, order, tree, options);
+        }
+        let finished = advanced.finish();
+        if let Some((mesh, order, tree)) = finished {
+            self.exchange_mended(&mesh, order, tree, options);
+        }
         true
     }
 

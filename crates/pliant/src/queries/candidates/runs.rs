@@ -52,7 +52,7 @@ impl Run {
 
 /// Eight elements side by side.
 #[derive(Debug)]
-pub(super) struct ElementEight<const C: usize> {
+struct ElementEight<const C: usize> {
     boxes: Eight,
     /// Those that are missing to the last eight of a run are its first again.
     corners: EightCorners<C>,

@@ -84,8 +84,8 @@ impl Balanced {
     }
 }
 
-/// Orders triangles by a coordinate, those with equal ones by number: the tree must not depend on how a selection algorithm treats ties. One
-/// integer, for comparisons through a list of midpoints are most of what building takes.
+/// Orders triangles by a coordinate, those with equal ones by number: the tree must not depend on how a selection algorithm treats ties. It is
+/// one integer because comparisons that look up two midpoints were half of what building takes.
 fn key(coordinate: f64, triangle: u32) -> u128 {
     let bits = coordinate.to_bits();
     // Of negative numbers the larger magnitude is the smaller number.

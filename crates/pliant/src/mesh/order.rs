@@ -52,7 +52,7 @@ impl Order {
     /// With triangle `triangles[t]` of the caller as triangle `t` of the tree.
     pub(crate) fn new(topology: &Topology, triangles: Vec<u32>) -> Self {
         let mut order = OrderBuilder::new(topology.vertex_count(), triangles);
-        order.advance(topology.triangles(), &mut Budget::whole());
+        order.advance(|it| topology.triangles()[it as usize], &mut Budget::whole());
         order.finish()
     }
 
@@ -203,7 +203,11 @@ impl OrderBuilder {
     }
 
     /// Goes on, with the corners of the caller's triangles; returns whether all have their numbers.
-    pub(crate) fn advance(&mut self, all: &[[u32; 3]], budget: &mut Budget) -> bool {
+    pub(crate) fn advance(
+        &mut self,
+        corners_of: impl Fn(u32) -> [u32; 3],
+        budget: &mut Budget,
+    ) -> bool {
         let Self {
             order,
             tree_vertices,
@@ -222,7 +226,7 @@ impl OrderBuilder {
             }
             let some = order.triangles[order.corners.len()..].iter().take(AT_ONCE);
             budget.spend(LOOKS * some.len());
-            let corners = some.map(|&triangle| all[triangle as usize].map(&mut renumber));
+            let corners = some.map(|&triangle| corners_of(triangle).map(&mut renumber));
             order.corners.extend(corners);
         }
         true

@@ -31,6 +31,11 @@ pub(super) struct Work {
 }
 
 impl Work {
+    /// Pairs of nodes and of triangles that were looked at.
+    fn all(&self) -> f64 {
+        (self.node_pairs + self.candidates) as f64
+    }
+
     /// Of two bodies.
     pub(super) fn of_two(node_pairs: u64, candidates: u64) -> Self {
         Self {
@@ -118,12 +123,13 @@ impl Decay {
         expected.map_or(1.0, |expected| self.last.node_pairs as f64 / expected)
     }
 
-    /// How many pairs of nodes a fresh tree would have spared since this one was built; and how many, and pairs of triangles, were looked at
-    /// in the last shape.
-    pub(super) fn spared(&mut self) -> (f64, u64) {
-        let last = self.last.node_pairs + self.last.candidates;
+    /// How many pairs of nodes a fresh tree would have spared, since this one was built and in the last shape alone; and how many pairs of
+    /// nodes and of triangles were looked at in that.
+    pub(super) fn spared(&mut self) -> [f64; 3] {
+        let last = self.last.all();
+        let before = self.spared;
         self.settle();
-        (self.spared, last)
+        [self.spared, self.spared - before, last]
     }
 
     /// The tree is another, of the same kind: the factors stay.

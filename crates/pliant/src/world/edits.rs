@@ -254,6 +254,9 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Takes changes into tree order: a part for what comes, or the whole anew.
     fn take_in(&mut self, outcome: &Outcome<S>, options: &Options) {
         self.meshes += 1;
+        if let Some(mending) = &mut self.mending {
+            mending.note(&outcome.changed);
+        }
         let known = self.vertex_count();
         let (again, new) = outcome.new_vertices.split_at(
             outcome

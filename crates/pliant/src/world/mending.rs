@@ -3,19 +3,21 @@
 //! ```text
 //! each new shape of the body:
 //!     no tree is on its way:   begin one, if by now a fresh tree would have spared what it costs   (rent, then buy)
-//!     a tree is on its way:    build a share of it, in proportion to what the last query did
+//!     a tree is on its way:    build a share of it, in proportion to what the last query did and a fresh tree would have spared
 //!     it is done:              exchange the trees
 //! ```
 //!
 //! The tree is that of the mesh and the shape of some steps before. For the shape that is as good. What was edited meanwhile follows as an
 //! edit does (`edits`): what is gone is marked in the new tree, what has come is put behind it. No answer depends on a tree. A tree along
 //! the mesh would be the same again, so it is not mended.
+//!
+//! What goes through all triangles at once is not divided: listing them, the first cuts, and exchanging the trees.
 
 use super::body::Body;
 use super::mending_state::{Mending, MeshThen, Rule};
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
-use crate::mesh::{Changed, EMPTY, Order};
+use crate::mesh::{EMPTY, Order};
 use crate::options::{Options, Partition};
 use crate::threads::Budget;
 use crate::tree::Tree;
@@ -25,34 +27,45 @@ use std::borrow::Cow;
 /// A fresh tree costs as much as looking at so many pairs of nodes, for each triangle.
 const COST: f64 = 4.0;
 
-/// While a query looks at two pairs of nodes or of triangles, building looks at so many triangles: in `shuffle` what is built in a step takes
+/// While a query looks at a pair of nodes or of triangles, building looks at so many triangles: in `shuffle` what is built in a step takes
 /// up to two thirds as long as its query. Slower, the old tree decays meanwhile by more than that.
-const PACE_FOR_TWO: u64 = 3;
+const PACE: f64 = 1.5;
+
+/// And for a pair of nodes that a fresh tree would have spared at most at so many: the less a tree has decayed, the less hurry there is, and
+/// the shorter are the steps in which it is mended.
+const GAIN: f64 = 8.0;
+
+/// Looks at a triangle that listing all of them takes.
+const BEGIN: usize = 1;
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
     pub(super) fn mend(&mut self, options: &Options) -> bool {
-        let (spared, last) = self.decay.spared();
+        let [spared, of_last, last] = self.decay.spared();
+        let mut budget = Budget::of((PACE * last).min(GAIN * of_last) as usize);
         let is_worth_it = || {
             let is_decayed = spared > COST * self.topology.live_count() as f64;
             is_decayed && options.partition != Partition::Connectivity
         };
         let mending = match self.mending.take() {
             Some(mending) => *mending,
-            None if is_worth_it() => self.begin_to_mend(options),
+            None if is_worth_it() => {
+                budget.spend(BEGIN * self.topology.live_count());
+                self.begin_to_mend(options)
+            }
             None => return false,
         };
         let knows_neighbours = self.parts.first.tree.knows_neighbours();
-        let mut budget = Budget::of((PACE_FOR_TWO * last / 2) as usize);
         let vertices = self.order.vertex_order();
         let at = |vertex| self.positions.get(vertex, vertices);
+        let triangles = self.topology.triangles();
         let midpoint_of = |place: usize, corners: [u32; 3]| {
             midpoint(match &self.edits {
                 Some(edits) => corners.map(|vertex| at(edits.slots[vertex as usize])),
                 None => self.order.corners(TreeTriangle(place as u32)).map(at),
             })
         };
-        let advanced = mending.advance(&midpoint_of, knows_neighbours, &mut budget);
+        let advanced = mending.advance(triangles, &midpoint_of, knows_neighbours, &mut budget);
         if !advanced.is_done() {
             self.mending = Some(Box::new(advanced));
             return false;
@@ -68,15 +81,13 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         // In the order of the tree, in which corners lie near each other.
         let places = (0..).map(TreeTriangle).zip(self.order.triangle_order());
         let places = places.filter(|&(place, _)| !self.is_gone(place));
-        let numbers: Vec<u32> = places.map(|(_, &number)| number).collect();
-        let mesh = MeshThen {
-            triangles: self.topology.triangles().to_vec(),
-            vertices: self.vertex_count(),
-            number: self.meshes,
-        };
+        let mut numbers = Vec::with_capacity(self.topology.live_count());
+        numbers.extend(places.map(|(_, &number)| number));
+        let triangles = self.topology.triangles();
+        let mesh = MeshThen::new(self.vertex_count());
         let (degree, leaf_size) = (options.degree.get(), options.leaf_size.get());
         let by_shape = |cut| -> Rule {
-            let corners = numbers.iter().map(|&it| mesh.triangles[it as usize]);
+            let corners = numbers.iter().map(|&it| triangles[it as usize]);
             let positions = self.stored_positions().into_owned();
             let (corners, positions) = (Cow::Owned(corners.collect()), Cow::Owned(positions));
             Box::new(InitialShape::new(corners, positions, cut, degree))
@@ -101,15 +112,8 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         options: &Options,
     ) {
         // Numbers of triangles and of vertices do not become fewer while a tree is built.
-        order.add_vertices(mesh.vertices as u32..self.vertex_count() as u32);
-        let mut changed: Vec<Changed> = Vec::new();
-        if mesh.number != self.meshes {
-            let then = mesh.triangles.iter().copied();
-            let then = then.chain(std::iter::repeat(EMPTY));
-            let now = self.topology.triangles().iter().copied();
-            let both = (0..).zip(then.zip(now).map(|(then, now)| [then, now]));
-            changed.extend(both.filter(|(_, [then, now])| then != now));
-        }
+        order.add_vertices(mesh.vertices() as u32..self.vertex_count() as u32);
+        let changed = mesh.changed(self.topology.triangles());
         self.exchange_tree(order, tree, &changed);
         self.leave_orphans(&changed);
         let coming = changed.iter().filter(|(_, [_, now])| *now != EMPTY);

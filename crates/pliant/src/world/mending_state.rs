@@ -1,29 +1,55 @@
 //! A tree that is being built beside the one that a body has: how far it has come.
 //!
-//! It is built of a copy of the mesh, so nothing that happens to the body meanwhile disturbs it.
+//! It is of the mesh at its beginning. What is edited meanwhile is noted with the corners that it had.
 
 use crate::held::{self, Held};
 use crate::ids::TreeVertex;
-use crate::mesh::{Order, OrderBuilder};
+use crate::mesh::{Changed, Order, OrderBuilder};
 use crate::threads::Budget;
 use crate::tree::build::{Balanced, Plan, Planner, Split};
 use crate::tree::{NeighboursBuilder, Tree, TreeBuilder};
+use std::collections::BTreeMap;
 
 /// How its triangles are divided.
 pub(super) type Rule = Box<dyn Split + Send + Sync>;
 
-/// The mesh that a tree is built of.
+/// The mesh that a tree is built of: that of the body, but for what was edited since.
 pub(super) struct MeshThen {
-    /// Triangles as the caller numbers them.
-    pub(super) triangles: Vec<[u32; 3]>,
-    pub(super) vertices: usize,
-    /// Its number among the meshes of the body.
-    pub(super) number: u64,
+    vertices: usize,
+    /// The corners then of all triangles that were edited since, as the caller numbers them; no corners of those that are new.
+    edited: BTreeMap<u32, [u32; 3]>,
+}
+
+impl MeshThen {
+    /// That of now, of so many vertices.
+    pub(super) fn new(vertices: usize) -> Self {
+        Self {
+            vertices,
+            edited: BTreeMap::new(),
+        }
+    }
+
+    pub(super) fn vertices(&self) -> usize {
+        self.vertices
+    }
+
+    /// The corners of a triangle then, where all have these now.
+    fn corners(&self, triangle: u32, now: &[[u32; 3]]) -> [u32; 3] {
+        let edited = self.edited.get(&triangle).copied();
+        edited.unwrap_or_else(|| now[triangle as usize])
+    }
+
+    /// What is another triangle now, by number.
+    pub(super) fn changed(&self, now: &[[u32; 3]]) -> Vec<Changed> {
+        let edited = self.edited.iter();
+        let both = edited.map(|(&triangle, &then)| (triangle, [then, now[triangle as usize]]));
+        both.filter(|(_, [then, now])| then != now).collect()
+    }
 }
 
 /// A tree that is being built.
 pub(super) struct Mending<const N: usize> {
-    pub(super) mesh: MeshThen,
+    mesh: MeshThen,
     stage: Stage<N>,
 }
 
@@ -46,7 +72,7 @@ enum Stage<const N: usize> {
 }
 
 /// Looks at a triangle that its midpoint takes, and triangles between two looks at the budget.
-const LOOKS: usize = 2;
+const LOOKS: usize = 4;
 const AT_ONCE: usize = 256;
 /// Looks at a triangle where all of them are gone through once more.
 const ONCE_MORE: usize = 1;
@@ -69,16 +95,25 @@ impl<const N: usize> Mending<N> {
         Self { mesh, stage }
     }
 
-    /// Goes on. Whether which triangles share a vertex is to be found, too, is asked when it comes to that.
+    /// Triangles of the body are edited.
+    pub(super) fn note(&mut self, changed: &[Changed]) {
+        for &(triangle, [then, _]) in changed {
+            self.mesh.edited.entry(triangle).or_insert(then);
+        }
+    }
+
+    /// Goes on, with the corners that all triangles have now. Whether which triangles share a vertex is to be found, too, is asked when it
+    /// comes to that.
     pub(super) fn advance(
         mut self,
+        now: &[[u32; 3]],
         midpoint_of: MidpointOf,
         knows_neighbours: bool,
         budget: &mut Budget,
     ) -> Self {
         while !budget.is_spent() && !self.is_done() {
             let stage = self.stage;
-            self.stage = stage.advance(&self.mesh, midpoint_of, knows_neighbours, budget);
+            self.stage = stage.advance(&self.mesh, now, midpoint_of, knows_neighbours, budget);
         }
         self
     }
@@ -101,6 +136,7 @@ impl<const N: usize> Stage<N> {
     fn advance(
         self,
         mesh: &MeshThen,
+        now: &[[u32; 3]],
         midpoint_of: MidpointOf,
         knows_neighbours: bool,
         budget: &mut Budget,
@@ -114,7 +150,7 @@ impl<const N: usize> Stage<N> {
                     let first = midpoints.len();
                     let some = numbers[first..].iter().take(AT_ONCE);
                     budget.spend(LOOKS * some.len());
-                    let corners = some.map(|&triangle| mesh.triangles[triangle as usize]);
+                    let corners = some.map(|&triangle| mesh.corners(triangle, now));
                     midpoints.extend((first..).zip(corners).map(|(it, of)| midpoint_of(it, of)));
                 }
                 let rule = Balanced::of_midpoints(midpoints, degree, leaf_size);
@@ -132,7 +168,8 @@ impl<const N: usize> Stage<N> {
                 Self::Ordering(plan, OrderBuilder::new(mesh.vertices, triangles))
             }
             Self::Ordering(plan, mut order) => {
-                if !order.advance(&mesh.triangles, budget) {
+                let corners = |triangle| mesh.corners(triangle, now);
+                if !order.advance(corners, budget) {
                     return Self::Ordering(plan, order);
                 }
                 let order = order.finish();
@@ -164,6 +201,12 @@ impl<const N: usize> Stage<N> {
     }
 }
 
+impl Held for MeshThen {
+    fn held(&self) -> usize {
+        self.edited.len() * size_of::<(u32, [u32; 3])>()
+    }
+}
+
 impl<const N: usize> Held for Mending<N> {
     fn held(&self) -> usize {
         let of_stage = match &self.stage {
@@ -176,6 +219,6 @@ impl<const N: usize> Held for Mending<N> {
             }
             Stage::Done(order, tree) => order.held() + tree.held(),
         };
-        held::list(&self.mesh.triangles) + of_stage
+        self.mesh.held() + of_stage
     }
 }

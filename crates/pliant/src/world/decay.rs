@@ -155,10 +155,10 @@ mod tests {
         assert_eq!(decay.quality(), 1.0);
         decay.note(Work::of_one(14_400, 1_000, 10_000), 2, true);
         assert!(is(decay.quality(), 2.0));
-        let (spared, last) = decay.spared();
-        assert!(is(spared, 7_200.0) && last == 15_400);
+        let [spared, of_last, last] = decay.spared();
+        assert!(is(spared, 7_200.0) && is(of_last, 7_200.0) && is(last, 15_400.0));
         decay.begin_anew();
-        assert_eq!(decay.spared(), (0.0, 0));
+        assert_eq!(decay.spared(), [0.0; 3]);
         // More triangles and candidates are no decay, nor is another body.
         decay.note(Work::of_one(14_400, 2_000, 20_000), 3, false);
         assert!(is(decay.quality(), 1.0));

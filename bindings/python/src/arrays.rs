@@ -203,6 +203,22 @@ pub(crate) fn point(given: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
     given.extract()
 }
 
+/// An array of rows that a query has listed. numpy makes it, because it asks for large pages where there is much to write.
+pub(crate) fn copy_of_rows<const K: usize>(
+    py: Python<'_>,
+    rows: impl ExactSizeIterator<Item = [u32; K]>,
+) -> PyResult<Bound<'_, PyArray2<u32>>> {
+    let array = PyArray2::zeros(py, [rows.len(), K], false);
+    {
+        let mut writable = array.try_readwrite()?;
+        let (places, _) = writable.as_slice_mut()?.as_chunks_mut();
+        for (place, row) in places.iter_mut().zip(rows) {
+            *place = row;
+        }
+    }
+    Ok(array)
+}
+
 /// Rows, pairs or positions, as a new (k, K) array, which takes the vector over.
 pub(crate) fn rows_of<T: Element, const K: usize>(
     py: Python<'_>,

@@ -117,6 +117,22 @@ impl<R> Want<R, Vec<R>> for All {
     }
 }
 
+/// All, as an array of rows.
+struct AllRows(usize);
+
+impl Want<Row, PyResult<Py<PyArray2<u32>>>> for AllRows {
+    fn of<H: Copy + Into<Row>>(
+        self,
+        query: pliant::Query<'_, H>,
+    ) -> Result<PyResult<Py<PyArray2<u32>>>, Error> {
+        let hits = query.at_most(self.0).all()?;
+        let rows = hits.iter().map(|&hit| hit.into());
+        Ok(Python::attach(|py| {
+            arrays::copy_of_rows(py, rows).map(Bound::unbind)
+        }))
+    }
+}
+
 pub(crate) struct First;
 
 impl<R> Want<R, Option<R>> for First {
@@ -224,8 +240,8 @@ impl Query {
         py: Python<'py>,
         at_most: Option<usize>,
     ) -> Result<Bound<'py, PyArray2<u32>>, Refused> {
-        let rows = self.ask(py, All(at_most.unwrap_or(usize::MAX)))?;
-        Ok(arrays::rows_of::<_, 4>(py, rows)?)
+        let rows = self.ask(py, AllRows(at_most.unwrap_or(usize::MAX)))??;
+        Ok(rows.into_bound(py))
     }
 
     /// Some hit, a Pair, VertexTriangle or EdgeEdge, or None if there is none: much cheaper than all where there are many. Which one may

@@ -1,201 +1,245 @@
 //! Hits in the order of their numbers, by counting digits.
 //!
-//! Triangle numbers are dense, so pairs of triangles differ in few bits: the numbers, less the smallest of each, side by side
-//! make one key, and two or three passes over digits put thousands of pairs in order without a comparison, for a tenth of the work of a
-//! comparison sort. The keys of few items are compared.
+//! Bodies and what is numbered in them are few bits each, so the four numbers of a hit side by side make one key. Hits become keys as they
+//! are found, with as many bits as the largest numbers so far need; two to four passes over digits put thousands of them in order without a
+//! comparison, for a tenth of the work of a comparison sort; and the keys become hits again. Few keys are compared, and hits of which more
+//! than 64 bits are needed.
 //!
-//! Very many items are put into buckets by their first digit, by one thread, and each bucket is then sorted in cache. Several threads sort a
-//! run each; so does one thread, several runs, where most items are in one bucket, because it can be interrupted between runs. Then some
-//! keys of every run, evenly spaced, say where to cut all runs, so that what lies between two cuts is about as much for each thread to
-//! merge (Shi and Schaeffer 1992, parallel sorting by regular sampling). Items of equal keys are equal: the result does not depend on
-//! the number of threads.
+//! Very many keys are put into buckets by their first digit, those of a large bucket again, and each bucket is then sorted in cache. Several
+//! threads sort a run each. Then some keys of every run, evenly spaced, say where to cut all runs, so that what lies between two cuts is
+//! about as much for each thread to merge (Shi and Schaeffer 1992, parallel sorting by regular sampling). Hits of equal keys are equal: the
+//! result does not depend on the number of threads.
 
 use crate::held::{self, Held};
 use crate::hits::Hit;
 use crate::threads::Executor;
 
 /// Below this, counting costs more than comparing.
-const FEW: usize = 192;
+const FEW: usize = 128;
 /// Digits of at most so many bits: counts of all its values stay in the nearest cache.
 const DIGIT: u32 = 11;
-/// The same where there are [`MANY`] items: a pass less is worth counts that are further away.
+/// The same of fewer keys than [`SOME`]: going through the counts costs less than another pass.
+const SHORT_DIGIT: u32 = 8;
+const SOME: usize = 1 << 10;
+/// The same where there are [`MANY`] keys: a pass less is worth counts that are further away.
 const LONG_DIGIT: u32 = 16;
 const MANY: usize = 1 << 15;
-/// Items of a run, at least; fewer than two runs are not worth waking a thread.
+/// Keys in a bucket, about.
+const BUCKET: usize = 1 << 12;
+/// More keys than these are put into buckets, or are several runs: some milliseconds of work.
+const LARGEST: usize = 1 << 19;
+/// Keys of a run, at least; fewer than two runs are not worth waking a thread.
 const SHORTEST_RUN: usize = 1024;
-/// Items of a run, at most: some milliseconds of work.
-const LONGEST_RUN: usize = 1 << 17;
-/// So many items are put into buckets before it is asked whether somebody wants to stop.
+/// So many keys are looked at before it is asked whether somebody wants to stop.
 const UNINTERRUPTED: usize = 1 << 16;
 
-/// Scratch.
-#[derive(Debug, Default)]
-pub(crate) struct Sorter {
+/// Hits, and scratch.
+#[derive(Debug)]
+pub(crate) struct Sorter<T> {
+    /// What is found, sorted at the end; before that only hits that do not fit keys.
+    hits: Vec<T>,
+    packing: Packing,
     keys: Vec<u64>,
     spare: Vec<u64>,
-    /// Where items with a digit go, for every run that is sorted at one time.
+    /// Where keys with a digit go, for every run that is sorted at one time.
     places: Vec<u32>,
 }
 
-/// Sorts hits that have one first number, by the others. Interrupted, it leaves them in any state.
-pub(crate) fn sort<T: Hit>(executor: Executor, items: &mut [T], scratch: &mut Sorter) {
-    let Sorter {
-        keys,
-        spare,
-        places,
-    } = scratch;
-    if items.len() < 2 {
-        return;
-    }
-    let packing = Packing::of(items);
-    if packing.bits() > u64::BITS || items.len() > u32::MAX as usize {
-        items.sort_unstable_by_key(T::numbers);
-        return;
-    }
-    // With millions of items each of these takes milliseconds.
-    for scratch in [&mut *keys, &mut *spare] {
-        if executor.is_interrupted() {
-            return;
+impl<T> Default for Sorter<T> {
+    fn default() -> Self {
+        Self {
+            hits: Vec::new(),
+            packing: Packing::default(),
+            keys: Vec::new(),
+            spare: Vec::new(),
+            places: Vec::new(),
         }
-        scratch.resize(items.len(), 0);
     }
-    let sort_run = |run: &mut Run<T>| {
-        let keys = run.items.iter().map(|item| packing.key(item.numbers()));
-        sort_keys(keys, run.keys, run.spare, run.places, packing.bits());
-    };
-    let unpack = |keys: &[u64], items: &mut [T]| {
-        for (place, &key) in items.iter_mut().zip(keys) {
-            *place = T::of_numbers(packing.numbers(key));
-        }
-    };
+}
 
-    let most = executor.count().min(items.len() / SHORTEST_RUN);
-    let runs = most.max(items.len().div_ceil(LONGEST_RUN));
-    // Runs that are sorted one after the other are many, and their places few.
-    let digit = if runs <= executor.count() {
-        digit_of(items.len() / runs.max(1))
-    } else {
-        DIGIT
-    };
-    if !executor.are_many() && items.len() > LONGEST_RUN {
-        places.resize(places.len().max(1 << LONG_DIGIT), 0);
-        if sort_by_buckets(executor, items, packing, [keys, spare], places) {
-            return;
+impl<T: Hit> Sorter<T> {
+    /// Forgets all hits.
+    pub(crate) fn begin(&mut self) {
+        self.packing = Packing::default();
+        self.hits.clear();
+        self.keys.clear();
+    }
+
+    /// Takes hits.
+    pub(crate) fn push(&mut self, hits: &[T]) {
+        let packing = self.packing.with(hits);
+        if packing != self.packing {
+            self.pack_anew(packing);
+        }
+        if packing.fits() {
+            let keys = hits.iter().map(|hit| packing.key(hit.numbers()));
+            self.keys.extend(keys);
+        } else {
+            self.hits.extend_from_slice(hits);
         }
     }
-    places.resize(places.len().max(runs.max(1) << digit), 0);
-    if runs < 2 {
-        sort_run(&mut Run {
-            items,
+
+    /// Keys of more bits; or hits, if these are too many.
+    fn pack_anew(&mut self, packing: Packing) {
+        let old = std::mem::replace(&mut self.packing, packing);
+        if packing.fits() {
+            for key in &mut self.keys {
+                *key = packing.key(old.numbers(*key));
+            }
+        } else {
+            let hits = self.keys.drain(..);
+            self.hits
+                .extend(hits.map(|key| T::of_numbers(old.numbers(key))));
+        }
+    }
+
+    /// Sorts all hits. Interrupted, it leaves them in any state.
+    pub(crate) fn sort(&mut self, executor: Executor) {
+        let Self {
+            hits,
+            packing,
             keys,
             spare,
             places,
+        } = self;
+        let packing = *packing;
+        if !packing.fits() {
+            hits.sort_unstable_by_key(T::numbers);
+            return;
+        }
+        let first = keys.first().copied().unwrap_or(0);
+        let differing = keys.iter().fold(0, |all, key| all | (key ^ first));
+        let mut bits = u64::BITS - differing.leading_zeros();
+        if u32::try_from(keys.len()).is_err() {
+            // Places are not counted so far.
+            keys.sort_unstable();
+            bits = 0;
+        }
+        // With millions of keys each of these takes milliseconds.
+        if executor.is_interrupted() {
+            return;
+        }
+        spare.resize(keys.len(), 0);
+        if executor.is_interrupted() {
+            return;
+        }
+        hits.reserve(keys.len());
+        let threads = executor.count().min(keys.len() / SHORTEST_RUN);
+        if threads < 2 {
+            let mut buckets = Buckets {
+                executor,
+                places,
+                take: |sorted: &[u64]| {
+                    let sorted = sorted.iter();
+                    hits.extend(sorted.map(|&key| T::of_numbers(packing.numbers(key))));
+                },
+            };
+            buckets.sort(keys, spare, bits);
+            return;
+        }
+        let runs = threads.max(keys.len().div_ceil(LARGEST));
+        let size = keys.len().div_ceil(runs);
+        // Runs that are sorted one after the other are many, and their places few.
+        let digit = digit_of(size).min(if runs > threads { DIGIT } else { LONG_DIGIT });
+        places.resize(places.len().max(runs << digit), 0);
+        let scratch = spare.chunks_mut(size).zip(places.chunks_mut(1 << digit));
+        let mut sorts: Vec<_> = keys.chunks_mut(size).zip(scratch).collect();
+        executor.run(&mut sorts, |_, (keys, (spare, places))| {
+            sort_in_place(executor, keys, spare, places, bits);
         });
-        unpack(keys, items);
-        return;
+        hits.resize(keys.len(), T::of_numbers([0; 4]));
+        let mut merges = cut(keys.chunks(size).collect(), spare, hits);
+        executor.run(&mut merges, |_, merge| {
+            merge.put_in_order();
+            for (hit, &key) in merge.hits.iter_mut().zip(&*merge.keys) {
+                *hit = T::of_numbers(packing.numbers(key));
+            }
+        });
     }
-    let size = items.len().div_ceil(runs);
-    let each = items.chunks(size);
-    let scratch = keys.chunks_mut(size).zip(spare.chunks_mut(size));
-    let mut sorts: Vec<_> = each
-        .zip(scratch)
-        .zip(places.chunks_mut(1 << digit))
-        .map(|((items, (keys, spare)), places)| Run {
-            items,
-            keys,
-            spare,
-            places,
-        })
-        .collect();
-    executor.run(&mut sorts, |_, run| sort_run(run));
-    let mut merges = cut(keys.chunks(size).collect(), spare, items);
-    executor.run(&mut merges, |_, merge| {
-        merge.put_in_order();
-        unpack(merge.keys, merge.items);
-    });
 }
 
-/// Sorts items by buckets: those of equal first digits. Returns false, and has done nothing, if a bucket is too large to be sorted without
-/// being interrupted.
-fn sort_by_buckets<T: Hit>(
-    executor: Executor,
-    items: &mut [T],
-    packing: Packing,
-    [keys, spare]: [&mut [u64]; 2],
-    places: &mut [u32],
-) -> bool {
-    let bits = packing.bits();
-    let width = bits.min(DIGIT);
-    let rest = bits - width;
-    let bucket = |key: u64| (key.checked_shr(rest).unwrap_or(0)) as usize;
-    let mut ends = [0_u32; 1 << DIGIT];
-    let ends = &mut ends[..1 << width];
-    for (items, keys) in items
-        .chunks(UNINTERRUPTED)
-        .zip(keys.chunks_mut(UNINTERRUPTED))
-    {
-        for (item, place) in items.iter().zip(keys) {
-            let key = packing.key(item.numbers());
-            *place = key;
-            ends[bucket(key)] += 1;
-        }
-        if executor.is_interrupted() {
-            return true;
-        }
+impl<T> Sorter<T> {
+    /// What was found, in order once it is sorted.
+    pub(crate) fn hits(&self) -> &[T] {
+        &self.hits
     }
-    if ends.iter().any(|&count| count as usize > LONGEST_RUN) {
-        return false;
-    }
-    let mut before = 0;
-    for end in &mut *ends {
-        before += std::mem::replace(end, before);
-    }
-    for keys in keys.chunks(UNINTERRUPTED) {
-        for &key in keys {
-            let place = &mut ends[bucket(key)];
-            spare[*place as usize] = key;
-            *place += 1;
-        }
-        if executor.is_interrupted() {
-            return true;
-        }
-    }
-    let mut start = 0;
-    for &mut end in ends {
-        let of_bucket = start..end as usize;
-        start = of_bucket.end;
-        let (from, to) = (&mut spare[of_bucket.clone()], &mut keys[of_bucket.clone()]);
-        let sorted = sort_digits(from, to, places, rest);
-        for (place, &key) in items[of_bucket].iter_mut().zip(&*sorted) {
-            *place = T::of_numbers(packing.numbers(key));
-        }
-        if executor.is_interrupted() {
-            return true;
-        }
-    }
-    true
 }
 
-/// Items that one thread sorts: their keys will be in order.
-struct Run<'k, T> {
-    items: &'k [T],
-    keys: &'k mut [u64],
-    spare: &'k mut [u64],
-    places: &'k mut [u32],
+/// Shows keys to a function in order, some at a time.
+struct Buckets<'q, F> {
+    executor: Executor<'q>,
+    places: &'q mut Vec<u32>,
+    take: F,
 }
 
-/// The same range of keys of all runs, where they will be in order, and the items that they will be.
+impl<F: FnMut(&[u64])> Buckets<'_, F> {
+    /// Of keys that differ in so many low bits; `spare` is as long. Interrupted, it shows some.
+    fn sort(&mut self, keys: &mut [u64], spare: &mut [u64], bits: u32) {
+        if self.executor.is_interrupted() {
+            return;
+        }
+        let count = keys.len();
+        if count <= LARGEST || bits == 0 {
+            let digit = digit_of(count);
+            self.places.resize(self.places.len().max(1 << digit), 0);
+            let sorted = sort_digits(self.executor, keys, spare, self.places, bits);
+            // Memory that is written for the first time takes longer than sorting.
+            for sorted in sorted.chunks(UNINTERRUPTED) {
+                if self.executor.is_interrupted() {
+                    return;
+                }
+                (self.take)(sorted);
+            }
+            return;
+        }
+        let width = (count / BUCKET).ilog2().min(DIGIT).min(bits);
+        let rest = bits - width;
+        let mask = (1 << width) - 1;
+        let bucket = |key: u64| (key >> rest) as usize & mask;
+        let mut ends = [0; 1 << DIGIT];
+        let ends = &mut ends[..1 << width];
+        for keys in keys.chunks(UNINTERRUPTED) {
+            for &key in keys {
+                ends[bucket(key)] += 1;
+            }
+            if self.executor.is_interrupted() {
+                return;
+            }
+        }
+        to_starts(ends);
+        for keys in keys.chunks(UNINTERRUPTED) {
+            for &key in keys {
+                let place = &mut ends[bucket(key)];
+                spare[*place as usize] = key;
+                *place += 1;
+            }
+            if self.executor.is_interrupted() {
+                return;
+            }
+        }
+        let mut start = 0;
+        for &mut end in ends {
+            let of_bucket = start..end as usize;
+            start = of_bucket.end;
+            if !of_bucket.is_empty() {
+                self.sort(&mut spare[of_bucket.clone()], &mut keys[of_bucket], rest);
+            }
+        }
+    }
+}
+
+/// The same range of keys of all runs, where they will be in order, and the hits that they will be.
 struct Merge<'k, T> {
     of_runs: Vec<&'k [u64]>,
     keys: &'k mut [u64],
-    items: &'k mut [T],
+    hits: &'k mut [T],
 }
 
 /// Cuts runs of keys that are in order into as many ranges.
 fn cut<'k, T>(
     mut runs: Vec<&'k [u64]>,
     mut keys: &'k mut [u64],
-    mut items: &'k mut [T],
+    mut hits: &'k mut [T],
 ) -> Vec<Merge<'k, T>> {
     let count = runs.len();
     let keys_at = |part: usize| runs.iter().map(move |run| run[run.len() * part / count]);
@@ -212,7 +256,7 @@ fn cut<'k, T>(
         Merge {
             of_runs,
             keys: keys.split_off_mut(..len).unwrap_or_default(),
-            items: items.split_off_mut(..len).unwrap_or_default(),
+            hits: hits.split_off_mut(..len).unwrap_or_default(),
         }
     };
     (0..count).map(merge).collect()
@@ -235,85 +279,78 @@ impl<T> Merge<'_, T> {
     }
 }
 
-/// How three numbers make one key, behind a first that all have in common.
-#[derive(Clone, Copy)]
+/// How the four numbers of a hit make one key: of so many bits for a body, and for what is numbered in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Packing {
-    first: u32,
-    least: [u32; 3],
-    widths: [u32; 3],
+    body: u32,
+    number: u32,
 }
 
 impl Packing {
-    /// For all of these.
-    fn of<T: Hit>(all: &[T]) -> Self {
-        let (mut least, mut most) = ([u32::MAX; 3], [0; 3]);
-        let mut first = 0;
-        for numbers in all.iter().map(T::numbers) {
-            first = numbers[0];
-            for k in 0..3 {
-                least[k] = least[k].min(numbers[k + 1]);
-                most[k] = most[k].max(numbers[k + 1]);
-            }
-        }
-        let mut widths = [0; 3];
-        for k in 0..3 {
-            widths[k] = u32::BITS - (most[k] - least[k]).leading_zeros();
-        }
+    /// That of these hits, too.
+    fn with<T: Hit>(self, hits: &[T]) -> Self {
+        let all = hits.iter().map(T::numbers);
+        let (bodies, numbers) = all.fold((0, 0), |(bodies, numbers), [a, x, b, y]| {
+            (bodies | a | b, numbers | x | y)
+        });
         Self {
-            first,
-            least,
-            widths,
+            body: self.body.max(u32::BITS - bodies.leading_zeros()),
+            number: self.number.max(u32::BITS - numbers.leading_zeros()),
         }
     }
 
-    fn bits(&self) -> u32 {
-        self.widths.iter().sum()
+    fn fits(self) -> bool {
+        2 * (self.body + self.number) <= u64::BITS
     }
 
-    fn key(&self, numbers: [u32; 4]) -> u64 {
-        (0..3).fold(0, |key: u64, k| {
-            key << self.widths[k] | u64::from(numbers[k + 1] - self.least[k])
-        })
+    /// Where the first three numbers begin; where there are no bits for bodies, the first may begin behind the last bit.
+    fn shifts(self) -> [u32; 3] {
+        let Self { body, number } = self;
+        [body + 2 * number, body + number, number]
     }
 
-    fn numbers(&self, key: u64) -> [u32; 4] {
-        let [mut a, mut b, mut c] = self.least;
-        let mut rest = key;
-        for (number, width) in [&mut c, &mut b, &mut a]
-            .into_iter()
-            .zip(self.widths.iter().rev())
-        {
-            *number += (rest & ((1 << width) - 1)) as u32;
-            rest >>= width;
-        }
-        [self.first, a, b, c]
+    #[inline(always)]
+    fn key(self, numbers: [u32; 4]) -> u64 {
+        let shifts = self.shifts();
+        let [a, x, b, y] = numbers.map(u64::from);
+        a.wrapping_shl(shifts[0]) | x << shifts[1] | b << shifts[2] | y
+    }
+
+    #[inline(always)]
+    fn numbers(self, key: u64) -> [u32; 4] {
+        let shifts = self.shifts();
+        let [body, number] = [self.body, self.number].map(|bits| (1_u64 << bits) - 1);
+        [
+            (key.wrapping_shr(shifts[0]) & body) as u32,
+            (key >> shifts[1] & number) as u32,
+            (key >> shifts[2] & body) as u32,
+            (key & number) as u32,
+        ]
     }
 }
 
-/// Puts keys of some bits into `sorted`, in order; the slices are as long as there are keys, and a digit has at most as many values as
-/// there are places.
-fn sort_keys(
-    keys: impl Iterator<Item = u64>,
-    sorted: &mut [u64],
+/// Puts keys that differ in some low bits in order; `spare` is as long, and a digit has at most as many values as there are places.
+fn sort_in_place(
+    executor: Executor,
+    keys: &mut [u64],
     spare: &mut [u64],
     places: &mut [u32],
     bits: u32,
 ) {
-    // Every pass goes from one to the other, the last to `sorted`.
-    let (from, to) = if passes(sorted.len(), places.len(), bits).is_multiple_of(2) {
-        (sorted, spare)
-    } else {
-        (spare, sorted)
-    };
-    for (place, key) in from.iter_mut().zip(keys) {
-        *place = key;
+    let passes = passes(keys.len(), places.len(), bits);
+    sort_digits(executor, keys, spare, places, bits);
+    if !passes.is_multiple_of(2) {
+        keys.copy_from_slice(spare);
     }
-    sort_digits(from, to, places, bits);
 }
 
 /// The bits of a digit at most, where so many are sorted.
 fn digit_of(count: usize) -> u32 {
-    if count < MANY { DIGIT } else { LONG_DIGIT }
+    match count {
+        ..SOME => SHORT_DIGIT,
+        SOME..MANY => DIGIT,
+        _ => LONG_DIGIT,
+    }
 }
 
 /// How many passes so many keys need, if there are so many places; none where they are compared.
@@ -325,8 +362,9 @@ fn passes(count: usize, places: usize, bits: u32) -> u32 {
     }
 }
 
-/// Puts keys in the order of some low bits, the others being equal; returns where they are then.
+/// Puts keys in the order of some low bits, the others being equal; returns where they are then. Interrupted, they are in any order.
 fn sort_digits<'k>(
+    executor: Executor,
     mut from: &'k mut [u64],
     mut to: &'k mut [u64],
     places: &mut [u32],
@@ -337,6 +375,9 @@ fn sort_digits<'k>(
         from.sort_unstable();
     }
     for pass in 0..passes {
+        if executor.is_interrupted() {
+            break;
+        }
         // Equal digits, or nearly, rather than full ones and a rest.
         let (low, high) = (bits * pass / passes, bits * (pass + 1) / passes);
         distribute(from, to, &mut places[..1 << (high - low)], low);
@@ -353,10 +394,7 @@ fn distribute(from: &[u64], to: &mut [u64], places: &mut [u32], low: u32) {
     for &key in from {
         places[digit(key)] += 1;
     }
-    let mut before = 0;
-    for place in &mut *places {
-        before += std::mem::replace(place, before);
-    }
+    to_starts(places);
     for &key in from {
         let place = &mut places[digit(key)];
         to[*place as usize] = key;
@@ -364,9 +402,18 @@ fn distribute(from: &[u64], to: &mut [u64], places: &mut [u32], low: u32) {
     }
 }
 
-impl Held for Sorter {
+/// Counts become the numbers of what is before.
+fn to_starts(counts: &mut [u32]) {
+    let mut before = 0;
+    for count in counts {
+        before += std::mem::replace(count, before);
+    }
+}
+
+impl<T> Held for Sorter<T> {
     fn held(&self) -> usize {
-        held::list(&self.keys) + held::list(&self.spare) + held::list(&self.places)
+        let of_keys = held::list(&self.keys) + held::list(&self.spare) + held::list(&self.places);
+        held::list(&self.hits) + of_keys
     }
 }
 
@@ -386,7 +433,7 @@ mod tests {
                 .wrapping_add(1_442_695_040_888_963_407);
             ((state >> 32) as u32).checked_shr(32 - bits).unwrap_or(0)
         };
-        let mut sorter = Sorter::default();
+        let mut sorter = Sorter::<Pair>::default();
         for (count, first_bits, second_bits) in [
             (0, 9, 9),
             (1, 9, 9),
@@ -400,11 +447,11 @@ mod tests {
             (4000, 32, 32),
             (4000, 1, 32),
             (70_000, 16, 17),
-            (LONGEST_RUN + 9, 16, 17),
-            (3 * LONGEST_RUN, 0, 0),
-            (3 * LONGEST_RUN, 1, 9),
-            (4 * LONGEST_RUN, 19, 18),
-            (2 * LONGEST_RUN, 32, 31),
+            (LARGEST + 9, 16, 17),
+            (3 * LARGEST, 0, 0),
+            (3 * LARGEST, 1, 9),
+            (4 * LARGEST, 19, 18),
+            (2 * LARGEST, 32, 31),
         ] {
             let items: Vec<Pair> = (0..count)
                 .map(|_| [5, next(first_bits), 7, next(second_bits)])
@@ -419,10 +466,13 @@ mod tests {
                     threads: pool,
                     interrupt,
                 };
-                let mut items = items.clone();
-                sort(executor, &mut items, &mut sorter);
+                sorter.begin();
+                for some in items.chunks(1000) {
+                    sorter.push(some);
+                }
+                sorter.sort(executor);
                 assert!(
-                    items == expected,
+                    sorter.hits() == expected,
                     "{count} {first_bits} {second_bits} {threads}"
                 );
             }

@@ -12,7 +12,7 @@ use crate::hits::Hit;
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
 use crate::queries::Kind;
-use crate::sort::{Sorter, sort};
+use crate::sort::Sorter;
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Threads};
 use crate::traversal::{Scratch, Sink, Wanted};
@@ -38,8 +38,9 @@ pub(super) struct Common<const N: usize, S> {
 pub(super) struct Asked<K: Kind> {
     pub(super) scratch: Scratch<K>,
     scheduler: Scheduler<K>,
-    hits: Vec<K::Hit>,
-    sorter: Sorter,
+    sorter: Sorter<K::Hit>,
+    /// Hits that are more than their numbers.
+    listed: Vec<K::Hit>,
 }
 
 impl<K: Kind> Default for Asked<K> {
@@ -47,8 +48,8 @@ impl<K: Kind> Default for Asked<K> {
         Self {
             scratch: Scratch::default(),
             scheduler: Scheduler::default(),
-            hits: Vec::new(),
             sorter: Sorter::default(),
+            listed: Vec::new(),
         }
     }
 }
@@ -64,41 +65,21 @@ where
         common: &mut Common<N, K::Scalar>,
         request: &Request,
     ) -> Result<&[K::Hit], Error> {
-        let mut hits = std::mem::take(&mut self.hits);
-        hits.clear();
-        let sorted = self.sorted(kind, common, request, &mut hits);
-        // Kept after an error too: what was reserved once need not be reserved again.
-        self.hits = hits;
-        sorted.map(|()| &self.hits[..])
-    }
-
-    /// All hits, sorted, into an empty list.
-    fn sorted<const N: usize>(
-        &mut self,
-        kind: &K,
-        common: &mut Common<N, K::Scalar>,
-        request: &Request,
-        hits: &mut Vec<K::Hit>,
-    ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
-        let is_all = self.collect(kind, common, request, &interrupt, hits)?;
-        if !is_all {
-            let limit = request.most;
-            return Err(ErrorKind::TooManyHits { limit }.of_query());
-        }
+        let mut sorter = std::mem::take(&mut self.sorter);
+        sorter.begin();
+        let keep = &mut |found: &[K::Hit]| sorter.push(found);
+        let collected = self.collect(kind, common, request, &interrupt, keep);
+        // Kept after an error too: what was reserved once need not be reserved again.
+        self.sorter = sorter;
+        collected?;
         let executor = Executor {
             threads: common.threads.here(),
             interrupt: &interrupt,
         };
-        // First bodies come in order, those of pairs within a body before those of others.
-        let first = |hit: &K::Hit| hit.numbers()[0];
-        if !hits.is_sorted_by_key(first) {
-            hits.sort_unstable_by_key(first);
-        }
-        for of_one_body in hits.chunk_by_mut(|a, b| a.numbers()[0] == b.numbers()[0]) {
-            sort(executor, of_one_body, &mut self.sorter);
-        }
-        common.end(&interrupt)
+        self.sorter.sort(executor);
+        common.end(&interrupt)?;
+        Ok(self.sorter.hits())
     }
 }
 
@@ -106,18 +87,18 @@ impl<K: Kind> Asked<K>
 where
     K::Scalar: Coordinate,
 {
-    /// All hits, those of two bodies after the other. Returns false if there are more than the request allows.
+    /// Shows all hits, some at a time, those of two bodies after the other. It is an error if there are more than the request allows.
     pub(super) fn collect<const N: usize>(
         &mut self,
         kind: &K,
         common: &mut Common<N, K::Scalar>,
         request: &Request,
         interrupt: &Interrupt,
-        hits: &mut Vec<K::Hit>,
-    ) -> Result<bool, Error> {
+        keep: &mut dyn FnMut(&[K::Hit]),
+    ) -> Result<(), Error> {
         common.begin(request)?;
         self.scratch.begin(Wanted::All);
-        let most = request.most;
+        let mut room = request.most;
         let (mut step, bodies, body_pairs) =
             Self::step(&mut self.scratch, kind, common, request, interrupt, false)?;
         let instructions = step.refit.instructions;
@@ -126,19 +107,21 @@ where
         // threads take the others.
         while is_all && let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
             if is_worth_it(step.refit.executor, bodies, pairs) {
-                let most = most - hits.len();
-                is_all = self.scheduler.meet(&mut step, bodies, pairs, most);
-                let found = self.scheduler.found();
-                found.for_each(|found| hits.extend_from_slice(found));
+                is_all = self.scheduler.meet(&mut step, bodies, pairs, room);
+                for found in self.scheduler.found() {
+                    room = room.saturating_sub(found.len());
+                    keep(found);
+                }
                 continue;
             }
             for &pair in pairs {
                 let flow = step.meet(bodies, pair, &mut |found| {
-                    is_all = hits.len() + found.len() <= most;
+                    is_all = found.len() <= room;
                     if !is_all {
                         return ControlFlow::Break(0);
                     }
-                    hits.extend_from_slice(found);
+                    room -= found.len();
+                    keep(found);
                     ControlFlow::Continue(())
                 });
                 if flow.is_break() {
@@ -147,7 +130,11 @@ where
             }
         }
         common.end(interrupt)?;
-        Ok(is_all)
+        if !is_all {
+            let limit = request.most;
+            return Err(ErrorKind::TooManyHits { limit }.of_query());
+        }
+        Ok(())
     }
 
     /// All hits, sorted by numbers that they have; for kinds whose hits are more than those.
@@ -159,17 +146,15 @@ where
         numbers: impl Fn(&K::Hit) -> [u32; 4],
     ) -> Result<&[K::Hit], Error> {
         let interrupt = Interrupt::new(request.question);
-        let mut hits = std::mem::take(&mut self.hits);
+        let mut hits = std::mem::take(&mut self.listed);
         hits.clear();
-        let is_all = self.collect(kind, common, request, &interrupt, &mut hits);
+        let keep = &mut |found: &[K::Hit]| hits.extend_from_slice(found);
+        let collected = self.collect(kind, common, request, &interrupt, keep);
         // Kept after an error too: what was reserved once need not be reserved again.
-        self.hits = hits;
-        if !is_all? {
-            let limit = request.most;
-            return Err(ErrorKind::TooManyHits { limit }.of_query());
-        }
-        self.hits.sort_unstable_by_key(numbers);
-        Ok(&self.hits)
+        self.listed = hits;
+        collected?;
+        self.listed.sort_unstable_by_key(numbers);
+        Ok(&self.listed)
     }
 
     /// Shows every hit once, until the sink breaks.
@@ -302,6 +287,6 @@ impl<const N: usize, S: Coordinate> Common<N, S> {
 
 impl<K: Kind> Held for Asked<K> {
     fn held(&self) -> usize {
-        self.scratch.held() + self.scheduler.held() + held::list(&self.hits) + self.sorter.held()
+        self.scratch.held() + self.scheduler.held() + self.sorter.held() + held::list(&self.listed)
     }
 }

@@ -453,28 +453,36 @@ mod tests {
             (4 * LARGEST, 19, 18),
             (2 * LARGEST, 32, 31),
         ] {
-            let items: Vec<Pair> = (0..count)
-                .map(|_| [5, next(first_bits), 7, next(second_bits)])
-                .map(Pair::of_numbers)
-                .collect();
-            let mut expected = items.clone();
-            expected.sort_unstable();
-            for threads in [1, 2, 7] {
-                let interrupt = &Interrupt::default();
-                let pool = &Threads::private(NonZeroUsize::new(threads).unwrap());
-                let executor = Executor {
-                    threads: pool,
-                    interrupt,
-                };
-                sorter.begin();
-                for some in items.chunks(1000) {
-                    sorter.push(some);
+            // Keys have more and more bits where numbers grow, and where they need more than 64 they become hits.
+            for (bodies, grow) in [([5, 7], false), ([5, 7], true), ([0, 0], true)] {
+                if grow && count > 5000 {
+                    continue;
                 }
-                sorter.sort(executor);
-                assert!(
-                    sorter.hits() == expected,
-                    "{count} {first_bits} {second_bits} {threads}"
-                );
+                let numbers =
+                    (0..count).map(|_| [bodies[0], next(first_bits), bodies[1], next(second_bits)]);
+                let mut items: Vec<Pair> = numbers.map(Pair::of_numbers).collect();
+                let mut expected = items.clone();
+                expected.sort_unstable();
+                if grow {
+                    items.clone_from(&expected);
+                }
+                for threads in [1, 2, 7] {
+                    let interrupt = &Interrupt::default();
+                    let pool = &Threads::private(NonZeroUsize::new(threads).unwrap());
+                    let executor = Executor {
+                        threads: pool,
+                        interrupt,
+                    };
+                    sorter.begin();
+                    for some in items.chunks(100) {
+                        sorter.push(some);
+                    }
+                    sorter.sort(executor);
+                    assert!(
+                        sorter.hits() == expected,
+                        "{count} {first_bits} {second_bits} {threads}"
+                    );
+                }
             }
         }
     }

@@ -42,6 +42,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
     pub(super) fn mend(&mut self, options: &Options) -> bool {
         let [spared, of_last, last] = self.decay.spared();
+        #[expect(
+            clippy::cast_sign_loss,
+            reason = "neither what was looked at nor what would have been spared is negative"
+        )]
         let mut budget = Budget::of((PACE * last).min(GAIN * of_last) as usize);
         let is_worth_it = || {
             let is_decayed = spared > COST * self.topology.live_count() as f64;

@@ -117,7 +117,7 @@ impl<R> Want<R, Vec<R>> for All {
     }
 }
 
-/// All, as an array of rows.
+/// All, as an array of rows, which is made and filled under the interpreter lock.
 struct AllRows(usize);
 
 impl Want<Row, PyResult<Py<PyArray2<u32>>>> for AllRows {

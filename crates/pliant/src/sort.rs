@@ -1,4 +1,4 @@
-//! Hits in the order of their numbers, by counting digits.
+//! Hits in the order of their numbers, by a radix sort: digits are counted.
 //!
 //! Bodies and what is numbered in them are few bits each, so the four numbers of a hit side by side make one key. Hits become keys as they
 //! are found, with as many bits as the largest numbers so far need; two to four passes over digits put thousands of them in order without a
@@ -26,7 +26,7 @@ const LONG_DIGIT: u32 = 16;
 const MANY: usize = 1 << 15;
 /// Keys in a bucket, about.
 const BUCKET: usize = 1 << 12;
-/// More keys than these are put into buckets, or are several runs: some milliseconds of work.
+/// The most keys that are sorted without buckets, or in one run: some milliseconds of work.
 const LARGEST: usize = 1 << 19;
 /// Keys of a run, at least; fewer than two runs are not worth waking a thread.
 const SHORTEST_RUN: usize = 1024;

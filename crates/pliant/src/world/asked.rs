@@ -66,13 +66,10 @@ where
         request: &Request,
     ) -> Result<&[K::Hit], Error> {
         let interrupt = Interrupt::new(request.question);
-        let mut sorter = std::mem::take(&mut self.sorter);
-        sorter.begin();
-        let keep = &mut |found: &[K::Hit]| sorter.push(found);
-        let collected = self.collect(kind, common, request, &interrupt, keep);
-        // Kept after an error too: what was reserved once need not be reserved again.
-        self.sorter = sorter;
-        collected?;
+        self.sorter.begin();
+        let keep = &mut |found: &[K::Hit]| self.sorter.push(found);
+        let buffers = (&mut self.scratch, &mut self.scheduler);
+        Self::collect(buffers, kind, common, request, &interrupt, keep)?;
         let executor = Executor {
             threads: common.threads.here(),
             interrupt: &interrupt,
@@ -88,8 +85,8 @@ where
     K::Scalar: Coordinate,
 {
     /// Shows all hits, some at a time, those of two bodies after the other. It is an error if there are more than the request allows.
-    pub(super) fn collect<const N: usize>(
-        &mut self,
+    fn collect<const N: usize>(
+        (scratch, scheduler): (&mut Scratch<K>, &mut Scheduler<K>),
         kind: &K,
         common: &mut Common<N, K::Scalar>,
         request: &Request,
@@ -97,18 +94,18 @@ where
         keep: &mut dyn FnMut(&[K::Hit]),
     ) -> Result<(), Error> {
         common.begin(request)?;
-        self.scratch.begin(Wanted::All);
+        scratch.begin(Wanted::All);
         let mut room = request.most;
         let (mut step, bodies, body_pairs) =
-            Self::step(&mut self.scratch, kind, common, request, interrupt, false)?;
+            Self::step(scratch, kind, common, request, interrupt, false)?;
         let instructions = step.refit.instructions;
         let mut is_all = true;
         // Bodies with themselves are a batch of their own, the first: what is refitted then does not depend on the order in which
         // threads take the others.
         while is_all && let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
             if is_worth_it(step.refit.executor, bodies, pairs) {
-                is_all = self.scheduler.meet(&mut step, bodies, pairs, room);
-                for found in self.scheduler.found() {
+                is_all = scheduler.meet(&mut step, bodies, pairs, room);
+                for found in scheduler.found() {
                     room = room.saturating_sub(found.len());
                     keep(found);
                 }
@@ -146,13 +143,10 @@ where
         numbers: impl Fn(&K::Hit) -> [u32; 4],
     ) -> Result<&[K::Hit], Error> {
         let interrupt = Interrupt::new(request.question);
-        let mut hits = std::mem::take(&mut self.listed);
-        hits.clear();
-        let keep = &mut |found: &[K::Hit]| hits.extend_from_slice(found);
-        let collected = self.collect(kind, common, request, &interrupt, keep);
-        // Kept after an error too: what was reserved once need not be reserved again.
-        self.listed = hits;
-        collected?;
+        self.listed.clear();
+        let keep = &mut |found: &[K::Hit]| self.listed.extend_from_slice(found);
+        let buffers = (&mut self.scratch, &mut self.scheduler);
+        Self::collect(buffers, kind, common, request, &interrupt, keep)?;
         self.listed.sort_unstable_by_key(numbers);
         Ok(&self.listed)
     }

@@ -58,6 +58,17 @@ impl Work {
     }
 }
 
+/// Pairs of nodes that a fresh tree would have spared.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spared {
+    /// Since this one was built.
+    pub(super) since_built: f64,
+    /// In the last shape alone.
+    pub(super) in_last_shape: f64,
+    /// Of all pairs of nodes and of triangles that were looked at in the last shape.
+    pub(super) looked_at: f64,
+}
+
 /// What queries did with the tree of a body since it was built.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Decay {
@@ -123,13 +134,16 @@ impl Decay {
         expected.map_or(1.0, |expected| self.last.node_pairs as f64 / expected)
     }
 
-    /// How many pairs of nodes a fresh tree would have spared, since this one was built and in the last shape alone; and how many pairs of
-    /// nodes and of triangles were looked at in that.
-    pub(super) fn spared(&mut self) -> [f64; 3] {
-        let last = self.last.all();
+    /// What a fresh tree would have spared by now. A shape is over.
+    pub(super) fn spared(&mut self) -> Spared {
+        let looked_at = self.last.all();
         let before = self.spared;
         self.settle();
-        [self.spared, self.spared - before, last]
+        Spared {
+            since_built: self.spared,
+            in_last_shape: self.spared - before,
+            looked_at,
+        }
     }
 
     /// The tree is another, of the same kind: the factors stay.
@@ -155,10 +169,15 @@ mod tests {
         assert_eq!(decay.quality(), 1.0);
         decay.note(Work::of_one(14_400, 1_000, 10_000), 2, true);
         assert!(is(decay.quality(), 2.0));
-        let [spared, of_last, last] = decay.spared();
-        assert!(is(spared, 7_200.0) && is(of_last, 7_200.0) && is(last, 15_400.0));
+        let spared = decay.spared();
+        assert!(is(spared.since_built, 7_200.0) && is(spared.in_last_shape, 7_200.0));
+        assert!(is(spared.looked_at, 15_400.0));
         decay.begin_anew();
-        assert_eq!(decay.spared(), [0.0; 3]);
+        let spared = decay.spared();
+        assert_eq!(
+            [spared.since_built, spared.in_last_shape, spared.looked_at],
+            [0.0; 3]
+        );
         // More triangles and candidates are no decay, nor is another body.
         decay.note(Work::of_one(14_400, 2_000, 20_000), 3, false);
         assert!(is(decay.quality(), 1.0));

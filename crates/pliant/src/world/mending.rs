@@ -31,30 +31,29 @@ const COST: f64 = 4.0;
 /// up to two thirds as long as its query. Slower, the old tree decays meanwhile by more than that.
 const PACE: f64 = 1.5;
 
-/// And for a pair of nodes that a fresh tree would have spared at most at so many: the less a tree has decayed, the less hurry there is, and
-/// the shorter are the steps in which it is mended.
+/// For a pair of nodes that a fresh tree would have spared in the last shape, building looks at so many triangles at most: the less a tree has
+/// decayed, the less hurry there is, and the shorter are the steps in which it is mended.
 const GAIN: f64 = 8.0;
-
-/// Looks at a triangle that listing all of them takes.
-const BEGIN: usize = 1;
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
     /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
     pub(super) fn mend(&mut self, options: &Options) -> bool {
-        let [spared, of_last, last] = self.decay.spared();
+        let spared = self.decay.spared();
         #[expect(
             clippy::cast_sign_loss,
             reason = "neither what was looked at nor what would have been spared is negative"
         )]
-        let mut budget = Budget::of((PACE * last).min(GAIN * of_last) as usize);
+        let looks = (PACE * spared.looked_at).min(GAIN * spared.in_last_shape) as usize;
+        let mut budget = Budget::of(looks);
         let is_worth_it = || {
-            let is_decayed = spared > COST * self.topology.live_count() as f64;
+            let is_decayed = spared.since_built > COST * self.topology.live_count() as f64;
             is_decayed && options.partition != Partition::Connectivity
         };
         let mending = match self.mending.take() {
             Some(mending) => *mending,
             None if is_worth_it() => {
-                budget.spend(BEGIN * self.topology.live_count());
+                // Listing the triangles is a look at each.
+                budget.spend(self.topology.live_count());
                 self.begin_to_mend(options)
             }
             None => return false,
@@ -74,8 +73,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             self.mending = Some(Box::new(advanced));
             return false;
         }
-        let finished = advanced.finish();
-        if let Some((mesh, order, tree)) = finished {
+        if let Some((mesh, order, tree)) = advanced.finish() {
             self.exchange_mended(&mesh, order, tree, options);
         }
         true

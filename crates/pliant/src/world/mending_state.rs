@@ -201,6 +201,7 @@ impl<const N: usize> Stage<N> {
     }
 }
 
+/// Of the map what it has, without its nodes.
 impl Held for MeshThen {
     fn held(&self) -> usize {
         self.edited.len() * size_of::<(u32, [u32; 3])>()

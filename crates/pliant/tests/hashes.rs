@@ -445,22 +445,22 @@ fn hash<S: Scalar>(
     (fnv.0, count)
 }
 
-/// Asks in every case, and compares with what is committed.
-fn are_the_committed_ones<T: PartialEq + Debug>(
+/// Asks in every case, and compares with what is committed. Two threads share the cases: the longest test is not left alone at the end.
+fn are_the_committed_ones<T: PartialEq + Debug + Sync>(
     (name, committed): (&str, T),
-    narrow: impl Fn(&Case, &Scene, &[Shapes]) -> T,
-    wide: impl Fn(&Case, &Scene, &[Shapes]) -> T,
+    narrow: impl Fn(&Case, &Scene, &[Shapes]) -> T + Sync,
+    wide: impl Fn(&Case, &Scene, &[Shapes]) -> T + Sync,
 ) -> Result<(), String> {
     let of_scene = COMMITTED.iter().find(|scene| scene.0 == name);
     let &(_, triangles, steps, ..) = of_scene.unwrap();
     let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
     let steps: Vec<Shapes> = steps.iter().map(|&step| shapes(&scene, step)).collect();
-    for case in cases() {
+    let check = |case: &Case| {
         let ask = || {
             if case.doubles {
-                wide(&case, &scene, &steps)
+                wide(case, &scene, &steps)
             } else {
-                narrow(&case, &scene, &steps)
+                narrow(case, &scene, &steps)
             }
         };
         let found = if case.flushed {
@@ -472,8 +472,15 @@ fn are_the_committed_ones<T: PartialEq + Debug>(
         if found != committed {
             return Err(format!("{name},{}: {found:#x?}", case.name));
         }
-    }
-    Ok(())
+        Ok(())
+    };
+    let cases = cases();
+    let (first, second) = cases.split_at(cases.len() / 2);
+    std::thread::scope(|scope| {
+        let first = scope.spawn(|| first.iter().try_for_each(check));
+        let second = second.iter().try_for_each(check);
+        first.join().unwrap().and(second)
+    })
 }
 
 #[test]

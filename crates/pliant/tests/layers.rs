@@ -24,7 +24,7 @@ const LAYERS: [(&str, &[&str]); 25] = [
     ("kernels", &["held", "ids", "geometry"]),
     ("mesh", &["held", "ids", "error", "edit", "threads"]),
     ("predicates", &["geometry", "contacts"]),
-    ("sort", &["held", "hits", "threads"]),
+    ("sort", &["held", "hits", "kernels", "threads"]),
     (
         "broad_phase",
         &["held", "ids", "options", "geometry", "kernels", "threads"],

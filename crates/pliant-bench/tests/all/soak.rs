@@ -47,6 +47,10 @@ fn check<S: pliant::Scalar>(soak: Soak<S>) {
 #[test]
 fn a_world_that_lives_long_answers_like_a_fresh_one_in_memory_that_stays_flat() {
     check(Soak::single(Options::default(), 1));
+}
+
+#[test]
+fn so_does_one_of_double_precision_that_is_configured_like_the_paper() {
     let mut options = Options::paper();
     options.broad_phase = BroadPhase::BruteForce;
     check(Soak::double(options, 2));

@@ -15,6 +15,7 @@
 //! closest       where elements are closest, and between what their distance is
 //! gaps          boxes of vertices, edges and triangles, and which of them are near each other
 //! find          where a number is among eight
+//! ranks         how many of few numbers are smaller than each
 //! buffer        the lanes set in a mask, written to a list without branches
 //! signs         orientation signs of eight candidates at once, where rounding cannot change them
 //! coordinate    points in registers, and points as lanes
@@ -33,6 +34,7 @@ pub(crate) mod gaps;
 mod gather;
 mod instructions;
 mod quantized;
+pub(crate) mod ranks;
 pub(crate) mod signs;
 
 pub(crate) use boxes::{BoxLanes, near_mask, overlap_mask};

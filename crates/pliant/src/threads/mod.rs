@@ -153,13 +153,18 @@ impl Executor<'_> {
 
     /// Does all jobs, or, interrupted, some of them; returns when nothing is under way.
     pub(crate) fn run<J: Send>(&self, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
-        let work = |number: usize, job: &mut J| {
+        self.run_any(jobs, &work);
+    }
+
+    /// The same for any work: it is compiled for each kind of job, but not for everything that is done with one.
+    fn run_any<J: Send>(&self, jobs: &mut [J], work: &(dyn Fn(usize, &mut J) + Sync)) {
+        let work: &(dyn Fn(usize, &mut J) + Sync) = &|number, job| {
             if !self.is_interrupted() {
                 work(number, job);
             }
         };
         match &self.threads.helpers {
-            Some(helpers) if jobs.len() > 1 => helpers.share(jobs, &work),
+            Some(helpers) if jobs.len() > 1 => helpers.share(jobs, work),
             _ => {
                 for (number, job) in jobs.iter_mut().enumerate() {
                     work(number, job);
@@ -180,8 +185,7 @@ impl Helpers {
     }
 
     /// Does all jobs together with the calling thread.
-    fn share<J: Send>(&self, jobs: &mut [J], work: &(impl Fn(usize, &mut J) + Sync)) {
-        self.wake();
+    fn share<J: Send>(&self, jobs: &mut [J], work: &(dyn Fn(usize, &mut J) + Sync)) {
         let helpers = self.count.min(jobs.len() - 1);
         let size = jobs.len().div_ceil(helpers + 1);
         let shares: Vec<_> = jobs
@@ -194,16 +198,22 @@ impl Helpers {
                 })
             })
             .collect();
+        self.help(helpers, &|own| do_all(&shares, own % shares.len(), work));
+    }
+
+    /// Has so many helpers do something, and the calling thread too; tells each the number of its thread, which is 0 for this one. It knows
+    /// no kind of job: scopes of a pool are much to compile for each.
+    fn help(&self, helpers: usize, work: &(dyn Fn(usize) + Sync)) {
+        self.wake();
         let done = AtomicUsize::new(0);
         self.pool.in_place_scope(|scope| {
             for _ in 0..helpers {
                 scope.spawn(|_| {
-                    let own = rayon::current_thread_index().map_or(0, |thread| thread + 1);
-                    do_all(&shares, own % shares.len(), work);
+                    work(rayon::current_thread_index().map_or(0, |thread| thread + 1));
                     done.fetch_add(1, Ordering::Release);
                 });
             }
-            do_all(&shares, 0, work);
+            work(0);
             // The end of the scope would put this thread to sleep at once.
             let mut backoff = Backoff::default();
             while done.load(Ordering::Acquire) < helpers && backoff.waits() {}
@@ -257,7 +267,7 @@ impl<'j, J> Share<'j, J> {
 }
 
 /// Does the jobs of one share, and then of the others, until none is left.
-fn do_all<J>(shares: &[Mutex<Share<'_, J>>], own: usize, work: &impl Fn(usize, &mut J)) {
+fn do_all<J>(shares: &[Mutex<Share<'_, J>>], own: usize, work: &dyn Fn(usize, &mut J)) {
     let (before, after) = shares.split_at(own);
     for (which, share) in after.iter().chain(before).enumerate() {
         // Not in the condition of the loop: the lock would be held while the job is done.

@@ -166,13 +166,13 @@ where
     tasks.resize_with(most_tasks.max(tasks.len()), Task::default);
     tasks[0].found.nodes.push([NodeId::ROOT; 2]);
     loop {
-        if is_to_be_distributed(&tasks[..*used], reserve) {
+        if most_tasks > 1 && is_to_be_distributed(&tasks[..*used], reserve) {
             *used = most_tasks;
             distribute(&mut tasks[..*used], reserve, distributed);
         }
         let tasks = &mut tasks[..*used];
         let mut budget = sizes.budget(most_leaf_pairs);
-        if tasks.len() == 1 {
+        if tasks.len() == 1 && most_tasks > 1 {
             budget.stack = ENOUGH_TO_DISTRIBUTE;
         }
         let now = context(refit, kind, pair, budget);
@@ -294,7 +294,10 @@ fn context<'q, K, P>(
 
 /// How many tasks a query is distributed to, and how many pairs of leaves of one are enough to test them.
 fn shares(are_free: bool, wanted: Wanted, executor: Executor) -> (usize, usize) {
-    if are_free {
+    if are_free && wanted == Wanted::All && !executor.are_many() {
+        // What is found is the same in any order, and lists of one task are longer than those of many.
+        (1, MOST_LEAF_PAIRS)
+    } else if are_free {
         (FREE_TASKS, MOST_LEAF_PAIRS)
     } else if wanted == Wanted::All && executor.are_many() {
         let for_threads = TASKS_A_THREAD * executor.count();

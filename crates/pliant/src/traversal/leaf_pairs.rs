@@ -10,7 +10,7 @@
 
 use super::context::Context;
 use super::expand::LeafPair;
-use super::tree_pair::TreePair;
+use super::tree_pair::{Side, TreePair};
 use crate::held::{self, Held};
 use crate::ids::BlockId;
 use crate::kernels::{Buffer, QuantizedRows, Simd, dispatch, overlap_mask};
@@ -101,16 +101,13 @@ impl<K: Kind> LeafTests<K> {
     {
         let instructions = context.instructions;
         let sides = context.pair.sides();
-        let leaves = sides.map(|side| &side.tree.leaves);
+        let leaves = [&sides[0].tree.leaves, &sides[1].tree.leaves];
         let neighbours = sides[0].tree.neighbours();
         let leaf_test = leaf_test(context);
         if K::LEAVES.elements().is_some() {
             cursor = self.test_runs::<N, P>(context, leaf_pairs, cursor, most, &leaf_test);
         } else if leaves.iter().all(|leaves| leaves.have_blocks()) {
-            let boxes = sides.map(|side| Boxes {
-                firsts: side.tree.leaves.firsts_of_blocks(),
-                boxes: side.boxes.blocks(),
-            });
+            let boxes = [Boxes::of(sides[0]), Boxes::of(sides[1])];
             cursor = block_pairs::<N, P>(leaves, leaf_pairs, cursor, most, &mut self.blocks);
             for start in (0..self.blocks.len()).step_by(BLOCK_PAIRS_AT_ONCE) {
                 let end = self.blocks.len().min(start + BLOCK_PAIRS_AT_ONCE);
@@ -176,11 +173,12 @@ impl<K: Kind> LeafTests<K> {
         most: usize,
         leaf_test: &LeafTest<K::Scalar>,
     ) -> Cursor {
-        let leaves = context.pair.sides().map(|side| &side.tree.leaves);
+        let [a, b] = context.pair.sides();
+        let leaves = [&a.tree.leaves, &b.tree.leaves];
         self.runs.clear();
         if leaves.iter().all(|leaves| leaves.have_blocks()) {
             cursor = block_pairs::<N, P>(leaves, leaf_pairs, cursor, most, &mut self.blocks);
-            let runs = self.blocks.iter().map(|pair| pair.map(|block| block.0));
+            let runs = self.blocks.iter().map(|[a, b]| [a.0, b.0]);
             self.runs.extend(runs);
         } else {
             let end = leaf_pairs.len().min(cursor.pair + most);
@@ -213,10 +211,7 @@ impl<K: Kind> LeafTests<K> {
     {
         let [side, _] = context.pair.sides();
         let leaf_test = leaf_test(context);
-        let boxes = Boxes {
-            firsts: side.tree.leaves.firsts_of_blocks(),
-            boxes: side.boxes.blocks(),
-        };
+        let boxes = Boxes::of(side);
         let quantized = side.boxes.quantized();
         let mut tested = 0;
         while run.start < run.end
@@ -279,14 +274,14 @@ where
     P: TreePair<N>,
     P::Source: BoxSource<Scalar = K::Scalar>,
 {
-    let sides = context.pair.sides();
+    let [a, b] = context.pair.sides();
     LeafTest {
         instructions: context.instructions,
         interrupt: context.interrupt,
-        shapes: sides.map(|side| side.source.shape()),
-        ends: sides.map(|side| side.source.end().map(|end| end.positions)),
-        motions: sides.map(|side| side.motion),
-        elements: sides.map(|side| side.elements),
+        shapes: [a.source.shape(), b.source.shape()],
+        ends: [a.end(), b.end()],
+        motions: [a.motion, b.motion],
+        elements: [a.elements, b.elements],
         is_one_body: context.pair.is_one_body(),
         is_one_tree: P::ITSELF,
     }
@@ -304,7 +299,7 @@ fn block_pairs<const N: usize, P: TreePair<N>>(
     if a.are_blocks() && b.are_blocks() {
         let end = pairs.len().min(cursor.pair + most);
         let pairs = pairs[cursor.pair..end].iter();
-        blocks.extend(pairs.map(|pair| pair.map(|leaf| BlockId(leaf.0))));
+        blocks.extend(pairs.map(|[a, b]| [BlockId(a.0), BlockId(b.0)]));
         cursor.pair = end;
         return cursor;
     }
@@ -336,6 +331,15 @@ fn block_pairs<const N: usize, P: TreePair<N>>(
 struct Boxes<'b> {
     firsts: FirstsOfBlocks<'b>,
     boxes: BlockBoxes<'b>,
+}
+
+impl<'b> Boxes<'b> {
+    fn of<const N: usize, B: BoxSource>(side: &'b Side<'_, N, B>) -> Self {
+        Self {
+            firsts: side.tree.leaves.firsts_of_blocks(),
+            boxes: side.boxes.blocks(),
+        }
+    }
 }
 
 /// The candidates of pairs of blocks of two bodies.

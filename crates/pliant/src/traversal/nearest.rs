@@ -175,7 +175,8 @@ fn among_leaves<const N: usize, B: BoxSource>(
             limit,
         );
     } else {
-        let [a, b] = [0, 1].map(|which| all[which].first_triangle(leaves[which]));
+        let triangle = |which: usize| all[which].first_triangle(leaves[which]);
+        let [a, b] = [triangle(0), triangle(1)];
         scratch.triangles.push((0.0, [a, b]));
     }
     let shapes = [pair.a.source.shape(), pair.b.source.shape()];
@@ -197,8 +198,8 @@ fn near_triangles<const N: usize, B: BoxSource>(
     triangles: &mut Vec<(f64, Candidate)>,
     limit: f64,
 ) {
-    let of: [&Leaves; 2] = sides.map(|side| &side.tree.leaves);
-    let boxes = sides.map(|side| side.boxes.blocks());
+    let of: [&Leaves; 2] = [&sides[0].tree.leaves, &sides[1].tree.leaves];
+    let boxes = [sides[0].boxes.blocks(), sides[1].boxes.blocks()];
     for block_a in of[0].blocks(leaves[0]).map(BlockId) {
         for block_b in of[1].blocks(leaves[1]).map(BlockId) {
             let runs = [of[0].run_of_block(block_a), of[1].run_of_block(block_b)];

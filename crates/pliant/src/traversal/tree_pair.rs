@@ -31,6 +31,19 @@ impl<const N: usize, B: BoxSource> Side<'_, N, B> {
             source: &self.source,
         }
     }
+
+    /// Where vertices are at the end of a motion, for kinds that hold motions.
+    pub(super) fn end(&self) -> Option<&Points<B::Scalar>> {
+        self.source.end().map(|end| end.positions)
+    }
+
+    /// The numbers of edges as the caller has them, for kinds that look at edges; else none.
+    fn caller_edges(&self) -> &[u32] {
+        match &self.elements {
+            Some(elements) => elements.edges.caller_edges(),
+            None => &[],
+        }
+    }
 }
 
 /// Two trees, or one twice.
@@ -50,11 +63,11 @@ pub(crate) trait TreePair<const N: usize>: Sync {
 
     /// How the caller numbers what is in them.
     fn caller_ids(&self) -> CallerIds<'_> {
-        let sides = self.sides();
+        let [a, b] = self.sides();
         CallerIds {
-            bodies: sides.map(|side| side.body),
-            orders: sides.map(|side| side.order),
-            edges: sides.map(|side| side.elements.map_or(&[][..], |it| it.edges.caller_edges())),
+            bodies: [a.body, b.body],
+            orders: [a.order, b.order],
+            edges: [a.caller_edges(), b.caller_edges()],
         }
     }
 }
@@ -68,8 +81,8 @@ pub(crate) struct TwoTrees<'t, const N: usize, B: BoxSource> {
 impl<const N: usize, B: BoxSource> TwoTrees<'_, N, B> {
     /// Whether the root boxes, which are valid, overlap.
     pub(crate) fn overlap(&self) -> bool {
-        let [a, b] = [&self.a, &self.b].map(|side| side.boxes.nodes().one(NodeId::ROOT));
-        a.overlaps(&b)
+        let root = |side: &Side<N, B>| side.boxes.nodes().one(NodeId::ROOT);
+        root(&self.a).overlaps(&root(&self.b))
     }
 }
 

@@ -74,7 +74,7 @@ where
             threads: common.threads.here(),
             interrupt: &interrupt,
         };
-        self.sorter.sort(executor);
+        self.sorter.sort(executor, common.instructions);
         common.end(&interrupt)?;
         Ok(self.sorter.hits())
     }

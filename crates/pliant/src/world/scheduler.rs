@@ -94,6 +94,11 @@ impl<K: Kind> Worker<K> {
     }
 }
 
+/// What was found, by worker, in the order of the pairs.
+fn in_order_of_pairs(found: &mut [(usize, OfPair)]) {
+    found.sort_unstable_by_key(|(_, of_pair)| of_pair.pair);
+}
+
 /// Whether pairs of bodies are worth it.
 pub(super) fn is_worth_it<const N: usize, S: Coordinate>(
     executor: Executor,
@@ -196,7 +201,7 @@ impl<K: Kind> Scheduler<K> {
             let of_worker = worker.found.iter();
             found.extend(of_worker.map(|of_pair| (number, of_pair.clone())));
         }
-        found.sort_unstable_by_key(|(_, of_pair)| of_pair.pair);
+        in_order_of_pairs(found);
         count.into_inner() <= most
     }
 

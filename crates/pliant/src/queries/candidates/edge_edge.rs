@@ -4,6 +4,7 @@ use super::runs::{RUNS_AT_ONCE, near_runs};
 use super::{Margin, Which, groups, keep};
 use crate::geometry::{Aabb, Shape, larger};
 use crate::hits::EdgeEdge;
+use crate::ids::BodyId;
 use crate::kernels::{Buffer, Coordinate, dispatch};
 use crate::queries::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves};
 use crate::statistics::Statistics;
@@ -101,17 +102,14 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
 
     #[inline]
     fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> EdgeEdge {
-        let of_caller = |side: usize| (ids.bodies[side], ids.edges[side][hit[side] as usize]);
-        let [(body_a, edge_a), (body_b, edge_b)] = if Self::is_swapped(ids, hit) {
-            [of_caller(1), of_caller(0)]
-        } else {
-            [of_caller(0), of_caller(1)]
-        };
+        // Which of two edges is the lower cannot be predicted.
+        let [a, b] = Self::of_caller(ids, hit);
+        let (lower, upper) = (a.min(b), a.max(b));
         EdgeEdge {
-            body_a,
-            edge_a,
-            body_b,
-            edge_b,
+            body_a: BodyId((lower >> u32::BITS) as u32),
+            edge_a: lower as u32,
+            body_b: BodyId((upper >> u32::BITS) as u32),
+            edge_b: upper as u32,
         }
     }
 }
@@ -119,8 +117,18 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
 impl<S> EdgeEdgeCandidates<S> {
     /// Whether the second edge is the first of the two as the caller numbers bodies and edges.
     #[inline]
-    pub(crate) fn is_swapped(ids: &CallerIds, [a, b]: [u32; 2]) -> bool {
-        let [body_a, body_b] = ids.bodies;
-        (body_b, ids.edges[1][b as usize]) < (body_a, ids.edges[0][a as usize])
+    pub(crate) fn is_swapped(ids: &CallerIds, hit: [u32; 2]) -> bool {
+        let [a, b] = Self::of_caller(ids, hit);
+        b < a
+    }
+
+    /// Bodies and edges as the caller numbers them, each pair in one integer.
+    #[inline]
+    fn of_caller(ids: &CallerIds, [a, b]: [u32; 2]) -> [u64; 2] {
+        let of_caller = |side: usize, edge: u32| {
+            let edge = ids.edges[side][edge as usize];
+            u64::from(ids.bodies[side].0) << u32::BITS | u64::from(edge)
+        };
+        [of_caller(0, a), of_caller(1, b)]
     }
 }

@@ -1,0 +1,520 @@
+//! Keys in order, without comparing two of them after each other.
+//!
+//! The leading bits of a key say which bucket it goes to; there are so many buckets that most have a dozen keys or two, and only the rest of
+//! a key is written there. In a bucket of few, the place of each is how many are smaller (`kernels::ranks`). In a bucket of many, if the
+//! rests have few bits, a set of bits is made of them and gone through from the lowest. Any other bucket is put into buckets again.
+//!
+//! Each of several threads puts a part of the keys into buckets of its own. Then each puts some buckets in order, of all parts: as many as
+//! make about the same number of keys. What is in order does not depend on how many threads there are.
+//!
+//! No two keys are equal: of equal ones some would be missing.
+
+use crate::held::{self, Held};
+use crate::kernels::{Instructions, Simd, dispatch, ranks};
+use crate::threads::Executor;
+use std::ops::Range;
+
+/// Keys in a bucket, about, where there are not too many of them.
+const BUCKET: usize = 16;
+/// The most buckets: their places stay in a near cache.
+const BUCKETS: usize = 1 << 16;
+/// The most bits of rests that a set is made of: 128 KiB.
+const SET: u32 = 20;
+/// A set has at most so many words of words for each rest in it: going through them costs less than buckets.
+const WORDS: usize = 4;
+/// Keys that a thread puts into buckets, at least: fewer are not worth waking it.
+const SHORTEST_PART: usize = 1024;
+/// So many keys are looked at before it is asked whether somebody wants to stop.
+const UNINTERRUPTED: usize = 1 << 16;
+
+/// Buckets, kept from list to list; rests are in as few bytes as they need.
+#[derive(Debug, Default)]
+pub(super) struct Buckets {
+    short: Lists<u32>,
+    long: Lists<u64>,
+}
+
+#[derive(Debug)]
+struct Lists<R> {
+    /// The keys of a part by their buckets, as far as those do not say what they are.
+    rests: Vec<R>,
+    /// Where each bucket ends, of every part.
+    ends: Vec<u32>,
+    /// One a thread.
+    scratch: Vec<Scratch<R>>,
+}
+
+#[derive(Debug)]
+struct Scratch<R> {
+    /// A bucket of all parts.
+    bucket: Vec<R>,
+    /// A bit for each rest, and for each word of those; none is set from one bucket to the next.
+    set: Vec<u64>,
+    words: Vec<u64>,
+    /// Buckets of a bucket, and where they end: those that are not in use.
+    inner: Vec<(Vec<R>, Vec<u32>)>,
+}
+
+impl Buckets {
+    /// Puts what is made of keys in order of the keys, of which there are fewer than 2^32, none above 2^63. Interrupted, it leaves anything.
+    pub(super) fn put_in_order<T: Send>(
+        &mut self,
+        (executor, instructions): (Executor, Instructions),
+        keys: &[u64],
+        make: impl Fn(u64) -> T + Copy + Sync,
+        made: &mut [T],
+    ) {
+        let least_and_most =
+            |(least, most): (u64, u64), &key: &u64| (least.min(key), most.max(key));
+        let (least, most) = keys.iter().fold((u64::MAX, 0), least_and_most);
+        if executor.is_interrupted() || keys.is_empty() {
+            return;
+        }
+        let division = Division::new(keys.len(), least, most - least);
+        let job = Job {
+            executor,
+            instructions,
+            division,
+            make,
+        };
+        // Ranks are told of numbers below 2^31.
+        if division.rest < u32::BITS {
+            job.put_in_order(keys, &mut self.short, made);
+        } else {
+            job.put_in_order(keys, &mut self.long, made);
+        }
+    }
+}
+
+/// Makes a list so long, unless it is interrupted: memory that is written for the first time takes longer than sorting.
+pub(super) fn lengthen<T: Clone>(list: &mut Vec<T>, len: usize, by: T, executor: Executor) -> bool {
+    list.truncate(len);
+    list.reserve(len - list.len());
+    while list.len() < len {
+        if executor.is_interrupted() {
+            return false;
+        }
+        list.resize(len.min(list.len() + UNINTERRUPTED), by.clone());
+    }
+    true
+}
+
+/// Into which buckets keys go.
+#[derive(Clone, Copy)]
+struct Division {
+    /// No key is less.
+    least: u64,
+    /// So many low bits of what a key is more than that are its rest; the others are the number of its bucket.
+    rest: u32,
+    buckets: usize,
+}
+
+impl Division {
+    /// Of so many keys, none of which is more than `range` above `least`.
+    fn new(count: usize, least: u64, range: u64) -> Self {
+        let most = (count / BUCKET).clamp(1, BUCKETS);
+        let bits = u64::BITS - range.leading_zeros();
+        let mut rest = bits.saturating_sub(most.ilog2() + 1);
+        while range >> rest >= most as u64 {
+            rest += 1;
+        }
+        Self {
+            least,
+            rest,
+            buckets: (range >> rest) as usize + 1,
+        }
+    }
+
+    /// The least key of a bucket.
+    #[inline(always)]
+    fn least_of(self, bucket: usize) -> u64 {
+        self.least + ((bucket as u64) << self.rest)
+    }
+}
+
+/// What is left of a key in its bucket.
+trait Rest: Copy + Default + Send + Sync {
+    /// Of bits that it has room for.
+    fn of(bits: u64) -> Self;
+    fn bits(self) -> u64;
+    /// How many are smaller than each. What is said behind as many ranks means nothing.
+    fn rank<I: Simd>(i: I, few: &[Self], ranks: &mut [u32; ranks::MOST]);
+}
+
+impl Rest for u32 {
+    #[inline(always)]
+    fn of(bits: u64) -> Self {
+        bits as u32
+    }
+
+    #[inline(always)]
+    fn bits(self) -> u64 {
+        self.into()
+    }
+
+    #[inline(always)]
+    fn rank<I: Simd>(i: I, few: &[Self], ranks: &mut [u32; ranks::MOST]) {
+        ranks::rank(i, few, ranks);
+    }
+}
+
+impl Rest for u64 {
+    #[inline(always)]
+    fn of(bits: u64) -> Self {
+        bits
+    }
+
+    #[inline(always)]
+    fn bits(self) -> u64 {
+        self
+    }
+
+    #[inline(always)]
+    fn rank<I: Simd>(_: I, few: &[Self], ranks: &mut [u32; ranks::MOST]) {
+        for (rank, one) in ranks.iter_mut().zip(few) {
+            *rank = 0;
+            for other in few {
+                *rank += u32::from(other < one);
+            }
+        }
+    }
+}
+
+/// How keys are put in order, and what is made of them.
+#[derive(Clone, Copy)]
+struct Job<'q, F> {
+    executor: Executor<'q>,
+    instructions: Instructions,
+    division: Division,
+    make: F,
+}
+
+/// Some of the keys, and the same in buckets.
+struct Part<'k, R> {
+    keys: &'k [u64],
+    rests: &'k mut [R],
+    ends: &'k mut [u32],
+}
+
+impl<R> Part<'_, R> {
+    /// Where a bucket is.
+    #[inline(always)]
+    fn bucket(&self, number: usize) -> Range<usize> {
+        let start = number.checked_sub(1).map_or(0, |last| self.ends[last]);
+        start as usize..self.ends[number] as usize
+    }
+}
+
+/// Buckets in a row, and what their keys become.
+struct Run<'k, R, T> {
+    buckets: Range<usize>,
+    made: &'k mut [T],
+    scratch: &'k mut Scratch<R>,
+}
+
+impl<F> Job<'_, F> {
+    fn put_in_order<R: Rest, T: Send>(self, keys: &[u64], lists: &mut Lists<R>, made: &mut [T])
+    where
+        F: Fn(u64) -> T + Copy + Sync,
+    {
+        let (executor, buckets) = (self.executor, self.division.buckets);
+        let Lists {
+            rests,
+            ends,
+            scratch,
+        } = lists;
+        if !lengthen(rests, keys.len(), R::default(), executor) {
+            return;
+        }
+        let threads = executor.count().min(keys.len() / SHORTEST_PART).max(1);
+        ends.resize(ends.len().max(threads * buckets), 0);
+        scratch.resize_with(scratch.len().max(threads), Scratch::default);
+        if threads == 1 {
+            // Without lists of one, which a step would allocate.
+            let ends = &mut ends[..buckets];
+            let mut part = Part { keys, rests, ends };
+            self.spread(&mut part);
+            let mut run = Run {
+                buckets: 0..buckets,
+                made,
+                scratch: &mut scratch[0],
+            };
+            self.put_run_in_order(std::slice::from_ref(&part), &mut run);
+            return;
+        }
+        let size = keys.len().div_ceil(threads);
+        let rests = rests.chunks_mut(size).zip(ends.chunks_mut(buckets));
+        let parts = keys.chunks(size).zip(rests);
+        let mut parts: Vec<_> = parts
+            .map(|(keys, (rests, ends))| Part { keys, rests, ends })
+            .collect();
+        executor.run(&mut parts, |_, part| self.spread(part));
+        if executor.is_interrupted() {
+            return;
+        }
+        let mut runs = cut(&parts, made, &mut scratch[..threads]);
+        executor.run(&mut runs, |_, run| self.put_run_in_order(&parts, run));
+    }
+
+    /// Puts the keys of a part into buckets.
+    fn spread<R: Rest>(&self, part: &mut Part<R>) {
+        let Part { keys, rests, ends } = part;
+        self.spread_any(keys, |&key| key - self.division.least, rests, ends);
+    }
+
+    /// The same of anything, of which `above` says by how much it is more than the least key.
+    fn spread_any<K, R: Rest>(
+        &self,
+        keys: &[K],
+        above: impl Fn(&K) -> u64,
+        rests: &mut [R],
+        ends: &mut [u32],
+    ) {
+        let rest = self.division.rest;
+        ends.fill(0);
+        for some in keys.chunks(UNINTERRUPTED) {
+            if self.executor.is_interrupted() {
+                return;
+            }
+            for key in some {
+                ends[(above(key) >> rest) as usize] += 1;
+            }
+        }
+        let mut before = 0;
+        for end in &mut *ends {
+            before += std::mem::replace(end, before);
+        }
+        for some in keys.chunks(UNINTERRUPTED) {
+            if self.executor.is_interrupted() {
+                return;
+            }
+            for key in some {
+                let above = above(key);
+                let place = &mut ends[(above >> rest) as usize];
+                rests[*place as usize] = R::of(above & ((1 << rest) - 1));
+                *place += 1;
+            }
+        }
+    }
+
+    /// Puts the keys of some buckets in order, unless it is interrupted or the parts were.
+    fn put_run_in_order<R: Rest, T>(self, parts: &[Part<R>], run: &mut Run<R, T>)
+    where
+        F: Fn(u64) -> T + Copy,
+    {
+        if !self.executor.is_interrupted() {
+            dispatch!(self.instructions, i => self.put_buckets_in_order(i, parts, run));
+        }
+    }
+
+    #[inline(always)]
+    fn put_buckets_in_order<I: Simd, R: Rest, T>(self, i: I, parts: &[Part<R>], run: &mut Run<R, T>)
+    where
+        F: Fn(u64) -> T + Copy,
+    {
+        let Run {
+            buckets,
+            made,
+            scratch,
+        } = run;
+        let mut rest = &mut **made;
+        let mut looked_at = 0;
+        let mut gathered = std::mem::take(&mut scratch.bucket);
+        for number in buckets.clone() {
+            let bucket = if let [part] = parts {
+                &part.rests[part.bucket(number)]
+            } else {
+                gathered.clear();
+                for part in parts {
+                    gathered.extend_from_slice(&part.rests[part.bucket(number)]);
+                }
+                &gathered
+            };
+            let made = rest.split_off_mut(..bucket.len()).unwrap_or_default();
+            self.put_bucket_in_order(i, bucket, self.division.least_of(number), scratch, made);
+            looked_at += bucket.len();
+            if looked_at > UNINTERRUPTED {
+                looked_at = 0;
+                if self.executor.is_interrupted() {
+                    break;
+                }
+            }
+        }
+        scratch.bucket = gathered;
+    }
+
+    /// Puts the keys of a bucket in order, the least of which is at least `least`.
+    #[inline(always)]
+    fn put_bucket_in_order<I: Simd, R: Rest, T>(
+        self,
+        i: I,
+        bucket: &[R],
+        least: u64,
+        scratch: &mut Scratch<R>,
+        made: &mut [T],
+    ) where
+        F: Fn(u64) -> T + Copy,
+    {
+        let rest = self.division.rest;
+        if bucket.len() <= ranks::MOST {
+            let mut ranks = [0; ranks::MOST];
+            R::rank(i, bucket, &mut ranks);
+            for (one, rank) in bucket.iter().zip(ranks) {
+                made[rank as usize] = (self.make)(least + one.bits());
+            }
+        } else if rest <= SET && 1 << rest >> 12 <= WORDS * bucket.len() {
+            let mut places = made.iter_mut();
+            scratch.in_order(bucket, rest, |bits| {
+                if let Some(place) = places.next() {
+                    *place = (self.make)(least + bits);
+                }
+            });
+        } else {
+            self.divide(bucket, least, scratch, made);
+        }
+    }
+
+    /// Puts the keys of a bucket into buckets.
+    #[cold]
+    #[inline(never)]
+    fn divide<R: Rest, T>(self, bucket: &[R], least: u64, scratch: &mut Scratch<R>, made: &mut [T])
+    where
+        F: Fn(u64) -> T + Copy,
+    {
+        let (mut rests, mut ends) = scratch.inner.pop().unwrap_or_default();
+        let range = (1 << self.division.rest) - 1;
+        let division = Division::new(bucket.len(), least, range);
+        let job = Self { division, ..self };
+        if lengthen(&mut rests, bucket.len(), R::default(), self.executor) {
+            ends.resize(ends.len().max(division.buckets), 0);
+            let (rests, ends) = (&mut *rests, &mut ends[..division.buckets]);
+            job.spread_any(bucket, |rest| rest.bits(), rests, ends);
+            let keys = &[];
+            let part = Part { keys, rests, ends };
+            let mut run = Run {
+                buckets: 0..division.buckets,
+                made,
+                scratch,
+            };
+            job.put_run_in_order(&[part], &mut run);
+        }
+        scratch.inner.push((rests, ends));
+    }
+}
+
+impl<R: Rest> Scratch<R> {
+    /// Shows rests of so many bits in order.
+    #[inline(always)]
+    fn in_order(&mut self, rests: &[R], bits: u32, mut show: impl FnMut(u64)) {
+        let count = (1_usize << bits).div_ceil(64);
+        let Self { set, words, .. } = self;
+        set.resize(set.len().max(count), 0);
+        words.resize(words.len().max(count.div_ceil(64)), 0);
+        for rest in rests {
+            let rest = rest.bits() as usize;
+            let word = rest / 64;
+            set[word] |= 1 << (rest % 64);
+            words[word / 64] |= 1 << (word % 64);
+        }
+        for (place, words) in words[..count.div_ceil(64)].iter_mut().enumerate() {
+            take_bits(words, |word| {
+                let word = 64 * place + word as usize;
+                take_bits(&mut set[word], |bit| show(64 * word as u64 + bit));
+            });
+        }
+    }
+}
+
+/// Shows the bits that are set in a word, lowest first, and leaves none.
+#[inline(always)]
+fn take_bits(word: &mut u64, mut show: impl FnMut(u64)) {
+    let mut rest = std::mem::take(word);
+    while rest != 0 {
+        show(rest.trailing_zeros().into());
+        rest &= rest - 1;
+    }
+}
+
+/// Cuts all buckets into runs of about as many keys, one for each scratch.
+fn cut<'k, R, T>(
+    parts: &[Part<R>],
+    mut made: &'k mut [T],
+    scratch: &'k mut [Scratch<R>],
+) -> Vec<Run<'k, R, T>> {
+    let buckets = parts.first().map_or(0, |part| part.ends.len());
+    // Keys in buckets before one.
+    let before = |number: usize| -> usize {
+        let starts = parts.iter().map(|part| part.bucket(number).start);
+        starts.sum()
+    };
+    let (runs, count) = (scratch.len(), made.len());
+    let (mut start, mut done) = (0, 0);
+    let run = |(number, scratch)| {
+        let (mut end, mut until) = (buckets, count);
+        if number + 1 < runs {
+            let enough = count * (number + 1) / runs;
+            let (mut low, mut high) = (start, buckets);
+            while low < high {
+                let middle = low.midpoint(high);
+                if before(middle) < enough {
+                    low = middle + 1;
+                } else {
+                    high = middle;
+                }
+            }
+            if low < buckets {
+                (end, until) = (low, before(low));
+            }
+        }
+        let run = Run {
+            buckets: start..end,
+            made: made.split_off_mut(..until - done).unwrap_or_default(),
+            scratch,
+        };
+        (start, done) = (end, until);
+        run
+    };
+    scratch.iter_mut().enumerate().map(run).collect()
+}
+
+impl<R> Default for Lists<R> {
+    fn default() -> Self {
+        Self {
+            rests: Vec::new(),
+            ends: Vec::new(),
+            scratch: Vec::new(),
+        }
+    }
+}
+
+impl<R> Default for Scratch<R> {
+    fn default() -> Self {
+        Self {
+            bucket: Vec::new(),
+            set: Vec::new(),
+            words: Vec::new(),
+            inner: Vec::new(),
+        }
+    }
+}
+
+impl Held for Buckets {
+    fn held(&self) -> usize {
+        self.short.held() + self.long.held()
+    }
+}
+
+impl<R> Held for Lists<R> {
+    fn held(&self) -> usize {
+        held::list(&self.rests) + held::list(&self.ends) + held::lists(&self.scratch)
+    }
+}
+
+impl<R> Held for Scratch<R> {
+    fn held(&self) -> usize {
+        let inner = self.inner.iter();
+        let of_inner = inner.map(|(rests, ends)| held::list(rests) + held::list(ends));
+        let sets = held::list(&self.set) + held::list(&self.words);
+        held::list(&self.bucket) + sets + held::list(&self.inner) + of_inner.sum::<usize>()
+    }
+}

@@ -1,0 +1,56 @@
+//! Hits as keys: integers that are in the order of the hits.
+//!
+//! Bodies and what is numbered in them are few bits each, so the four numbers of a hit side by side make one key.
+
+use crate::hits::Hit;
+
+/// How the four numbers of a hit make one key: of so many bits for a body, and for what is numbered in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Packing {
+    body: u32,
+    number: u32,
+}
+
+impl Packing {
+    /// That of these hits, too.
+    pub(super) fn with<T: Hit>(self, hits: &[T]) -> Self {
+        let all = hits.iter().map(T::numbers);
+        let (bodies, numbers) = all.fold((0, 0), |(bodies, numbers), [a, x, b, y]| {
+            (bodies | a | b, numbers | x | y)
+        });
+        Self {
+            body: self.body.max(u32::BITS - bodies.leading_zeros()),
+            number: self.number.max(u32::BITS - numbers.leading_zeros()),
+        }
+    }
+
+    /// Whether 63 bits are enough.
+    pub(super) fn fits(self) -> bool {
+        2 * (self.body + self.number) < u64::BITS
+    }
+
+    /// Where the first three numbers begin.
+    fn shifts(self) -> [u32; 3] {
+        let Self { body, number } = self;
+        [body + 2 * number, body + number, number]
+    }
+
+    #[inline(always)]
+    pub(super) fn key(self, numbers: [u32; 4]) -> u64 {
+        let shifts = self.shifts();
+        let [a, x, b, y] = numbers.map(u64::from);
+        a << shifts[0] | x << shifts[1] | b << shifts[2] | y
+    }
+
+    #[inline(always)]
+    pub(super) fn numbers(self, key: u64) -> [u32; 4] {
+        let shifts = self.shifts();
+        let [body, number] = [self.body, self.number].map(|bits| (1_u64 << bits) - 1);
+        [
+            (key >> shifts[0] & body) as u32,
+            (key >> shifts[1] & number) as u32,
+            (key >> shifts[2] & body) as u32,
+            (key & number) as u32,
+        ]
+    }
+}

@@ -52,9 +52,6 @@ pub(crate) trait Kind: Sync {
     const LEAVES: Leaves;
     /// Whether its boxes hold the end of a motion too.
     const HOLDS_MOTIONS: bool = false;
-    /// How many pairs of runs are tested before a task looks at what it has found, for kinds that are shown runs: few, as two may have nine
-    /// times as many elements near each other as two blocks have triangles.
-    const RUN_PAIRS_BEFORE_LOOK: usize = 32;
 
     /// How far it looks along motions.
     fn reach(&self) -> Reach {

@@ -15,6 +15,8 @@ use std::ops::Range;
 
 /// Pairs of blocks that are tested before a task looks at what it has found.
 const BLOCK_PAIRS_BEFORE_LOOK: usize = 128;
+/// The same of runs: two may have nine times as many elements near each other as two blocks have triangles.
+const RUN_PAIRS_BEFORE_LOOK: usize = 32;
 /// With this many hits a task stops until they are shown, so that what all tasks have found takes little memory.
 const MOST_HITS: usize = 2048;
 
@@ -75,7 +77,7 @@ pub(super) fn left_out<const N: usize, K: Kind, P: TreePair<N>>(pair: &P) -> Opt
 /// How many pairs are tested before a task looks at what it has found.
 const fn before_look<K: Kind>() -> usize {
     if K::LEAVES.elements().is_some() {
-        K::RUN_PAIRS_BEFORE_LOOK
+        RUN_PAIRS_BEFORE_LOOK
     } else {
         BLOCK_PAIRS_BEFORE_LOOK
     }

@@ -129,8 +129,6 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
     const BOX_SET: BoxSetNumber = K::BOX_SET;
     const LEAVES: Leaves = K::LEAVES;
     const HOLDS_MOTIONS: bool = true;
-    /// What is found is few of the candidates, and these are decided by eights: of less pairs many would not be full.
-    const RUN_PAIRS_BEFORE_LOOK: usize = 256;
 
     fn reach(&self) -> Reach {
         self.reach

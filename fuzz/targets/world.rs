@@ -1150,9 +1150,8 @@ impl<S: Scalar> Draft<S> {
     /// Whether the steps have come to nothing: then a motion goes on.
     fn is_nothing(&self, known: &Known<S>) -> bool {
         let before = Self::of(known);
-        let are_live = |mesh: &Self| -> Vec<bool> {
-            mesh.vertices.iter().map(Option::is_some).collect()
-        };
+        let are_live =
+            |mesh: &Self| -> Vec<bool> { mesh.vertices.iter().map(Option::is_some).collect() };
         self.triangles == before.triangles
             && are_live(self) == are_live(&before)
             && self.placed.is_empty()

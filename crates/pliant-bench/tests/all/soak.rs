@@ -50,7 +50,7 @@ fn a_world_that_lives_long_answers_like_a_fresh_one_in_memory_that_stays_flat() 
 }
 
 #[test]
-fn so_does_one_of_double_precision_that_is_configured_like_the_paper() {
+fn a_world_of_double_precision_configured_like_the_paper_lives_long_too() {
     let mut options = Options::paper();
     options.broad_phase = BroadPhase::BruteForce;
     check(Soak::double(options, 2));

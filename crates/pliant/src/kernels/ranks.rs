@@ -65,16 +65,13 @@ fn rank_some<I: Simd, const N: usize>(
 mod tests {
     use super::*;
     use crate::kernels::{Instructions, dispatch};
+    use pliant_oracle::Random;
 
     #[test]
     fn every_count_of_any_numbers() {
-        let mut state = 1_u32;
-        let mut next = || {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            state >> 1
-        };
+        let mut random = Random::new(8);
         for count in 0..=MOST {
-            let mut numbers: Vec<u32> = (0..count).map(|_| next()).collect();
+            let mut numbers: Vec<u32> = (0..count).map(|_| random.below(1 << 31)).collect();
             if let [first, .., last] = &mut numbers[..] {
                 (*first, *last) = (i32::MAX as u32, 0);
             }

@@ -1,8 +1,8 @@
-//! Keys in order, without comparing two of them after each other.
+//! Keys in order: a radix sort that begins with the leading bits, and ends with ranks or bitmaps as soon as buckets are small or dense.
 //!
 //! The leading bits of a key say which bucket it goes to; there are so many buckets that most have a dozen keys or two, and only the rest of
 //! a key is written there. In a bucket of few, the place of each is how many are smaller (`kernels::ranks`). In a bucket of many, if the
-//! rests have few bits, a set of bits is made of them and gone through from the lowest. Any other bucket is put into buckets again.
+//! rests have few bits, a bitmap is made of them and gone through from the lowest. Any other bucket is put into buckets again.
 //!
 //! Each of several threads puts a part of the keys into buckets of its own. Then each puts some buckets in order, of all parts: as many as
 //! make about the same number of keys. What is in order does not depend on how many threads there are.
@@ -18,10 +18,10 @@ use std::ops::Range;
 const BUCKET: usize = 16;
 /// The most buckets: their places stay in a near cache.
 const BUCKETS: usize = 1 << 16;
-/// The most bits of rests that a set is made of: 128 KiB.
-const SET: u32 = 20;
-/// A set has at most so many words of words for each rest in it: going through them costs less than buckets.
-const WORDS: usize = 4;
+/// The most bits of rests of which a bitmap is made: it takes 128 KiB then.
+const BITMAP: u32 = 20;
+/// The summary of a bitmap has at most so many words for each rest: going through them costs less than buckets.
+const SUMMARY: usize = 4;
 /// Keys that a thread puts into buckets, at least: fewer are not worth waking it.
 const SHORTEST_PART: usize = 1024;
 /// So many keys are looked at before it is asked whether somebody wants to stop.
@@ -48,9 +48,10 @@ struct Lists<R> {
 struct Scratch<R> {
     /// A bucket of all parts.
     bucket: Vec<R>,
-    /// A bit for each rest, and for each word of those; none is set from one bucket to the next.
-    set: Vec<u64>,
-    words: Vec<u64>,
+    /// A bit for each rest; between buckets none is set.
+    bitmap: Vec<u64>,
+    /// A bit for each word of the bitmap that is not 0.
+    summary: Vec<u64>,
     /// Buckets of a bucket, and where they end: those that are not in use.
     inner: Vec<(Vec<R>, Vec<u32>)>,
 }
@@ -362,7 +363,7 @@ impl<F> Job<'_, F> {
             for (one, rank) in bucket.iter().zip(ranks) {
                 made[rank as usize] = (self.make)(least + one.bits());
             }
-        } else if rest <= SET && 1 << rest >> 12 <= WORDS * bucket.len() {
+        } else if rest <= BITMAP && 1 << rest >> 12 <= SUMMARY * bucket.len() {
             let mut places = made.iter_mut();
             scratch.in_order(bucket, rest, |bits| {
                 if let Some(place) = places.next() {
@@ -407,19 +408,21 @@ impl<R: Rest> Scratch<R> {
     #[inline(always)]
     fn in_order(&mut self, rests: &[R], bits: u32, mut show: impl FnMut(u64)) {
         let count = (1_usize << bits).div_ceil(64);
-        let Self { set, words, .. } = self;
-        set.resize(set.len().max(count), 0);
-        words.resize(words.len().max(count.div_ceil(64)), 0);
+        let Self {
+            bitmap, summary, ..
+        } = self;
+        bitmap.resize(bitmap.len().max(count), 0);
+        summary.resize(summary.len().max(count.div_ceil(64)), 0);
         for rest in rests {
             let rest = rest.bits() as usize;
             let word = rest / 64;
-            set[word] |= 1 << (rest % 64);
-            words[word / 64] |= 1 << (word % 64);
+            bitmap[word] |= 1 << (rest % 64);
+            summary[word / 64] |= 1 << (word % 64);
         }
-        for (place, words) in words[..count.div_ceil(64)].iter_mut().enumerate() {
-            take_bits(words, |word| {
+        for (place, of_words) in summary[..count.div_ceil(64)].iter_mut().enumerate() {
+            take_bits(of_words, |word| {
                 let word = 64 * place + word as usize;
-                take_bits(&mut set[word], |bit| show(64 * word as u64 + bit));
+                take_bits(&mut bitmap[word], |bit| show(64 * word as u64 + bit));
             });
         }
     }
@@ -491,8 +494,8 @@ impl<R> Default for Scratch<R> {
     fn default() -> Self {
         Self {
             bucket: Vec::new(),
-            set: Vec::new(),
-            words: Vec::new(),
+            bitmap: Vec::new(),
+            summary: Vec::new(),
             inner: Vec::new(),
         }
     }
@@ -514,7 +517,7 @@ impl<R> Held for Scratch<R> {
     fn held(&self) -> usize {
         let inner = self.inner.iter();
         let of_inner = inner.map(|(rests, ends)| held::list(rests) + held::list(ends));
-        let sets = held::list(&self.set) + held::list(&self.words);
-        held::list(&self.bucket) + sets + held::list(&self.inner) + of_inner.sum::<usize>()
+        let bitmaps = held::list(&self.bitmap) + held::list(&self.summary);
+        held::list(&self.bucket) + bitmaps + held::list(&self.inner) + of_inner.sum::<usize>()
     }
 }

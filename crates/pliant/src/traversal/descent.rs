@@ -35,7 +35,8 @@ const MOST_LEAF_PAIRS: usize = 512;
 const MOST_LEAF_PAIRS_SHARED: usize = 2048;
 /// The most pairs of blocks that a task tests, or a few more, before hits are shown. This bounds memory whatever the leaf size is.
 const MOST_BEFORE_SHOWN: usize = 8192;
-/// As soon as there are this many pairs of nodes they are distributed to several tasks, whatever the number of threads is.
+/// As soon as there are this many pairs of nodes they are distributed to several tasks, whatever the number of threads is; but not where
+/// one thread wants all and waits for no boxes.
 const ENOUGH_TO_DISTRIBUTE: usize = 128;
 /// The number of tasks where they ask for boxes: few, so that all of them are at work in about one place of the trees.
 const TASKS: usize = 8;
@@ -172,7 +173,7 @@ where
         }
         let tasks = &mut tasks[..*used];
         let mut budget = sizes.budget(most_leaf_pairs);
-        if tasks.len() == 1 && most_tasks > 1 {
+        if tasks.len() < most_tasks {
             budget.stack = ENOUGH_TO_DISTRIBUTE;
         }
         let now = context(refit, kind, pair, budget);

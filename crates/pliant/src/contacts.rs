@@ -1,6 +1,6 @@
 //! How two triangles that intersect do so.
 
-use crate::hits::Pair;
+use crate::hits::{Numbered, Pair};
 
 /// How two triangles, as closed sets, have points in common. Each pair that intersects is of one kind, decided exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -23,4 +23,11 @@ pub struct Contact {
     pub pair: Pair,
     /// How they intersect.
     pub kind: ContactKind,
+}
+
+impl Numbered for Contact {
+    #[inline]
+    fn numbers(&self) -> [u32; 4] {
+        self.pair.numbers()
+    }
 }

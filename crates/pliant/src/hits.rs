@@ -3,9 +3,13 @@
 use crate::ids::BodyId;
 
 /// What a kind of query finds, as the caller numbers things. Hits are ordered by their numbers, the first the most significant.
-pub(crate) trait Hit: Copy + std::fmt::Debug + Send + Sync {
+pub(crate) trait Numbered {
     /// Which things it is about: of two, a body and a number each.
     fn numbers(&self) -> [u32; 4];
+}
+
+/// A hit that is no more than its numbers.
+pub(crate) trait Hit: Numbered + Copy + std::fmt::Debug + Send + Sync {
     /// The hit that has these numbers.
     fn of_numbers(numbers: [u32; 4]) -> Self;
 }
@@ -40,7 +44,7 @@ impl From<Pair> for [u32; 4] {
     }
 }
 
-impl Hit for Pair {
+impl Numbered for Pair {
     #[inline]
     fn numbers(&self) -> [u32; 4] {
         [
@@ -50,7 +54,9 @@ impl Hit for Pair {
             self.triangle_b,
         ]
     }
+}
 
+impl Hit for Pair {
     #[inline]
     fn of_numbers([body_a, triangle_a, body_b, triangle_b]: [u32; 4]) -> Self {
         Self {
@@ -106,7 +112,7 @@ impl From<EdgeEdge> for [u32; 4] {
     }
 }
 
-impl Hit for VertexTriangle {
+impl Numbered for VertexTriangle {
     #[inline]
     fn numbers(&self) -> [u32; 4] {
         let Self {
@@ -117,7 +123,9 @@ impl Hit for VertexTriangle {
         } = *self;
         [vertex_body.0, vertex, triangle_body.0, triangle]
     }
+}
 
+impl Hit for VertexTriangle {
     #[inline]
     fn of_numbers([vertex_body, vertex, triangle_body, triangle]: [u32; 4]) -> Self {
         Self {
@@ -129,12 +137,14 @@ impl Hit for VertexTriangle {
     }
 }
 
-impl Hit for EdgeEdge {
+impl Numbered for EdgeEdge {
     #[inline]
     fn numbers(&self) -> [u32; 4] {
         [self.body_a.0, self.edge_a, self.body_b.0, self.edge_b]
     }
+}
 
+impl Hit for EdgeEdge {
     #[inline]
     fn of_numbers([body_a, edge_a, body_b, edge_b]: [u32; 4]) -> Self {
         Self {

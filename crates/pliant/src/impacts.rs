@@ -1,6 +1,6 @@
 //! What queries for impacts find: two elements that meet during a motion, and when first.
 
-use crate::hits::{EdgeEdge, VertexTriangle};
+use crate::hits::{EdgeEdge, Numbered, VertexTriangle};
 
 /// A vertex and a triangle, of which it is no corner, that meet during a motion.
 ///
@@ -17,6 +17,13 @@ pub struct VertexTriangleImpact {
     pub high: f64,
 }
 
+impl Numbered for VertexTriangleImpact {
+    #[inline]
+    fn numbers(&self) -> [u32; 4] {
+        self.pair.numbers()
+    }
+}
+
 /// Two edges, which have no end in common, that meet during a motion.
 ///
 /// `low` and `high` are as those of a [`VertexTriangleImpact`].
@@ -28,6 +35,13 @@ pub struct EdgeEdgeImpact {
     pub low: f64,
     /// They have met when it is that late.
     pub high: f64,
+}
+
+impl Numbered for EdgeEdgeImpact {
+    #[inline]
+    fn numbers(&self) -> [u32; 4] {
+        self.pair.numbers()
+    }
 }
 
 /// Two elements of either kind that meet during a motion.

@@ -181,13 +181,16 @@ pub(crate) fn near_pairs<I: Simd, const A: usize, const B: usize>(
 }
 
 /// Which pairs of lanes (i, j) are surely near each other: bit 8 i + j.
+#[inline(always)]
 pub(crate) fn sure_pairs<I: Simd>(i: I, a: &Eight, b: &Eight, limits: Limits) -> u64 {
     let registers = Registers::new(i, b);
-    (0..8).fold(0, |sure, lane| {
+    let mut sure = 0;
+    for lane in 0..8 {
         let one = a.get(lane);
         let gaps = registers.gaps(one.lo, one.hi);
-        sure | gaps.simd_lt(f32x8::splat(i, limits.sure)).to_bitmask() << (8 * lane)
-    })
+        sure |= gaps.simd_lt(f32x8::splat(i, limits.sure)).to_bitmask() << (8 * lane);
+    }
+    sure
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@
 //! neighbours of its own. The tests here ask it between the steps of an ordinary query and find the boxes of that untouched.
 
 use super::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, Leaves};
-use crate::geometry::{Aabb, Shape};
-use crate::hits::Hit;
+use crate::geometry::Shape;
+use crate::hits::{Hit, Numbered};
 use crate::kernels::{Buffer, Coordinate};
 use crate::statistics::Statistics;
 use crate::tree::Grown;
@@ -31,11 +31,13 @@ impl<S> Near<S> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct NearPair(pub(crate) [u32; 4]);
 
-impl Hit for NearPair {
+impl Numbered for NearPair {
     fn numbers(&self) -> [u32; 4] {
         self.0
     }
+}
 
+impl Hit for NearPair {
     fn of_numbers(numbers: [u32; 4]) -> Self {
         Self(numbers)
     }
@@ -51,12 +53,8 @@ impl<S: Coordinate> Kind for Near<S> {
     const BOX_SET: BoxSetNumber = 3;
     const LEAVES: Leaves = Leaves::AllTriangles;
 
-    fn grows_by(&self) -> f32 {
-        self.distance
-    }
-
-    fn body_box(&self, of_shape: Aabb) -> Aabb {
-        of_shape.grown(self.distance)
+    fn grows_by(&self) -> Option<f32> {
+        Some(self.distance)
     }
 
     fn source<'s>(&self, source: Shape<'s, S>, _: Option<Shape<'s, S>>) -> Grown<Shape<'s, S>> {

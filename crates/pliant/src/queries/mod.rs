@@ -52,20 +52,25 @@ pub(crate) trait Kind: Sync {
     const LEAVES: Leaves;
     /// Whether its boxes hold the end of a motion too.
     const HOLDS_MOTIONS: bool = false;
+    /// Whether it is shown runs, not triangles. In `if const { K::HAS_RUNS }` the other way is not compiled for it.
+    const HAS_RUNS: bool = Self::LEAVES.elements().is_some();
 
     /// How far it looks along motions.
     fn reach(&self) -> Reach {
         Reach::End
     }
 
-    /// By how much its boxes are larger than those of the shape, on every side.
-    fn grows_by(&self) -> f32 {
-        0.0
+    /// By how much its boxes are larger than those of the shape, on every side; none if they are those of the shape.
+    fn grows_by(&self) -> Option<f32> {
+        None
     }
 
-    /// The box of a body for this kind, from that of the shape.
-    fn body_box(&self, of_shape: Aabb) -> Aabb {
-        of_shape
+    /// What boxes of bodies are for it.
+    fn body_boxes(&self) -> BodyBoxes {
+        BodyBoxes {
+            grow_by: self.grows_by(),
+            hold_motions: Self::HOLDS_MOTIONS,
+        }
     }
 
     /// What boxes are made of, of a body that is going to have the shape `end` if that is some.
@@ -112,6 +117,20 @@ pub(crate) trait Kind: Sync {
         of_caller: &mut Vec<Self::Hit>,
     ) {
         of_caller.extend(hits.iter().map(|&hit| self.to_caller(ids, hit)));
+    }
+}
+
+/// What boxes of bodies are for a kind: by how much they are grown, and whether they hold the ends of motions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct BodyBoxes {
+    grow_by: Option<f32>,
+    pub(crate) hold_motions: bool,
+}
+
+impl BodyBoxes {
+    /// The box of a body, from that of its shape, or of both ends of its motion.
+    pub(crate) fn of(self, shape: Aabb) -> Aabb {
+        self.grow_by.map_or(shape, |distance| shape.grown(distance))
     }
 }
 

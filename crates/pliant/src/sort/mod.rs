@@ -9,7 +9,7 @@ mod buckets;
 mod packing;
 
 use crate::held::{self, Held};
-use crate::hits::Hit;
+use crate::hits::{Hit, Numbered};
 use crate::kernels::Instructions;
 use crate::threads::Executor;
 use buckets::{Buckets, lengthen};
@@ -95,8 +95,13 @@ impl<T: Hit> Sorter<T> {
         if packing.fits() {
             self.unpack(packing);
         }
-        self.hits.sort_unstable_by_key(T::numbers);
+        sort_by_numbers(&mut self.hits);
     }
+}
+
+/// Sorts hits of any kind by comparing their numbers.
+pub(crate) fn sort_by_numbers<T: Numbered>(hits: &mut [T]) {
+    hits.sort_unstable_by_key(T::numbers);
 }
 
 impl<T> Sorter<T> {

@@ -10,46 +10,58 @@ use std::sync::Mutex;
 const LOOKED_AT: usize = 64;
 
 impl Executor<'_> {
-    /// Does all jobs, each of which needs some resources, such that no two under way need the same. Every worker does one after the
-    /// other; which it does is left open. Interrupted, it does some of them.
-    pub(crate) fn run_conflict_free<'t, J: Sync, W: Send>(
+    /// Does so many jobs, each of which needs some resources, such that no two under way need the same. Every worker does one after
+    /// the other; which it does is left open. Interrupted, it does some of them.
+    pub(crate) fn run_conflict_free<'t, W: Send>(
         &self,
-        jobs: &[J],
-        resources_of: impl Fn(&J) -> &'t [usize] + Sync,
+        jobs: usize,
+        resources_of: &(dyn Fn(usize) -> &'t [usize] + Sync),
         resources: usize,
         workers: &mut [W],
-        work: impl Fn(&mut W, &J) + Sync,
+        work: &(dyn Fn(&mut W, usize) + Sync),
     ) {
-        let schedule = Mutex::new(Schedule {
-            is_taken: vec![false; jobs.len()],
+        let schedule = &Mutex::new(Schedule {
+            is_taken: vec![false; jobs],
             passed: vec![0; workers.len()],
             is_busy: vec![false; resources],
         });
         self.run(workers, |number, worker| {
-            let mut busy = Busy {
-                schedule: &schedule,
-                resources: &[],
-            };
-            let mut backoff = Backoff::default();
-            while !self.is_interrupted() {
-                let next = {
-                    let mut schedule = locked(&schedule);
-                    schedule.set_busy(std::mem::take(&mut busy.resources), false);
-                    schedule.take(number, jobs, &resources_of)
-                };
-                match next {
-                    Next::Job(job) => {
-                        busy.resources = resources_of(job);
-                        work(worker, job);
-                        backoff = Backoff::default();
-                    }
-                    Next::Later => {
-                        backoff.waits();
-                    }
-                    Next::Nothing => break,
-                }
-            }
+            let work = &mut |job| work(worker, job);
+            self.run_some(schedule, number, resources_of, work);
         });
+    }
+
+    /// Does jobs as a worker of this number until none is left.
+    fn run_some<'t>(
+        &self,
+        schedule: &Mutex<Schedule>,
+        number: usize,
+        resources_of: &dyn Fn(usize) -> &'t [usize],
+        work: &mut dyn FnMut(usize),
+    ) {
+        let mut busy = Busy {
+            schedule,
+            resources: &[],
+        };
+        let mut backoff = Backoff::default();
+        while !self.is_interrupted() {
+            let next = {
+                let mut schedule = locked(schedule);
+                schedule.set_busy(std::mem::take(&mut busy.resources), false);
+                schedule.take(number, resources_of)
+            };
+            match next {
+                Next::Job(job) => {
+                    busy.resources = resources_of(job);
+                    work(job);
+                    backoff = Backoff::default();
+                }
+                Next::Later => {
+                    backoff.waits();
+                }
+                Next::Nothing => break,
+            }
+        }
     }
 }
 
@@ -61,8 +73,9 @@ struct Schedule {
     is_busy: Vec<bool>,
 }
 
-enum Next<'j, J> {
-    Job(&'j J),
+enum Next {
+    /// This one.
+    Job(usize),
     /// What is left must wait for resources that are busy.
     Later,
     Nothing,
@@ -70,33 +83,29 @@ enum Next<'j, J> {
 
 impl Schedule {
     /// The next job of a worker whose resources are free; they are busy then.
-    fn take<'j, 't, J>(
-        &mut self,
-        worker: usize,
-        jobs: &'j [J],
-        resources_of: &impl Fn(&J) -> &'t [usize],
-    ) -> Next<'j, J> {
+    fn take<'t>(&mut self, worker: usize, resources_of: &dyn Fn(usize) -> &'t [usize]) -> Next {
+        let jobs = self.is_taken.len();
         // Those of its own, and then, backwards, all before them and all behind.
-        let [first, end] = [worker, worker + 1].map(|at| at * jobs.len() / self.passed.len());
+        let [first, end] = [worker, worker + 1].map(|at| at * jobs / self.passed.len());
         let own = end - first;
         let job_at = |passed: usize| {
             if passed < own {
                 first + passed
             } else {
-                (first + jobs.len() - 1 - (passed - own)) % jobs.len()
+                (first + jobs - 1 - (passed - own)) % jobs
             }
         };
         let passed = &mut self.passed[worker];
-        while *passed < jobs.len() && self.is_taken[job_at(*passed)] {
+        while *passed < jobs && self.is_taken[job_at(*passed)] {
             *passed += 1;
         }
-        if *passed == jobs.len() {
+        if *passed == jobs {
             return Next::Nothing;
         }
-        let next = *passed..jobs.len().min(*passed + LOOKED_AT);
+        let next = *passed..jobs.min(*passed + LOOKED_AT);
         let is_free = |&job: &usize| {
             !self.is_taken[job]
-                && resources_of(&jobs[job])
+                && resources_of(job)
                     .iter()
                     .all(|&resource| !self.is_busy[resource])
         };
@@ -104,8 +113,8 @@ impl Schedule {
             return Next::Later;
         };
         self.is_taken[job] = true;
-        self.set_busy(resources_of(&jobs[job]), true);
-        Next::Job(&jobs[job])
+        self.set_busy(resources_of(job), true);
+        Next::Job(job)
     }
 
     fn set_busy(&mut self, resources: &[usize], are: bool) {
@@ -148,17 +157,17 @@ mod tests {
             assert_eq!(executor.count(), count);
             let counts: Vec<Mutex<u32>> = (0..601).map(|_| Mutex::new(0)).collect();
             let mut workers = vec![Vec::new(); count];
-            let jobs: Vec<_> = pairs.iter().collect();
             executor.run_conflict_free(
-                &jobs,
-                |pair| &pair[..],
+                pairs.len(),
+                &|job| &pairs[job],
                 counts.len(),
                 &mut workers,
-                |done, pair| {
+                &|done, job| {
+                    let pair = pairs[job];
                     let mut both = pair.map(|which| counts[which].try_lock().unwrap());
                     both.iter_mut().for_each(|count| **count += 1);
                     std::thread::yield_now();
-                    done.push(**pair);
+                    done.push(pair);
                 },
             );
             let mut done = workers.concat();

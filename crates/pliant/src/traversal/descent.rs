@@ -165,7 +165,7 @@ where
     let are_free = are_free::<N, K, _>(pair.sides());
     let (most_tasks, most_leaf_pairs) = shares(are_free, *wanted, executor);
     tasks.resize_with(most_tasks.max(tasks.len()), Task::default);
-    tasks[0].found.nodes.push([NodeId::ROOT; 2]);
+    tasks[0].walk.found.nodes.push([NodeId::ROOT; 2]);
     loop {
         if most_tasks > 1 && is_to_be_distributed(&tasks[..*used], reserve) {
             *used = most_tasks;
@@ -184,7 +184,7 @@ where
         }
         sizes.double_batch();
         for task in &*tasks {
-            statistics.node_pairs += task.found.node_pairs;
+            statistics.node_pairs += task.walk.found.node_pairs;
         }
         let working = tasks.iter().filter(|task| !task.is_done()).count();
         let mut last = reserve.is_empty() && working == 0;
@@ -194,11 +194,21 @@ where
             shown = show_hits(tasks, statistics, sink);
             sizes.double_blocks();
         } else {
-            refit_stale(refit, pair, tasks, reached, wide_nodes, statistics);
-            let leaves = |task: &Task<K>| task.found.leaves.len();
+            let take = &mut |which: usize, reached: &mut DirtySet| {
+                for task in &mut *tasks {
+                    reached.take(&mut task.walk.stale[which]);
+                }
+            };
+            refit_stale(refit, pair, take, reached, wide_nodes, statistics);
+            let leaves = |task: &Task<K>| task.walk.found.leaves.len();
             let leaves = tasks.iter().map(leaves).sum::<usize>();
             if last || leaves >= budget.leaf_pairs * working.max(1) {
-                refit_leaves(refit, pair, tasks, reached, statistics);
+                let take = &mut |which: usize, reached: &mut DirtySet| {
+                    for task in &mut *tasks {
+                        reached.take(&mut task.walk.reached[which]);
+                    }
+                };
+                refit_leaves(refit, pair, take, reached, statistics);
                 if *wanted == Wanted::All && executor.are_many() {
                     // The same hits are found in any order.
                     rebalance(tasks);
@@ -226,12 +236,15 @@ where
             break;
         }
     }
-    let tasks = &mut tasks[..most_tasks];
-    if let ControlFlow::Break(hit) =
-        test_neighbours(refit, kind, &*pair, tasks, sizes, statistics, sink)
-    {
-        *broke_at = Some(hit);
-        return ControlFlow::Break(());
+    // Only a tree with itself, for a kind that is shown triangles, leaves neighbours out.
+    if const { P::ITSELF && !K::HAS_RUNS } {
+        let tasks = &mut tasks[..most_tasks];
+        if let ControlFlow::Break(hit) =
+            test_neighbours(refit, kind, &*pair, tasks, sizes, statistics, sink)
+        {
+            *broke_at = Some(hit);
+            return ControlFlow::Break(());
+        }
     }
     if executor.is_interrupted() {
         return ControlFlow::Break(());
@@ -310,7 +323,7 @@ fn shares(are_free: bool, wanted: Wanted, executor: Executor) -> (usize, usize) 
 
 /// Whether a task is idle while others have work, or a single task has enough to share.
 fn is_to_be_distributed<K: Kind>(tasks: &[Task<K>], reserve: &Buffer<NodePair>) -> bool {
-    let stack = |task: &Task<K>| task.found.nodes.len();
+    let stack = |task: &Task<K>| task.walk.found.nodes.len();
     let all: usize = tasks.iter().map(stack).sum();
     if tasks.len() == 1 {
         return all >= ENOUGH_TO_DISTRIBUTE;
@@ -325,47 +338,48 @@ fn distribute<K: Kind>(
     distributed: &mut Vec<NodePair>,
 ) {
     for task in &mut *tasks {
-        reserve.extend(task.found.nodes.as_slice());
-        task.found.nodes.clear();
+        reserve.extend(task.walk.found.nodes.as_slice());
+        task.walk.found.nodes.clear();
     }
     reserve.take_last(DISTRIBUTED, distributed);
     let each = distributed.len().div_ceil(tasks.len());
     for (task, pairs) in tasks.iter_mut().zip(distributed.chunks(each)) {
-        task.found.nodes.extend(pairs);
+        task.walk.found.nodes.extend(pairs);
     }
 }
 
 /// Gives tasks that have found few pairs of leaves some of those of others that have found many.
 fn rebalance<K: Kind>(tasks: &mut [Task<K>]) {
-    let leaves = |task: &Task<K>| task.found.leaves.len();
+    let leaves = |task: &Task<K>| task.walk.found.leaves.len();
     let all: usize = tasks.iter().map(leaves).sum();
     let each = all.div_ceil(tasks.len());
     let mut more = Vec::new();
     for task in &mut *tasks {
-        let leaves = &mut task.found.leaves;
+        let leaves = &mut task.walk.found.leaves;
         more.extend_from_slice(leaves.as_slice().get(each..).unwrap_or_default());
         leaves.truncate(each);
     }
     for task in tasks {
         let rest = more.len().saturating_sub(each - leaves(task));
-        task.found.leaves.extend(&more[rest..]);
+        task.walk.found.leaves.extend(&more[rest..]);
         more.truncate(rest);
     }
 }
 
+/// Moves what tasks ask for in the first tree, or the second, to a set.
+type TakeAsked<'t> = &'t mut dyn FnMut(usize, &mut DirtySet);
+
 /// Refits the wide nodes that tasks ask for.
-fn refit_stale<const N: usize, K: Kind, P: TreePair<N>>(
+fn refit_stale<const N: usize, P: TreePair<N>>(
     refit: Refit,
     pair: &mut P,
-    tasks: &mut [Task<K>],
+    take: TakeAsked,
     reached: &mut DirtySet,
     lists: &mut [Vec<WideNodeId>; 2],
     statistics: &mut Statistics,
 ) {
     for which in 0..2 {
-        for task in &mut *tasks {
-            reached.take(&mut task.stale[which]);
-        }
+        take(which, reached);
         // Of one tree, what both sides ask for is refitted together.
         if (!P::ITSELF || which == 1) && !reached.is_empty() {
             refit.reached(&mut pair.refitted(which), reached, lists, statistics);
@@ -374,17 +388,15 @@ fn refit_stale<const N: usize, K: Kind, P: TreePair<N>>(
 }
 
 /// Makes the boxes of the triangles in leaves that are to be tested.
-fn refit_leaves<const N: usize, K: Kind, P: TreePair<N>>(
+fn refit_leaves<const N: usize, P: TreePair<N>>(
     refit: Refit,
     pair: &mut P,
-    tasks: &mut [Task<K>],
+    take: TakeAsked,
     reached: &mut DirtySet,
     statistics: &mut Statistics,
 ) {
     for which in 0..2 {
-        for task in &mut *tasks {
-            reached.take(&mut task.reached[which]);
-        }
+        take(which, reached);
         if !P::ITSELF || which == 1 {
             refit.reached_leaves(&mut pair.refitted(which), reached, statistics);
         }

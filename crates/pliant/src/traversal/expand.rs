@@ -1,16 +1,22 @@
 //! What a pair of nodes becomes: pairs of their children that overlap, or a pair of leaves.
 
-use super::tree_pair::{Side, TreePair};
 use crate::held::{self, Held};
 use crate::ids::{LeafId, NodeId};
 use crate::kernels::{Buffer, Simd, overlap_mask};
-use crate::tree::{Child, Neighbours, STRICT_UPPER};
+use crate::tree::{BoxSet, Child, Neighbours, STRICT_UPPER, Tree};
 
 /// Two nodes whose boxes are valid and overlap, or a node with itself.
 pub(super) type NodePair = [NodeId; 2];
 
 /// Two leaves whose boxes overlap, or a leaf with itself.
 pub(super) type LeafPair = [LeafId; 2];
+
+/// A tree and a set of its boxes: all that a walk reads of a body.
+#[derive(Clone, Copy)]
+pub(super) struct BoxedTree<'t, const N: usize> {
+    pub(super) tree: &'t Tree<N>,
+    pub(super) boxes: &'t BoxSet<N>,
+}
 
 /// Leaves side by side that are in pairs, a bit for each of eight.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,11 +54,12 @@ impl Worklists {
     }
 }
 
-/// Expands every pair of a batch. What is below the nodes is valid. Leaves that are known to be neighbours may be left out.
+/// Expands every pair of a batch, of two trees or of one with itself. What is below the nodes is valid. Leaves that are known to be
+/// neighbours may be left out.
 #[inline(always)]
-pub(super) fn expand<I: Simd, const N: usize, P: TreePair<N>>(
+pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
     i: I,
-    [a, b]: [&Side<'_, N, P::Source>; 2],
+    [a, b]: [BoxedTree<'_, N>; 2],
     batch: &[NodePair],
     left_out: Option<&Neighbours>,
     found: &mut Worklists,
@@ -69,7 +76,9 @@ pub(super) fn expand<I: Simd, const N: usize, P: TreePair<N>>(
     for &[node_a, node_b] in batch {
         match (nodes_a.child(node_a), nodes_b.child(node_b)) {
             (Child::Leaf(leaf_a), Child::Leaf(leaf_b)) => {
-                if left_out.is_some_and(|known| known.are_neighbours(i, leaf_a, leaf_b)) {
+                if let Some(known) = left_out
+                    && known.are_neighbours(i, leaf_a, leaf_b)
+                {
                     continue;
                 }
                 leaves.push([leaf_a, leaf_b]);
@@ -99,11 +108,14 @@ pub(super) fn expand<I: Simd, const N: usize, P: TreePair<N>>(
                     // Leaves side by side: their pairs need not go over the stack.
                     // Where some are left out all boxes are valid: then no leaf is to be refitted.
                     let free = left_out.is_some();
-                    let left_out =
-                        left_out.map_or(0, |known| known.among_leaves(i, below_a, below_b));
+                    // Not by a closure: that would be compiled without the instructions.
+                    let left_out = match left_out {
+                        Some(known) => known.among_leaves(i, below_a, below_b),
+                        None => 0,
+                    };
                     let mut lanes = [0; 2];
                     let mut asked = u64::MAX;
-                    if P::ITSELF && node_a == node_b {
+                    if ITSELF && node_a == node_b {
                         let len = wide_a.len() as u32;
                         let mut alone = DIAGONAL & !left_out & u64::MAX >> (64 - 8 * len);
                         while alone != 0 {
@@ -132,7 +144,7 @@ pub(super) fn expand<I: Simd, const N: usize, P: TreePair<N>>(
                     continue;
                 }
                 let mut asked = u64::MAX;
-                if P::ITSELF && node_a == node_b {
+                if ITSELF && node_a == node_b {
                     // Every child with itself, whatever its box, and with each later one.
                     for lane in 0..wide_a.len() {
                         nodes.push([NodeId::new::<N>(below_a, lane); 2]);

@@ -1,42 +1,23 @@
 //! Leaves that overlap: which of their triangles are candidates, and what the kind of query makes of these.
 //!
-//! A leaf is one block of up to eight triangles, or several. Pairs of blocks are compared, all boxes of one with all of the
-//! other; pairs of triangles whose boxes overlap are candidates, and are decided some thousands at a time. Of a body with itself every
-//! pair of triangles comes up once, and none with itself.
-//!
-//! In a body with itself nearly all pairs of leaves are neighbours in the mesh, whose boxes overlap whatever the shape is, and of whose
-//! triangles those that share no vertex are mostly apart. Where leaves are blocks, neighbours are not found by the descent but gone
-//! through list by list, and all pairs of blocks are compared by quantized boxes first: mostly nothing is left.
+//! A leaf is one block of up to eight triangles, or several. Pairs of blocks are compared (`block_pairs`); what they leave, candidates,
+//! is decided some thousands at a time. Of a body with itself every pair of triangles comes up once, and none with itself. Where leaves are
+//! blocks, neighbours in the mesh are not found by the descent but gone through list by list.
 
+use super::block_pairs::{BlockPair, BlockTests, Boxes, OneBody};
 use super::context::Context;
 use super::expand::LeafPair;
-use super::tree_pair::{Side, TreePair};
+use super::tree_pair::TreePair;
 use crate::held::{self, Held};
 use crate::ids::BlockId;
-use crate::kernels::{Buffer, QuantizedRows, Simd, dispatch, overlap_mask};
-use crate::mesh::Order;
-use crate::queries::{Candidate, Kind, LeafTest, Leaves as Shown};
+use crate::kernels::Buffer;
+use crate::queries::{Kind, LeafTest, Leaves as Shown};
 use crate::statistics::Statistics;
-use crate::tree::{
-    BlockBoxes, BoxSource, FirstsOfBlocks, Leaves, Neighbours, Quantized, STRICT_UPPER,
-};
+use crate::tree::{BoxSource, Leaves, Neighbours};
 use std::ops::Range;
 
 /// Pairs of blocks compared before their candidates are decided: at most 64 candidates each.
 const BLOCK_PAIRS_AT_ONCE: usize = 64;
-
-/// Pairs of neighbouring blocks looked at before what is left of them is compared.
-const NEIGHBOURS_AT_ONCE: usize = 256;
-
-/// Two blocks in leaves whose boxes overlap.
-type BlockPair = [BlockId; 2];
-
-/// Two blocks, or one and itself, and the pairs of their triangles that are to be compared: bit 8 i + j, as in a mask of overlaps.
-#[derive(Clone, Copy, Debug, Default)]
-struct MaskedPair {
-    blocks: BlockPair,
-    pairs: u64,
-}
 
 /// Where in a list of pairs of leaves: a pair, a block of its first leaf, a block of its second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,11 +30,9 @@ pub(super) struct Cursor {
 /// What a task tests, and what it has found.
 #[derive(Debug)]
 pub(super) struct LeafTests<K: Kind> {
-    blocks: Vec<BlockPair>,
+    block_pairs: Vec<BlockPair>,
     runs: Vec<[u32; 2]>,
-    compared: Buffer<MaskedPair>,
-    crowded: Vec<BlockPair>,
-    candidates: Buffer<Candidate>,
+    blocks: BlockTests,
     buffers: K::Buffers,
     /// What was found, in tree order.
     pub(super) hits: Buffer<K::TreeHit>,
@@ -65,11 +44,9 @@ pub(super) struct LeafTests<K: Kind> {
 impl<K: Kind> Default for LeafTests<K> {
     fn default() -> Self {
         Self {
-            blocks: Vec::new(),
+            block_pairs: Vec::new(),
             runs: Vec::new(),
-            compared: Buffer::default(),
-            crowded: Vec::new(),
-            candidates: Buffer::default(),
+            blocks: BlockTests::default(),
             buffers: K::Buffers::default(),
             hits: Buffer::default(),
             of_caller: Vec::new(),
@@ -99,69 +76,89 @@ impl<K: Kind> LeafTests<K> {
         P: TreePair<N>,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
-        let instructions = context.instructions;
-        let sides = context.pair.sides();
-        let leaves = [&sides[0].tree.leaves, &sides[1].tree.leaves];
-        let neighbours = sides[0].tree.neighbours();
+        let [a, b] = context.pair.sides();
         let leaf_test = leaf_test(context);
-        if K::LEAVES.elements().is_some() {
+        if const { K::HAS_RUNS } {
             cursor = self.test_runs::<N, P>(context, leaf_pairs, cursor, most, &leaf_test);
-        } else if leaves.iter().all(|leaves| leaves.have_blocks()) {
-            let boxes = [Boxes::of(sides[0]), Boxes::of(sides[1])];
-            cursor = block_pairs::<N, P>(leaves, leaf_pairs, cursor, most, &mut self.blocks);
-            for start in (0..self.blocks.len()).step_by(BLOCK_PAIRS_AT_ONCE) {
-                let end = self.blocks.len().min(start + BLOCK_PAIRS_AT_ONCE);
-                let blocks = &self.blocks[start..end];
-                let found = &mut self.candidates;
-                found.clear();
-                let left_out =
-                    (K::LEAVES == Shown::Triangles).then_some((sides[0].order, neighbours));
-                match (left_out, sides[0].boxes.quantized()) {
-                    _ if !P::ITSELF => {
-                        dispatch!(instructions, i => of_two(i, boxes, blocks, found));
-                        if let Some((order, _)) = left_out
-                            && context.pair.is_one_body()
-                        {
-                            found.retain(|&[a, b]| !order.share_a_vertex(a, b));
-                        }
-                    }
-                    (Some((_, Some(neighbours))), Some(quantized)) => {
-                        self.compared.clear();
-                        self.crowded.clear();
-                        let (compared, crowded) = (&mut self.compared, &mut self.crowded);
-                        dispatch!(instructions, i => {
-                            non_adjacent(i, quantized, neighbours, blocks, compared, crowded);
-                            overlapping(i, boxes[0], compared, found);
-                        });
-                        if !crowded.is_empty() {
-                            dispatch!(instructions, i => of_one(i, boxes[0], left_out, crowded, found));
-                        }
-                    }
-                    _ => dispatch!(instructions, i => of_one(i, boxes[0], left_out, blocks, found)),
-                }
-                self.decide(context, &leaf_test);
-            }
+        } else if a.tree.leaves.have_blocks() && b.tree.leaves.have_blocks() {
+            cursor = self.test_blocks::<N, P>(context, leaf_pairs, cursor, most, &leaf_test);
         } else {
-            // One triangle a leaf: its box is the leaf's, which overlaps.
             let end = leaf_pairs.len().min(cursor.pair + most);
-            for pairs in leaf_pairs[cursor.pair..end].chunks(64 * BLOCK_PAIRS_AT_ONCE) {
-                self.candidates.clear();
-                for &[leaf_a, leaf_b] in pairs {
-                    let a = leaves[0].first_triangle(leaf_a);
-                    let b = leaves[1].first_triangle(leaf_b);
-                    let order = sides[0].order;
-                    let left_out = context.pair.is_one_body()
-                        && (a == b || K::LEAVES == Shown::Triangles && order.share_a_vertex(a, b));
-                    if !left_out {
-                        self.candidates.push([a, b]);
-                    }
-                }
-                self.decide(context, &leaf_test);
-            }
+            self.test_triangles::<N, P>(context, &leaf_pairs[cursor.pair..end], &leaf_test);
             cursor.pair = end;
         }
         self.number_new(context);
         cursor
+    }
+
+    /// Tests pairs of leaves block by block.
+    fn test_blocks<const N: usize, P: TreePair<N>>(
+        &mut self,
+        context: &Context<K, P>,
+        leaf_pairs: &[LeafPair],
+        cursor: Cursor,
+        most: usize,
+        leaf_test: &LeafTest<K::Scalar>,
+    ) -> Cursor {
+        let instructions = context.instructions;
+        let [a, b] = context.pair.sides();
+        let leaves = [&a.tree.leaves, &b.tree.leaves];
+        let shares_left_out = K::LEAVES == Shown::Triangles;
+        let cursor = block_pairs(
+            P::ITSELF,
+            leaves,
+            leaf_pairs,
+            cursor,
+            most,
+            &mut self.block_pairs,
+        );
+        for start in (0..self.block_pairs.len()).step_by(BLOCK_PAIRS_AT_ONCE) {
+            let end = self.block_pairs.len().min(start + BLOCK_PAIRS_AT_ONCE);
+            let pairs = &self.block_pairs[start..end];
+            let boxes = Boxes::of(a.boxed_tree());
+            if P::ITSELF {
+                let body = OneBody {
+                    boxes,
+                    quantized: a.boxes.quantized(),
+                    left_out: shares_left_out.then_some((a.order, a.tree.neighbours())),
+                };
+                self.blocks.of_one(instructions, body, pairs);
+            } else {
+                let both = [boxes, Boxes::of(b.boxed_tree())];
+                let is_left_out = shares_left_out && context.pair.is_one_body();
+                let left_out = is_left_out.then_some(a.order);
+                self.blocks.of_two(instructions, both, pairs, left_out);
+            }
+            self.decide(context, leaf_test);
+        }
+        cursor
+    }
+
+    /// Tests pairs of leaves of one triangle: its box is the leaf's, which overlaps.
+    fn test_triangles<const N: usize, P: TreePair<N>>(
+        &mut self,
+        context: &Context<K, P>,
+        leaf_pairs: &[LeafPair],
+        leaf_test: &LeafTest<K::Scalar>,
+    ) {
+        let [a, b] = context.pair.sides();
+        for pairs in leaf_pairs.chunks(64 * BLOCK_PAIRS_AT_ONCE) {
+            self.blocks.candidates.clear();
+            for &[leaf_a, leaf_b] in pairs {
+                let pair = [
+                    a.tree.leaves.first_triangle(leaf_a),
+                    b.tree.leaves.first_triangle(leaf_b),
+                ];
+                let left_out = context.pair.is_one_body()
+                    && (pair[0] == pair[1]
+                        || K::LEAVES == Shown::Triangles
+                            && a.order.share_a_vertex(pair[0], pair[1]));
+                if !left_out {
+                    self.blocks.candidates.push(pair);
+                }
+            }
+            self.decide(context, leaf_test);
+        }
     }
 
     /// Tests pairs of leaves run by run: of the blocks in them, or of their single triangles.
@@ -177,8 +174,15 @@ impl<K: Kind> LeafTests<K> {
         let leaves = [&a.tree.leaves, &b.tree.leaves];
         self.runs.clear();
         if leaves.iter().all(|leaves| leaves.have_blocks()) {
-            cursor = block_pairs::<N, P>(leaves, leaf_pairs, cursor, most, &mut self.blocks);
-            let runs = self.blocks.iter().map(|[a, b]| [a.0, b.0]);
+            cursor = block_pairs(
+                P::ITSELF,
+                leaves,
+                leaf_pairs,
+                cursor,
+                most,
+                &mut self.block_pairs,
+            );
+            let runs = self.block_pairs.iter().map(|[a, b]| [a.0, b.0]);
             self.runs.extend(runs);
         } else {
             let end = leaf_pairs.len().min(cursor.pair + most);
@@ -211,7 +215,7 @@ impl<K: Kind> LeafTests<K> {
     {
         let [side, _] = context.pair.sides();
         let leaf_test = leaf_test(context);
-        let boxes = Boxes::of(side);
+        let boxes = Boxes::of(side.boxed_tree());
         let quantized = side.boxes.quantized();
         let mut tested = 0;
         while run.start < run.end
@@ -219,16 +223,14 @@ impl<K: Kind> LeafTests<K> {
             && self.hits.len() < enough
             && !context.interrupt.is_set()
         {
-            let compared = &mut self.compared;
-            compared.clear();
-            let some = NEIGHBOURS_AT_ONCE.min(most - tested);
-            tested += dispatch!(context.instructions, i => match quantized {
-                Some(quantized) => adjacent(i, quantized, neighbours, run, some, compared),
-                None => all_adjacent(neighbours, run, some, compared),
-            });
-            self.candidates.clear();
-            let found = &mut self.candidates;
-            dispatch!(context.instructions, i => overlapping(i, boxes, compared, found));
+            tested += self.blocks.of_neighbours(
+                context.instructions,
+                boxes,
+                quantized,
+                neighbours,
+                run,
+                most - tested,
+            );
             self.decide(context, &leaf_test);
         }
         self.number_new(context);
@@ -255,12 +257,14 @@ impl<K: Kind> LeafTests<K> {
     ) {
         for (which, side) in context.pair.sides().into_iter().enumerate() {
             if let Some(removed) = side.removed {
-                self.candidates.retain(|pair| !removed.has(pair[which]));
+                self.blocks
+                    .candidates
+                    .retain(|pair| !removed.has(pair[which]));
             }
         }
         context.kind.test(
             leaf_test,
-            &mut self.candidates,
+            &mut self.blocks.candidates,
             &mut self.buffers,
             &mut self.hits,
             &mut self.statistics,
@@ -288,7 +292,8 @@ where
 }
 
 /// Pairs of blocks of pairs of leaves, from a cursor on, up to `most` of them; returns the cursor where it stopped.
-fn block_pairs<const N: usize, P: TreePair<N>>(
+fn block_pairs(
+    itself: bool,
     [a, b]: [&Leaves; 2],
     pairs: &[LeafPair],
     mut cursor: Cursor,
@@ -308,7 +313,7 @@ fn block_pairs<const N: usize, P: TreePair<N>>(
         let (of_a, of_b) = (a.blocks(leaf_a), b.blocks(leaf_b));
         let pair = [of_a.start + cursor.a, of_b.start + cursor.b].map(BlockId);
         // Within one leaf, each pair of blocks once.
-        if !P::ITSELF || leaf_a != leaf_b || pair[0] <= pair[1] {
+        if !itself || leaf_a != leaf_b || pair[0] <= pair[1] {
             blocks.push(pair);
         }
         cursor.b += 1;
@@ -326,179 +331,11 @@ fn block_pairs<const N: usize, P: TreePair<N>>(
     cursor
 }
 
-/// The blocks of a body: their triangles and the boxes of these.
-#[derive(Clone, Copy)]
-struct Boxes<'b> {
-    firsts: FirstsOfBlocks<'b>,
-    boxes: BlockBoxes<'b>,
-}
-
-impl<'b> Boxes<'b> {
-    fn of<const N: usize, B: BoxSource>(side: &'b Side<'_, N, B>) -> Self {
-        Self {
-            firsts: side.tree.leaves.firsts_of_blocks(),
-            boxes: side.boxes.blocks(),
-        }
-    }
-}
-
-/// The candidates of pairs of blocks of two bodies.
-#[inline(always)]
-fn of_two<I: Simd>(
-    i: I,
-    [all_a, all_b]: [Boxes; 2],
-    pairs: &[BlockPair],
-    found: &mut Buffer<Candidate>,
-) {
-    for &[a, b] in pairs {
-        let (first_a, first_b) = (all_a.firsts.of(a), all_b.firsts.of(b));
-        let room = found.room();
-        let overlaps = overlap_mask(i, all_a.boxes.of(a), all_b.boxes.of(b));
-        room.push_bits(overlaps, |bit| {
-            [first_a.plus(bit / 8), first_b.plus(bit % 8)]
-        });
-    }
-}
-
-/// The candidates of pairs of blocks of one body; if neighbours are left out, those that share no vertex.
-#[inline(always)]
-fn of_one<I: Simd>(
-    i: I,
-    Boxes { firsts, boxes }: Boxes,
-    left_out: Option<(&Order, Option<&Neighbours>)>,
-    pairs: &[BlockPair],
-    found: &mut Buffer<Candidate>,
-) {
-    for &[a, b] in pairs {
-        let (first_a, first_b) = (firsts.of(a), firsts.of(b));
-        let candidate = |bit: u32| [first_a.plus(bit / 8), first_b.plus(bit % 8)];
-        let room = found.room();
-        let mut overlaps = overlap_mask(i, boxes.of(a), boxes.of(b));
-        if a == b {
-            // Within one block, each pair of triangles once, and none with itself.
-            overlaps &= STRICT_UPPER;
-        }
-        let Some((order, neighbours)) = left_out else {
-            room.push_bits(overlaps, candidate);
-            continue;
-        };
-        match neighbours.and_then(|neighbours| neighbours.compared(i, a, b)) {
-            Some(compared) => {
-                // Mostly none is left.
-                if overlaps & compared != 0 {
-                    room.push_bits(overlaps & compared, candidate);
-                }
-            }
-            None => room.push_bits_if(overlaps, candidate, |[a, b]| !order.share_a_vertex(a, b)),
-        }
-    }
-}
-
-/// The next of a run of leaves and their neighbours, with the pairs of triangles that share no vertex and are not surely apart;
-/// those that have such pairs. Returns how many pairs of leaves it looked at.
-#[inline(always)]
-fn adjacent<I: Simd>(
-    i: I,
-    quantized: &Quantized,
-    neighbours: &Neighbours,
-    run: &mut Range<u32>,
-    enough: usize,
-    compared: &mut Buffer<MaskedPair>,
-) -> usize {
-    let mut looked_at = 0;
-    while run.start < run.end && looked_at < enough {
-        let a = BlockId(run.start);
-        run.start += 1;
-        let (others, masks) = neighbours.of_block(a);
-        looked_at += others.len();
-        compared.make_room(others.len() + 1);
-        let rows = QuantizedRows::new(i, quantized.of(a));
-        for (&b, &pairs) in others.iter().zip(masks) {
-            let b = BlockId(b);
-            let pairs = pairs & !rows.apart(i, quantized.of(b));
-            let blocks = [a, b];
-            // Whether any is left cannot be predicted.
-            compared.push_if(MaskedPair { blocks, pairs }, pairs != 0);
-        }
-    }
-    looked_at
-}
-
-/// The next of a run of leaves and their neighbours, with all pairs of triangles that share no vertex: where there are no quantized
-/// boxes. Returns how many pairs of leaves it took.
-fn all_adjacent(
-    neighbours: &Neighbours,
-    run: &mut Range<u32>,
-    enough: usize,
-    compared: &mut Buffer<MaskedPair>,
-) -> usize {
-    let mut looked_at = 0;
-    while run.start < run.end && looked_at < enough {
-        let a = BlockId(run.start);
-        run.start += 1;
-        let (others, masks) = neighbours.of_block(a);
-        looked_at += others.len();
-        for (&b, &pairs) in others.iter().zip(masks) {
-            let blocks = [a, BlockId(b)];
-            compared.push(MaskedPair { blocks, pairs });
-        }
-    }
-    looked_at
-}
-
-/// Keeps pairs of blocks that are no neighbours, with the pairs of triangles that are not surely apart; those that have such
-/// pairs. Of crowded blocks nothing is known; their pairs are put aside.
-#[inline(always)]
-fn non_adjacent<I: Simd>(
-    i: I,
-    quantized: &Quantized,
-    neighbours: &Neighbours,
-    pairs: &[BlockPair],
-    compared: &mut Buffer<MaskedPair>,
-    crowded: &mut Vec<BlockPair>,
-) {
-    compared.make_room(pairs.len() + 1);
-    for &blocks in pairs {
-        let [a, b] = blocks;
-        if neighbours.is_crowded(a.min(b)) {
-            crowded.push(blocks);
-            continue;
-        }
-        let apart = QuantizedRows::new(i, quantized.of(a)).apart(i, quantized.of(b));
-        let pairs = !apart;
-        compared.push_if(MaskedPair { blocks, pairs }, pairs != 0);
-    }
-}
-
-/// The pairs of triangles that are to be compared whose boxes overlap.
-#[inline(always)]
-fn overlapping<I: Simd>(
-    i: I,
-    Boxes { firsts, boxes }: Boxes,
-    compared: &Buffer<MaskedPair>,
-    found: &mut Buffer<Candidate>,
-) {
-    for &MaskedPair {
-        blocks: [a, b],
-        pairs,
-    } in compared.as_slice()
-    {
-        let (first_a, first_b) = (firsts.of(a), firsts.of(b));
-        let room = found.room();
-        let overlaps = overlap_mask(i, boxes.of(a), boxes.of(b)) & pairs;
-        room.push_bits(overlaps, |bit| {
-            [first_a.plus(bit / 8), first_b.plus(bit % 8)]
-        });
-    }
-}
-
 impl<K: Kind> Held for LeafTests<K> {
     fn held(&self) -> usize {
-        held::list(&self.blocks)
+        held::list(&self.block_pairs)
             + held::list(&self.runs)
-            + self.compared.held()
-            + held::list(&self.crowded)
-            + self.candidates.held()
+            + self.blocks.held()
             + self.buffers.held()
             + self.hits.held()
             + held::list(&self.of_caller)

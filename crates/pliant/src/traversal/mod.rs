@@ -31,6 +31,7 @@
 //! A node is one box, a lane of a wide node (Embree calls the wide node a node). Differs from the paper, which descends pair by pair;
 //! where all hits are wanted the boxes reached are the same but for the order.
 
+mod block_pairs;
 mod context;
 mod descent;
 mod expand;
@@ -38,6 +39,7 @@ mod leaf_pairs;
 mod nearest;
 mod task;
 mod tree_pair;
+mod walk;
 
 pub(crate) use descent::{Scratch, Sink, Wanted, descend};
 pub(crate) use nearest::{NearestScratch, gap_square, nearest};

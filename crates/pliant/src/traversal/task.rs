@@ -3,14 +3,12 @@
 //! A task goes on by itself, depth first, on a stack and lists of its own, for as long as the boxes it asks for are valid.
 
 use super::context::Context;
-use super::expand::{NodePair, Worklists, expand};
 use super::leaf_pairs::{Cursor, LeafTests};
 use super::tree_pair::{Side, TreePair};
-use crate::held::{self, Held};
-use crate::kernels::dispatch;
+use super::walk::{Rules, Walk};
+use crate::held::Held;
 use crate::queries::{Kind, Leaves};
-use crate::tree::{BoxSource, Child, Neighbours};
-use crate::update::DirtySet;
+use crate::tree::{BoxSource, Neighbours};
 use std::ops::Range;
 
 /// Pairs of blocks that are tested before a task looks at what it has found.
@@ -23,14 +21,8 @@ const MOST_HITS: usize = 2048;
 /// A task, and its buffers, kept from query to query.
 #[derive(Debug)]
 pub(super) struct Task<K: Kind> {
-    /// Pairs of nodes taken from the stack, to be expanded when what is below them is valid.
-    batch: Vec<NodePair>,
-    /// Wide nodes below the batch that are stale, of either tree.
-    pub(super) stale: [DirtySet; 2],
-    /// The stack, and pairs of leaves that are to be tested.
-    pub(super) found: Worklists,
-    /// The leaves in the pairs of leaves, of either tree.
-    pub(super) reached: [DirtySet; 2],
+    /// The way down: its stack, and pairs of leaves that are to be tested.
+    pub(super) walk: Walk,
     /// Up to where the pairs of leaves were tested.
     cursor: Cursor,
     /// Leaves that are still to be tested with themselves and their neighbours, where the descent leaves these out.
@@ -42,10 +34,7 @@ pub(super) struct Task<K: Kind> {
 impl<K: Kind> Default for Task<K> {
     fn default() -> Self {
         Self {
-            batch: Vec::new(),
-            stale: Default::default(),
-            found: Worklists::default(),
-            reached: Default::default(),
+            walk: Walk::default(),
             cursor: Cursor::default(),
             run: 0..0,
             tests: LeafTests::default(),
@@ -57,8 +46,7 @@ impl<K: Kind> Default for Task<K> {
 /// and pairs of leaves can be tested as soon as they are found.
 pub(super) fn are_free<const N: usize, K: Kind, B: BoxSource>(sides: [&Side<'_, N, B>; 2]) -> bool {
     let is_complete = |side: &&Side<N, B>| {
-        side.boxes.are_nodes_complete()
-            && (K::LEAVES.elements().is_some() || side.boxes.are_leaves_complete())
+        side.boxes.are_nodes_complete() && (K::HAS_RUNS || side.boxes.are_leaves_complete())
     };
     sides.iter().all(is_complete)
 }
@@ -76,7 +64,7 @@ pub(super) fn left_out<const N: usize, K: Kind, P: TreePair<N>>(pair: &P) -> Opt
 
 /// How many pairs are tested before a task looks at what it has found.
 const fn before_look<K: Kind>() -> usize {
-    if K::LEAVES.elements().is_some() {
+    if K::HAS_RUNS {
         RUN_PAIRS_BEFORE_LOOK
     } else {
         BLOCK_PAIRS_BEFORE_LOOK
@@ -87,22 +75,19 @@ impl<K: Kind> Task<K> {
     /// Forgets what it was about.
     pub(super) fn clear(&mut self) {
         self.tests.clear();
-        self.batch.clear();
-        self.stale.iter_mut().for_each(DirtySet::clear);
-        self.found.clear();
-        self.reached.iter_mut().for_each(DirtySet::clear);
+        self.walk.clear();
         self.cursor = Cursor::default();
         self.run = 0..0;
     }
 
     /// Whether no pair of nodes is left.
     pub(super) fn is_done(&self) -> bool {
-        self.batch.is_empty() && self.found.nodes.is_empty()
+        self.walk.is_done()
     }
 
     /// Whether all pairs of leaves were tested.
     pub(super) fn all_tested(&self) -> bool {
-        self.cursor.pair == self.found.leaves.len()
+        self.cursor.pair == self.walk.found.leaves.len()
     }
 
     /// Goes on until it asks for boxes that are stale, has found enough, or nothing is left. What it asked for before is valid now.
@@ -112,10 +97,10 @@ impl<K: Kind> Task<K> {
         P: TreePair<N>,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
-        self.found.node_pairs = 0;
+        self.walk.found.node_pairs = 0;
         self.tests.clear();
         if !are_free::<N, K, _>(context.pair.sides()) {
-            return self.descend(context);
+            return self.walk(context);
         }
         let budget = context.budget;
         let mut tested = 0;
@@ -125,69 +110,34 @@ impl<K: Kind> Task<K> {
             }
             if self.all_tested() {
                 self.forget_leaves();
-                self.descend(context);
+                self.walk(context);
             }
             let blocks = budget.leaf_pairs.min(before_look::<K>());
             self.test(context, blocks);
             tested += blocks;
-            let stack = self.found.nodes.len();
+            let stack = self.walk.found.nodes.len();
             if self.all_tested() && (stack == 0 || stack >= budget.stack) {
                 return;
             }
         }
     }
 
-    /// Goes on until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
-    fn descend<const N: usize, P: TreePair<N>>(&mut self, context: &Context<K, P>) {
-        let (budget, sides) = (context.budget, context.pair.sides());
-        let free = are_free::<N, K, _>(sides);
-        let complete = sides.iter().all(|side| side.boxes.are_nodes_complete());
-        let left_out = left_out::<N, K, P>(context.pair);
-        loop {
-            let (batch, found) = (&self.batch, &mut self.found);
-            dispatch!(context.instructions, i => expand::<_, N, P>(i, sides, batch, left_out, found));
-            self.batch.clear();
-            for (set, reached) in self.reached.iter_mut().zip(&mut self.found.reached) {
-                let asked_for = if free || K::LEAVES.elements().is_some() {
-                    &[]
-                } else {
-                    reached.as_slice()
-                };
-                for leaves in asked_for {
-                    set.insert_eight(leaves.first.0, leaves.lanes);
-                }
-                reached.clear();
-            }
-            let stack = self.found.nodes.len();
-            if stack == 0 || stack >= budget.stack || self.found.leaves.len() >= budget.leaf_pairs {
-                return;
-            }
-            if context.interrupt.is_set() {
-                return;
-            }
-            self.found.nodes.take_last(budget.batch, &mut self.batch);
-            if !complete && self.asks_for_stale(sides) {
-                return;
-            }
+    /// Walks down until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
+    fn walk<const N: usize, P: TreePair<N>>(&mut self, context: &Context<K, P>) {
+        let sides = context.pair.sides();
+        let trees = [sides[0].boxed_tree(), sides[1].boxed_tree()];
+        let rules = Rules {
+            instructions: context.instructions,
+            interrupt: context.interrupt,
+            budget: context.budget,
+            left_out: left_out::<N, K, P>(context.pair),
+            notes_leaves: !K::HAS_RUNS && !are_free::<N, K, _>(sides),
+        };
+        if const { P::ITSELF } {
+            self.walk.go::<N, true>(trees, &rules);
+        } else {
+            self.walk.go::<N, false>(trees, &rules);
         }
-    }
-
-    /// Notes the wide nodes below the batch that are stale; whether there are any.
-    fn asks_for_stale<const N: usize, B: BoxSource>(
-        &mut self,
-        sides: [&Side<'_, N, B>; 2],
-    ) -> bool {
-        for pair in &self.batch {
-            for which in 0..2 {
-                let Side { tree, boxes, .. } = sides[which];
-                if let Child::Inner(below) = tree.child(pair[which])
-                    && !boxes.is_valid(below)
-                {
-                    self.stale[which].insert(below.0);
-                }
-            }
-        }
-        !self.stale.iter().all(DirtySet::is_empty)
     }
 
     /// Tests pairs of leaves until all were, or many, or enough was found.
@@ -216,7 +166,7 @@ impl<K: Kind> Task<K> {
         P: TreePair<N>,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
-        let leaves = self.found.leaves.as_slice();
+        let leaves = self.walk.found.leaves.as_slice();
         self.cursor = self
             .tests
             .test::<N, P>(context, leaves, self.cursor, blocks);
@@ -239,17 +189,13 @@ impl<K: Kind> Task<K> {
 
     /// Forgets the pairs of leaves, all of which were tested.
     pub(super) fn forget_leaves(&mut self) {
-        self.found.clear_leaves();
+        self.walk.found.clear_leaves();
         self.cursor = Cursor::default();
     }
 }
 
 impl<K: Kind> Held for Task<K> {
     fn held(&self) -> usize {
-        held::list(&self.batch)
-            + held::within(&self.stale)
-            + self.found.held()
-            + held::within(&self.reached)
-            + self.tests.held()
+        self.walk.held() + self.tests.held()
     }
 }

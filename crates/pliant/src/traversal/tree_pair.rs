@@ -1,5 +1,6 @@
 //! What is descended: the trees of two bodies, or the tree of one against itself.
 
+use super::expand::BoxedTree;
 use crate::geometry::Points;
 use crate::ids::{BodyId, NodeId};
 use crate::mesh::Order;
@@ -29,6 +30,14 @@ impl<const N: usize, B: BoxSource> Side<'_, N, B> {
             tree: self.tree,
             boxes: self.boxes,
             source: &self.source,
+        }
+    }
+
+    /// As a walk sees it.
+    pub(super) fn boxed_tree(&self) -> BoxedTree<'_, N> {
+        BoxedTree {
+            tree: self.tree,
+            boxes: self.boxes,
         }
     }
 

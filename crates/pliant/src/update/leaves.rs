@@ -40,7 +40,22 @@ pub(super) fn refit_leaves<const N: usize, B: BoxSource>(
         return 0;
     }
     let executor = refit.executor;
-    let make = |job: &mut LeafRun| {
+    let whole = LeafRun {
+        words: reached.words(),
+        stamp: one.boxes.stamp(),
+        boxes: one.boxes.leaves_mut(),
+        leaves: 0,
+        triangles: 0,
+    };
+    let (mut alone, mut many);
+    let jobs: &mut [LeafRun] = if !executor.are_many() || reached.count() <= SHARED {
+        alone = [whole];
+        &mut alone
+    } else {
+        many = whole.cut(reached, leaves);
+        &mut many
+    };
+    executor.run(jobs, |_, job| {
         let words = job.words.clone();
         for start in words.clone().step_by(UNINTERRUPTED) {
             if executor.is_interrupted() {
@@ -53,23 +68,10 @@ pub(super) fn refit_leaves<const N: usize, B: BoxSource>(
                 }
             });
         }
-    };
-    let mut whole = LeafRun {
-        words: reached.words(),
-        stamp: one.boxes.stamp(),
-        boxes: one.boxes.leaves_mut(),
-        leaves: 0,
-        triangles: 0,
-    };
-    let (leaves, triangles) = if !executor.are_many() || reached.count() <= SHARED {
-        make(&mut whole);
-        (whole.leaves, whole.triangles)
-    } else {
-        let mut jobs = whole.cut(reached, leaves);
-        executor.run(&mut jobs, |_, job| make(job));
-        let counts = jobs.iter().map(|job| (job.leaves, job.triangles));
-        counts.fold((0, 0), |all, part| (all.0 + part.0, all.1 + part.1))
-    };
+    });
+    let (leaves, triangles) = jobs.iter().fold((0, 0), |(leaves, triangles), job| {
+        (leaves + job.leaves, triangles + job.triangles)
+    });
     reached.clear();
     one.boxes.count_reached(leaves);
     triangles as u64

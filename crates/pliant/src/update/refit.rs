@@ -75,12 +75,20 @@ pub(super) fn refit_from_children<const N: usize, B: BoxSource>(
 /// Makes the boxes of a job, cut into jobs of fewer wide nodes if there are threads for them. Returns how many boxes it made.
 fn refit_all<const N: usize, B: BoxSource, const MERGE: bool>(
     refit: &Refit,
-    mut whole: NodeRun<'_, N>,
+    whole: NodeRun<'_, N>,
     tree: &Tree<N>,
     source: &B,
 ) -> u64 {
     let executor = refit.executor;
-    let make = |job: &mut NodeRun<'_, N>| {
+    let (mut one, mut many);
+    let jobs: &mut [_] = if whole.run.len() <= SHARED || !executor.are_many() {
+        one = [whole];
+        &mut one
+    } else {
+        many = whole.cut();
+        &mut many
+    };
+    executor.run(jobs, |_, job| {
         for run in job.run.chunks(UNINTERRUPTED) {
             if executor.is_interrupted() {
                 return;
@@ -91,13 +99,7 @@ fn refit_all<const N: usize, B: BoxSource, const MERGE: bool>(
                 }
             });
         }
-    };
-    if whole.run.len() <= SHARED || !executor.are_many() {
-        make(&mut whole);
-        return whole.made;
-    }
-    let mut jobs = whole.cut();
-    executor.run(&mut jobs, |_, job| make(job));
+    });
     jobs.iter().map(|job| job.made).sum()
 }
 

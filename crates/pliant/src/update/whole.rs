@@ -56,7 +56,7 @@ pub(super) fn refit_whole<const N: usize, B: BoxSource>(
     quantized
         .blocks
         .resize_with(tree.leaves.len(), Default::default);
-    let mut whole = WholeRun {
+    let whole = WholeRun {
         run: wide_nodes,
         nodes,
         leaves,
@@ -66,7 +66,15 @@ pub(super) fn refit_whole<const N: usize, B: BoxSource>(
         made: 0,
         triangles: 0,
     };
-    let make = |job: &mut WholeRun<'_, N>| {
+    let (mut alone, mut many);
+    let jobs: &mut [WholeRun<'_, N>] = if whole.run.len() <= SHARED || !executor.are_many() {
+        alone = [whole];
+        &mut alone
+    } else {
+        many = whole.cut(tree);
+        &mut many
+    };
+    executor.run(jobs, |_, job| {
         for run in job.run.chunks(UNINTERRUPTED) {
             if executor.is_interrupted() {
                 return;
@@ -77,17 +85,10 @@ pub(super) fn refit_whole<const N: usize, B: BoxSource>(
                 }
             });
         }
-    };
-    let [made, triangles] = if whole.run.len() <= SHARED || !executor.are_many() {
-        make(&mut whole);
-        [whole.made, whole.triangles]
-    } else {
-        let mut jobs = whole.cut(tree);
-        executor.run(&mut jobs, |_, job| make(job));
-        jobs.iter().fold([0; 2], |[made, triangles], job| {
-            [made + job.made, triangles + job.triangles]
-        })
-    };
+    });
+    let [made, triangles] = jobs.iter().fold([0; 2], |[made, triangles], job| {
+        [made + job.made, triangles + job.triangles]
+    });
     one.boxes.count_reached(made);
     // A leaf beside an inner node has no box yet, nor have its triangles.
     let all_leaves = made == tree.leaves.len();

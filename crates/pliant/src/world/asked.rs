@@ -8,11 +8,11 @@ use super::scheduler::{Scheduler, is_worth_it};
 use super::step::Step;
 use crate::error::{Error, ErrorKind};
 use crate::held::{self, Held};
-use crate::hits::Hit;
+use crate::hits::{Hit, Numbered};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
 use crate::queries::Kind;
-use crate::sort::Sorter;
+use crate::sort::{Sorter, sort_by_numbers};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Threads};
 use crate::traversal::{Scratch, Sink, Wanted};
@@ -134,20 +134,22 @@ where
         Ok(())
     }
 
-    /// All hits, sorted by numbers that they have; for kinds whose hits are more than those.
-    pub(super) fn all_by<const N: usize>(
+    /// All hits, sorted; for kinds whose hits are more than their numbers.
+    pub(super) fn all_listed<const N: usize>(
         &mut self,
         kind: &K,
         common: &mut Common<N, K::Scalar>,
         request: &Request,
-        numbers: impl Fn(&K::Hit) -> [u32; 4],
-    ) -> Result<&[K::Hit], Error> {
+    ) -> Result<&[K::Hit], Error>
+    where
+        K::Hit: Numbered,
+    {
         let interrupt = Interrupt::new(request.question);
         self.listed.clear();
         let keep = &mut |found: &[K::Hit]| self.listed.extend_from_slice(found);
         let buffers = (&mut self.scratch, &mut self.scheduler);
         Self::collect(buffers, kind, common, request, &interrupt, keep)?;
-        self.listed.sort_unstable_by_key(numbers);
+        sort_by_numbers(&mut self.listed);
         Ok(&self.listed)
     }
 
@@ -233,7 +235,8 @@ where
             instructions: *instructions,
             update: options.update,
         };
-        body_pairs.begin(request.of, bodies, kind, origin.point, interrupt)?;
+        let boxes = kind.body_boxes();
+        body_pairs.begin(request.of, bodies, boxes, origin.point, interrupt)?;
         let step = Step {
             kind,
             refit,

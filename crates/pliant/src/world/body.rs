@@ -13,7 +13,7 @@ use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{self, Changed, Elements, Order, Topology};
 use crate::options::{Options, Partition};
-use crate::queries::{Groups, Kind, NearElements, Reach, Removed, Which};
+use crate::queries::{BodyBoxes, Groups, Kind, NearElements, Reach, Removed, Which};
 use crate::threads::Executor;
 use crate::traversal::Side;
 use crate::tree::Tree;
@@ -617,10 +617,10 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// The box of the body, as a kind of query needs it.
     #[inline]
-    pub(super) fn box_for<K: Kind<Scalar = S>>(&self, kind: &K, origin: Origin) -> Aabb {
-        let motion = self.motion().filter(|_| K::HOLDS_MOTIONS);
+    pub(super) fn box_for(&self, boxes: BodyBoxes, origin: Origin) -> Aabb {
+        let motion = self.motion().filter(|_| boxes.hold_motions);
         let bounds = motion.map_or(self.bounds, |motion| self.bounds.union(&motion.bounds));
-        kind.body_box(bounds.to_box(origin))
+        boxes.of(bounds.to_box(origin))
     }
 
     /// The loose box, if there is one.
@@ -964,7 +964,7 @@ impl<'b, S: Coordinate> InCommon<'b, S> {
         });
         let (tree, boxes, near_boxes) = part.for_query(K::BOX_SET);
         let elements = self.elements.zip(near_boxes);
-        let elements = elements.filter(|_| K::LEAVES.elements().is_some());
+        let elements = elements.filter(|_| K::HAS_RUNS);
         let elements = elements.map(|(edges, boxes)| NearElements {
             edges,
             boxes,

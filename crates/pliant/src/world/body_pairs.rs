@@ -12,7 +12,7 @@ use crate::held::{self, Held};
 use crate::ids::{Place, Rank};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options;
-use crate::queries::Kind;
+use crate::queries::BodyBoxes;
 use crate::threads::Interrupt;
 
 /// Two bodies by their places, or one twice: a body with itself.
@@ -40,13 +40,6 @@ pub(super) struct BodyPairs {
     /// What the query has not been given yet, and what boxes of bodies are for it.
     next: Next,
     boxes: BodyBoxes,
-}
-
-/// What boxes of bodies are: by how much they are grown, and whether they hold the ends of motions.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct BodyBoxes {
-    grow_by: f32,
-    hold_motions: bool,
 }
 
 /// What comes after the batches that a query was given.
@@ -97,7 +90,7 @@ impl BodyPairs {
         &mut self,
         of: Selection,
         bodies: &Bodies<N, S>,
-        kind: &impl Kind<Scalar = S>,
+        boxes: BodyBoxes,
         origin: Origin,
         interrupt: &Interrupt,
     ) -> Result<(), Error> {
@@ -107,7 +100,7 @@ impl BodyPairs {
             Selection::Between(a, b) => {
                 let places = [bodies.place(a)?, bodies.place(b)?];
                 let [box_a, box_b] =
-                    places.map(|place| bodies.list[place.index()].box_for(kind, origin));
+                    places.map(|place| bodies.list[place.index()].box_for(boxes, origin));
                 if box_a.overlaps(&box_b) {
                     self.named.push(places);
                 }
@@ -125,10 +118,10 @@ impl BodyPairs {
         }
         let and_world = matches!(of, Selection::World | Selection::Everything);
         self.next = Next::Named { and_world };
-        self.boxes = boxes_for(kind);
+        self.boxes = boxes;
         if and_world && self.holds_for != Some(self.boxes) {
             self.holds_for = None;
-            self.take_boxes(bodies, kind, origin);
+            self.take_boxes(bodies, boxes, origin);
             self.broad_phase.begin(&self.broad, interrupt);
         }
         Ok(())
@@ -208,25 +201,18 @@ impl BodyPairs {
     fn take_boxes<const N: usize, S: Coordinate>(
         &mut self,
         bodies: &Bodies<N, S>,
-        kind: &impl Kind<Scalar = S>,
+        boxes: BodyBoxes,
         origin: Origin,
     ) {
         let Self { exact, broad, .. } = self;
         exact.clear();
         let list = bodies.in_order();
-        exact.extend(list.map(|body| body.box_for(kind, origin)));
+        exact.extend(list.map(|body| body.box_for(boxes, origin)));
         broad.clear();
         broad.extend(bodies.in_order().zip(&*exact).map(|(body, &exact)| {
             let loose = body.loose_box(origin);
-            loose.map_or(exact, |loose| kind.body_box(loose))
+            loose.map_or(exact, |loose| boxes.of(loose))
         }));
-    }
-}
-
-fn boxes_for<K: Kind>(kind: &K) -> BodyBoxes {
-    BodyBoxes {
-        grow_by: kind.grows_by(),
-        hold_motions: K::HOLDS_MOTIONS,
     }
 }
 

@@ -166,14 +166,19 @@ fn measure<const N: usize, S: Coordinate, H: InBodies>(
 ) {
     measured.clear();
     let interrupt = executor.interrupt;
+    let places = |ids: [BodyId; 2]| {
+        let [a, b] = ids.map(|id| bodies.get(id).ok());
+        Some([a?.places()?, b?.places()?])
+    };
     if !executor.are_many() {
         measured.reserve(hits.len());
         for hits in hits.chunks(JOB) {
             if executor.is_interrupted() {
                 return;
             }
-            let take = |close| measured.push(close);
-            dispatch!(instructions, i => measure_some(i, bodies, hits, interrupt, take));
+            measure_some(instructions, &places, hits, interrupt, &mut |close| {
+                measured.push(close);
+            });
         }
         return;
     }
@@ -183,24 +188,34 @@ fn measure<const N: usize, S: Coordinate, H: InBodies>(
         .map(|(hits, measured)| Job { hits, measured })
         .collect();
     executor.run(&mut jobs, |_, job: &mut Job<H>| {
-        let mut places = job.measured.iter_mut();
-        let take = |close| {
-            if let Some(place) = places.next() {
+        let mut room = job.measured.iter_mut();
+        measure_some(instructions, &places, job.hits, interrupt, &mut |close| {
+            if let Some(place) = room.next() {
                 *place = close;
             }
-        };
-        dispatch!(instructions, i => measure_some(i, bodies, job.hits, interrupt, take));
+        });
     });
 }
 
-/// Measures some pairs, and shows `take` each in their order. Interrupted, it ends early.
-#[inline(always)]
-fn measure_some<I: Simd, const N: usize, S: Coordinate, H: InBodies>(
-    i: I,
-    bodies: &Bodies<N, S>,
+/// Measures some pairs, and shows `take` each in their order. Interrupted, it ends early. What is called here for some pairs at a time is
+/// `dyn`, so that measuring is compiled for what is measured and no degree.
+fn measure_some<'b, S: Coordinate, H: InBodies>(
+    instructions: Instructions,
+    places: &(dyn Fn([BodyId; 2]) -> Option<[Places<'b, S>; 2]> + Sync),
     hits: &[H],
     interrupt: &Interrupt,
-    mut take: impl FnMut(H::Close),
+    take: &mut dyn FnMut(H::Close),
+) {
+    dispatch!(instructions, i => measure_by(i, places, hits, interrupt, take));
+}
+
+#[inline(always)]
+fn measure_by<'b, I: Simd, S: Coordinate, H: InBodies>(
+    i: I,
+    places: &(dyn Fn([BodyId; 2]) -> Option<[Places<'b, S>; 2]> + Sync),
+    hits: &[H],
+    interrupt: &Interrupt,
+    take: &mut dyn FnMut(H::Close),
 ) {
     let mut known: Option<([BodyId; 2], [Places<S>; 2])> = None;
     for hits in hits.chunks(4) {
@@ -208,13 +223,7 @@ fn measure_some<I: Simd, const N: usize, S: Coordinate, H: InBodies>(
         for (lane, hit) in hits.iter().enumerate() {
             let ids = hit.bodies();
             if known.as_ref().is_none_or(|(of, _)| *of != ids) {
-                let [Ok(a), Ok(b)] = ids.map(|id| bodies.get(id)) else {
-                    return;
-                };
-                let (Some(a), Some(b)) = (a.places(), b.places()) else {
-                    return;
-                };
-                known = Some((ids, [a, b]));
+                known = places(ids).map(|both| (ids, both));
             }
             let Some((_, both)) = &known else {
                 return;
@@ -225,7 +234,7 @@ fn measure_some<I: Simd, const N: usize, S: Coordinate, H: InBodies>(
         let Some(pairs) = pairs else {
             return;
         };
-        if !H::measure(i, hits, &pairs, interrupt, &mut take) {
+        if !H::measure(i, hits, &pairs, interrupt, &mut *take) {
             return;
         }
     }

@@ -15,7 +15,7 @@ use crate::geometry::Shape;
 use crate::held::{self, Held};
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
-    Candidate, Intersections, NearestPair, close, closest_of_triangles, corners_of,
+    BodyBoxes, Candidate, Intersections, NearestPair, close, closest_of_triangles, corners_of,
 };
 use crate::threads::{Executor, Interrupt};
 use crate::traversal::{NearestScratch, Scratch, TwoTrees, gap_square, nearest};
@@ -41,11 +41,11 @@ pub(super) fn others_by_gap<const N: usize, S: Coordinate>(
     listed.clear();
     common.settle_origin();
     let body = common.bodies.get(id)?;
-    let (origin, kind) = (common.origin.point, Intersections::default());
-    let own = body.box_for(&kind, origin);
+    let (origin, boxes) = (common.origin.point, BodyBoxes::default());
+    let own = body.box_for(boxes, origin);
     let others = common.bodies.list.iter();
     let others = others.filter(|other| other.id != id && common.bodies.do_meet(body, other));
-    let gaps = others.map(|other| (gap_square(&own, &other.box_for(&kind, origin)), other.id));
+    let gaps = others.map(|other| (gap_square(&own, &other.box_for(boxes, origin)), other.id));
     listed.extend(gaps);
     listed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     Ok(())
@@ -85,7 +85,9 @@ impl Distances {
         let mut found = NearestPair::within(cut_off);
         let mut limit = found.limit();
         let both = common.bodies.two(places);
-        let [box_a, box_b] = both.each_ref().map(|body| body.box_for(kind, origin));
+        let [box_a, box_b] = both
+            .each_ref()
+            .map(|body| body.box_for(BodyBoxes::default(), origin));
         if gap_square(&box_a, &box_b) > limit {
             return Ok(None);
         }

@@ -20,7 +20,7 @@ use crate::edit::{Edit, Edited};
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
-use crate::hits::{EdgeEdge, Hit, Pair, VertexTriangle};
+use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::{Degree, Options};
@@ -746,11 +746,9 @@ fn first_seen<H: Copy>(
     Ok(found)
 }
 
-ask!(
-    Contact,
-    contacts.all_by(|contact: &Contact| contact.pair.numbers()),
-    |request| Contacts::of(request.only)
-);
+ask!(Contact, contacts.all_listed(), |request| Contacts::of(
+    request.only
+));
 ask!(VertexTriangle, vertex_triangle.all(), |request| {
     VertexTriangleCandidates::within(request.margin()?)
 });
@@ -779,10 +777,9 @@ macro_rules! ask_impacts {
         impl<const N: usize, S: Coordinate> Ask<$hit> for Engine<N, S> {
             fn all(&mut self, request: &Request) -> Result<&[$hit], Error> {
                 let kind = Self::all_of(request, $candidates::within)?;
-                let numbers = |impact: &$hit| impact.pair.numbers();
                 self.impacts
                     .$asked
-                    .all_by(&kind, &mut self.common, request, numbers)
+                    .all_listed(&kind, &mut self.common, request)
             }
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {

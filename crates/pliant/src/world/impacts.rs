@@ -17,7 +17,7 @@ use super::query::Request;
 use crate::error::Error;
 use crate::geometry::Real;
 use crate::held::{self, Held};
-use crate::hits::Hit;
+use crate::hits::Numbered;
 use crate::impacts::Impact;
 use crate::kernels::Coordinate;
 use crate::kernels::closest::Corners;
@@ -343,8 +343,8 @@ where
 /// Vertices and triangles first; each in order.
 fn numbers(impact: &Impact) -> (bool, [u32; 4]) {
     match impact {
-        Impact::VertexTriangle(impact) => (false, impact.pair.numbers()),
-        Impact::EdgeEdge(impact) => (true, impact.pair.numbers()),
+        Impact::VertexTriangle(impact) => (false, impact.numbers()),
+        Impact::EdgeEdge(impact) => (true, impact.numbers()),
     }
 }
 

@@ -161,8 +161,8 @@ impl<K: Kind> Scheduler<K> {
         let all: Vec<_> = bodies.list.iter_mut().map(Mutex::new).collect();
         let threads = &Threads::one();
         let (kind, refit, origin) = (step.kind, step.refit, step.origin);
-        let bodies_of = |job: &Range<usize>| places[job.clone()].as_flattened();
-        executor.run_conflict_free(jobs, bodies_of, all.len(), workers, |worker, job| {
+        let bodies_of = &|job: usize| places[jobs[job].clone()].as_flattened();
+        executor.run_conflict_free(jobs.len(), bodies_of, all.len(), workers, &|worker, job| {
             let alone = Executor {
                 threads,
                 interrupt: executor.interrupt,
@@ -177,7 +177,7 @@ impl<K: Kind> Scheduler<K> {
                 scratch: &mut worker.scratch,
                 statistics: &mut worker.statistics,
             };
-            for at in job.clone() {
+            for at in jobs[job].clone() {
                 let first = worker.hits.len();
                 let sink = &mut |new: &[K::Hit]| keep(&mut worker.hits, new);
                 // No other thread has these bodies: no lock is ever waited for.

@@ -203,7 +203,7 @@ where
         self.refit
             .ahead(&mut side.refitted(), partner, lists, statistics);
         let itself = partner == Partner::Itself;
-        if itself && K::LEAVES.elements().is_none() && side.boxes.are_nodes_complete() {
+        if itself && !K::HAS_RUNS && side.boxes.are_nodes_complete() {
             // Every leaf is going to meet at least itself.
             let reached = &mut self.scratch.reached;
             self.refit

@@ -16,7 +16,7 @@ mod runs;
 mod vertex_triangle;
 
 use super::LeafTest;
-use crate::geometry::{Aabb, Bounds, Real, Shape};
+use crate::geometry::{Bounds, Real, Shape};
 use crate::ids::TreeVertex;
 use crate::kernels::gaps::Limits;
 use crate::kernels::{Buffer, Coordinate};
@@ -90,10 +90,6 @@ impl Margin {
     /// By how much boxes of nodes are grown.
     pub(crate) fn grown_by(self) -> f32 {
         self.grown_by
-    }
-
-    pub(crate) fn body_box(self, of_shape: Aabb) -> Aabb {
-        of_shape.grown(self.grown_by)
     }
 
     pub(crate) fn source<'s, S>(

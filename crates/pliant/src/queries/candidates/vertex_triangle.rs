@@ -2,7 +2,7 @@
 
 use super::runs::{RUNS_AT_ONCE, near_runs};
 use super::{Margin, Which, groups, keep};
-use crate::geometry::{Aabb, Shape, larger};
+use crate::geometry::{Shape, larger};
 use crate::hits::VertexTriangle;
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Buffer, Coordinate, dispatch};
@@ -42,12 +42,8 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
     const LEAVES: Leaves = Leaves::Runs(Which::VerticesAndTriangles);
     const HOLDS_MOTIONS: bool = true;
 
-    fn grows_by(&self) -> f32 {
-        self.margin.grown_by
-    }
-
-    fn body_box(&self, of_shape: Aabb) -> Aabb {
-        self.margin.body_box(of_shape)
+    fn grows_by(&self) -> Option<f32> {
+        Some(self.margin.grown_by)
     }
 
     fn source<'s>(&self, shape: Shape<'s, S>, end: Option<Shape<'s, S>>) -> Grown<Swept<'s, S>> {

@@ -2,7 +2,7 @@
 
 use super::closest_of;
 use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
-use crate::geometry::{Aabb, Shape};
+use crate::geometry::Shape;
 use crate::hits::{EdgeEdge, Hit, VertexTriangle};
 use crate::kernels::closest::Corners;
 use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
@@ -138,12 +138,8 @@ impl<C: CloseKind> Kind for Measured<C> {
     const LEAVES: Leaves = C::LEAVES;
     const HOLDS_MOTIONS: bool = C::HOLDS_MOTIONS;
 
-    fn grows_by(&self) -> f32 {
+    fn grows_by(&self) -> Option<f32> {
         self.0.grows_by()
-    }
-
-    fn body_box(&self, of_shape: Aabb) -> Aabb {
-        self.0.body_box(of_shape)
     }
 
     fn source<'s>(

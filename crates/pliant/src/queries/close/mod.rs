@@ -12,7 +12,7 @@ use super::{
     BoxSetNumber, CallerIds, EdgeEdgeCandidates, Kind, LeafTest, Leaves, Margin,
     VertexTriangleCandidates,
 };
-use crate::geometry::{Aabb, Points, Real, Shape};
+use crate::geometry::{Points, Real, Shape};
 use crate::ids::TreeVertex;
 use crate::kernels::closest::{
     Corners, FourClosest, along_normal, decide_eight, of_edges, of_vertices_and_triangles,
@@ -180,12 +180,8 @@ impl<K: ElementCandidates> Kind for Close<K> {
     const LEAVES: Leaves = K::LEAVES;
     const HOLDS_MOTIONS: bool = K::HOLDS_MOTIONS;
 
-    fn grows_by(&self) -> f32 {
+    fn grows_by(&self) -> Option<f32> {
         self.candidates.grows_by()
-    }
-
-    fn body_box(&self, of_shape: Aabb) -> Aabb {
-        self.candidates.body_box(of_shape)
     }
 
     fn source<'s>(

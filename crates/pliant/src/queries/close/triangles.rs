@@ -7,7 +7,7 @@
 use super::measured::{CloseKind, Measurable};
 use super::{ACCURACY, half};
 use crate::close_pairs::CloseTriangles;
-use crate::geometry::{Aabb, Real, Shape, barycentric};
+use crate::geometry::{Real, Shape, barycentric};
 use crate::hits::Pair;
 use crate::ids::TreeTriangle;
 use crate::kernels::closest::{TwoClosest, apart_along, of_triangles};
@@ -243,12 +243,8 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
     const BOX_SET: BoxSetNumber = 2;
     const LEAVES: Leaves = Leaves::Triangles;
 
-    fn grows_by(&self) -> f32 {
-        self.margin.grown_by()
-    }
-
-    fn body_box(&self, of_shape: Aabb) -> Aabb {
-        self.margin.body_box(of_shape)
+    fn grows_by(&self) -> Option<f32> {
+        Some(self.margin.grown_by())
     }
 
     /// Of the type of candidates, so that nothing that makes boxes is compiled for this kind alone.

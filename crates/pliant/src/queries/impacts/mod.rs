@@ -6,7 +6,7 @@
 
 use super::close::ElementCandidates;
 use super::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves, Reach};
-use crate::geometry::{Aabb, Real, Shape};
+use crate::geometry::{Real, Shape};
 use crate::hits::{EdgeEdge, Hit, VertexTriangle};
 use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
 use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
@@ -134,12 +134,8 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
         self.reach
     }
 
-    fn grows_by(&self) -> f32 {
+    fn grows_by(&self) -> Option<f32> {
         self.candidates.grows_by()
-    }
-
-    fn body_box(&self, of_shape: Aabb) -> Aabb {
-        self.candidates.body_box(of_shape)
     }
 
     fn source<'s>(

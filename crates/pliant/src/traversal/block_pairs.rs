@@ -1,0 +1,297 @@
+//! Blocks that are compared, all boxes of one with all of the other: pairs of triangles whose boxes overlap are candidates.
+//!
+//! In a body with itself nearly all pairs of leaves are neighbours in the mesh, whose boxes overlap whatever the shape is, and of whose
+//! triangles those that share no vertex are mostly apart. So all pairs of blocks are compared by quantized boxes first: mostly nothing is
+//! left. Nothing here knows what is done with candidates, nor the degree of the trees: it is compiled once.
+
+use super::expand::BoxedTree;
+use crate::held::{self, Held};
+use crate::ids::BlockId;
+use crate::kernels::{Buffer, Instructions, QuantizedRows, Simd, dispatch, overlap_mask};
+use crate::mesh::Order;
+use crate::queries::Candidate;
+use crate::tree::{BlockBoxes, FirstsOfBlocks, Neighbours, Quantized, STRICT_UPPER};
+use std::ops::Range;
+
+/// Pairs of neighbouring blocks looked at before what is left of them is compared.
+const NEIGHBOURS_AT_ONCE: usize = 256;
+
+/// Two blocks in leaves whose boxes overlap.
+pub(super) type BlockPair = [BlockId; 2];
+
+/// Two blocks, or one and itself, and the pairs of their triangles that are to be compared: bit 8 i + j, as in a mask of overlaps.
+#[derive(Clone, Copy, Debug, Default)]
+struct MaskedPair {
+    blocks: BlockPair,
+    pairs: u64,
+}
+
+/// The blocks of a body: their triangles and the boxes of these.
+#[derive(Clone, Copy)]
+pub(super) struct Boxes<'b> {
+    firsts: FirstsOfBlocks<'b>,
+    boxes: BlockBoxes<'b>,
+}
+
+impl<'b> Boxes<'b> {
+    pub(super) fn of<const N: usize>(BoxedTree { tree, boxes }: BoxedTree<'b, N>) -> Self {
+        Self {
+            firsts: tree.leaves.firsts_of_blocks(),
+            boxes: boxes.blocks(),
+        }
+    }
+}
+
+/// Blocks of one body: their boxes, and what is known of its mesh.
+#[derive(Clone, Copy)]
+pub(super) struct OneBody<'b> {
+    pub(super) boxes: Boxes<'b>,
+    pub(super) quantized: Option<&'b Quantized>,
+    /// Where triangles that share a vertex are left out: which vertices they have, and which blocks are neighbours, if that is known.
+    pub(super) left_out: Option<(&'b Order, Option<&'b Neighbours>)>,
+}
+
+/// Candidates, and the lists on the way to them.
+#[derive(Debug, Default)]
+pub(super) struct BlockTests {
+    compared: Buffer<MaskedPair>,
+    crowded: Vec<BlockPair>,
+    pub(super) candidates: Buffer<Candidate>,
+}
+
+impl BlockTests {
+    /// The candidates of pairs of blocks of two trees; without triangles that share a vertex, if an order says which those are.
+    pub(super) fn of_two(
+        &mut self,
+        instructions: Instructions,
+        boxes: [Boxes; 2],
+        pairs: &[BlockPair],
+        left_out: Option<&Order>,
+    ) {
+        let found = &mut self.candidates;
+        found.clear();
+        dispatch!(instructions, i => of_two(i, boxes, pairs, found));
+        if let Some(order) = left_out {
+            found.retain(|&[a, b]| !order.share_a_vertex(a, b));
+        }
+    }
+
+    /// The candidates of pairs of blocks of one tree.
+    pub(super) fn of_one(
+        &mut self,
+        instructions: Instructions,
+        body: OneBody,
+        pairs: &[BlockPair],
+    ) {
+        let OneBody {
+            boxes,
+            quantized,
+            left_out,
+        } = body;
+        let Self {
+            compared,
+            crowded,
+            candidates: found,
+        } = self;
+        found.clear();
+        let (Some((_, Some(neighbours))), Some(quantized)) = (left_out, quantized) else {
+            dispatch!(instructions, i => of_one(i, boxes, left_out, pairs, found));
+            return;
+        };
+        compared.clear();
+        crowded.clear();
+        dispatch!(instructions, i => {
+            non_adjacent(i, quantized, neighbours, pairs, compared, crowded);
+            overlapping(i, boxes, compared, found);
+        });
+        if !crowded.is_empty() {
+            dispatch!(instructions, i => of_one(i, boxes, left_out, crowded, found));
+        }
+    }
+
+    /// The candidates of the next of a run of leaves, each a block, with themselves and their later neighbours. Returns how many pairs
+    /// of leaves it looked at: at most so many, or those of one more leaf.
+    pub(super) fn of_neighbours(
+        &mut self,
+        instructions: Instructions,
+        boxes: Boxes,
+        quantized: Option<&Quantized>,
+        neighbours: &Neighbours,
+        run: &mut Range<u32>,
+        most: usize,
+    ) -> usize {
+        let Self {
+            compared,
+            candidates: found,
+            ..
+        } = self;
+        compared.clear();
+        found.clear();
+        let some = NEIGHBOURS_AT_ONCE.min(most);
+        dispatch!(instructions, i => {
+            let looked_at = match quantized {
+                Some(quantized) => adjacent(i, quantized, neighbours, run, some, compared),
+                None => all_adjacent(neighbours, run, some, compared),
+            };
+            overlapping(i, boxes, compared, found);
+            looked_at
+        })
+    }
+}
+
+/// The candidates of pairs of blocks of two bodies.
+#[inline(always)]
+fn of_two<I: Simd>(
+    i: I,
+    [all_a, all_b]: [Boxes; 2],
+    pairs: &[BlockPair],
+    found: &mut Buffer<Candidate>,
+) {
+    for &[a, b] in pairs {
+        let (first_a, first_b) = (all_a.firsts.of(a), all_b.firsts.of(b));
+        let room = found.room();
+        let overlaps = overlap_mask(i, all_a.boxes.of(a), all_b.boxes.of(b));
+        room.push_bits(overlaps, |bit| {
+            [first_a.plus(bit / 8), first_b.plus(bit % 8)]
+        });
+    }
+}
+
+/// The candidates of pairs of blocks of one body; if neighbours are left out, those that share no vertex.
+#[inline(always)]
+fn of_one<I: Simd>(
+    i: I,
+    Boxes { firsts, boxes }: Boxes,
+    left_out: Option<(&Order, Option<&Neighbours>)>,
+    pairs: &[BlockPair],
+    found: &mut Buffer<Candidate>,
+) {
+    for &[a, b] in pairs {
+        let (first_a, first_b) = (firsts.of(a), firsts.of(b));
+        let candidate = |bit: u32| [first_a.plus(bit / 8), first_b.plus(bit % 8)];
+        let room = found.room();
+        let mut overlaps = overlap_mask(i, boxes.of(a), boxes.of(b));
+        if a == b {
+            // Within one block, each pair of triangles once, and none with itself.
+            overlaps &= STRICT_UPPER;
+        }
+        let Some((order, neighbours)) = left_out else {
+            room.push_bits(overlaps, candidate);
+            continue;
+        };
+        if let Some(neighbours) = neighbours
+            && let Some(compared) = neighbours.compared(i, a, b)
+        {
+            // Mostly none is left.
+            if overlaps & compared != 0 {
+                room.push_bits(overlaps & compared, candidate);
+            }
+        } else {
+            room.push_bits_if(overlaps, candidate, |[a, b]| !order.share_a_vertex(a, b));
+        }
+    }
+}
+
+/// The next of a run of leaves and their neighbours, with the pairs of triangles that share no vertex and are not surely apart;
+/// those that have such pairs. Returns how many pairs of leaves it looked at.
+#[inline(always)]
+fn adjacent<I: Simd>(
+    i: I,
+    quantized: &Quantized,
+    neighbours: &Neighbours,
+    run: &mut Range<u32>,
+    enough: usize,
+    compared: &mut Buffer<MaskedPair>,
+) -> usize {
+    let mut looked_at = 0;
+    while run.start < run.end && looked_at < enough {
+        let a = BlockId(run.start);
+        run.start += 1;
+        let (others, masks) = neighbours.of_block(a);
+        looked_at += others.len();
+        compared.make_room(others.len() + 1);
+        let rows = QuantizedRows::new(i, quantized.of(a));
+        for (&b, &pairs) in others.iter().zip(masks) {
+            let b = BlockId(b);
+            let pairs = pairs & !rows.apart(i, quantized.of(b));
+            let blocks = [a, b];
+            // Whether any is left cannot be predicted.
+            compared.push_if(MaskedPair { blocks, pairs }, pairs != 0);
+        }
+    }
+    looked_at
+}
+
+/// The next of a run of leaves and their neighbours, with all pairs of triangles that share no vertex: where there are no quantized
+/// boxes. Returns how many pairs of leaves it took.
+fn all_adjacent(
+    neighbours: &Neighbours,
+    run: &mut Range<u32>,
+    enough: usize,
+    compared: &mut Buffer<MaskedPair>,
+) -> usize {
+    let mut looked_at = 0;
+    while run.start < run.end && looked_at < enough {
+        let a = BlockId(run.start);
+        run.start += 1;
+        let (others, masks) = neighbours.of_block(a);
+        looked_at += others.len();
+        for (&b, &pairs) in others.iter().zip(masks) {
+            let blocks = [a, BlockId(b)];
+            compared.push(MaskedPair { blocks, pairs });
+        }
+    }
+    looked_at
+}
+
+/// Keeps pairs of blocks that are no neighbours, with the pairs of triangles that are not surely apart; those that have such
+/// pairs. Of crowded blocks nothing is known; their pairs are put aside.
+#[inline(always)]
+fn non_adjacent<I: Simd>(
+    i: I,
+    quantized: &Quantized,
+    neighbours: &Neighbours,
+    pairs: &[BlockPair],
+    compared: &mut Buffer<MaskedPair>,
+    crowded: &mut Vec<BlockPair>,
+) {
+    compared.make_room(pairs.len() + 1);
+    for &blocks in pairs {
+        let [a, b] = blocks;
+        if neighbours.is_crowded(a.min(b)) {
+            crowded.push(blocks);
+            continue;
+        }
+        let apart = QuantizedRows::new(i, quantized.of(a)).apart(i, quantized.of(b));
+        let pairs = !apart;
+        compared.push_if(MaskedPair { blocks, pairs }, pairs != 0);
+    }
+}
+
+/// The pairs of triangles that are to be compared whose boxes overlap.
+#[inline(always)]
+fn overlapping<I: Simd>(
+    i: I,
+    Boxes { firsts, boxes }: Boxes,
+    compared: &Buffer<MaskedPair>,
+    found: &mut Buffer<Candidate>,
+) {
+    for &MaskedPair {
+        blocks: [a, b],
+        pairs,
+    } in compared.as_slice()
+    {
+        let (first_a, first_b) = (firsts.of(a), firsts.of(b));
+        let room = found.room();
+        let overlaps = overlap_mask(i, boxes.of(a), boxes.of(b)) & pairs;
+        room.push_bits(overlaps, |bit| {
+            [first_a.plus(bit / 8), first_b.plus(bit % 8)]
+        });
+    }
+}
+
+impl Held for BlockTests {
+    fn held(&self) -> usize {
+        self.compared.held() + held::list(&self.crowded) + self.candidates.held()
+    }
+}

@@ -1,8 +1,6 @@
 //! Every refusal names what was wrong, and leaves the world as it was.
 
-mod common;
-
-use common::{TrianglesOf, every_configuration, sheet};
+use crate::common::{TrianglesOf, every_configuration, sheet};
 use pliant::{
     BodyId, Error, ErrorKind, Options, Pair, Scalar, Selection, Update, World, reference,
 };

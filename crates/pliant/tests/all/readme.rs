@@ -10,7 +10,7 @@ fn blocks(text: &str) -> Vec<&str> {
 
 #[test]
 fn both_readmes_show_the_same_code() {
-    let package = blocks(include_str!("../README.md"));
+    let package = blocks(include_str!("../../README.md"));
     assert_eq!(package.len(), 1);
-    assert_eq!(blocks(include_str!("../../../README.md")), package);
+    assert_eq!(blocks(include_str!("../../../../README.md")), package);
 }

@@ -1,8 +1,6 @@
 //! An edit that is refused, whatever was right before, leaves everything: numbers, edges, groups, shape, motion, and what is found.
 
-mod common;
-
-use common::sheet;
+use crate::common::sheet;
 use pliant::{BodyId, EdgeEdge, Edit, ErrorKind as Kind, Selection, World};
 
 /// A body whose vertex 0 and the triangles at it are empty.

@@ -1,8 +1,6 @@
 //! Mesh connectivity trees: what is below a node is connected, equal, and has a short border; for any mesh.
 
-mod common;
-
-use common::{Lcg, sheet};
+use crate::common::{Lcg, sheet};
 use pliant::{BodyId, Degree, Options, Partition, World};
 use pliant_scenes::Scene;
 use proptest::prelude::*;

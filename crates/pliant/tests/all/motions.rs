@@ -3,7 +3,7 @@
 //! Thousands of motions here; ten million by
 //!
 //! ```sh
-//! cargo test --release -p pliant --test motion_oracle -- --ignored --nocapture
+//! cargo test --release -p pliant --test all motions:: -- --ignored --nocapture
 //! ```
 
 use pliant::{edge_edge_impacts, vertex_triangle_impacts};

@@ -4,9 +4,7 @@
 //! Whatever changes a pair, on purpose, in another configuration or on another machine, is noticed. A new choice (a number of
 //! threads, an instruction set) is one more line in `axes`.
 
-mod common;
-
-use common::TrianglesOf;
+use crate::common::TrianglesOf;
 use pliant::{
     BodyId, BroadPhase, Degree, Instructions, Options, Partition, Scalar, Selection, Update, World,
     reference,

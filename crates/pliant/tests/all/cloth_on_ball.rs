@@ -1,6 +1,6 @@
 //! The loop of the paper's figure 1, as the example runs it: a cloth that reacts to the pairs reported stays on a moving ball.
 
-#[path = "../examples/cloth_on_ball/simulation/mod.rs"]
+#[path = "../../examples/cloth_on_ball/simulation/mod.rs"]
 #[allow(dead_code, reason = "it writes no files here")]
 mod simulation;
 

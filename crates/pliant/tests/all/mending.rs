@@ -1,8 +1,6 @@
 //! Trees that mend themselves change no answer, and do less; and what a tree says of its decay is near what is measured.
 
-mod common;
-
-use common::{Lcg, every_configuration};
+use crate::common::{Lcg, every_configuration};
 use pliant::{BodyId, Edit, Options, Pair, Partition, Selection, World};
 use pliant_scenes::{Change, ChangingScene, Event};
 

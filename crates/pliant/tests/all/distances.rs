@@ -1,9 +1,7 @@
 //! Triangles that are close, and how far bodies are apart: every configuration says what the plain reference does, while bodies move, turn
 //! back, come and go.
 
-mod common;
-
-use common::{Lcg, every_configuration, sheet};
+use crate::common::{Lcg, every_configuration, sheet};
 use pliant::{
     BodyId, CloseTriangles, ErrorKind, Options, Pair, Scalar, Selection, World, reference,
 };

@@ -1,8 +1,6 @@
 //! The paper's point, in counted work rather than time: how many boxes each update makes.
 
-mod common;
-
-use common::TrianglesOf;
+use crate::common::TrianglesOf;
 use pliant::{Degree, Options, Partition, Scalar, Selection, Statistics, Update, World};
 use pliant_scenes::Scene;
 use std::num::NonZeroU32;
@@ -293,7 +291,7 @@ fn removing_bodies_is_not_quadratic() {
     }
 }
 
-/// `cargo test --release -p pliant --test work -- --ignored --nocapture`: half a minute and some gigabytes.
+/// `cargo test --release -p pliant --test all work:: -- --ignored --nocapture`: half a minute and some gigabytes.
 #[test]
 #[ignore = "large"]
 fn ten_million_triangles() {

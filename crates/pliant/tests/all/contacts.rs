@@ -1,9 +1,7 @@
 //! How triangles intersect: every configuration gives the kinds of the reference, of all pairs and of one kind alone, and after a cut the
 //! two sides lie on each other without crossing.
 
-mod common;
-
-use common::{every_configuration, widened, world_of};
+use crate::common::{every_configuration, widened, world_of};
 use pliant::{Contact, ContactKind, Scalar, Selection, World, reference};
 use pliant_scenes::Scene;
 use std::collections::BTreeMap;

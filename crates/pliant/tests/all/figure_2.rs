@@ -1,9 +1,7 @@
 //! Figure 2 of the paper: a binary tree of 31 nodes, levels 0 to 2 made bottom-up, and of the rest only what is reached:
 //! "There are 31 nodes in this small example tree, but only 11 of them are updated."
 
-mod common;
-
-use common::TrianglesOf;
+use crate::common::TrianglesOf;
 use pliant::{Degree, Options, Selection, TreeShape, World};
 
 #[test]

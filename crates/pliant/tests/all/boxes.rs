@@ -2,9 +2,7 @@
 //! are. That a box holds its triangles is tested in `geometry`, against exact sums: pairs alone would not show it, because any
 //! rounding that keeps order, to nearest too, keeps boxes that overlap overlapping.
 
-mod common;
-
-use common::{Lcg, TrianglesOf, every_configuration, sheet};
+use crate::common::{Lcg, TrianglesOf, every_configuration, sheet};
 use pliant::{Options, Scalar, Selection, World, reference};
 
 /// A crumpled sheet with all 53 bits in its coordinates.

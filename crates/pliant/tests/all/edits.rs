@@ -1,8 +1,6 @@
 //! Edits of meshes: after every one, a world gives the answers of a world built fresh from what is left, by the numbers that stayed.
 
-mod common;
-
-use common::{Lcg, every_configuration, sheet};
+use crate::common::{Lcg, every_configuration, sheet};
 use pliant::{
     BodyId, EdgeEdge, Edit, Edited, Options, Pair, Scalar, Selection, VertexTriangle, World,
 };

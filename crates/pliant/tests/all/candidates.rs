@@ -1,9 +1,7 @@
 //! Candidates within a margin, still and in motion, and close pairs: every configuration gives the lists of the plain reference, at every
 //! step of lives in which bodies move, turn back, stop on the way, are pinned, kept apart and given other meshes.
 
-mod common;
-
-use common::{Lcg, every_configuration, sheet};
+use crate::common::{Lcg, every_configuration, sheet};
 use pliant::reference::{self, Moving};
 use pliant::{
     BodyId, CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures, EdgeEdge, ErrorKind, Options,

@@ -1,8 +1,6 @@
 //! The heart of the suite: every configuration gives the pairs of the plain reference, on every query, at every step.
 
-mod common;
-
-use common::{Motion, TrianglesOf, every_configuration, widened, world_of};
+use crate::common::{Motion, TrianglesOf, every_configuration, sheet, widened, world_of};
 use pliant::{ErrorKind, Options, Pair, Scalar, Selection, World, reference};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
@@ -172,7 +170,7 @@ fn soup(frames: usize) -> impl Strategy<Value = Motion> {
 /// A sheet in general position, crumpled anew in every frame.
 fn crumpled(frames: usize) -> impl Strategy<Value = Motion> {
     (2_u32..7).prop_flat_map(move |side| {
-        let (triangles, flat) = common::sheet(side);
+        let (triangles, flat) = sheet(side);
         let place = prop::array::uniform3(-0.4_f32..0.4);
         let frame = prop::collection::vec(place, flat.len()).prop_map(move |moves| {
             let moved = moves

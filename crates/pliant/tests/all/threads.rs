@@ -1,8 +1,6 @@
 //! The number of threads changes nothing but time: not the pairs, not their order, not the counters.
 
-mod common;
-
-use common::TrianglesOf;
+use crate::common::TrianglesOf;
 use pliant::{Degree, Options, Pair, Partition, Selection, Statistics, Update, World};
 use pliant_scenes::Scene;
 use std::num::{NonZeroU32, NonZeroUsize};

@@ -1,9 +1,7 @@
 //! Impacts: every configuration gives those of the plain reference, with the same intervals, in lives of worlds; the first is the exactly
 //! earliest; steps that are free of collision are, and are long enough.
 
-mod common;
-
-use common::{Lcg, every_configuration, sheet};
+use crate::common::{Lcg, every_configuration, sheet};
 use pliant::reference::{self, Moving};
 use pliant::{
     BodyId, EdgeEdge, EdgeEdgeImpact, ErrorKind, Impact, Options, Scalar, Selection,

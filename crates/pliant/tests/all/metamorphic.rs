@@ -4,9 +4,7 @@
 //! On triangle soups over few places (touching, coplanar, equal and degenerate triangles in plenty) and on scenes, in `f32` and
 //! `f64`.
 
-mod common;
-
-use common::{Lcg, TrianglesOf};
+use crate::common::{Lcg, TrianglesOf};
 use pliant::{Options, Scalar, Selection, World};
 use pliant_oracle::{Class, Random, Triangle, fits_f32};
 use pliant_scenes::Scene;

@@ -4,7 +4,7 @@
 //! Thousands of pairs here; ten million by
 //!
 //! ```sh
-//! cargo test --release -p pliant --test oracle -- --ignored --nocapture
+//! cargo test --release -p pliant --test all oracle:: -- --ignored --nocapture
 //! ```
 
 use pliant::{BodyId, ContactKind, Scalar, Selection, World, reference};

@@ -1,8 +1,6 @@
 //! Split into components and fused again, cut and welded: nothing that is found is lost, and numbers lead back to what was there.
 
-mod common;
-
-use common::{Lcg, sheet};
+use crate::common::{Lcg, sheet};
 use pliant::{BodyId, ErrorKind, Pair, Selection, World};
 use std::collections::BTreeSet;
 

@@ -1,8 +1,6 @@
 //! No sequence of calls gives an answer for old positions: worlds that live are compared with worlds built fresh.
 
-mod common;
-
-use common::{Lcg, TrianglesOf, every_configuration, sheet};
+use crate::common::{Lcg, TrianglesOf, every_configuration, sheet};
 use pliant::{BodyId, Options, Pair, Scalar, Selection, World};
 
 /// What a test knows of a body: enough to build it anew.

@@ -1,8 +1,6 @@
 //! Clearance: nothing touches while every vertex moves less than it, and more can be enough to touch.
 
-mod common;
-
-use common::{Lcg, sheet};
+use crate::common::{Lcg, sheet};
 use pliant::reference::{self, Moving};
 use pliant::{BodyId, Selection, World};
 

@@ -1,0 +1,34 @@
+//! The tests of the library, one file a module, in one program: a program each is linked with the whole library each time, and is waited for
+//! while its last test runs alone. One file: `cargo test -p pliant --test all candidates::`.
+//!
+//! Beside it stand those that nothing may disturb: `allocation` and `memory` count what is allocated, `queries` looks at the clock.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod boxes;
+mod boxes_of_levels;
+mod candidates;
+mod clearance;
+mod cloth_on_ball;
+mod configurations;
+mod connectivity;
+mod contacts;
+mod distances;
+mod edits;
+mod edits_refused;
+mod figure_2;
+mod flush_to_zero;
+mod hashes;
+mod impacts;
+mod layers;
+mod mending;
+mod metamorphic;
+mod motions;
+mod never_stale;
+mod oracle;
+mod pieces;
+mod readme;
+mod refusals;
+mod threads;
+mod work;

@@ -33,12 +33,14 @@ fn versions_in_a_record_are_those_that_were_compiled() {
 #[test]
 fn small_forms_are_right_and_keep_to_the_schema() {
     let (schemas, schema) = schema();
-    for experiment in EXPERIMENTS {
+    for (number, experiment) in EXPERIMENTS.iter().enumerate() {
+        // What several rounds become is the same for all.
+        let rounds = if number == 0 { 2 } else { 1 };
         let mut steps = 0;
-        let done = experiment.run(Form::Small, 2, &mut |_, played| steps += played);
+        let done = experiment.run(Form::Small, rounds, &mut |_, played| steps += played);
         // Methods that are wrong are not timed, so progress may fall short of what was planned; never beyond.
         assert!(
-            steps > 0 && steps <= experiment.length(Form::Small, 2),
+            steps > 0 && steps <= experiment.length(Form::Small, rounds),
             "{}",
             experiment.name
         );

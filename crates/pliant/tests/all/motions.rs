@@ -3,7 +3,8 @@
 //! Thousands of motions here; ten million by
 //!
 //! ```sh
-//! cargo test --release -p pliant --test all motions:: -- --ignored --nocapture
+//! cargo test --release -p pliant --test all motions::ten -- --ignored --nocapture
+//! cargo test --release -p pliant --test all motions::slowest -- --ignored --nocapture   # how long the slowest take
 //! ```
 
 use pliant::{edge_edge_impacts, vertex_triangle_impacts};
@@ -117,4 +118,32 @@ fn impacts_are_those_of_the_oracle() {
 fn ten_million() {
     let classes = MotionClass::ALL.len() as u64;
     compare_all(101, 10_000_000 / classes + 1);
+}
+
+/// The slowest and the hundredth slowest of 100,000 motions of every class but that of any bits, each the least of three times, which
+/// other work on the machine hardly disturbs.
+#[test]
+#[ignore = "times: minutes, on a quiet machine"]
+fn slowest() {
+    for class in MotionClass::ALL {
+        if class == MotionClass::AnyBits {
+            continue;
+        }
+        let mut random = Random::new(7);
+        let mut times: Vec<Duration> = (0..100_000)
+            .map(|_| {
+                let (elements, motion) = class.motion(&mut random);
+                let tries = [(); 3].map(|()| {
+                    let begun = Instant::now();
+                    std::hint::black_box(impact(elements, &motion, WIDTHS[0]));
+                    begun.elapsed()
+                });
+                tries.into_iter().min().unwrap()
+            })
+            .collect();
+        times.sort_unstable();
+        let [slowest, hundredth] = [1, 100].map(|rank| times[times.len() - rank]);
+        println!("{class:?}: the slowest {slowest:?}, the hundredth slowest {hundredth:?}");
+        assert!(slowest < Duration::from_secs(1), "{class:?}");
+    }
 }

@@ -156,7 +156,28 @@ impl Executor<'_> {
         self.run_any(jobs, &work);
     }
 
-    /// The same for any work: it is compiled for each kind of job, but not for everything that is done with one.
+    /// Does work as one job, or, where it is worth waking threads, cut into several. `done` is then shown each as it was left.
+    pub(crate) fn run_cut<J: Send>(
+        &self,
+        whole: J,
+        is_worth_it: bool,
+        cut: impl FnOnce(J) -> Vec<J>,
+        work: impl Fn(&mut J) + Sync,
+        done: impl FnMut(&J),
+    ) {
+        let (mut alone, mut many);
+        let jobs: &mut [J] = if is_worth_it {
+            many = cut(whole);
+            &mut many
+        } else {
+            alone = [whole];
+            &mut alone
+        };
+        self.run(jobs, |_, job| work(job));
+        jobs.iter().for_each(done);
+    }
+
+    /// The same as [`run`](Self::run) for any work: it is compiled for each kind of job, but not for everything that is done with one.
     fn run_any<J: Send>(&self, jobs: &mut [J], work: &(dyn Fn(usize, &mut J) + Sync)) {
         let work: &(dyn Fn(usize, &mut J) + Sync) = &|number, job| {
             if !self.is_interrupted() {

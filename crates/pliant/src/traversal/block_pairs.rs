@@ -141,20 +141,27 @@ impl BlockTests {
 
 /// The candidates of pairs of blocks of two bodies.
 #[inline(always)]
-fn of_two<I: Simd>(
+fn of_two<I: Simd>(i: I, boxes: [Boxes; 2], pairs: &[BlockPair], found: &mut Buffer<Candidate>) {
+    for &blocks in pairs {
+        push_overlapping(i, boxes, blocks, u64::MAX, found);
+    }
+}
+
+/// The pairs of triangles of two blocks that overlap, of those in a mask.
+#[inline(always)]
+fn push_overlapping<I: Simd>(
     i: I,
-    [all_a, all_b]: [Boxes; 2],
-    pairs: &[BlockPair],
+    [of_a, of_b]: [Boxes; 2],
+    [a, b]: BlockPair,
+    pairs: u64,
     found: &mut Buffer<Candidate>,
 ) {
-    for &[a, b] in pairs {
-        let (first_a, first_b) = (all_a.firsts.of(a), all_b.firsts.of(b));
-        let room = found.room();
-        let overlaps = overlap_mask(i, all_a.boxes.of(a), all_b.boxes.of(b));
-        room.push_bits(overlaps, |bit| {
-            [first_a.plus(bit / 8), first_b.plus(bit % 8)]
-        });
-    }
+    let (first_a, first_b) = (of_a.firsts.of(a), of_b.firsts.of(b));
+    let room = found.room();
+    let overlaps = overlap_mask(i, of_a.boxes.of(a), of_b.boxes.of(b)) & pairs;
+    room.push_bits(overlaps, |bit| {
+        [first_a.plus(bit / 8), first_b.plus(bit % 8)]
+    });
 }
 
 /// The candidates of pairs of blocks of one body; if neighbours are left out, those that share no vertex.
@@ -272,21 +279,12 @@ fn non_adjacent<I: Simd>(
 #[inline(always)]
 fn overlapping<I: Simd>(
     i: I,
-    Boxes { firsts, boxes }: Boxes,
+    boxes: Boxes,
     compared: &Buffer<MaskedPair>,
     found: &mut Buffer<Candidate>,
 ) {
-    for &MaskedPair {
-        blocks: [a, b],
-        pairs,
-    } in compared.as_slice()
-    {
-        let (first_a, first_b) = (firsts.of(a), firsts.of(b));
-        let room = found.room();
-        let overlaps = overlap_mask(i, boxes.of(a), boxes.of(b)) & pairs;
-        room.push_bits(overlaps, |bit| {
-            [first_a.plus(bit / 8), first_b.plus(bit % 8)]
-        });
+    for &MaskedPair { blocks, pairs } in compared.as_slice() {
+        push_overlapping(i, [boxes; 2], blocks, pairs, found);
     }
 }
 

@@ -47,15 +47,8 @@ pub(super) fn refit_leaves<const N: usize, B: BoxSource>(
         leaves: 0,
         triangles: 0,
     };
-    let (mut alone, mut many);
-    let jobs: &mut [LeafRun] = if !executor.are_many() || reached.count() <= SHARED {
-        alone = [whole];
-        &mut alone
-    } else {
-        many = whole.cut(reached, leaves);
-        &mut many
-    };
-    executor.run(jobs, |_, job| {
+    let is_worth_it = executor.are_many() && reached.count() > SHARED;
+    let work = |job: &mut LeafRun| {
         let words = job.words.clone();
         for start in words.clone().step_by(UNINTERRUPTED) {
             if executor.is_interrupted() {
@@ -68,12 +61,20 @@ pub(super) fn refit_leaves<const N: usize, B: BoxSource>(
                 }
             });
         }
-    });
-    let (leaves, triangles) = jobs.iter().fold((0, 0), |(leaves, triangles), job| {
-        (leaves + job.leaves, triangles + job.triangles)
-    });
+    };
+    let (mut made, mut triangles) = (0, 0);
+    executor.run_cut(
+        whole,
+        is_worth_it,
+        |whole| whole.cut(reached, leaves),
+        work,
+        |job| {
+            made += job.leaves;
+            triangles += job.triangles;
+        },
+    );
     reached.clear();
-    one.boxes.count_reached(leaves);
+    one.boxes.count_reached(made);
     triangles as u64
 }
 

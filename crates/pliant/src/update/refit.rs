@@ -80,15 +80,8 @@ fn refit_all<const N: usize, B: BoxSource, const MERGE: bool>(
     source: &B,
 ) -> u64 {
     let executor = refit.executor;
-    let (mut one, mut many);
-    let jobs: &mut [_] = if whole.run.len() <= SHARED || !executor.are_many() {
-        one = [whole];
-        &mut one
-    } else {
-        many = whole.cut();
-        &mut many
-    };
-    executor.run(jobs, |_, job| {
+    let is_worth_it = whole.run.len() > SHARED && executor.are_many();
+    let work = |job: &mut NodeRun<'_, N>| {
         for run in job.run.chunks(UNINTERRUPTED) {
             if executor.is_interrupted() {
                 return;
@@ -99,8 +92,12 @@ fn refit_all<const N: usize, B: BoxSource, const MERGE: bool>(
                 }
             });
         }
+    };
+    let mut made = 0;
+    executor.run_cut(whole, is_worth_it, NodeRun::cut, work, |job| {
+        made += job.made;
     });
-    jobs.iter().map(|job| job.made).sum()
+    made
 }
 
 impl<const N: usize> NodeRun<'_, N> {

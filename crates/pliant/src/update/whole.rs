@@ -66,15 +66,8 @@ pub(super) fn refit_whole<const N: usize, B: BoxSource>(
         made: 0,
         triangles: 0,
     };
-    let (mut alone, mut many);
-    let jobs: &mut [WholeRun<'_, N>] = if whole.run.len() <= SHARED || !executor.are_many() {
-        alone = [whole];
-        &mut alone
-    } else {
-        many = whole.cut(tree);
-        &mut many
-    };
-    executor.run(jobs, |_, job| {
+    let is_worth_it = whole.run.len() > SHARED && executor.are_many();
+    let work = |job: &mut WholeRun<'_, N>| {
         for run in job.run.chunks(UNINTERRUPTED) {
             if executor.is_interrupted() {
                 return;
@@ -85,10 +78,18 @@ pub(super) fn refit_whole<const N: usize, B: BoxSource>(
                 }
             });
         }
-    });
-    let [made, triangles] = jobs.iter().fold([0; 2], |[made, triangles], job| {
-        [made + job.made, triangles + job.triangles]
-    });
+    };
+    let (mut made, mut triangles) = (0, 0);
+    executor.run_cut(
+        whole,
+        is_worth_it,
+        |whole| whole.cut(tree),
+        work,
+        |job| {
+            made += job.made;
+            triangles += job.triangles;
+        },
+    );
     one.boxes.count_reached(made);
     // A leaf beside an inner node has no box yet, nor have its triangles.
     let all_leaves = made == tree.leaves.len();

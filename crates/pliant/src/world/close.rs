@@ -209,6 +209,7 @@ fn measure_some<'b, S: Coordinate, H: InBodies>(
     dispatch!(instructions, i => measure_by(i, places, hits, interrupt, take));
 }
 
+/// The same by some instructions.
 #[inline(always)]
 fn measure_by<'b, I: Simd, S: Coordinate, H: InBodies>(
     i: I,

@@ -223,10 +223,15 @@ impl Integer {
         let mut product = Self::with_room(len);
         product.is_negative = self.is_negative != other.is_negative;
         let room = product.room();
+        // Many are multiples of high powers of two, where one coordinate of all is tiny.
+        let zeros = other.limbs().iter().take_while(|&&limb| limb == 0).count();
         for (place, &limb) in self.limbs().iter().enumerate() {
+            if limb == 0 {
+                continue;
+            }
             let mut carry = 0;
             let slots = &mut room[place..=place + other.len];
-            for (slot, &by) in slots.iter_mut().zip(other.limbs()) {
+            for (slot, &by) in slots.iter_mut().zip(other.limbs()).skip(zeros) {
                 let total = u128::from(limb) * u128::from(by) + u128::from(*slot) + carry;
                 *slot = total as u64;
                 carry = total >> 64;

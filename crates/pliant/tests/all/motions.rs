@@ -120,15 +120,12 @@ fn ten_million() {
     compare_all(101, 10_000_000 / classes + 1);
 }
 
-/// The slowest and the hundredth slowest of 100,000 motions of every class but that of any bits, each the least of three times, which
-/// other work on the machine hardly disturbs.
+/// The slowest and the hundredth slowest of 100,000 motions of every class, each the least of three times, which other work on the machine
+/// hardly disturbs.
 #[test]
 #[ignore = "times: minutes, on a quiet machine"]
 fn slowest() {
     for class in MotionClass::ALL {
-        if class == MotionClass::AnyBits {
-            continue;
-        }
         let mut random = Random::new(7);
         let mut times: Vec<Duration> = (0..100_000)
             .map(|_| {

@@ -29,8 +29,10 @@
 
 mod certain;
 mod distant;
+mod fraction;
 mod polynomial;
 mod root;
+mod sturm;
 
 use super::integer::{Integer, powers_of_all};
 use certain::{Certain, certain};

@@ -1,11 +1,13 @@
 //! Roots of polynomials in (0, 1], in order, and signs of other polynomials there: all exact, with no number that is rounded in an answer.
 //!
-//! A root is a fraction of two, or alone in an open interval between two such at which its polynomial, which has no multiple roots, has
+//! A root is a fraction, or alone in an open interval between two fractions of two at which its polynomial, which has no multiple roots, has
 //! opposite signs. The sign of another polynomial at it is mostly known from floating point, with a bound; where it is not, as where it is
-//! zero, from a sequence of signed remainders, however near other roots are. So the work is bounded.
+//! zero, from quotients and remainders, however near other roots are. So the work is bounded.
 
 use super::super::integer::Integer;
-use super::polynomial::{Dyadic, Polynomial, SignedRemainders};
+use super::fraction::{Dyadic, Fraction};
+use super::polynomial::{MOST, Polynomial};
+use super::sturm::Sturm;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
@@ -16,7 +18,7 @@ use std::ops::ControlFlow;
     reason = "there are three at most at a time, and memory for each would be allocated"
 )]
 pub(super) enum Root {
-    At(Dyadic),
+    At(Fraction),
     Between(Alone),
 }
 
@@ -29,70 +31,94 @@ pub(super) struct Alone {
     sign_at_low: i8,
 }
 
+/// What is known of a fraction to 50 bits is off by less than so much of itself.
+const ERROR: f64 = power(-48);
+/// Fractions are told apart by no less than this.
+const LEAST: f64 = power(-1000);
+
 /// Intervals of roots are narrowed to 2^-32 at least before floating point is asked for signs.
-const NARROW: f64 = f64::from_bits((1023 - 32) << 52);
+const NARROW: f64 = power(-32);
+
+const fn power(exponent: i32) -> f64 {
+    f64::from_bits((1023 + exponent).unsigned_abs() as u64 * (1 << 52))
+}
 
 /// Shows the roots in (0, 1] of a polynomial that is not zero, each once, in order, until one is enough.
 pub(super) fn visit_roots<B>(
     polynomial: &Polynomial,
     found: &mut dyn FnMut(Root) -> ControlFlow<B>,
 ) -> ControlFlow<B> {
-    if polynomial.is_constant() {
-        return ControlFlow::Continue(());
-    }
-    let chain = SignedRemainders::new(polynomial, polynomial.derivative());
     let [zero, one] = [Dyadic::zero(), Dyadic::one()];
+    if polynomial.degree() < 2 {
+        return visit_between(polynomial, zero, one, found);
+    }
+    let sturm = Sturm::new(polynomial);
+    if let Some(mut roots) = sturm.multiple_roots() {
+        roots.sort();
+        let [first, last] = roots;
+        let others = (first != last).then_some(last);
+        return visit_fractions([first].into_iter().chain(others), &zero, &one, found);
+    }
     let is_one = polynomial.sign_at(&one) == 0;
     let is_zero = polynomial.sign_at_zero() == 0;
-    let is_simple = chain.common_divisor().is_constant();
-    if is_simple && !is_zero && !is_one {
-        return visit_counted(&chain, polynomial, zero, one, found);
+    if !is_zero && !is_one {
+        return visit_counted(&sturm, polynomial, zero, one, found);
     }
-    let mut simple = if is_simple {
-        polynomial.clone()
-    } else {
-        polynomial.quotient(chain.common_divisor())
-    };
-    if is_zero {
-        simple = simple.without_root(&zero);
+    let mut others = polynomial.clone();
+    for end in [is_zero.then_some(&zero), is_one.then_some(&one)] {
+        others = end.map_or(others.clone(), |root| others.without_root(root));
     }
+    visit_between(&others, zero, one.clone(), found)?;
     if is_one {
-        simple = simple.without_root(&one);
-    }
-    visit_between(&simple, zero, one.clone(), found)?;
-    if is_one {
-        found(Root::At(one))
+        found(Root::At(one.into()))
     } else {
         ControlFlow::Continue(())
     }
 }
 
-/// Those between two times that are no roots; the polynomial has no multiple ones.
+/// Those of fractions that are after one time and up to another.
+fn visit_fractions<B>(
+    roots: impl IntoIterator<Item = Fraction>,
+    low: &Dyadic,
+    high: &Dyadic,
+    found: &mut dyn FnMut(Root) -> ControlFlow<B>,
+) -> ControlFlow<B> {
+    let [low, high] = [low, high].map(|end| Fraction::from(end.clone()));
+    let is_between = |root: &Fraction| *root > low && *root <= high;
+    roots
+        .into_iter()
+        .filter(is_between)
+        .map(Root::At)
+        .try_for_each(found)
+}
+
+/// The roots of a polynomial without multiple ones after one time and up to another; if its degree is 2 or 3, neither of these is one.
 fn visit_between<B>(
     polynomial: &Polynomial,
     low: Dyadic,
     high: Dyadic,
     found: &mut dyn FnMut(Root) -> ControlFlow<B>,
 ) -> ControlFlow<B> {
-    if polynomial.is_constant() {
-        return ControlFlow::Continue(());
+    match polynomial.degree() {
+        0 => ControlFlow::Continue(()),
+        1 => visit_fractions([Fraction::root_of(polynomial)], &low, &high, found),
+        _ => visit_counted(&Sturm::new(polynomial), polynomial, low, high, found),
     }
-    let chain = SignedRemainders::new(polynomial, polynomial.derivative());
-    visit_counted(&chain, polynomial, low, high, found)
 }
 
-/// The same, of a polynomial whose chain of signed remainders with its derivative is known.
+/// The same, of degree 2 or 3 and with its sequence.
 fn visit_counted<B>(
-    chain: &SignedRemainders,
+    sturm: &Sturm,
     polynomial: &Polynomial,
     low: Dyadic,
     high: Dyadic,
     found: &mut dyn FnMut(Root) -> ControlFlow<B>,
 ) -> ControlFlow<B> {
+    let mut cuts = Cuts::new(sturm);
     // The later parts are below the earlier ones.
     let mut parts = vec![[low, high]];
     while let Some([low, high]) = parts.pop() {
-        match chain.lost(&low, &high) {
+        match sturm.roots_between(&low, &high) {
             0 => {}
             1 => found(Root::Between(Alone {
                 sign_at_low: polynomial.sign_at(&low),
@@ -101,21 +127,63 @@ fn visit_counted<B>(
                 high,
             }))?,
             _ => {
-                let middle = low.middle(&high);
-                if polynomial.sign_at(&middle) == 0 {
+                let cut = cuts.next(&low, &high);
+                if polynomial.sign_at(&cut) == 0 {
                     // Of a lower degree: this goes no deeper than there are roots.
-                    let others = polynomial.without_root(&middle);
-                    visit_between(&others, low, middle.clone(), found)?;
-                    found(Root::At(middle.clone()))?;
-                    visit_between(&others, middle, high, found)?;
+                    let others = polynomial.without_root(&cut);
+                    visit_between(&others, low, cut.clone(), found)?;
+                    found(Root::At(cut.clone().into()))?;
+                    visit_between(&others, cut, high, found)?;
                 } else {
-                    parts.push([middle.clone(), high]);
-                    parts.push([low, middle]);
+                    parts.push([cut.clone(), high]);
+                    parts.push([low, cut]);
                 }
             }
         }
     }
     ControlFlow::Continue(())
+}
+
+/// Where parts with several roots are cut: in the middle, and close before and behind the place where roots are near each other, if any
+/// are. That is known twice as well with every 50 bits more of it; halves alone would take a step a bit, and there may be a thousand.
+struct Cuts {
+    /// Near it are those that are near each other.
+    of: Option<Fraction>,
+    /// It, nearly, and by how much that may be off.
+    about: Dyadic,
+    error: Dyadic,
+    turn: usize,
+}
+
+impl Cuts {
+    fn new(sturm: &Sturm) -> Self {
+        let of = sturm.affine().map(Fraction::root_of);
+        let [zero, one] = [Dyadic::zero(), Dyadic::one()].map(Fraction::from);
+        Self {
+            of: of.filter(|of| *of > zero && *of < one),
+            about: Dyadic::zero(),
+            error: Dyadic::zero(),
+            turn: 0,
+        }
+    }
+
+    /// Where the next part is cut.
+    fn next(&mut self, low: &Dyadic, high: &Dyadic) -> Dyadic {
+        self.turn += 1;
+        let close = self.of.as_ref().and_then(|of| match self.turn % 3 {
+            0 => {
+                let correction = of.minus(&self.about);
+                self.about = self.about.plus(&Dyadic::new(correction));
+                self.error = Dyadic::new(LEAST.max(correction.abs() * ERROR));
+                Some(self.about.minus(&self.error))
+            }
+            1 if self.turn > 1 => Some(self.about.plus(&self.error)),
+            _ => None,
+        });
+        close
+            .filter(|close| close > low && close < high)
+            .unwrap_or_else(|| low.middle(high))
+    }
 }
 
 impl Root {
@@ -124,7 +192,7 @@ impl Root {
         if let Self::Between(alone) = self
             && let Some(at) = alone.narrow()
         {
-            *self = Self::At(at);
+            *self = Self::At(at.into());
         }
     }
 
@@ -132,40 +200,41 @@ impl Root {
     pub(super) fn is_at_most(&self, x: f64) -> bool {
         let t = Dyadic::new(x);
         match self {
-            Self::At(at) => *at <= t,
+            Self::At(at) => at.cmp(&t.into()) != Ordering::Greater,
             Self::Between(alone) => alone.compare(&t) != Ordering::Greater,
         }
     }
 
     /// Two numbers from 0 to 1 that are nearly next to the root, on either side or at it.
     pub(super) fn about(&self) -> [f64; 2] {
-        let [low, high] = match self {
-            Self::At(at) => [at, at],
-            Self::Between(alone) => [&alone.low, &alone.high],
-        };
-        let [low, high] = [low, high].map(Dyadic::approximately);
+        let [low, high] = self.approximately();
         [
             low * (1.0 - 4.0 * f64::EPSILON),
             (high * (1.0 + 4.0 * f64::EPSILON)).min(1.0),
         ]
     }
 
+    /// The root, or the ends of its interval: each off by 2^-50 of itself.
+    fn approximately(&self) -> [f64; 2] {
+        match self {
+            Self::At(at) => [at.approximately(); 2],
+            Self::Between(alone) => alone.approximately(),
+        }
+    }
+
     /// The sign of another polynomial at the root.
     pub(super) fn sign_of(&self, other: &Polynomial) -> i8 {
-        match self {
-            Self::At(at) => other.sign_at(at),
-            Self::Between(_) if other.is_constant() => other.sign_at_zero(),
-            Self::Between(alone) => alone
-                .certain_sign_of(other)
-                .unwrap_or_else(|| alone.exact_sign_of(other)),
-        }
+        certain_sign(other, self.approximately()).unwrap_or_else(|| match self {
+            Self::At(at) => other.sign_at_fraction(at),
+            Self::Between(alone) => alone.exact_sign_of(other),
+        })
     }
 
     pub(super) fn compare(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Self::At(a), Self::At(b)) => a.cmp(b),
-            (Self::Between(a), Self::At(b)) => a.compare(b),
-            (Self::At(a), Self::Between(b)) => b.compare(a).reverse(),
+            (Self::Between(a), Self::At(b)) => a.compare_with_fraction(b),
+            (Self::At(a), Self::Between(b)) => b.compare_with_fraction(a).reverse(),
             (Self::Between(a), Self::Between(b)) => a.compare_with(b),
         }
     }
@@ -180,7 +249,23 @@ impl Alone {
         if *t >= self.high {
             return Ordering::Less;
         }
-        match self.polynomial.sign_at(t) {
+        self.side(self.polynomial.sign_at(t))
+    }
+
+    fn compare_with_fraction(&self, t: &Fraction) -> Ordering {
+        let [low, high] = [&self.low, &self.high].map(|end| Fraction::from(end.clone()));
+        if *t <= low {
+            return Ordering::Greater;
+        }
+        if *t >= high {
+            return Ordering::Less;
+        }
+        self.side(self.polynomial.sign_at_fraction(t))
+    }
+
+    /// Where the root is from a time in its interval at which its polynomial has this sign.
+    fn side(&self, sign: i8) -> Ordering {
+        match sign {
             0 => Ordering::Equal,
             sign if sign == self.sign_at_low => Ordering::Greater,
             _ => Ordering::Less,
@@ -197,15 +282,16 @@ impl Alone {
             }
         }
         // In there the polynomial of the other has no other root.
-        match self.exact_sign_of(&other.polynomial) {
-            0 => Ordering::Equal,
-            sign if sign == other.sign_at_low => Ordering::Less,
-            _ => Ordering::Greater,
-        }
+        other.side(self.exact_sign_of(&other.polynomial)).reverse()
+    }
+
+    fn approximately(&self) -> [f64; 2] {
+        [&self.low, &self.high].map(Dyadic::approximately)
     }
 
     fn width(&self) -> f64 {
-        self.high.approximately() - self.low.approximately()
+        let [low, high] = self.approximately();
+        high - low
     }
 
     /// Narrows the interval; returns the root if it is a fraction that was met.
@@ -247,7 +333,7 @@ impl Alone {
     /// About where the root is, by bisection in floating point.
     fn guess(&self) -> f64 {
         let coefficients = scaled(&self.polynomial);
-        let [mut low, mut high] = [&self.low, &self.high].map(Dyadic::approximately);
+        let [mut low, mut high] = self.approximately();
         for _ in 0..48 {
             let middle = 0.5 * (low + high);
             let value = value_at(&coefficients, middle);
@@ -260,44 +346,73 @@ impl Alone {
         low
     }
 
-    /// The sign, if floating point is certain of it.
-    ///
-    /// Let S be the sum of the magnitudes of the coefficients, each of which has an error of 2^-51 of itself. Horner's rule with t from 0
-    /// to 1 rounds twice for each power, up to the third, each time a number of at most S: both are less than 2^-49 S. The root is within w
-    /// / 2 + 2^-51 of the middle, where w is the width that is computed, and there the value changes by at most 3 S times that. In all less
-    /// than (2 w + 2^-48) S; twice that is allowed for, with what this line itself rounds.
-    fn certain_sign_of(&self, other: &Polynomial) -> Option<i8> {
-        let coefficients = scaled(other);
-        let [low, high] = [&self.low, &self.high].map(Dyadic::approximately);
-        let sum: f64 = coefficients.iter().map(|c| c.abs()).sum();
-        let error = sum * (4.0 * (high - low) + f64::from_bits((1023 - 47) << 52));
-        let value = value_at(&coefficients, 0.5 * (low + high));
-        (value.abs() > error).then_some(if value < 0.0 { -1 } else { 1 })
+    /// The sign, by division: where m p = q g + r, and m is positive, g is -r / q at a root of p; and these are of lower degrees.
+    fn exact_sign_of(&self, other: &Polynomial) -> i8 {
+        let rest =
+            (other.degree() >= self.polynomial.degree()).then(|| other.remainder(&self.polynomial));
+        let other = rest.as_ref().unwrap_or(other);
+        match other.degree() {
+            0 => other.sign_at_zero(),
+            1 => self.exact_sign_of_affine(other),
+            _ => {
+                let [quotient, rest] = self.polynomial.divided(other);
+                let about = self.approximately();
+                let [by, of] = [&quotient, &rest].map(|affine| {
+                    certain_sign(affine, about).unwrap_or_else(|| self.exact_sign_of(affine))
+                });
+                if by == 0 {
+                    other.sign_at_fraction(&Fraction::root_of(&quotient))
+                } else {
+                    -of * by
+                }
+            }
+        }
     }
 
-    /// The sign, by signed remainders.
-    fn exact_sign_of(&self, other: &Polynomial) -> i8 {
-        let of_other = if other.degree() < self.polynomial.degree() {
-            other.clone()
+    /// The sign of what is affine, and not constant: it has a root, and that is on a side of this one.
+    fn exact_sign_of_affine(&self, affine: &Polynomial) -> i8 {
+        let [at_low, at_high] = [&self.low, &self.high].map(|end| affine.sign_at(end));
+        if at_low == at_high || at_high == 0 {
+            at_low
+        } else if at_low == 0 {
+            at_high
         } else {
-            other.remainder(&self.polynomial)
-        };
-        let product = self.polynomial.derivative().times(&of_other);
-        let second = product.remainder(&self.polynomial);
-        let chain = SignedRemainders::new(&self.polynomial, second);
-        chain.lost(&self.low, &self.high) as i8
+            let root = Fraction::root_of(affine);
+            match self.side(self.polynomial.sign_at_fraction(&root)) {
+                Ordering::Less => at_low,
+                Ordering::Equal => 0,
+                Ordering::Greater => at_high,
+            }
+        }
     }
 }
 
+/// The sign of a polynomial at a root, or in an interval round it, if floating point is certain of it.
+///
+/// Let S be the sum of the magnitudes of the coefficients, each of which has an error of 2^-51 of itself. Horner's rule with t from 0 to 1
+/// rounds twice for each power, up to the third, each time a number of at most S: both are less than 2^-49 S. The root is within w / 2 +
+/// 2^-50 of the middle, where w is the width that is computed, and there the value changes by at most 3 S times that. In all less than (2 w
+/// + 2^-47) S; twice that is allowed for, with what this line itself rounds.
+fn certain_sign(other: &Polynomial, [low, high]: [f64; 2]) -> Option<i8> {
+    if other.is_constant() {
+        return Some(other.sign_at_zero());
+    }
+    let coefficients = scaled(other);
+    let sum: f64 = coefficients.iter().map(|c| c.abs()).sum();
+    let error = sum * (4.0 * (high - low) + power(-46));
+    let value = value_at(&coefficients, 0.5 * (low + high));
+    (value.abs() > error).then_some(if value < 0.0 { -1 } else { 1 })
+}
+
 /// The coefficients, divided by one power of two, so that the largest is about 1.
-fn scaled(polynomial: &Polynomial) -> [f64; 5] {
+fn scaled(polynomial: &Polynomial) -> [f64; MOST] {
     let parts = polynomial.coefficients().iter().map(Integer::approximately);
     let largest = parts
         .clone()
         .filter(|(m, _)| *m != 0.0)
         .map(|(_, e)| e)
         .max();
-    let mut scaled = [0.0; 5];
+    let mut scaled = [0.0; MOST];
     for (value, (m, e)) in scaled.iter_mut().zip(parts) {
         let e = e - largest.unwrap_or(0);
         // What is smaller is lost in the error.
@@ -308,6 +423,141 @@ fn scaled(polynomial: &Polynomial) -> [f64; 5] {
     scaled
 }
 
-fn value_at(coefficients: &[f64; 5], t: f64) -> f64 {
+fn value_at(coefficients: &[f64; MOST], t: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, &c| sum * t + c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pliant_oracle::Random;
+
+    fn integer(x: i64) -> Integer {
+        let magnitude = Integer::from(x.unsigned_abs());
+        if x < 0 {
+            magnitude.negated()
+        } else {
+            magnitude
+        }
+    }
+
+    /// A positive multiple of t - root.
+    fn factor(root: &Fraction) -> Polynomial {
+        Polynomial::new([root.over.clone().negated(), root.under.clone()])
+    }
+
+    fn product(factors: &[Polynomial]) -> Polynomial {
+        let one = Polynomial::new([Integer::from(1), Integer::ZERO]);
+        factors
+            .iter()
+            .fold(one, |product, factor| product.times(factor))
+    }
+
+    fn roots_of(polynomial: &Polynomial) -> Vec<Root> {
+        let mut roots = Vec::new();
+        let _ = visit_roots::<()>(polynomial, &mut |root| {
+            roots.push(root);
+            ControlFlow::Continue(())
+        });
+        roots
+    }
+
+    fn sign(ordering: Ordering) -> i8 {
+        ordering as i8
+    }
+
+    /// A fraction that is mostly from 0 to 1, and often an end, or near or at another.
+    fn fraction(random: &mut Random, others: &[Fraction]) -> Fraction {
+        let under = 1 + random.below(50) as i64;
+        let over = random.below(under as u32 + 4) as i64 - 2;
+        let Some(other) = others.last().filter(|_| random.below(2) == 0) else {
+            return Fraction::new(integer(over), integer(under));
+        };
+        // By so little as only a thousand bits tell.
+        let twos = [0, 20, 60, 500, 1100][random.below(5) as usize];
+        let by = integer(random.below(3) as i64 - 1);
+        let over = other.over.shifted(twos).plus(&by.times(&other.under));
+        Fraction::new(over, other.under.shifted(twos))
+    }
+
+    #[test]
+    fn fractions_are_found_in_order_and_signs_there() {
+        let mut random = Random::new(11);
+        let mut found = [0; 4];
+        for _ in 0..4000 {
+            let degree = 1 + random.below(3) as usize;
+            let mut expected: Vec<Fraction> = Vec::new();
+            for _ in 0..degree {
+                expected.push(fraction(&mut random, &expected));
+            }
+            let factors: Vec<Polynomial> = expected.iter().map(factor).collect();
+            let mut polynomial = product(&factors);
+            if random.below(2) == 0 {
+                polynomial = polynomial.negated();
+            }
+            let any = fraction(&mut random, &expected);
+            expected.sort();
+            expected.dedup();
+            let [zero, one] = [Dyadic::zero(), Dyadic::one()].map(Fraction::from);
+            expected.retain(|root| *root > zero && *root <= one);
+
+            let mut roots = roots_of(&polynomial);
+            assert_eq!(roots.len(), expected.len(), "{polynomial:?}");
+            for round in 0..2 {
+                for (root, expected) in roots.iter().zip(&expected) {
+                    let at = Root::At(expected.clone());
+                    assert_eq!(root.compare(&at), Ordering::Equal, "{polynomial:?} {round}");
+                    let side = root.compare(&Root::At(any.clone()));
+                    assert_eq!(side, expected.cmp(&any));
+                    assert_eq!(root.sign_of(&factor(&any)), sign(side));
+                    // Of degrees 2 and 3, which may have the root themselves.
+                    let three = [any.clone(), expected.clone(), one.clone()];
+                    let three = three.each_ref().map(factor);
+                    assert_eq!(root.sign_of(&product(&three[..2])), 0);
+                    assert_eq!(root.sign_of(&product(&three)), 0);
+                    let square = product(&[factor(&any), factor(&any)]);
+                    assert_eq!(root.sign_of(&square), sign(side).abs());
+                    let cube = product(&[square, factor(&one)]);
+                    let before_one = sign(expected.cmp(&one));
+                    assert_eq!(root.sign_of(&cube), sign(side).abs() * before_one);
+                }
+                roots.iter_mut().for_each(Root::narrow);
+            }
+            found[roots.len()] += 1;
+        }
+        assert!(found.iter().all(|&times| times > 200), "{found:?}");
+    }
+
+    /// Roots of m t^2 - n, and the signs of what is zero there, or nearly so.
+    #[test]
+    fn roots_that_are_no_fractions() {
+        let mut random = Random::new(12);
+        for _ in 0..2000 {
+            let mut below = |end: u64| (random.bits() % end) as i64;
+            let m = 2 + below(1 << 20);
+            let n = 1 + below(m as u64 - 1);
+            let [u, many] = [1 + below(1 << 40), below(1 << 60)];
+            let [zero, one] = [Integer::ZERO, Integer::from(1)];
+            let t = Polynomial::new([zero.clone(), one]);
+            let constant = |x: i64| Polynomial::new([integer(x), Integer::ZERO]);
+            let square = product(&[constant(m), t.clone(), t.clone()]).plus(&constant(-n));
+            let other = factor(&fraction(&mut random, &[]));
+            let find = |polynomial: &Polynomial| {
+                let mut roots = roots_of(polynomial).into_iter();
+                roots.find(|root| root.sign_of(&square) == 0).unwrap()
+            };
+            let roots = [find(&square), find(&product(&[square.clone(), other]))];
+            assert_eq!(roots[0].compare(&roots[1]), Ordering::Equal);
+            // The sign of u t - v, as near to zero as there is one with this u.
+            let v = ((n as f64 / m as f64).sqrt() * u as f64).round() as i64;
+            let of = |[a, b]: [i64; 2]| i128::from(a) * i128::from(b).pow(2);
+            let expected = sign(of([n, u]).cmp(&of([m, v])));
+            let affine = product(&[constant(u), t]).plus(&constant(-v));
+            let near = product(&[constant(many), square.clone()]).plus(&affine);
+            for root in &roots {
+                assert_eq!(root.sign_of(&affine), expected, "{m} {n} {u} {v}");
+                assert_eq!(root.sign_of(&near), expected, "{m} {n} {u} {v}");
+            }
+        }
+    }
 }

@@ -1,0 +1,175 @@
+//! Times that are fractions: of two, at which roots are looked for; and of any integers, which some roots are.
+
+use super::super::integer::{Integer, parts};
+use super::polynomial::Polynomial;
+use std::cmp::Ordering;
+
+/// An integer over a power of two.
+#[derive(Clone, Debug)]
+pub(super) struct Dyadic {
+    pub(super) over: Integer,
+    pub(super) twos: usize,
+}
+
+/// An integer over a positive one.
+#[derive(Clone, Debug)]
+pub(super) struct Fraction {
+    pub(super) over: Integer,
+    pub(super) under: Integer,
+}
+
+impl Dyadic {
+    pub(super) fn zero() -> Self {
+        Self {
+            over: Integer::ZERO,
+            twos: 0,
+        }
+    }
+
+    pub(super) fn one() -> Self {
+        Self {
+            over: Integer::from(1),
+            twos: 0,
+        }
+    }
+
+    /// A number from -1 to 1.
+    pub(super) fn new(x: f64) -> Self {
+        let (is_negative, integer, exponent) = parts(x);
+        if integer == 0 {
+            return Self::zero();
+        }
+        let zeros = integer.trailing_zeros();
+        let (odd, exponent) = (integer >> zeros, exponent + zeros as i32);
+        // Of numbers up to 1 only 1 itself has an exponent above none.
+        let over = Integer::from(odd).shifted(exponent.max(0).unsigned_abs() as usize);
+        Self {
+            over: if is_negative { over.negated() } else { over },
+            twos: exponent.min(0).unsigned_abs() as usize,
+        }
+    }
+
+    pub(super) fn plus(&self, other: &Self) -> Self {
+        let twos = self.twos.max(other.twos);
+        let [a, b] = [self, other].map(|it| it.over.shifted(twos - it.twos));
+        let over = a.plus(&b);
+        let zeros = over.trailing_zeros().min(twos);
+        Self {
+            over: over.unshifted(zeros),
+            twos: twos - zeros,
+        }
+    }
+
+    pub(super) fn minus(&self, other: &Self) -> Self {
+        self.plus(&Self {
+            over: other.over.clone().negated(),
+            twos: other.twos,
+        })
+    }
+
+    /// The middle of two.
+    pub(super) fn middle(&self, other: &Self) -> Self {
+        let [a, b] = [self, other].map(|it| Self {
+            over: it.over.clone(),
+            twos: it.twos + 1,
+        });
+        a.plus(&b)
+    }
+
+    /// Nearly the same number, which is not negative: off by 2^-52 of itself; zero if it is below 2^-1000.
+    pub(super) fn approximately(&self) -> f64 {
+        let (m, e) = self.over.approximately();
+        scaled(m, e - self.twos as i32)
+    }
+}
+
+impl PartialEq for Dyadic {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Dyadic {}
+
+impl PartialOrd for Dyadic {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Dyadic {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let twos = self.twos.max(other.twos);
+        let [a, b] = [self, other].map(|it| it.over.shifted(twos - it.twos));
+        a.minus(&b).sign().cmp(&0)
+    }
+}
+
+impl Fraction {
+    /// Of two integers, the second of which is not zero.
+    pub(super) fn new(over: Integer, under: Integer) -> Self {
+        let [over, under] = if under.sign() < 0 {
+            [over.negated(), under.negated()]
+        } else {
+            [over, under]
+        };
+        Self { over, under }
+    }
+
+    /// The root of a polynomial of degree 1.
+    pub(super) fn root_of(affine: &Polynomial) -> Self {
+        let [over, under] = [0, 1].map(|power| affine.coefficients()[power].clone());
+        Self::new(over.negated(), under)
+    }
+
+    /// Nearly the same number, which is from 0 to 1: off by 2^-50 of itself; zero if it is below 2^-1000.
+    pub(super) fn approximately(&self) -> f64 {
+        self.minus(&Dyadic::zero())
+    }
+
+    /// Nearly by how much it is more than a fraction of two: off by 2^-50 of that; zero if it is below 2^-1000.
+    pub(super) fn minus(&self, other: &Dyadic) -> f64 {
+        let [a, b] = [self.over.shifted(other.twos), self.under.times(&other.over)];
+        let [(m, e), (by, of_by)] = [&a.minus(&b), &self.under].map(Integer::approximately);
+        scaled(m / by, e - of_by - other.twos as i32)
+    }
+}
+
+impl From<Dyadic> for Fraction {
+    fn from(dyadic: Dyadic) -> Self {
+        Self {
+            over: dyadic.over,
+            under: Integer::from(1).shifted(dyadic.twos),
+        }
+    }
+}
+
+impl PartialEq for Fraction {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Fraction {}
+
+impl PartialOrd for Fraction {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Fraction {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let [a, b] = [self.over.times(&other.under), other.over.times(&self.under)];
+        a.minus(&b).sign().cmp(&0)
+    }
+}
+
+/// A number times a power of two; zero if that is below 2^-1000.
+fn scaled(m: f64, e: i32) -> f64 {
+    if e < -1000 {
+        0.0
+    } else {
+        m * f64::powi(2.0, e)
+    }
+}

@@ -1,0 +1,83 @@
+//! How many roots a polynomial has in an interval: its sequence of Sturm.
+//!
+//! Of a polynomial and its derivative, each further one is a positive multiple of the negative remainder of the two before it, to the last
+//! that is not zero. Between two times that are no roots the sequence loses as many changes of sign as there are roots, each counted once.
+//!
+//! Of a t^3 + b t^2 + c t + d with the sign s of a, the third is s (2 (b^2 - 3 a c) t + b c - 9 a d): the remainder times -9 a^2 / |a|. What
+//! comes after one of degree 1 is a number, of which the sign is enough: the opposite of that which the one before has at the root. It is
+//! zero if the polynomial has multiple roots. Then all its roots are fractions: a root that comes twice is that of the one of degree 1, and
+//! all add up to -b / a; what comes three times is -b / (3 a).
+
+use super::super::integer::Integer;
+use super::fraction::{Dyadic, Fraction};
+use super::polynomial::Polynomial;
+
+/// The sequence of a polynomial of degree 2 or 3.
+#[derive(Clone, Debug)]
+pub(super) struct Sturm {
+    /// The polynomial, its derivative, and of a cube the third, which may be zero.
+    polynomials: [Polynomial; 3],
+    /// The sign of the number after the one of degree 1; 0 if there is none.
+    last: i8,
+}
+
+impl Sturm {
+    pub(super) fn new(polynomial: &Polynomial) -> Self {
+        let third = match polynomial.coefficients() {
+            [d, c, b, a] => {
+                let [three, nine] = [3, 9].map(Integer::from);
+                let of_t = b.times(b).minus(&a.times(c).times(&three)).shifted(1);
+                let of_one = b.times(c).minus(&a.times(d).times(&nine));
+                let third = Polynomial::new([of_one, of_t]);
+                if a.sign() < 0 { third.negated() } else { third }
+            }
+            _ => Polynomial::ZERO,
+        };
+        let polynomials = [polynomial.clone(), polynomial.derivative(), third];
+        let affine = polynomials.iter().position(|it| it.degree() == 1);
+        let last = affine.map_or(0, |place| {
+            let root = Fraction::root_of(&polynomials[place]);
+            -polynomials[place - 1].sign_at_fraction(&root)
+        });
+        Self { polynomials, last }
+    }
+
+    /// The one of degree 1, if there is one: between two roots that are near each other, and far from a third, it has its own.
+    pub(super) fn affine(&self) -> Option<&Polynomial> {
+        self.polynomials.iter().find(|it| it.degree() == 1)
+    }
+
+    /// All roots, in any order, if one of them is a multiple one.
+    pub(super) fn multiple_roots(&self) -> Option<[Fraction; 2]> {
+        let [polynomial, derivative, third] = &self.polynomials;
+        let is_cube = polynomial.degree() == 3;
+        if self.last != 0 || is_cube && third.is_constant() && !third.is_zero() {
+            return None;
+        }
+        if is_cube && third.is_zero() {
+            let of_all = Fraction::root_of(&derivative.derivative());
+            return Some([of_all.clone(), of_all]);
+        }
+        let twice = self.affine().map(Fraction::root_of)?;
+        let [_, _, b, a] = polynomial.coefficients() else {
+            return Some([twice.clone(), twice]);
+        };
+        let over = b.times(&twice.under).plus(&a.times(&twice.over).shifted(1));
+        let once = Fraction::new(over.negated(), a.times(&twice.under));
+        Some([twice, once])
+    }
+
+    /// How often the sign changes along the sequence at a time.
+    fn changes_at(&self, t: &Dyadic) -> i32 {
+        let signs = self.polynomials.iter().map(|it| it.sign_at(t));
+        let mut signs = signs.chain([self.last]).filter(|&sign| sign != 0);
+        let mut before = signs.next();
+        let is_change = |sign| before.replace(sign) != Some(sign);
+        signs.map(is_change).map(i32::from).sum()
+    }
+
+    /// How many roots are between two times that are none. There are no multiple ones.
+    pub(super) fn roots_between(&self, low: &Dyadic, high: &Dyadic) -> i32 {
+        self.changes_at(low) - self.changes_at(high)
+    }
+}

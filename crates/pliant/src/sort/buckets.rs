@@ -4,8 +4,8 @@
 //! a key is written there. In a bucket of few, the place of each is how many are smaller (`kernels::ranks`). In a bucket of many, if the
 //! rests have few bits, a bitmap is made of them and gone through from the lowest. Any other bucket is put into buckets again.
 //!
-//! Each of several threads puts a part of the keys into buckets of its own. Then each puts some buckets in order, of all parts: as many as
-//! make about the same number of keys. What is in order does not depend on how many threads there are.
+//! Keys come in parts, one of each thread that has found some. Each is put into buckets of its own. Then each thread puts some buckets in
+//! order, of all parts: as many as make about the same number of keys. What is in order does not depend on how many threads there are.
 //!
 //! No two keys are equal: of equal ones some would be missing.
 
@@ -22,8 +22,8 @@ const BUCKETS: usize = 1 << 16;
 const BITMAP: u32 = 20;
 /// The summary of a bitmap has at most so many words for each rest: going through them costs less than buckets.
 const SUMMARY: usize = 4;
-/// Keys that a thread puts into buckets, at least: fewer are not worth waking it.
-const SHORTEST_PART: usize = 1024;
+/// Fewer keys are not worth waking a thread.
+const SHORTEST_RUN: usize = 1024;
 /// So many keys are looked at before it is asked whether somebody wants to stop.
 const UNINTERRUPTED: usize = 1 << 16;
 
@@ -57,21 +57,20 @@ struct Scratch<R> {
 }
 
 impl Buckets {
-    /// Puts what is made of keys in order of the keys, of which there are fewer than 2^32, none above 2^63. Interrupted, it leaves anything.
-    pub(super) fn put_in_order<T: Send>(
+    /// Puts what is made of keys in order of the keys, which come in parts, from the least to the largest: fewer than 2^32 in all, none above
+    /// 2^63. Interrupted, it leaves anything.
+    pub(super) fn put_in_order<'k, T: Send>(
         &mut self,
         (executor, instructions): (Executor, Instructions),
-        keys: &[u64],
+        keys: impl Iterator<Item = &'k [u64]>,
+        [least, most]: [u64; 2],
         make: impl Fn(u64) -> T + Copy + Sync,
         made: &mut [T],
     ) {
-        let least_and_most =
-            |(least, most): (u64, u64), &key: &u64| (least.min(key), most.max(key));
-        let (least, most) = keys.iter().fold((u64::MAX, 0), least_and_most);
-        if executor.is_interrupted() || keys.is_empty() {
+        if executor.is_interrupted() || made.is_empty() {
             return;
         }
-        let division = Division::new(keys.len(), least, most - least);
+        let division = Division::new(made.len(), least, most - least);
         let job = Job {
             executor,
             instructions,
@@ -214,8 +213,12 @@ struct Run<'k, R, T> {
 }
 
 impl<F> Job<'_, F> {
-    fn put_in_order<R: Rest, T: Send>(self, keys: &[u64], lists: &mut Lists<R>, made: &mut [T])
-    where
+    fn put_in_order<'k, R: Rest, T: Send>(
+        self,
+        keys: impl Iterator<Item = &'k [u64]>,
+        lists: &mut Lists<R>,
+        made: &mut [T],
+    ) where
         F: Fn(u64) -> T + Copy + Sync,
     {
         let (executor, buckets) = (self.executor, self.division.buckets);
@@ -224,16 +227,23 @@ impl<F> Job<'_, F> {
             ends,
             scratch,
         } = lists;
-        if !lengthen(rests, keys.len(), R::default(), executor) {
+        if !lengthen(rests, made.len(), R::default(), executor) {
             return;
         }
-        let threads = executor.count().min(keys.len() / SHORTEST_PART).max(1);
-        ends.resize(ends.len().max(threads * buckets), 0);
-        scratch.resize_with(scratch.len().max(threads), Scratch::default);
-        if threads == 1 {
+        let runs = executor.count().min(made.len() / SHORTEST_RUN).max(1);
+        scratch.resize_with(scratch.len().max(runs), Scratch::default);
+        let mut keys = keys.filter(|keys| !keys.is_empty());
+        let first = keys.next().unwrap_or_default();
+        let second = keys.next();
+        if runs == 1 && second.is_none() {
             // Without lists of one, which a step would allocate.
+            ends.resize(ends.len().max(buckets), 0);
             let ends = &mut ends[..buckets];
-            let mut part = Part { keys, rests, ends };
+            let mut part = Part {
+                keys: first,
+                rests,
+                ends,
+            };
             self.spread(&mut part);
             let mut run = Run {
                 buckets: 0..buckets,
@@ -243,17 +253,21 @@ impl<F> Job<'_, F> {
             self.put_run_in_order(std::slice::from_ref(&part), &mut run);
             return;
         }
-        let size = keys.len().div_ceil(threads);
-        let rests = rests.chunks_mut(size).zip(ends.chunks_mut(buckets));
-        let parts = keys.chunks(size).zip(rests);
-        let mut parts: Vec<_> = parts
-            .map(|(keys, (rests, ends))| Part { keys, rests, ends })
-            .collect();
+        let keys: Vec<&[u64]> = [first].into_iter().chain(second).chain(keys).collect();
+        ends.resize(ends.len().max(keys.len() * buckets), 0);
+        let mut rests = &mut **rests;
+        let part = |(keys, ends): (&'k [u64], _)| Part {
+            keys,
+            rests: rests.split_off_mut(..keys.len()).unwrap_or_default(),
+            ends,
+        };
+        let each = keys.into_iter().zip(ends.chunks_mut(buckets));
+        let mut parts: Vec<_> = each.map(part).collect();
         executor.run(&mut parts, |_, part| self.spread(part));
         if executor.is_interrupted() {
             return;
         }
-        let mut runs = cut(&parts, made, &mut scratch[..threads]);
+        let mut runs = cut(&parts, made, &mut scratch[..runs]);
         executor.run(&mut runs, |_, run| self.put_run_in_order(&parts, run));
     }
 

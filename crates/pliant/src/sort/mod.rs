@@ -1,27 +1,28 @@
 //! Hits in the order of their numbers.
 //!
-//! Hits become keys as they are found (`packing`), with as many bits as the largest numbers so far need; keys are put in order
-//! by their digits (`buckets`); and become hits again. Hits of which more than 63 bits are needed are compared.
+//! Every thread makes keys of what it finds (`keys`, `packing`), with as many bits as its largest numbers so far need; the keys of all
+//! threads are put in order by their digits (`buckets`), and become hits again. Hits of which more than 63 bits are needed are compared.
 //!
 //! No two hits are equal.
 
 mod buckets;
+mod keys;
 mod packing;
 
 use crate::held::{self, Held};
 use crate::hits::{Hit, Numbered};
 use crate::kernels::Instructions;
-use crate::threads::Executor;
+use crate::threads::{Executor, PerThread};
 use buckets::{Buckets, lengthen};
+use keys::{Keys, NOTHING, both};
 use packing::Packing;
 
 /// Hits, and scratch.
 #[derive(Debug)]
 pub(crate) struct Sorter<T> {
-    /// What is found, sorted at the end; before that hits that do not fit keys, or else what was found the time before.
+    /// What was found, once it is sorted.
     hits: Vec<T>,
-    packing: Packing,
-    keys: Vec<u64>,
+    keys: PerThread<Keys<T>>,
     buckets: Buckets,
 }
 
@@ -29,8 +30,7 @@ impl<T> Default for Sorter<T> {
     fn default() -> Self {
         Self {
             hits: Vec::new(),
-            packing: Packing::default(),
-            keys: Vec::new(),
+            keys: PerThread::default(),
             buckets: Buckets::default(),
         }
     }
@@ -38,64 +38,48 @@ impl<T> Default for Sorter<T> {
 
 impl<T: Hit> Sorter<T> {
     /// Forgets all hits.
-    pub(crate) fn begin(&mut self) {
+    pub(crate) fn begin(&mut self, executor: Executor) {
         // The list of hits is written anew, and not emptied: there is no need to fill it with something first.
-        self.packing = Packing::default();
-        self.keys.clear();
+        self.keys.for_threads(executor.count());
+        self.keys.iter_mut().for_each(Keys::clear);
     }
 
-    /// Takes hits.
-    pub(crate) fn push(&mut self, hits: &[T]) {
-        let packing = self.packing.with(hits);
-        if packing != self.packing {
-            self.pack_anew(packing);
-        }
-        if packing.fits() {
-            let keys = hits.iter().map(|hit| packing.key(hit.numbers()));
-            self.keys.extend(keys);
-        } else {
-            self.hits.extend_from_slice(hits);
-        }
-    }
-
-    /// Keys of more bits; or hits, if these are too many.
-    fn pack_anew(&mut self, packing: Packing) {
-        let old = std::mem::replace(&mut self.packing, packing);
-        if packing.fits() {
-            for key in &mut self.keys {
-                *key = packing.key(old.numbers(*key));
-            }
-        } else if old.fits() {
-            self.unpack(old);
-        }
-    }
-
-    /// Keys become hits.
-    fn unpack(&mut self, packing: Packing) {
-        self.hits.clear();
-        let keys = self.keys.drain(..);
-        let hits = keys.map(|key| T::of_numbers(packing.numbers(key)));
-        self.hits.extend(hits);
+    /// Takes hits, of any thread.
+    pub(crate) fn push(&self, hits: &[T]) {
+        self.keys.own().push(hits);
     }
 
     /// Sorts all hits. Interrupted, it leaves them in any state.
     pub(crate) fn sort(&mut self, executor: Executor, instructions: Instructions) {
-        let packing = self.packing;
+        let Self {
+            hits,
+            keys,
+            buckets,
+        } = self;
+        let packings = keys.iter_mut().map(|keys| keys.packing());
+        let packing = packings.fold(Packing::default(), Packing::and);
+        let count: usize = keys.iter_mut().map(|keys| keys.keys().len()).sum();
         // Places in buckets are not counted further.
-        let are_countable = u32::try_from(self.keys.len()).is_ok();
-        if packing.fits() && are_countable {
-            let zero = T::of_numbers([0; 4]);
-            if lengthen(&mut self.hits, self.keys.len(), zero, executor) {
-                let (buckets, hits) = (&mut self.buckets, &mut self.hits);
-                let hit = |key| T::of_numbers(packing.numbers(key));
-                buckets.put_in_order((executor, instructions), &self.keys, hit, hits);
+        if !packing.fits() || u32::try_from(count).is_err() {
+            hits.clear();
+            for keys in keys.iter_mut() {
+                keys.unpack();
+                keys.move_hits_to(hits);
             }
+            sort_by_numbers(hits);
             return;
         }
-        if packing.fits() {
-            self.unpack(packing);
+        let mut extent = NOTHING;
+        for keys in keys.iter_mut() {
+            keys.pack(packing);
+            extent = both(extent, keys.extent());
         }
-        sort_by_numbers(&mut self.hits);
+        let zero = T::of_numbers([0; 4]);
+        if lengthen(hits, count, zero, executor) {
+            let all = keys.iter_mut().map(|keys| keys.keys());
+            let hit = |key| T::of_numbers(packing.numbers(key));
+            buckets.put_in_order((executor, instructions), all, extent, hit, hits);
+        }
     }
 }
 
@@ -113,7 +97,7 @@ impl<T> Sorter<T> {
 
 impl<T> Held for Sorter<T> {
     fn held(&self) -> usize {
-        held::list(&self.hits) + held::list(&self.keys) + self.buckets.held()
+        held::list(&self.hits) + self.keys.held_by(Held::held) + self.buckets.held()
     }
 }
 
@@ -186,10 +170,9 @@ mod tests {
                         interrupt,
                     };
                     for instructions in Instructions::all() {
-                        sorter.begin();
-                        for some in items.chunks(100) {
-                            sorter.push(some);
-                        }
+                        sorter.begin(executor);
+                        let mut jobs: Vec<_> = items.chunks(100).collect();
+                        executor.run(&mut jobs, |_, some| sorter.push(some));
                         sorter.sort(executor, instructions);
                         let is_right = sorter.hits() == expected;
                         assert!(is_right, "{count} {bits:?} {threads}");

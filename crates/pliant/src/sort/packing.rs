@@ -12,15 +12,29 @@ pub(super) struct Packing {
 }
 
 impl Packing {
+    /// Of so many bits that no key has them.
+    pub(super) const UNFIT: Self = Self {
+        body: u32::BITS,
+        number: u32::BITS,
+    };
+
     /// That of these hits, too.
     pub(super) fn with<T: Hit>(self, hits: &[T]) -> Self {
         let all = hits.iter().map(T::numbers);
         let (bodies, numbers) = all.fold((0, 0), |(bodies, numbers), [a, x, b, y]| {
             (bodies | a | b, numbers | x | y)
         });
+        self.and(Self {
+            body: u32::BITS - bodies.leading_zeros(),
+            number: u32::BITS - numbers.leading_zeros(),
+        })
+    }
+
+    /// That of the hits of two.
+    pub(super) fn and(self, other: Self) -> Self {
         Self {
-            body: self.body.max(u32::BITS - bodies.leading_zeros()),
-            number: self.number.max(u32::BITS - numbers.leading_zeros()),
+            body: self.body.max(other.body),
+            number: self.number.max(other.number),
         }
     }
 

@@ -13,9 +13,11 @@
 mod budget;
 mod conflict_free;
 mod interrupt;
+mod per_thread;
 
 pub(crate) use budget::Budget;
 pub(crate) use interrupt::{Interrupt, Question};
+pub(crate) use per_thread::PerThread;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -1,12 +1,16 @@
 //! What all tasks of a descent work with, and how far each goes before it gives way to the others.
 
+use super::sink::Collector;
 use crate::kernels::Instructions;
+use crate::queries::Kind;
 use crate::threads::Interrupt;
 
 /// What all tasks work with.
-pub(super) struct Context<'q, K, P> {
+pub(super) struct Context<'q, K: Kind, P> {
     pub(super) kind: &'q K,
     pub(super) pair: &'q P,
+    /// Where all that is found goes, if there is no visitor.
+    pub(super) collector: Option<Collector<'q, K::Hit>>,
     pub(super) instructions: Instructions,
     pub(super) interrupt: &'q Interrupt<'q>,
     pub(super) budget: Budget,
@@ -19,7 +23,7 @@ pub(super) struct Budget {
     pub(super) batch: usize,
     /// With so many pairs of leaves on its list, a task tests them.
     pub(super) leaf_pairs: usize,
-    /// After so many pairs of blocks, hits are shown.
+    /// After so many pairs of blocks, hits are shown to a visitor, and pairs of nodes distributed anew.
     pub(super) block_pairs: usize,
     /// With so many pairs of nodes on its stack, a task gives some to others.
     pub(super) stack: usize,

@@ -2,6 +2,8 @@
 
 use super::context::{Budget, Context};
 use super::expand::NodePair;
+use super::leaf_pairs::LeafTests;
+use super::sink::{Collector, Sink};
 use super::task::{Task, are_free, left_out};
 use super::tree_pair::TreePair;
 use crate::held::{self, Held};
@@ -13,16 +15,6 @@ use crate::threads::Executor;
 use crate::tree::BoxSource;
 use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
-
-/// How much of what there is a query wants.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Wanted {
-    /// All of it.
-    All,
-    /// As much as its visitor looks at, which may be the first hit.
-    #[default]
-    UntilBreak,
-}
 
 /// Of a visitor, the first batch is one pair of nodes, and batches double: if it stops at the first hit, few boxes were made that it
 /// did not need. On the two spheres from contact on, 16 instead made 1,841 boxes where this makes 520, and took 1.8 times as long.
@@ -50,9 +42,6 @@ const FEWEST_LEAVES: usize = 64;
 /// The most pairs of nodes that are distributed at once.
 const DISTRIBUTED: usize = 512;
 
-/// Is shown every hit once, some at a time, until it breaks with the place of the one at which it stops.
-pub(crate) type Sink<'s, H> = &'s mut dyn FnMut(&[H]) -> ControlFlow<usize>;
-
 /// Buffers, kept from query to query.
 #[derive(Debug)]
 pub(crate) struct Scratch<K: Kind> {
@@ -66,7 +55,6 @@ pub(crate) struct Scratch<K: Kind> {
     /// Pairs of nodes that were not distributed yet, and those that are being distributed.
     reserve: Buffer<NodePair>,
     distributed: Vec<NodePair>,
-    wanted: Wanted,
     sizes: Sizes,
     /// The hit at which a query stopped, in tree order.
     pub(crate) broke_at: Option<K::TreeHit>,
@@ -81,8 +69,7 @@ impl<K: Kind> Default for Scratch<K> {
             used: 0,
             reserve: Buffer::default(),
             distributed: Vec::new(),
-            wanted: Wanted::default(),
-            sizes: Sizes::new(Wanted::default()),
+            sizes: Sizes::LARGEST,
             broke_at: None,
         }
     }
@@ -90,9 +77,11 @@ impl<K: Kind> Default for Scratch<K> {
 
 impl<K: Kind> Scratch<K> {
     /// At the beginning of every query.
-    pub(crate) fn begin(&mut self, wanted: Wanted) {
-        self.wanted = wanted;
-        self.sizes = Sizes::new(wanted);
+    pub(crate) fn begin(&mut self, sink: &Sink<K::Hit>) {
+        self.sizes = match sink {
+            Sink::Visitor(_) => Sizes::SMALLEST,
+            Sink::Collector(_) => Sizes::LARGEST,
+        };
         self.broke_at = None;
     }
 }
@@ -105,13 +94,14 @@ struct Sizes {
 }
 
 impl Sizes {
-    fn new(wanted: Wanted) -> Self {
-        let [batch, blocks] = match wanted {
-            Wanted::All => [LONGEST_BATCH, MOST_BEFORE_SHOWN],
-            Wanted::UntilBreak => [FIRST_BATCH; 2],
-        };
-        Self { batch, blocks }
-    }
+    const SMALLEST: Self = Self {
+        batch: FIRST_BATCH,
+        blocks: FIRST_BATCH,
+    };
+    const LARGEST: Self = Self {
+        batch: LONGEST_BATCH,
+        blocks: MOST_BEFORE_SHOWN,
+    };
 
     /// A budget of at most so many pairs of leaves.
     fn budget(&self, leaves: usize) -> Budget {
@@ -132,14 +122,15 @@ impl Sizes {
     }
 }
 
-/// Shows every hit, until `sink` breaks. The order is deterministic, not sorted. Interrupted, it breaks as well, at no hit.
+/// Shows every hit, until `sink` breaks. The order in which a visitor sees them is deterministic, not sorted. Interrupted, it breaks as well,
+/// at no hit.
 pub(crate) fn descend<const N: usize, K, P>(
     refit: Refit,
     kind: &K,
     pair: &mut P,
     scratch: &mut Scratch<K>,
     statistics: &mut Statistics,
-    sink: Sink<K::Hit>,
+    sink: &mut Sink<K::Hit>,
 ) -> ControlFlow<()>
 where
     K: Kind,
@@ -153,17 +144,17 @@ where
         used,
         reserve,
         distributed,
-        wanted,
         sizes,
         broke_at,
     } = scratch;
     let executor = refit.executor;
+    let collector = sink.collector();
     // Tasks are left as they were where a visitor stopped, or panicked.
     tasks[..*used].iter_mut().for_each(Task::clear);
     reserve.clear();
     *used = 1;
     let are_free = are_free::<N, K, _>(pair.sides());
-    let (most_tasks, most_leaf_pairs) = shares(are_free, *wanted, executor);
+    let (most_tasks, most_leaf_pairs) = shares(are_free, collector.is_some(), executor);
     tasks.resize_with(most_tasks.max(tasks.len()), Task::default);
     tasks[0].walk.found.nodes.push([NodeId::ROOT; 2]);
     loop {
@@ -176,7 +167,7 @@ where
         if tasks.len() < most_tasks {
             budget.stack = ENOUGH_TO_DISTRIBUTE;
         }
-        let now = context(refit, kind, pair, budget);
+        let now = context(refit, kind, pair, collector, budget);
         executor.run(tasks, |_, task| task.advance(&now));
         // What a task that was not run found before is not to be shown again.
         if executor.is_interrupted() {
@@ -209,12 +200,12 @@ where
                     }
                 };
                 refit_leaves(refit, pair, take, reached, statistics);
-                if *wanted == Wanted::All && executor.are_many() {
+                if collector.is_some() && executor.are_many() {
                     // The same hits are found in any order.
                     rebalance(tasks);
                 }
                 while shown.is_continue() && !tasks.iter().all(Task::all_tested) {
-                    let now = context(refit, kind, pair, sizes.budget(most_leaf_pairs));
+                    let now = context(refit, kind, pair, collector, sizes.budget(most_leaf_pairs));
                     executor.run(tasks, |_, task| task.test_some(&now));
                     if executor.is_interrupted() {
                         return ControlFlow::Break(());
@@ -226,7 +217,7 @@ where
             }
         }
         if let ControlFlow::Break(hit) = shown {
-            *broke_at = Some(hit);
+            *broke_at = hit;
             return ControlFlow::Break(());
         }
         if executor.is_interrupted() {
@@ -242,7 +233,7 @@ where
         if let ControlFlow::Break(hit) =
             test_neighbours(refit, kind, &*pair, tasks, sizes, statistics, sink)
         {
-            *broke_at = Some(hit);
+            *broke_at = hit;
             return ControlFlow::Break(());
         }
     }
@@ -260,8 +251,8 @@ fn test_neighbours<const N: usize, K, P>(
     tasks: &mut [Task<K>],
     sizes: &mut Sizes,
     statistics: &mut Statistics,
-    sink: Sink<K::Hit>,
-) -> ControlFlow<K::TreeHit>
+    sink: &mut Sink<K::Hit>,
+) -> ControlFlow<Option<K::TreeHit>>
 where
     K: Kind,
     P: TreePair<N>,
@@ -280,7 +271,8 @@ where
     }
     let executor = refit.executor;
     while tasks.iter().any(|task| task.run.start < task.run.end) && !executor.is_interrupted() {
-        let now = context(refit, kind, pair, sizes.budget(usize::MAX));
+        let budget = sizes.budget(usize::MAX);
+        let now = context(refit, kind, pair, sink.collector(), budget);
         executor.run(tasks, |_, task| task.test_neighbours(&now, neighbours));
         if executor.is_interrupted() {
             break;
@@ -291,15 +283,17 @@ where
     ControlFlow::Continue(())
 }
 
-fn context<'q, K, P>(
+fn context<'q, K: Kind, P>(
     refit: Refit<'q>,
     kind: &'q K,
     pair: &'q P,
+    collector: Option<Collector<'q, K::Hit>>,
     budget: Budget,
 ) -> Context<'q, K, P> {
     Context {
         kind,
         pair,
+        collector,
         instructions: refit.instructions,
         interrupt: refit.executor.interrupt,
         budget,
@@ -307,13 +301,13 @@ fn context<'q, K, P>(
 }
 
 /// How many tasks a query is distributed to, and how many pairs of leaves of one are enough to test them.
-fn shares(are_free: bool, wanted: Wanted, executor: Executor) -> (usize, usize) {
-    if are_free && wanted == Wanted::All && !executor.are_many() {
+fn shares(are_free: bool, wants_all: bool, executor: Executor) -> (usize, usize) {
+    if are_free && wants_all && !executor.are_many() {
         // What is found is the same in any order, and lists of one task are longer than those of many.
         (1, MOST_LEAF_PAIRS)
     } else if are_free {
         (FREE_TASKS, MOST_LEAF_PAIRS)
-    } else if wanted == Wanted::All && executor.are_many() {
+    } else if wants_all && executor.are_many() {
         let for_threads = TASKS_A_THREAD * executor.count();
         (TASKS.max(for_threads), MOST_LEAF_PAIRS_SHARED)
     } else {
@@ -403,18 +397,29 @@ fn refit_leaves<const N: usize, P: TreePair<N>>(
     }
 }
 
-/// Shows what was found among the pairs that were tested; breaks with the hit at which `sink` does.
+/// Shows what was found among the pairs that were tested, to a visitor; breaks with the hit at which that does. A collector was shown it.
 fn show_hits<K: Kind>(
     tasks: &[Task<K>],
     statistics: &mut Statistics,
-    sink: Sink<K::Hit>,
-) -> ControlFlow<K::TreeHit> {
+    sink: &mut Sink<K::Hit>,
+) -> ControlFlow<Option<K::TreeHit>> {
     for task in tasks {
         *statistics += task.tests.statistics;
     }
-    for task in tasks {
-        if let ControlFlow::Break(place) = sink(&task.tests.of_caller) {
-            return ControlFlow::Break(task.tests.hits.as_slice()[place]);
+    for LeafTests {
+        hits,
+        of_caller,
+        are_too_many,
+        ..
+    } in tasks.iter().map(|task| &task.tests)
+    {
+        if *are_too_many {
+            return ControlFlow::Break(None);
+        }
+        if let Sink::Visitor(visitor) = sink
+            && let ControlFlow::Break(place) = visitor(of_caller)
+        {
+            return ControlFlow::Break(Some(hits.as_slice()[place]));
         }
     }
     ControlFlow::Continue(())

@@ -18,6 +18,8 @@ use std::ops::Range;
 
 /// Pairs of blocks compared before their candidates are decided: at most 64 candidates each.
 const BLOCK_PAIRS_AT_ONCE: usize = 64;
+/// With so many hits a task shows them to a collector, or stops until a visitor has seen them: what all tasks have found takes little memory.
+const MOST_HITS: usize = 2048;
 
 /// Where in a list of pairs of leaves: a pair, a block of its first leaf, a block of its second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,6 +40,8 @@ pub(super) struct LeafTests<K: Kind> {
     pub(super) hits: Buffer<K::TreeHit>,
     /// The same hits as the caller numbers things.
     pub(super) of_caller: Vec<K::Hit>,
+    /// Whether a collector does not take any more.
+    pub(super) are_too_many: bool,
     pub(super) statistics: Statistics,
 }
 
@@ -50,6 +54,7 @@ impl<K: Kind> Default for LeafTests<K> {
             buffers: K::Buffers::default(),
             hits: Buffer::default(),
             of_caller: Vec::new(),
+            are_too_many: false,
             statistics: Statistics::default(),
         }
     }
@@ -60,7 +65,22 @@ impl<K: Kind> LeafTests<K> {
     pub(super) fn clear(&mut self) {
         self.hits.clear();
         self.of_caller.clear();
+        self.are_too_many = false;
         self.statistics = Statistics::default();
+    }
+
+    /// Whether to go on before what was found is shown.
+    pub(super) fn have_room(&self) -> bool {
+        self.hits.len() < MOST_HITS && !self.are_too_many
+    }
+
+    /// Shows what was found to a collector, if there is one.
+    pub(super) fn collect<P>(&mut self, context: &Context<K, P>) {
+        if let Some(collector) = context.collector {
+            self.are_too_many |= collector(&self.of_caller).is_break();
+            self.hits.clear();
+            self.of_caller.clear();
+        }
     }
 
     /// Tests pairs of leaves from a cursor on, up to `most` pairs of their blocks; returns the cursor where it stopped. The boxes of the
@@ -202,13 +222,13 @@ impl<K: Kind> LeafTests<K> {
     }
 
     /// Tests leaves, each a block, that are neighbours, and each with itself: the next of a run of leaves and their later neighbours,
-    /// until so many pairs of leaves were looked at or `enough` hits found. Takes these leaves from the run.
+    /// until so many pairs of leaves were looked at or enough was found. Takes these leaves from the run.
     pub(super) fn test_neighbours<const N: usize, P>(
         &mut self,
         context: &Context<K, P>,
         neighbours: &Neighbours,
         run: &mut Range<u32>,
-        (most, enough): (usize, usize),
+        most: usize,
     ) where
         P: TreePair<N>,
         P::Source: BoxSource<Scalar = K::Scalar>,
@@ -220,7 +240,7 @@ impl<K: Kind> LeafTests<K> {
         let mut tested = 0;
         while run.start < run.end
             && tested < most
-            && self.hits.len() < enough
+            && self.have_room()
             && !context.interrupt.is_set()
         {
             tested += self.blocks.of_neighbours(
@@ -232,8 +252,8 @@ impl<K: Kind> LeafTests<K> {
                 most - tested,
             );
             self.decide(context, &leaf_test);
+            self.number_new(context);
         }
-        self.number_new(context);
     }
 
     /// Gives what was found the caller's numbers.
@@ -247,6 +267,9 @@ impl<K: Kind> LeafTests<K> {
         let leaves = leaf_test(context);
         let kind = context.kind;
         kind.to_callers(&leaves, &ids, new, &mut self.of_caller);
+        if !self.have_room() {
+            self.collect(context);
+        }
     }
 
     /// Has the kind decide candidates, without those that were taken out of their mesh.

@@ -11,7 +11,7 @@
 //!     when the lists are long, or the stacks empty:
 //!         refit:   the boxes of the triangles in these leaves
 //!         every task: test leaves: triangles whose boxes overlap are candidates; the kind of query decides these
-//!         show:    the hits, in order
+//!         show:    the hits, to a visitor in order; every task shows a collector its own
 //! ```
 //!
 //! Where all boxes were completed at once, those of triangles too, tasks are *free*: leaves are tested on the way, and nothing is waited
@@ -37,10 +37,12 @@ mod descent;
 mod expand;
 mod leaf_pairs;
 mod nearest;
+mod sink;
 mod task;
 mod tree_pair;
 mod walk;
 
-pub(crate) use descent::{Scratch, Sink, Wanted, descend};
+pub(crate) use descent::{Scratch, descend};
 pub(crate) use nearest::{NearestScratch, gap_square, nearest};
+pub(crate) use sink::{Collector, Sink, Visitor};
 pub(crate) use tree_pair::{OneTree, Side, TreePair, TwoTrees};

@@ -15,8 +15,6 @@ use std::ops::Range;
 const BLOCK_PAIRS_BEFORE_LOOK: usize = 128;
 /// The same of runs: two may have nine times as many elements near each other as two blocks have triangles.
 const RUN_PAIRS_BEFORE_LOOK: usize = 32;
-/// With this many hits a task stops until they are shown, so that what all tasks have found takes little memory.
-const MOST_HITS: usize = 2048;
 
 /// A task, and its buffers, kept from query to query.
 #[derive(Debug)]
@@ -104,10 +102,7 @@ impl<K: Kind> Task<K> {
         }
         let budget = context.budget;
         let mut tested = 0;
-        while tested < budget.block_pairs && self.tests.hits.len() < MOST_HITS {
-            if context.interrupt.is_set() {
-                return;
-            }
+        while tested < budget.block_pairs && self.tests.have_room() && !context.interrupt.is_set() {
             if self.all_tested() {
                 self.forget_leaves();
                 self.walk(context);
@@ -117,9 +112,10 @@ impl<K: Kind> Task<K> {
             tested += blocks;
             let stack = self.walk.found.nodes.len();
             if self.all_tested() && (stack == 0 || stack >= budget.stack) {
-                return;
+                break;
             }
         }
+        self.tests.collect(context);
     }
 
     /// Walks down until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
@@ -151,13 +147,14 @@ impl<K: Kind> Task<K> {
         let blocks = budget.leaf_pairs.min(before_look::<K>());
         let mut tested = 0;
         while tested < budget.block_pairs
-            && self.tests.hits.len() < MOST_HITS
+            && self.tests.have_room()
             && !self.all_tested()
             && !context.interrupt.is_set()
         {
             self.test(context, blocks);
             tested += blocks;
         }
+        self.tests.collect(context);
     }
 
     /// Tests the next pairs of leaves, so many pairs of their blocks.
@@ -182,9 +179,10 @@ impl<K: Kind> Task<K> {
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
         self.tests.clear();
-        let enough = (context.budget.block_pairs, MOST_HITS);
+        let most = context.budget.block_pairs;
         self.tests
-            .test_neighbours::<N, P>(context, neighbours, &mut self.run, enough);
+            .test_neighbours::<N, P>(context, neighbours, &mut self.run, most);
+        self.tests.collect(context);
     }
 
     /// Forgets the pairs of leaves, all of which were tested.

@@ -14,10 +14,11 @@ use crate::options::Options;
 use crate::queries::Kind;
 use crate::sort::{Sorter, sort_by_numbers};
 use crate::statistics::Statistics;
-use crate::threads::{Executor, Interrupt, Threads};
-use crate::traversal::{Scratch, Sink, Wanted};
+use crate::threads::{Executor, Interrupt, PerThread, Threads};
+use crate::traversal::{Scratch, Sink, Visitor};
 use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What queries of every kind work on: all of a world but what single kinds keep.
 pub(super) struct Common<const N: usize, S> {
@@ -39,8 +40,8 @@ pub(super) struct Asked<K: Kind> {
     pub(super) scratch: Scratch<K>,
     scheduler: Scheduler<K>,
     sorter: Sorter<K::Hit>,
-    /// Hits that are more than their numbers.
-    listed: Vec<K::Hit>,
+    /// Hits that are more than their numbers, of every thread; the first of these lists is that of all in the end.
+    lists: PerThread<Vec<K::Hit>>,
 }
 
 impl<K: Kind> Default for Asked<K> {
@@ -49,7 +50,7 @@ impl<K: Kind> Default for Asked<K> {
             scratch: Scratch::default(),
             scheduler: Scheduler::default(),
             sorter: Sorter::default(),
-            listed: Vec::new(),
+            lists: PerThread::default(),
         }
     }
 }
@@ -66,15 +67,13 @@ where
         request: &Request,
     ) -> Result<&[K::Hit], Error> {
         let interrupt = Interrupt::new(request.question);
-        self.sorter.begin();
-        let keep = &mut |found: &[K::Hit]| self.sorter.push(found);
+        self.sorter.begin(common.executor(&interrupt));
+        let keep = &|found: &[K::Hit]| self.sorter.push(found);
         let buffers = (&mut self.scratch, &mut self.scheduler);
         Self::collect(buffers, kind, common, request, &interrupt, keep)?;
-        let executor = Executor {
-            threads: common.threads.here(),
-            interrupt: &interrupt,
-        };
-        self.sorter.sort(executor, common.instructions);
+        let instructions = common.instructions;
+        let executor = common.executor(&interrupt);
+        self.sorter.sort(executor, instructions);
         common.end(&interrupt)?;
         Ok(self.sorter.hits())
     }
@@ -84,50 +83,50 @@ impl<K: Kind> Asked<K>
 where
     K::Scalar: Coordinate,
 {
-    /// Shows all hits, some at a time, those of two bodies after the other. It is an error if there are more than the request allows.
+    /// Has every thread keep what it finds, some hits at a time. It is an error if there are more than the request allows.
     fn collect<const N: usize>(
         (scratch, scheduler): (&mut Scratch<K>, &mut Scheduler<K>),
         kind: &K,
         common: &mut Common<N, K::Scalar>,
         request: &Request,
         interrupt: &Interrupt,
-        keep: &mut dyn FnMut(&[K::Hit]),
+        keep: &(dyn Fn(&[K::Hit]) + Sync),
     ) -> Result<(), Error> {
         common.begin(request)?;
-        scratch.begin(Wanted::All);
-        let mut room = request.most;
+        let count = AtomicUsize::new(0);
+        let collector = &|found: &[K::Hit]| {
+            let before = count.fetch_add(found.len(), Ordering::Relaxed);
+            if before.saturating_add(found.len()) > request.most {
+                return ControlFlow::Break(());
+            }
+            keep(found);
+            ControlFlow::Continue(())
+        };
+        let mut sink = Sink::Collector(collector);
+        scratch.begin(&sink);
         let (mut step, bodies, body_pairs) =
             Self::step(scratch, kind, common, request, interrupt, false)?;
         let instructions = step.refit.instructions;
-        let mut is_all = true;
         // Bodies with themselves are a batch of their own, the first: what is refitted then does not depend on the order in which
         // threads take the others.
-        while is_all && let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
+        'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
             if is_worth_it(step.refit.executor, bodies, pairs) {
-                is_all = scheduler.meet(&mut step, bodies, pairs, room);
-                for found in scheduler.found() {
-                    room = room.saturating_sub(found.len());
-                    keep(found);
+                if scheduler
+                    .meet(&mut step, bodies, pairs, collector)
+                    .is_break()
+                {
+                    break;
                 }
                 continue;
             }
             for &pair in pairs {
-                let flow = step.meet(bodies, pair, &mut |found| {
-                    is_all = found.len() <= room;
-                    if !is_all {
-                        return ControlFlow::Break(0);
-                    }
-                    room -= found.len();
-                    keep(found);
-                    ControlFlow::Continue(())
-                });
-                if flow.is_break() {
-                    break;
+                if step.meet(bodies, pair, &mut sink).is_break() {
+                    break 'batches;
                 }
             }
         }
         common.end(interrupt)?;
-        if !is_all {
+        if count.into_inner() > request.most {
             let limit = request.most;
             return Err(ErrorKind::TooManyHits { limit }.of_query());
         }
@@ -145,31 +144,38 @@ where
         K::Hit: Numbered,
     {
         let interrupt = Interrupt::new(request.question);
-        self.listed.clear();
-        let keep = &mut |found: &[K::Hit]| self.listed.extend_from_slice(found);
+        self.lists.for_threads(common.executor(&interrupt).count());
+        self.lists.iter_mut().for_each(Vec::clear);
+        let keep = &|found: &[K::Hit]| self.lists.own().extend_from_slice(found);
         let buffers = (&mut self.scratch, &mut self.scheduler);
         Self::collect(buffers, kind, common, request, &interrupt, keep)?;
-        sort_by_numbers(&mut self.listed);
-        Ok(&self.listed)
+        let mut lists = self.lists.iter_mut();
+        let Some(all) = lists.next() else {
+            return Ok(&[]);
+        };
+        lists.for_each(|list| all.append(list));
+        sort_by_numbers(all);
+        Ok(all)
     }
 
-    /// Shows every hit once, until the sink breaks.
+    /// Shows every hit once, until the visitor breaks.
     pub(super) fn visit<const N: usize>(
         &mut self,
         kind: &K,
         common: &mut Common<N, K::Scalar>,
         request: &Request,
-        sink: Sink<K::Hit>,
+        visitor: Visitor<K::Hit>,
     ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
         common.begin(request)?;
-        self.scratch.begin(Wanted::UntilBreak);
+        let mut sink = Sink::Visitor(visitor);
+        self.scratch.begin(&sink);
         let (mut step, bodies, body_pairs) =
             Self::step(&mut self.scratch, kind, common, request, &interrupt, false)?;
         let instructions = step.refit.instructions;
         'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, &interrupt) {
             for &pair in pairs {
-                if step.meet(bodies, pair, sink).is_break() {
+                if step.meet(bodies, pair, &mut sink).is_break() {
                     break 'batches;
                 }
             }
@@ -249,6 +255,14 @@ where
 }
 
 impl<const N: usize, S: Coordinate> Common<N, S> {
+    /// The threads that work on a query.
+    pub(super) fn executor<'q>(&'q mut self, interrupt: &'q Interrupt<'q>) -> Executor<'q> {
+        Executor {
+            threads: self.threads.here(),
+            interrupt,
+        }
+    }
+
     /// At the beginning of every query.
     pub(super) fn begin(&mut self, request: &Request) -> Result<(), Error> {
         self.bodies.validate(request.of)?;
@@ -284,6 +298,9 @@ impl<const N: usize, S: Coordinate> Common<N, S> {
 
 impl<K: Kind> Held for Asked<K> {
     fn held(&self) -> usize {
-        self.scratch.held() + self.scheduler.held() + self.sorter.held() + held::list(&self.listed)
+        self.scratch.held()
+            + self.scheduler.held()
+            + self.sorter.held()
+            + self.lists.held_by(held::list)
     }
 }

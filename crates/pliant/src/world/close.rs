@@ -13,7 +13,7 @@ use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{CloseKind, Measurable, Measured};
 use crate::threads::{Executor, Interrupt};
-use crate::traversal::Sink;
+use crate::traversal::Visitor;
 
 /// Pairs in a job: some tens of microseconds.
 const JOB: usize = 1024;
@@ -123,15 +123,15 @@ impl<C: CloseKind<Hit: InBodies>> AskedClose<C> {
         Ok(&self.measured)
     }
 
-    /// Shows every one once, until the sink breaks.
+    /// Shows every one once, until the visitor breaks.
     pub(super) fn visit<const N: usize>(
         &mut self,
         kind: &Measured<C>,
         common: &mut Common<N, C::Scalar>,
         request: &Request,
-        sink: Sink<<C::Hit as Measurable>::Close>,
+        visitor: Visitor<<C::Hit as Measurable>::Close>,
     ) -> Result<(), Error> {
-        self.visits.visit(kind, common, request, sink)
+        self.visits.visit(kind, common, request, visitor)
     }
 
     /// Does early what a query would do first.

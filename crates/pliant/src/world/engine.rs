@@ -30,7 +30,7 @@ use crate::queries::{
 };
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Question, Threads};
-use crate::traversal::Sink;
+use crate::traversal::Visitor;
 use crate::tree::Tree;
 use std::ops::ControlFlow;
 
@@ -679,7 +679,7 @@ impl<const N: usize, S: Coordinate> Ask<Pair> for Engine<N, S> {
         {
             return Ok(Some(pair));
         }
-        let found = first_seen(|sink| Ask::<Pair>::visit(self, request, sink))?;
+        let found = first_seen(|visitor| Ask::<Pair>::visit(self, request, visitor))?;
         let bodies = found.map(|pair: Pair| [pair.body_a, pair.body_b]);
         match request.of {
             Selection::World => self.witnesses.of_world[0] = bodies,
@@ -692,10 +692,10 @@ impl<const N: usize, S: Coordinate> Ask<Pair> for Engine<N, S> {
         Ok(found)
     }
 
-    fn visit(&mut self, request: &Request, sink: Sink<Pair>) -> Result<(), Error> {
+    fn visit(&mut self, request: &Request, visitor: Visitor<Pair>) -> Result<(), Error> {
         let kind = &Intersections::default();
         self.intersections
-            .visit(kind, &mut self.common, request, sink)
+            .visit(kind, &mut self.common, request, visitor)
     }
 
     fn prepare(&mut self, request: &Request) -> Result<(), Error> {
@@ -714,12 +714,12 @@ macro_rules! ask {
             }
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
-                first_seen(|sink| Ask::<$hit>::visit(self, request, sink))
+                first_seen(|visitor| Ask::<$hit>::visit(self, request, visitor))
             }
 
-            fn visit(&mut self, $request: &Request, sink: Sink<$hit>) -> Result<(), Error> {
+            fn visit(&mut self, $request: &Request, visitor: Visitor<$hit>) -> Result<(), Error> {
                 let kind = &$kind;
-                self.$asked.visit(kind, &mut self.common, $request, sink)
+                self.$asked.visit(kind, &mut self.common, $request, visitor)
             }
 
             fn prepare(&mut self, $request: &Request) -> Result<(), Error> {
@@ -732,7 +732,7 @@ macro_rules! ask {
 
 /// The first hit that a visit shows.
 fn first_seen<H: Copy>(
-    visit: impl FnOnce(Sink<H>) -> Result<(), Error>,
+    visit: impl FnOnce(Visitor<H>) -> Result<(), Error>,
 ) -> Result<Option<H>, Error> {
     let mut found = None;
     visit(&mut |hits| {
@@ -789,11 +789,11 @@ macro_rules! ask_impacts {
                 Ok(first.and_then($hit::of))
             }
 
-            fn visit(&mut self, request: &Request, sink: Sink<$hit>) -> Result<(), Error> {
+            fn visit(&mut self, request: &Request, visitor: Visitor<$hit>) -> Result<(), Error> {
                 let kind = Self::all_of(request, $candidates::within)?;
                 self.impacts
                     .$asked
-                    .visit(&kind, &mut self.common, request, sink)
+                    .visit(&kind, &mut self.common, request, visitor)
             }
 
             fn prepare(&mut self, request: &Request) -> Result<(), Error> {

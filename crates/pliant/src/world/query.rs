@@ -7,7 +7,7 @@ use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
 use crate::predicates::motion::Grid;
 use crate::queries::Margin;
 use crate::threads::Question;
-use crate::traversal::Sink;
+use crate::traversal::Visitor;
 use std::fmt;
 use std::ops::ControlFlow;
 
@@ -74,7 +74,7 @@ impl Request<'_> {
 pub(crate) trait Ask<H> {
     fn all(&mut self, request: &Request) -> Result<&[H], Error>;
     fn first(&mut self, request: &Request) -> Result<Option<H>, Error>;
-    fn visit(&mut self, request: &Request, sink: Sink<H>) -> Result<(), Error>;
+    fn visit(&mut self, request: &Request, visitor: Visitor<H>) -> Result<(), Error>;
     fn prepare(&mut self, request: &Request) -> Result<(), Error>;
 }
 

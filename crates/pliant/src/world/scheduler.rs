@@ -2,8 +2,7 @@
 //!
 //! Where bodies are small there is little to share within one pair of them. So, for a query that wants all there is, every thread
 //! takes pairs whose bodies no other has at that moment. Bodies with themselves go first; then which boxes are made does not depend on the
-//! order in which bodies meet, so neither do the counters; and what was found is put together in the order of the pairs. A pair that is
-//! much of all the work is met by all threads together.
+//! order in which bodies meet, so neither do the counters. A pair that is much of all the work is met by all threads together.
 
 use super::bodies::Bodies;
 use super::body::Body;
@@ -15,11 +14,11 @@ use crate::kernels::Coordinate;
 use crate::queries::Kind;
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Threads, locked};
-use crate::traversal::{Scratch, Wanted};
+use crate::traversal::{Collector, Scratch, Sink};
 use crate::update::Refit;
 use std::ops::{ControlFlow, Range};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Pairs of bodies of fewer triangles, all together, are not worth waking a thread.
 const SHARED: usize = 1 << 16;
@@ -34,31 +33,18 @@ const PARTS: usize = 4;
 #[derive(Debug)]
 pub(super) struct Scheduler<K: Kind> {
     workers: Vec<Worker<K>>,
-    /// The numbers of pairs that are met by all threads.
-    large: Vec<usize>,
-    /// The numbers of pairs that are met by one thread; the places of their bodies; and jobs, some of them in a row.
-    small: Vec<usize>,
-    places: Vec<[usize; 2]>,
+    /// The places of the bodies of pairs that are met by all threads, and of those that are met by one.
+    large: Vec<BodyPair>,
+    small: Vec<[usize; 2]>,
+    /// Some of the small pairs in a row.
     jobs: Vec<Range<usize>>,
-    /// What all of them found: by worker.
-    found: Vec<(usize, OfPair)>,
 }
 
-/// What one thread works with, and what it has found.
+/// What one thread works with.
 #[derive(Debug)]
 struct Worker<K: Kind> {
     scratch: Scratch<K>,
     statistics: Statistics,
-    /// What pairs of bodies have in common, one pair after the other.
-    hits: Vec<K::Hit>,
-    found: Vec<OfPair>,
-}
-
-/// A pair of bodies by its number, and where among the hits of a worker its are.
-#[derive(Clone, Debug)]
-struct OfPair {
-    pair: usize,
-    hits: Range<usize>,
 }
 
 impl<K: Kind> Default for Scheduler<K> {
@@ -67,9 +53,7 @@ impl<K: Kind> Default for Scheduler<K> {
             workers: Vec::new(),
             large: Vec::new(),
             small: Vec::new(),
-            places: Vec::new(),
             jobs: Vec::new(),
-            found: Vec::new(),
         }
     }
 }
@@ -79,24 +63,8 @@ impl<K: Kind> Default for Worker<K> {
         Self {
             scratch: Scratch::default(),
             statistics: Statistics::default(),
-            hits: Vec::new(),
-            found: Vec::new(),
         }
     }
-}
-
-impl<K: Kind> Worker<K> {
-    fn begin(&mut self) {
-        self.scratch.begin(Wanted::All);
-        self.statistics = Statistics::default();
-        self.hits.clear();
-        self.found.clear();
-    }
-}
-
-/// What was found, by worker, in the order of the pairs.
-fn in_order_of_pairs(found: &mut [(usize, OfPair)]) {
-    found.sort_unstable_by_key(|(_, of_pair)| of_pair.pair);
 }
 
 /// Whether pairs of bodies are worth it.
@@ -117,51 +85,34 @@ fn triangles_of<const N: usize, S: Coordinate>(bodies: &Bodies<N, S>, pairs: &[B
 }
 
 impl<K: Kind> Scheduler<K> {
-    /// Meets all pairs of bodies, unless it is interrupted. Returns false if there are more than `most` hits, of which it keeps some.
+    /// Meets all pairs of bodies, unless it is interrupted or the collector breaks.
     pub(super) fn meet<const N: usize>(
         &mut self,
         step: &mut Step<K>,
         bodies: &mut Bodies<N, K::Scalar>,
         pairs: &[BodyPair],
-        most: usize,
-    ) -> bool {
+        collector: Collector<K::Hit>,
+    ) -> ControlFlow<()>
+    where
+        K::Scalar: Coordinate,
+    {
         let executor = step.refit.executor;
         self.workers.resize_with(executor.count(), Worker::default);
-        self.workers.iter_mut().for_each(Worker::begin);
         self.cut(bodies, pairs);
-        let count = AtomicUsize::new(0);
-        // Keeps hits, unless there are too many of them.
-        let keep = |hits: &mut Vec<K::Hit>, new: &[K::Hit]| {
-            if count.fetch_add(new.len(), Ordering::Relaxed) + new.len() > most {
-                return ControlFlow::Break(0);
-            }
-            hits.extend_from_slice(new);
-            ControlFlow::Continue(())
-        };
-        let Self {
-            workers,
-            large,
-            small,
-            places,
-            jobs,
-            found,
-        } = self;
-        let Worker {
-            hits,
-            found: of_first,
-            ..
-        } = &mut workers[0];
-        for &pair in &*large {
-            let first = hits.len();
-            let _ = step.meet(bodies, pairs[pair], &mut |new| keep(hits, new));
-            let hits = first..hits.len();
-            of_first.push(OfPair { pair, hits });
+        for &pair in &self.large {
+            step.meet(bodies, pair, &mut Sink::Collector(collector))?;
         }
-
+        for worker in &mut self.workers {
+            worker.scratch.begin(&Sink::Collector(collector));
+            worker.statistics = Statistics::default();
+        }
+        let (small, jobs) = (&self.small, &self.jobs);
         let all: Vec<_> = bodies.list.iter_mut().map(Mutex::new).collect();
         let threads = &Threads::one();
         let (kind, refit, origin) = (step.kind, step.refit, step.origin);
-        let bodies_of = &|job: usize| places[jobs[job].clone()].as_flattened();
+        let are_too_many = AtomicBool::new(false);
+        let bodies_of = &|job: usize| small[jobs[job].clone()].as_flattened();
+        let workers = &mut self.workers;
         executor.run_conflict_free(jobs.len(), bodies_of, all.len(), workers, &|worker, job| {
             let alone = Executor {
                 threads,
@@ -177,44 +128,40 @@ impl<K: Kind> Scheduler<K> {
                 scratch: &mut worker.scratch,
                 statistics: &mut worker.statistics,
             };
-            for at in jobs[job].clone() {
-                let first = worker.hits.len();
-                let sink = &mut |new: &[K::Hit]| keep(&mut worker.hits, new);
+            for &[a, b] in &small[jobs[job].clone()] {
+                let sink = &mut Sink::Collector(collector);
                 // No other thread has these bodies: no lock is ever waited for.
-                let [a, b] = places[at];
-                let _ = if a == b {
+                let flow = if a == b {
                     step.meet_itself(&mut locked(&all[a]), sink)
                 } else {
                     let [mut a, mut b] = [a, b].map(|place| locked(&all[place]));
                     let both: [&mut Body<N, K::Scalar>; 2] = [&mut a, &mut b];
                     step.meet_another(both, sink)
                 };
-                let hits = first..worker.hits.len();
-                let pair = small[at];
-                worker.found.push(OfPair { pair, hits });
+                if flow.is_break() {
+                    are_too_many.store(true, Ordering::Relaxed);
+                }
             }
         });
-
-        found.clear();
-        for (number, worker) in workers.iter().enumerate() {
+        for worker in &self.workers {
             *step.statistics += worker.statistics;
-            let of_worker = worker.found.iter();
-            found.extend(of_worker.map(|of_pair| (number, of_pair.clone())));
         }
-        in_order_of_pairs(found);
-        count.into_inner() <= most
+        if are_too_many.into_inner() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     }
 
     /// Cuts small pairs into jobs. How it does changes no answer, so it may look at the number of threads.
     fn cut<const N: usize, S: Coordinate>(&mut self, bodies: &Bodies<N, S>, pairs: &[BodyPair]) {
         self.large.clear();
         self.small.clear();
-        self.places.clear();
         self.jobs.clear();
         let much = triangles_of(bodies, pairs) / (PARTS * self.workers.len());
         let mut in_job = 0;
-        for (pair, &places) in pairs.iter().enumerate() {
-            let triangles = triangles_of(bodies, &[places]);
+        for &pair in pairs {
+            let triangles = triangles_of(bodies, &[pair]);
             if triangles >= much {
                 self.large.push(pair);
                 continue;
@@ -228,18 +175,8 @@ impl<K: Kind> Scheduler<K> {
                 }
             }
             in_job += triangles;
-            self.small.push(pair);
-            self.places.push(places.map(Place::index));
+            self.small.push(pair.map(Place::index));
         }
-    }
-
-    /// What was found then, in the order of the pairs.
-    pub(super) fn found(&self) -> impl Iterator<Item = &[K::Hit]> {
-        let hits_of = |(worker, of_pair): &(usize, OfPair)| {
-            let hits = of_pair.hits.clone();
-            &self.workers[*worker].hits[hits]
-        };
-        self.found.iter().map(hits_of)
     }
 }
 
@@ -248,14 +185,12 @@ impl<K: Kind> Held for Scheduler<K> {
         held::lists(&self.workers)
             + held::list(&self.large)
             + held::list(&self.small)
-            + held::list(&self.places)
             + held::list(&self.jobs)
-            + held::list(&self.found)
     }
 }
 
 impl<K: Kind> Held for Worker<K> {
     fn held(&self) -> usize {
-        self.scratch.held() + held::list(&self.hits) + held::list(&self.found)
+        self.scratch.held()
     }
 }

@@ -35,7 +35,7 @@ where
         &mut self,
         bodies: &mut Bodies<N, K::Scalar>,
         [a, b]: BodyPair,
-        sink: Sink<K::Hit>,
+        sink: &mut Sink<K::Hit>,
     ) -> ControlFlow<()> {
         if a == b {
             self.meet_itself(&mut bodies.list[a.index()], sink)
@@ -48,7 +48,7 @@ where
     pub(super) fn meet_another<const N: usize>(
         &mut self,
         both: [&mut Body<N, K::Scalar>; 2],
-        sink: Sink<K::Hit>,
+        sink: &mut Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
         let before = self.looked_at();
@@ -76,7 +76,7 @@ where
     pub(super) fn meet_itself<const N: usize>(
         &mut self,
         body: &mut Body<N, K::Scalar>,
-        sink: Sink<K::Hit>,
+        sink: &mut Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
         let before = self.looked_at();
@@ -122,7 +122,7 @@ where
         &mut self,
         mut pair: TwoTrees<'_, N, K::Source<'_>>,
         are_several: bool,
-        sink: Sink<K::Hit>,
+        sink: &mut Sink<K::Hit>,
     ) -> ControlFlow<()> {
         if are_several && !pair.overlap() {
             return ControlFlow::Continue(());
@@ -130,7 +130,11 @@ where
         self.descend(&mut pair, sink)
     }
 
-    fn descend<const N: usize, P>(&mut self, pair: &mut P, sink: Sink<K::Hit>) -> ControlFlow<()>
+    fn descend<const N: usize, P>(
+        &mut self,
+        pair: &mut P,
+        sink: &mut Sink<K::Hit>,
+    ) -> ControlFlow<()>
     where
         P: TreePair<N>,
         P::Source: BoxSource<Scalar = K::Scalar>,

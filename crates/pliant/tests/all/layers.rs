@@ -13,7 +13,7 @@ const LAYERS: [(&str, &[&str]); 25] = [
     ("ids", &[]),
     ("options", &[]),
     ("statistics", &[]),
-    ("threads", &[]),
+    ("threads", &["held"]),
     ("error", &["ids"]),
     ("hits", &["ids"]),
     ("close_pairs", &["hits"]),

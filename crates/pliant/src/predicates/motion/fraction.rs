@@ -1,7 +1,6 @@
 //! Times that are fractions: of two, at which roots are looked for; and of any integers, which some roots are.
 
 use super::super::integer::{Integer, parts};
-use super::polynomial::Polynomial;
 use std::cmp::Ordering;
 
 /// An integer over a power of two.
@@ -114,12 +113,6 @@ impl Fraction {
             [over, under]
         };
         Self { over, under }
-    }
-
-    /// The root of a polynomial of degree 1.
-    pub(super) fn root_of(affine: &Polynomial) -> Self {
-        let [over, under] = [0, 1].map(|power| affine.coefficients()[power].clone());
-        Self::new(over.negated(), under)
     }
 
     /// Nearly the same number, which is from 0 to 1: off by 2^-50 of itself; zero if it is below 2^-1000.

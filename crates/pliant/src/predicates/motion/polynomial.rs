@@ -73,6 +73,12 @@ impl Polynomial {
         self
     }
 
+    /// The root of a polynomial of degree 1.
+    pub(super) fn affine_root(&self) -> Fraction {
+        let [over, under] = [0, 1].map(|power| self.coefficients[power].clone());
+        Fraction::new(over.negated(), under)
+    }
+
     pub(super) fn plus(&self, other: &Self) -> Self {
         let mut sum = Self::ZERO;
         for power in 0..self.len.max(other.len) {

@@ -101,7 +101,7 @@ fn visit_between<B>(
 ) -> ControlFlow<B> {
     match polynomial.degree() {
         0 => ControlFlow::Continue(()),
-        1 => visit_fractions([Fraction::root_of(polynomial)], &low, &high, found),
+        1 => visit_fractions([polynomial.affine_root()], &low, &high, found),
         _ => visit_counted(&Sturm::new(polynomial), polynomial, low, high, found),
     }
 }
@@ -157,7 +157,7 @@ struct Cuts {
 
 impl Cuts {
     fn new(sturm: &Sturm) -> Self {
-        let of = sturm.affine().map(Fraction::root_of);
+        let of = sturm.affine().map(Polynomial::affine_root);
         let [zero, one] = [Dyadic::zero(), Dyadic::one()].map(Fraction::from);
         Self {
             of: of.filter(|of| *of > zero && *of < one),
@@ -361,7 +361,7 @@ impl Alone {
                     certain_sign(affine, about).unwrap_or_else(|| self.exact_sign_of(affine))
                 });
                 if by == 0 {
-                    other.sign_at_fraction(&Fraction::root_of(&quotient))
+                    other.sign_at_fraction(&quotient.affine_root())
                 } else {
                     -of * by
                 }
@@ -377,7 +377,7 @@ impl Alone {
         } else if at_low == 0 {
             at_high
         } else {
-            let root = Fraction::root_of(affine);
+            let root = affine.affine_root();
             match self.side(self.polynomial.sign_at_fraction(&root)) {
                 Ordering::Less => at_low,
                 Ordering::Equal => 0,
@@ -468,10 +468,10 @@ mod tests {
 
     /// A fraction that is mostly from 0 to 1, and often an end, or near or at another.
     fn fraction(random: &mut Random, others: &[Fraction]) -> Fraction {
-        let under = 1 + random.below(50) as i64;
-        let over = random.below(under as u32 + 4) as i64 - 2;
+        let under = 1 + random.below(50);
+        let over = i64::from(random.below(under + 4)) - 2;
         let Some(other) = others.last().filter(|_| random.below(2) == 0) else {
-            return Fraction::new(integer(over), integer(under));
+            return Fraction::new(integer(over), integer(under.into()));
         };
         // By so little as only a thousand bits tell.
         let twos = [0, 20, 60, 500, 1100][random.below(5) as usize];
@@ -533,9 +533,9 @@ mod tests {
     fn roots_that_are_no_fractions() {
         let mut random = Random::new(12);
         for _ in 0..2000 {
-            let mut below = |end: u64| (random.bits() % end) as i64;
+            let mut below = |end: i64| (random.bits() >> 1) as i64 % end;
             let m = 2 + below(1 << 20);
-            let n = 1 + below(m as u64 - 1);
+            let n = 1 + below(m - 1);
             let [u, many] = [1 + below(1 << 40), below(1 << 60)];
             let [zero, one] = [Integer::ZERO, Integer::from(1)];
             let t = Polynomial::new([zero.clone(), one]);

@@ -36,7 +36,7 @@ impl Sturm {
         let polynomials = [polynomial.clone(), polynomial.derivative(), third];
         let affine = polynomials.iter().position(|it| it.degree() == 1);
         let last = affine.map_or(0, |place| {
-            let root = Fraction::root_of(&polynomials[place]);
+            let root = polynomials[place].affine_root();
             -polynomials[place - 1].sign_at_fraction(&root)
         });
         Self { polynomials, last }
@@ -55,10 +55,10 @@ impl Sturm {
             return None;
         }
         if is_cube && third.is_zero() {
-            let of_all = Fraction::root_of(&derivative.derivative());
+            let of_all = derivative.derivative().affine_root();
             return Some([of_all.clone(), of_all]);
         }
-        let twice = self.affine().map(Fraction::root_of)?;
+        let twice = self.affine().map(Polynomial::affine_root)?;
         let [_, _, b, a] = polynomial.coefficients() else {
             return Some([twice.clone(), twice]);
         };

@@ -1,0 +1,111 @@
+//! What one thread has found, as keys: of so many bits as its largest numbers need; or as hits, where these are too many.
+
+use super::packing::Packing;
+use crate::held::{self, Held};
+use crate::hits::Hit;
+
+/// Keys, or hits in place of them.
+#[derive(Debug)]
+pub(super) struct Keys<T> {
+    packing: Packing,
+    packed: Vec<u64>,
+    /// The least key and the largest.
+    extent: [u64; 2],
+    hits: Vec<T>,
+}
+
+impl<T> Default for Keys<T> {
+    fn default() -> Self {
+        Self {
+            packing: Packing::default(),
+            packed: Vec::new(),
+            extent: NOTHING,
+            hits: Vec::new(),
+        }
+    }
+}
+
+/// The extent of no keys.
+pub(super) const NOTHING: [u64; 2] = [u64::MAX, 0];
+
+/// The extent of the keys of two extents.
+pub(super) fn both([a, b]: [u64; 2], [c, d]: [u64; 2]) -> [u64; 2] {
+    [a.min(c), b.max(d)]
+}
+
+impl<T> Keys<T> {
+    pub(super) fn clear(&mut self) {
+        self.packing = Packing::default();
+        self.packed.clear();
+        self.extent = NOTHING;
+        self.hits.clear();
+    }
+
+    pub(super) fn packing(&self) -> Packing {
+        self.packing
+    }
+
+    pub(super) fn keys(&self) -> &[u64] {
+        &self.packed
+    }
+
+    pub(super) fn extent(&self) -> [u64; 2] {
+        self.extent
+    }
+}
+
+impl<T: Hit> Keys<T> {
+    /// Takes hits.
+    pub(super) fn push(&mut self, hits: &[T]) {
+        self.pack(self.packing.with(hits));
+        if self.packing.fits() {
+            let packing = self.packing;
+            self.extend(hits.iter().map(|hit| packing.key(hit.numbers())));
+        } else {
+            self.hits.extend_from_slice(hits);
+        }
+    }
+
+    fn extend(&mut self, keys: impl Iterator<Item = u64>) {
+        let extent = &mut self.extent;
+        self.packed
+            .extend(keys.inspect(|&key| *extent = both(*extent, [key; 2])));
+    }
+
+    /// Makes keys of more bits; or hits, if these are too many.
+    pub(super) fn pack(&mut self, packing: Packing) {
+        let old = std::mem::replace(&mut self.packing, packing);
+        if packing == old {
+            return;
+        }
+        if packing.fits() {
+            for key in &mut self.packed {
+                *key = packing.key(old.numbers(*key));
+            }
+            // Keys of more bits are in the same order.
+            if !self.packed.is_empty() {
+                self.extent = self.extent.map(|key| packing.key(old.numbers(key)));
+            }
+        } else if old.fits() {
+            let keys = self.packed.drain(..);
+            self.hits
+                .extend(keys.map(|key| T::of_numbers(old.numbers(key))));
+        }
+    }
+
+    /// Moves hits that are no keys behind others.
+    pub(super) fn move_hits_to(&mut self, others: &mut Vec<T>) {
+        others.append(&mut self.hits);
+    }
+
+    /// Makes hits of keys.
+    pub(super) fn unpack(&mut self) {
+        self.pack(Packing::UNFIT);
+    }
+}
+
+impl<T> Held for Keys<T> {
+    fn held(&self) -> usize {
+        held::list(&self.packed) + held::list(&self.hits)
+    }
+}

@@ -59,17 +59,14 @@ impl<T: Hit> Keys<T> {
     pub(super) fn push(&mut self, hits: &[T]) {
         self.pack(self.packing.with(hits));
         if self.packing.fits() {
-            let packing = self.packing;
-            self.extend(hits.iter().map(|hit| packing.key(hit.numbers())));
+            let (packing, before) = (self.packing, self.packed.len());
+            let keys = hits.iter().map(|hit| packing.key(hit.numbers()));
+            self.packed.extend(keys);
+            let new = self.packed[before..].iter();
+            self.extent = new.fold(self.extent, |extent, &key| both(extent, [key; 2]));
         } else {
             self.hits.extend_from_slice(hits);
         }
-    }
-
-    fn extend(&mut self, keys: impl Iterator<Item = u64>) {
-        let extent = &mut self.extent;
-        self.packed
-            .extend(keys.inspect(|&key| *extent = both(*extent, [key; 2])));
     }
 
     /// Makes keys of more bits; or hits, if these are too many.

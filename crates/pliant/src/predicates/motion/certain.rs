@@ -15,6 +15,9 @@
 //! Parts are cut at fractions of two, as the cells of a grid are; a part with a contact that is within one cell names the cell, and all
 //! that is earlier was free of contact. Ends at which a sign is not certain, and what has taken many parts, are left to integers.
 //!
+//! Mostly the determinant soon has one root in a part, or none: coefficients change their sign as many times as there are roots, or more. Of
+//! one root the cell is guessed by Newton's method; signs at its ends prove that it is in there, and the rest of the part is of no interest.
+//!
 //! # What is certain
 //!
 //! Let u = 2^-53, and M the larger magnitude of a component of a corner q of the polygon at both ends of the motion. Components are
@@ -22,7 +25,8 @@
 //! With that, each Bernstein coefficient of an axis of p x q, products of such, is off by less than 12 u (M_px M_qy + M_py M_qx), to first
 //! order. Let P be the sum of the six products of components of three corners that make a determinant, of their M. A determinant at ends of
 //! the motion is off by 8 u P (three differences, a product and a difference, a product and two sums), a coefficient, the mean of three
-//! such, by 11 u P, and one of a part by 3 u P more for each halving; after at most 44 of them by 143 u P. Beyond first order these are
+//! such, by 11 u P, and one of a part by 3 u P more for each halving; after at most 44 of them by 143 u P. A value at a fraction, by
+//! three rounds of means of two with weights that are exact, is off by 6 u P more than these. Beyond first order these are
 //! less than 2^-40 of themselves larger.
 //!
 //! What is lost below the normal range, even where subnormal numbers are flushed to zero, is at most 2^-1021 a step, times components below
@@ -70,6 +74,15 @@ struct Part {
     determinant: [f64; 4],
     /// Whether on some axis all cross products have one sign throughout.
     is_inside: bool,
+    /// Whether its determinant has one root, at which nothing is certain.
+    is_hard: bool,
+}
+
+/// What is known of a part if its determinant has one root in it.
+enum OneRoot {
+    Decided(Certain),
+    Undecided,
+    IsNotOne,
 }
 
 /// The difference of two elements at both ends of the motion, and the largest magnitudes of each component.
@@ -87,14 +100,21 @@ pub(crate) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     if one_sign(determinant, error) {
         return Certain::Never;
     }
-    let mut parts = [Part::default(); DEEPEST + 2];
-    let mut count: usize = 1;
-    parts[0] = Part {
+    let mut whole = Part {
         low: 0.0,
         high: 1.0,
         determinant,
         is_inside: false,
+        is_hard: false,
     };
+    match polygon.at_one_root(&whole, error, grid, until) {
+        OneRoot::Decided(certain) => return certain,
+        OneRoot::Undecided => whole.is_hard = true,
+        OneRoot::IsNotOne => {}
+    }
+    let mut parts = [Part::default(); DEEPEST + 2];
+    let mut count: usize = 1;
+    parts[0] = whole;
     for _ in 0..MOST_PARTS {
         let Some(last) = count.checked_sub(1) else {
             return Certain::Never;
@@ -105,6 +125,14 @@ pub(crate) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         let is_late = part.low >= until && part.low > 0.0;
         if is_late || one_sign(part.determinant, error) {
             continue;
+        }
+        if !part.is_hard && part.high - part.low < 1.0 {
+            match polygon.at_one_root(&part, error, grid, until) {
+                OneRoot::Decided(Certain::Never) => continue,
+                OneRoot::Decided(certain) => return certain,
+                OneRoot::Undecided => part.is_hard = true,
+                OneRoot::IsNotOne => {}
+            }
         }
         if !part.is_inside {
             match polygon.sides(part.low, part.high) {
@@ -147,6 +175,40 @@ pub(crate) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         count += 2;
     }
     Certain::Nothing
+}
+
+/// About the root of a polynomial that has one, by Newton's method, or halving where that leaves the interval in which it is.
+fn root_of(coefficients: [f64; 4], enough: f64) -> f64 {
+    let [first, _, _, last] = coefficients;
+    let [mut low, mut high] = [0.0, 1.0];
+    let mut t = first / (first - last);
+    for _ in 0..16 {
+        let (value, slope) = value_at(coefficients, t);
+        if (value < 0.0) == (first < 0.0) {
+            low = t;
+        } else {
+            high = t;
+        }
+        let mut next = t - value / slope;
+        // Nor is it where there is no slope.
+        if !(next > low && next < high) {
+            next = 0.5 * (low + high);
+        }
+        if (next - t).abs() <= enough {
+            return next;
+        }
+        t = next;
+    }
+    t
+}
+
+/// The value of a polynomial, of which these are the Bernstein coefficients, and its slope.
+fn value_at([a, b, c, d]: [f64; 4], t: f64) -> (f64, f64) {
+    let s = 1.0 - t;
+    let mean = |x: f64, y: f64| s * x + t * y;
+    let (ab, bc, cd) = (mean(a, b), mean(b, c), mean(c, d));
+    let (abc, bcd) = (mean(ab, bc), mean(bc, cd));
+    (mean(abc, bcd), 3.0 * (bcd - abc))
 }
 
 /// Whether all are beyond an error on the same side of zero.
@@ -263,6 +325,49 @@ impl Polygon {
         let error = (p[x] * q[y] + p[y] * q[x]) * OF_CROSS + LOST_OF_CROSS;
         i8::from(turns.iter().all(|&turn| turn > error))
             - i8::from(turns.iter().all(|&turn| turn < -error))
+    }
+
+    /// What is certain of a part whose determinant has one root, by the cell that it is in.
+    fn at_one_root(&self, part: &Part, error: f64, grid: Grid, until: f64) -> OneRoot {
+        let sign = |x: f64| i8::from(x > error) - i8::from(x < -error);
+        let [first, second, third, last] = part.determinant.map(sign);
+        // Whatever the sign of one in the middle is, there is one change.
+        if first * last >= 0 || second != first && third != last {
+            return OneRoot::IsNotOne;
+        }
+        let length = part.high - part.low;
+        if length < grid.spacing || grid.spacing < power(-(DEEPEST as i32)) {
+            return OneRoot::Undecided;
+        }
+        let guess = root_of(part.determinant, 0.25 * grid.spacing / length);
+        let guess = part.low + guess * length;
+        let mut cell = grid.cell_of(guess, guess);
+        // It may be in the cell beside that of the guess.
+        for _ in 0..3 {
+            let [low, high] = cell;
+            if low < part.low || high > part.high || low == high {
+                break;
+            }
+            if low >= until && low > 0.0 {
+                return OneRoot::Decided(Certain::Never);
+            }
+            let signs = cell.map(|t| sign(value_at(part.determinant, (t - part.low) / length).0));
+            if signs == [first, last] {
+                return match self.sides(low, high) {
+                    Sides::Apart => OneRoot::Decided(Certain::Never),
+                    Sides::Inside => OneRoot::Decided(Certain::Within(cell)),
+                    Sides::Unknown => OneRoot::Undecided,
+                };
+            }
+            cell = if signs[0] == last {
+                [low - grid.spacing, low]
+            } else if signs[1] == first {
+                [high, high + grid.spacing]
+            } else {
+                break;
+            };
+        }
+        OneRoot::Undecided
     }
 
     fn sides(&self, low: f64, high: f64) -> Sides {

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 /// Is shown every hit once, some at a time, until it breaks with the place of the one at which it stops, which may be the first.
 pub(crate) type Visitor<'s, H> = &'s mut dyn FnMut(&[H]) -> ControlFlow<usize>;
 
-/// Is shown every hit once, some at a time, by any thread and in any order, until it breaks because there are too many.
+/// Is shown every hit once, some at a time, by any thread and in any order, until it breaks because there are too many; then it
+/// always does.
 pub(crate) type Collector<'s, H> = &'s (dyn Fn(&[H]) -> ControlFlow<()> + Sync);
 
 /// Where hits go.

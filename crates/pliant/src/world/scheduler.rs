@@ -18,7 +18,6 @@ use crate::traversal::{Collector, Scratch, Sink};
 use crate::update::Refit;
 use std::ops::{ControlFlow, Range};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Pairs of bodies of fewer triangles, all together, are not worth waking a thread.
 const SHARED: usize = 1 << 16;
@@ -85,7 +84,7 @@ fn triangles_of<const N: usize, S: Coordinate>(bodies: &Bodies<N, S>, pairs: &[B
 }
 
 impl<K: Kind> Scheduler<K> {
-    /// Meets all pairs of bodies, unless it is interrupted or the collector breaks.
+    /// Meets all pairs of bodies, unless it is interrupted or there are too many hits for the collector.
     pub(super) fn meet<const N: usize>(
         &mut self,
         step: &mut Step<K>,
@@ -110,7 +109,6 @@ impl<K: Kind> Scheduler<K> {
         let all: Vec<_> = bodies.list.iter_mut().map(Mutex::new).collect();
         let threads = &Threads::one();
         let (kind, refit, origin) = (step.kind, step.refit, step.origin);
-        let are_too_many = AtomicBool::new(false);
         let bodies_of = &|job: usize| small[jobs[job].clone()].as_flattened();
         let workers = &mut self.workers;
         executor.run_conflict_free(jobs.len(), bodies_of, all.len(), workers, &|worker, job| {
@@ -131,26 +129,20 @@ impl<K: Kind> Scheduler<K> {
             for &[a, b] in &small[jobs[job].clone()] {
                 let sink = &mut Sink::Collector(collector);
                 // No other thread has these bodies: no lock is ever waited for.
-                let flow = if a == b {
+                let _ = if a == b {
                     step.meet_itself(&mut locked(&all[a]), sink)
                 } else {
                     let [mut a, mut b] = [a, b].map(|place| locked(&all[place]));
                     let both: [&mut Body<N, K::Scalar>; 2] = [&mut a, &mut b];
                     step.meet_another(both, sink)
                 };
-                if flow.is_break() {
-                    are_too_many.store(true, Ordering::Relaxed);
-                }
             }
         });
         for worker in &self.workers {
             *step.statistics += worker.statistics;
         }
-        if are_too_many.into_inner() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        // Shown nothing, it says whether there were too many.
+        collector(&[])
     }
 
     /// Cuts small pairs into jobs. How it does changes no answer, so it may look at the number of threads.

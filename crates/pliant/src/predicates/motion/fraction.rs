@@ -32,19 +32,39 @@ impl Dyadic {
         }
     }
 
-    /// A number from -1 to 1.
+    /// A number from 0 to 1.
     pub(super) fn new(x: f64) -> Self {
-        let (is_negative, integer, exponent) = parts(x);
+        let (_, integer, exponent) = parts(x);
         if integer == 0 {
             return Self::zero();
         }
         let zeros = integer.trailing_zeros();
         let (odd, exponent) = (integer >> zeros, exponent + zeros as i32);
-        // Of numbers up to 1 only 1 itself has an exponent above none.
-        let over = Integer::from(odd).shifted(exponent.max(0).unsigned_abs() as usize);
         Self {
-            over: if is_negative { over.negated() } else { over },
+            // Of numbers up to 1 only 1 itself has an exponent above none.
+            over: Integer::from(odd).shifted(exponent.max(0).unsigned_abs() as usize),
             twos: exponent.min(0).unsigned_abs() as usize,
+        }
+    }
+
+    /// A number that is below 2 in magnitude, and no smaller than a half unless it is 0, times a power of two up to 2^53.
+    fn scaled(m: f64, e: i32) -> Self {
+        Self {
+            over: Integer::new(m, -53),
+            twos: (53 - e).unsigned_abs() as usize,
+        }
+    }
+
+    /// This many powers of two less, and not negative.
+    pub(super) fn magnitude_over(&self, twos: usize) -> Self {
+        let over = self.over.clone();
+        Self {
+            over: if over.sign() < 0 {
+                over.negated()
+            } else {
+                over
+            },
+            twos: self.twos + twos,
         }
     }
 
@@ -117,14 +137,16 @@ impl Fraction {
 
     /// Nearly the same number, which is from 0 to 1: off by 2^-50 of itself; zero if it is below 2^-1000.
     pub(super) fn approximately(&self) -> f64 {
-        self.minus(&Dyadic::zero())
+        let (m, e) = quotient(&self.over, &self.under);
+        scaled(m, e)
     }
 
-    /// Nearly by how much it is more than a fraction of two: off by 2^-50 of that; zero if it is below 2^-1000.
-    pub(super) fn minus(&self, other: &Dyadic) -> f64 {
-        let [a, b] = [self.over.shifted(other.twos), self.under.times(&other.over)];
-        let [(m, e), (by, of_by)] = [&a.minus(&b), &self.under].map(Integer::approximately);
-        scaled(m / by, e - of_by - other.twos as i32)
+    /// Nearly by how much it is more than a fraction of two, both from 0 to 1: off by 2^-50 of that.
+    pub(super) fn minus(&self, other: &Dyadic) -> Dyadic {
+        let over = self.over.shifted(other.twos);
+        let over = over.minus(&self.under.times(&other.over));
+        let (m, e) = quotient(&over, &self.under);
+        Dyadic::scaled(m, e - other.twos as i32)
     }
 }
 
@@ -156,6 +178,12 @@ impl Ord for Fraction {
         let [a, b] = [self.over.times(&other.under), other.over.times(&self.under)];
         a.minus(&b).sign().cmp(&0)
     }
+}
+
+/// Nearly the quotient of two integers: a number from a half to 2, or zero, times a power of two; off by 2^-50 of itself.
+fn quotient(over: &Integer, under: &Integer) -> (f64, i32) {
+    let [(m, e), (by, of_by)] = [over, under].map(Integer::approximately);
+    (m / by, e - of_by)
 }
 
 /// A number times a power of two; zero if that is below 2^-1000.

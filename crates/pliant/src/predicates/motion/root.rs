@@ -31,10 +31,8 @@ pub(super) struct Alone {
     sign_at_low: i8,
 }
 
-/// What is known of a fraction to 50 bits is off by less than so much of itself.
-const ERROR: f64 = power(-48);
-/// Fractions are told apart by no less than this.
-const LEAST: f64 = power(-1000);
+/// What is known of a fraction is off by less than 2^-48 of itself.
+const KNOWN_BITS: usize = 48;
 
 /// Intervals of roots are narrowed to 2^-32 at least before floating point is asked for signs.
 const NARROW: f64 = power(-32);
@@ -173,8 +171,8 @@ impl Cuts {
         let close = self.of.as_ref().and_then(|of| match self.turn % 3 {
             0 => {
                 let correction = of.minus(&self.about);
-                self.about = self.about.plus(&Dyadic::new(correction));
-                self.error = Dyadic::new(LEAST.max(correction.abs() * ERROR));
+                self.about = self.about.plus(&correction);
+                self.error = correction.magnitude_over(KNOWN_BITS);
                 Some(self.about.minus(&self.error))
             }
             1 if self.turn > 1 => Some(self.about.plus(&self.error)),

@@ -76,7 +76,9 @@ impl<K: Kind> LeafTests<K> {
 
     /// Shows what was found to a collector, if there is one.
     pub(super) fn collect<P>(&mut self, context: &Context<K, P>) {
-        if let Some(collector) = context.collector {
+        if let Some(collector) = context.collector
+            && !self.of_caller.is_empty()
+        {
             self.are_too_many |= collector(&self.of_caller).is_break();
             self.hits.clear();
             self.of_caller.clear();

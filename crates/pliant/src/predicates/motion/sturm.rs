@@ -3,7 +3,7 @@
 //! Of a polynomial and its derivative, each further one is a positive multiple of the negative remainder of the two before it, to the last
 //! that is not zero. Between two times that are no roots the sequence loses as many changes of sign as there are roots, each counted once.
 //!
-//! Of a t^3 + b t^2 + c t + d with the sign s of a, the third is s (2 (b^2 - 3 a c) t + b c - 9 a d): the remainder times -9 a^2 / |a|. What
+//! Of a t^3 + b t^2 + c t + d with the sign s of a, the third is s (2 (b^2 - 3 a c) t + b c - 9 a d): the remainder times -9 |a|. What
 //! comes after one of degree 1 is a number, of which the sign is enough: the opposite of that which the one before has at the root. It is
 //! zero if the polynomial has multiple roots. Then all its roots are fractions: a root that comes twice is that of the one of degree 1, and
 //! all add up to -b / a; what comes three times is -b / (3 a).

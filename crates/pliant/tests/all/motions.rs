@@ -114,7 +114,7 @@ fn impacts_are_those_of_the_oracle() {
 }
 
 #[test]
-#[ignore = "ten million motions: an hour"]
+#[ignore = "ten million motions: half an hour"]
 fn ten_million() {
     let classes = MotionClass::ALL.len() as u64;
     compare_all(101, 10_000_000 / classes + 1);

@@ -90,14 +90,10 @@ impl<T: Hit> Keys<T> {
         }
     }
 
-    /// Moves hits that are no keys behind others.
-    pub(super) fn move_hits_to(&mut self, others: &mut Vec<T>) {
-        others.append(&mut self.hits);
-    }
-
-    /// Makes hits of keys.
-    pub(super) fn unpack(&mut self) {
+    /// Makes hits of keys, and moves all hits behind others.
+    pub(super) fn unpack_to(&mut self, others: &mut Vec<T>) {
         self.pack(Packing::UNFIT);
+        others.append(&mut self.hits);
     }
 }
 

@@ -62,10 +62,7 @@ impl<T: Hit> Sorter<T> {
         // Places in buckets are not counted further.
         if !packing.fits() || u32::try_from(count).is_err() {
             hits.clear();
-            for keys in keys.iter_mut() {
-                keys.unpack();
-                keys.move_hits_to(hits);
-            }
+            keys.iter_mut().for_each(|keys| keys.unpack_to(hits));
             sort_by_numbers(hits);
             return;
         }

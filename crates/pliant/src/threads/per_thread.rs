@@ -36,9 +36,7 @@ impl<T> PerThread<T> {
         let things = self.things.iter_mut();
         things.map(|thing| thing.get_mut().unwrap_or_else(PoisonError::into_inner))
     }
-}
 
-impl<T> PerThread<T> {
     /// Bytes of the heap that these are, and so many that each holds.
     pub(crate) fn held_by(&self, each: impl Fn(&T) -> usize) -> usize {
         let things = self.things.iter().map(|thing| each(&locked(thing)));

@@ -25,7 +25,7 @@ const LONGEST_BATCH: usize = 256;
 const MOST_LEAF_PAIRS: usize = 512;
 /// The same where threads share the tasks. It is more, because each thread has a cache of its own, and all wait for the last.
 const MOST_LEAF_PAIRS_SHARED: usize = 2048;
-/// The most pairs of blocks that a task tests, or a few more, before hits are shown. This bounds memory whatever the leaf size is.
+/// The most pairs of blocks that a task tests, or a few more, before a visitor is shown hits. This bounds memory whatever the leaf size is.
 const MOST_BEFORE_SHOWN: usize = 8192;
 /// As soon as there are this many pairs of nodes they are distributed to several tasks, whatever the number of threads is; but not where
 /// one thread wants all and waits for no boxes.

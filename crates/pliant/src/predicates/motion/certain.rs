@@ -58,7 +58,7 @@ const DEEPEST: usize = 44;
 /// So many parts are looked at; a crossing takes about 25.
 const MOST_PARTS: usize = 200;
 
-const fn power(exponent: i32) -> f64 {
+pub(super) const fn power(exponent: i32) -> f64 {
     f64::from_bits((1023 + exponent).unsigned_abs() as u64 * (1 << 52))
 }
 
@@ -100,17 +100,16 @@ pub(crate) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     if one_sign(determinant, error) {
         return Certain::Never;
     }
-    let mut whole = Part {
+    let whole = Part {
         low: 0.0,
         high: 1.0,
         determinant,
         is_inside: false,
         is_hard: false,
     };
-    match polygon.at_one_root(&whole, error, grid, until) {
-        OneRoot::Decided(certain) => return certain,
-        OneRoot::Undecided => whole.is_hard = true,
-        OneRoot::IsNotOne => {}
+    // Most are decided here, before there is room for parts.
+    if let OneRoot::Decided(certain) = polygon.at_one_root(&whole, error, grid, until) {
+        return certain;
     }
     let mut parts = [Part::default(); DEEPEST + 2];
     let mut count: usize = 1;
@@ -126,7 +125,7 @@ pub(crate) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         if is_late || one_sign(part.determinant, error) {
             continue;
         }
-        if !part.is_hard && part.high - part.low < 1.0 {
+        if !part.is_hard {
             match polygon.at_one_root(&part, error, grid, until) {
                 OneRoot::Decided(Certain::Never) => continue,
                 OneRoot::Decided(certain) => return certain,
@@ -190,7 +189,7 @@ fn root_of(coefficients: [f64; 4], enough: f64) -> f64 {
             high = t;
         }
         let mut next = t - value / slope;
-        // Nor is it where there is no slope.
+        // Where there is no slope it may be no number, and that is not in the interval either.
         if !(next > low && next < high) {
             next = 0.5 * (low + high);
         }

@@ -98,7 +98,7 @@ impl Dyadic {
     /// Nearly the same number, which is not negative: off by 2^-52 of itself; zero if it is below 2^-1000.
     pub(super) fn approximately(&self) -> f64 {
         let (m, e) = self.over.approximately();
-        scaled(m, e - self.twos as i32)
+        times_power(m, e - self.twos as i32)
     }
 }
 
@@ -138,7 +138,7 @@ impl Fraction {
     /// Nearly the same number, which is from 0 to 1: off by 2^-50 of itself; zero if it is below 2^-1000.
     pub(super) fn approximately(&self) -> f64 {
         let (m, e) = quotient(&self.over, &self.under);
-        scaled(m, e)
+        times_power(m, e)
     }
 
     /// Nearly by how much it is more than a fraction of two, both from 0 to 1: off by 2^-50 of that.
@@ -187,7 +187,7 @@ fn quotient(over: &Integer, under: &Integer) -> (f64, i32) {
 }
 
 /// A number times a power of two; zero if that is below 2^-1000.
-fn scaled(m: f64, e: i32) -> f64 {
+fn times_power(m: f64, e: i32) -> f64 {
     if e < -1000 {
         0.0
     } else {

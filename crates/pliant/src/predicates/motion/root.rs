@@ -5,6 +5,7 @@
 //! zero, from quotients and remainders, however near other roots are. So the work is bounded.
 
 use super::super::integer::Integer;
+use super::certain::power;
 use super::fraction::{Dyadic, Fraction};
 use super::polynomial::{MOST, Polynomial};
 use super::sturm::Sturm;
@@ -37,10 +38,6 @@ const KNOWN_BITS: usize = 48;
 /// Intervals of roots are narrowed to 2^-32 at least before floating point is asked for signs.
 const NARROW: f64 = power(-32);
 
-const fn power(exponent: i32) -> f64 {
-    f64::from_bits((1023 + exponent).unsigned_abs() as u64 * (1 << 52))
-}
-
 /// Shows the roots in (0, 1] of a polynomial that is not zero, each once, in order, until one is enough.
 pub(super) fn visit_roots<B>(
     polynomial: &Polynomial,
@@ -63,8 +60,11 @@ pub(super) fn visit_roots<B>(
         return visit_counted(&sturm, polynomial, zero, one, found);
     }
     let mut others = polynomial.clone();
-    for end in [is_zero.then_some(&zero), is_one.then_some(&one)] {
-        others = end.map_or(others.clone(), |root| others.without_root(root));
+    if is_zero {
+        others = others.without_root(&zero);
+    }
+    if is_one {
+        others = others.without_root(&one);
     }
     visit_between(&others, zero, one.clone(), found)?;
     if is_one {

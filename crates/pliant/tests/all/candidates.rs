@@ -1,7 +1,7 @@
 //! Candidates within a margin, still and in motion, and close pairs: every configuration gives the lists of the plain reference, at every
 //! step of lives in which bodies move, turn back, stop on the way, are pinned, kept apart and given other meshes.
 
-use crate::common::{Lcg, every_configuration, sheet};
+use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::reference::{self, Moving};
 use pliant::{
     BodyId, CloseEdgeEdge, CloseVertexTriangle, ClosestFeatures, EdgeEdge, ErrorKind, Options,
@@ -378,7 +378,8 @@ fn lives<S: Scalar>(
     cast: fn(f64) -> S,
 ) {
     let configurations = every_configuration();
-    for seed in seeds {
+    let lives = share(seeds.clone().count(), 3);
+    for seed in seeds.take(lives) {
         let random = &mut Lcg(seed);
         let mut options: Options =
             configurations[random.below(configurations.len() as u32) as usize];

@@ -1,6 +1,6 @@
 //! The heart of the suite: every configuration gives the pairs of the plain reference, on every query, at every step.
 
-use crate::common::{Motion, TrianglesOf, every_configuration, sheet, widened, world_of};
+use crate::common::{Motion, TrianglesOf, every_configuration, share, sheet, widened, world_of};
 use pliant::{ErrorKind, Options, Pair, Scalar, Selection, World, reference};
 use proptest::prelude::*;
 use std::ops::ControlFlow;
@@ -188,7 +188,7 @@ fn crumpled(frames: usize) -> impl Strategy<Value = Motion> {
 
 proptest! {
     // Each case is some hundred worlds.
-    #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: share(12, 2) as u32, ..ProptestConfig::default() })]
 
     #[test]
     fn soups(bodies in prop::collection::vec(soup(3), 1..4)) {

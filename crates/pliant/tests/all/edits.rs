@@ -1,6 +1,6 @@
 //! Edits of meshes: after every one, a world gives the answers of a world built fresh from what is left, by the numbers that stayed.
 
-use crate::common::{Lcg, every_configuration, sheet};
+use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::{
     BodyId, EdgeEdge, Edit, Edited, Options, Pair, Scalar, Selection, VertexTriangle, World,
 };
@@ -565,7 +565,7 @@ fn life<S: Number>(options: Options, seed: u64, edits: usize) -> usize {
 #[test]
 fn edited_worlds_equal_fresh_ones() {
     let all = every_configuration();
-    let edits: usize = std::env::var("EDITS").map_or(600, |edits| edits.parse().unwrap());
+    let edits: usize = std::env::var("EDITS").map_or(share(600, 2), |edits| edits.parse().unwrap());
     let mut done = 0;
     for (seed, options) in (0..).zip(all.iter().cycle().step_by(37)) {
         done += life::<f32>(*options, seed, 10);

@@ -4,7 +4,7 @@
 //! Whatever changes a pair, on purpose, in another configuration or on another machine, is noticed. A new choice (a number of
 //! threads, an instruction set) is one more line in `axes`.
 
-use crate::common::TrianglesOf;
+use crate::common::{TrianglesOf, is_thorough};
 use pliant::{
     BodyId, BroadPhase, Degree, Instructions, Options, Partition, Scalar, Selection, Update, World,
     reference,
@@ -180,20 +180,23 @@ fn hybrid(level: u32, at_once: u32) -> Update {
     }
 }
 
-fn cases() -> Vec<Case> {
+/// One case in so many of what can be chosen together, and all of what is chosen alone. A number that divides none of how many choices
+/// there are has each of them come up.
+fn cases(every: usize) -> Vec<Case> {
     let changed = |case: &Case, (name, change): &Change| {
         let mut case = case.clone();
         change(&mut case);
         case.name = format!("{} {name}", case.name);
         case
     };
-    let every = |cases: Vec<Case>, axis: Vec<Change>| -> Vec<Case> {
+    let combined = |cases: Vec<Case>, axis: Vec<Change>| -> Vec<Case> {
         cases
             .iter()
             .flat_map(|case| axis.iter().map(|change| changed(case, change)))
             .collect()
     };
-    let mut cases = axes().into_iter().fold(vec![Case::default()], every);
+    let together = axes().into_iter().fold(vec![Case::default()], combined);
+    let mut cases: Vec<Case> = together.into_iter().step_by(every).collect();
     cases.extend(ALONE.iter().map(|change| changed(&Case::default(), change)));
     cases
 }
@@ -443,9 +446,15 @@ fn hash<S: Scalar>(
     (fnv.0, count)
 }
 
-/// Asks in every case, and compares with what is committed. Two threads share the cases: the longest test is not left alone at the end.
+/// Which cases are tried where one takes long.
+fn some() -> usize {
+    if is_thorough() { 1 } else { 5 }
+}
+
+/// Asks in all cases, or one in so many, and compares with what is committed. Two threads share the cases: the longest test is not left alone at the end.
 fn are_the_committed_ones<T: PartialEq + Debug + Sync>(
     (name, committed): (&str, T),
+    every: usize,
     narrow: impl Fn(&Case, &Scene, &[Shapes]) -> T + Sync,
     wide: impl Fn(&Case, &Scene, &[Shapes]) -> T + Sync,
 ) -> Result<(), String> {
@@ -472,7 +481,7 @@ fn are_the_committed_ones<T: PartialEq + Debug + Sync>(
         }
         Ok(())
     };
-    let cases = cases();
+    let cases = cases(every);
     let (first, second) = cases.split_at(cases.len() / 2);
     std::thread::scope(|scope| {
         let first = scope.spawn(|| first.iter().try_for_each(check));
@@ -487,7 +496,7 @@ fn pairs_are_the_committed_ones_in_every_case() {
         let narrow = |case: &Case, scene: &Scene, steps: &[Shapes]| hash(case, scene, steps, |x| x);
         let wide =
             |case: &Case, scene: &Scene, steps: &[Shapes]| hash(case, scene, steps, f64::from);
-        are_the_committed_ones((name, (hash_committed, count)), narrow, wide)
+        are_the_committed_ones((name, (hash_committed, count)), 1, narrow, wide)
     });
     assert_eq!(wrong, COMMITTED.map(|_| Ok(())));
 }
@@ -499,7 +508,7 @@ fn what_is_near_is_the_committed_in_every_case() {
             |case: &Case, scene: &Scene, steps: &[Shapes]| near_hash(case, scene, steps, |x| x);
         let wide =
             |case: &Case, scene: &Scene, steps: &[Shapes]| near_hash(case, scene, steps, f64::from);
-        are_the_committed_ones((name, (hash_committed, count)), narrow, wide)
+        are_the_committed_ones((name, (hash_committed, count)), some(), narrow, wide)
     });
     assert_eq!(wrong, NEAR.map(|_| Ok(())));
 }
@@ -512,7 +521,7 @@ fn what_is_close_is_the_committed_with_all_figures_in_every_case() {
         let wide = |case: &Case, scene: &Scene, steps: &[Shapes]| {
             close_hash(case, scene, steps, f64::from)
         };
-        are_the_committed_ones(committed, narrow, wide)
+        are_the_committed_ones(committed, some(), narrow, wide)
     });
     assert_eq!(wrong, CLOSE.map(|_| Ok(())));
 }
@@ -524,7 +533,7 @@ fn what_meets_is_the_committed_in_every_case() {
             |case: &Case, scene: &Scene, steps: &[Shapes]| meet_hash(case, scene, steps, |x| x);
         let wide =
             |case: &Case, scene: &Scene, steps: &[Shapes]| meet_hash(case, scene, steps, f64::from);
-        are_the_committed_ones((name, (hash_committed, count)), narrow, wide)
+        are_the_committed_ones((name, (hash_committed, count)), some(), narrow, wide)
     });
     assert_eq!(wrong, MEET.map(|_| Ok(())));
 }
@@ -671,7 +680,7 @@ fn the_committed_close_pairs_are_those_of_the_reference() {
 
 #[test]
 fn a_case_is_every_combination() {
-    let cases = cases();
+    let cases = cases(1);
     assert_eq!(cases.len(), 3 * 4 * 4 * 3 * 2 + ALONE.len());
     let named = |name: &str| cases.iter().filter(|c| c.name.contains(name)).count();
     assert_eq!((named("f64"), named("degree 4")), (148, 96));

@@ -7,6 +7,16 @@ use pliant::{
 };
 use std::num::NonZeroU32;
 
+/// How much of something long a test goes through: all of it if the environment variable THOROUGH is set, else one part in so many.
+pub(crate) fn share(all: usize, of: usize) -> usize {
+    if is_thorough() { all } else { all / of }
+}
+
+/// Whether tests take all there is, which is more than every commit has to wait for.
+pub(crate) fn is_thorough() -> bool {
+    std::env::var_os("THOROUGH").is_some()
+}
+
 /// A body in motion: triangles and one list of positions a frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Motion {

@@ -57,15 +57,32 @@ impl Limits {
         }
     }
 
+    /// Both limits, surely and possibly, in every lane.
+    #[inline(always)]
+    pub(super) fn in_lanes<I: Simd>(self, i: I) -> [f32x8<I>; 2] {
+        [f32x8::splat(i, self.sure), f32x8::splat(i, self.possible)]
+    }
+
     /// Whether two boxes are possibly near each other.
     #[inline(always)]
-    pub(crate) fn are_possibly_near(self, a: &Aabb, b: &Aabb) -> bool {
-        let mut are_near = true;
-        for axis in 0..3 {
-            are_near &= a.lo[axis] - b.hi[axis] <= self.possible;
-            are_near &= b.lo[axis] - a.hi[axis] <= self.possible;
-        }
-        are_near
+    pub(crate) fn are_possibly_near<I: Simd>(self, i: I, a: &PaddedBox, b: &PaddedBox) -> bool {
+        let load = |corner: &[f32; 4]| f32x4::load_array_ref(i, corner);
+        let gaps = (load(&a.lo) - load(&b.hi)).max(load(&b.lo) - load(&a.hi));
+        gaps.simd_le(f32x4::splat(i, self.possible)).all_true()
+    }
+}
+
+/// A box whose corners fill registers of four: behind z there is 0, so that there is no gap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PaddedBox {
+    pub(crate) lo: [f32; 4],
+    pub(crate) hi: [f32; 4],
+}
+
+impl From<Aabb> for PaddedBox {
+    fn from(Aabb { lo, hi }: Aabb) -> Self {
+        let [lo, hi] = [lo, hi].map(|[x, y, z]| [x, y, z, 0.0]);
+        Self { lo, hi }
     }
 }
 
@@ -104,26 +121,42 @@ pub(crate) fn of_elements<I: Simd, S: Coordinate, const C: usize>(
 }
 
 /// Eight boxes in registers.
-struct Registers<I: Simd> {
-    lo: [f32x8<I>; 3],
-    hi: [f32x8<I>; 3],
+pub(super) struct Registers<I: Simd> {
+    pub(super) lo: [f32x8<I>; 3],
+    pub(super) hi: [f32x8<I>; 3],
 }
 
 impl<I: Simd> Registers<I> {
     #[inline(always)]
-    fn new(i: I, lanes: &Eight) -> Self {
-        let empty = f32x8::splat(i, 0.0);
-        let (mut lo, mut hi) = ([empty; 3], [empty; 3]);
-        for axis in 0..3 {
-            lo[axis] = eight(i, &lanes.lo[axis]);
-            hi[axis] = eight(i, &lanes.hi[axis]);
-        }
+    pub(super) fn none(i: I) -> Self {
+        let none = f32x8::splat(i, 0.0);
+        let (lo, hi) = ([none; 3], [none; 3]);
         Self { lo, hi }
+    }
+
+    #[inline(always)]
+    fn new(i: I, lanes: &Eight) -> Self {
+        let mut boxes = Self::none(i);
+        for axis in 0..3 {
+            boxes.lo[axis] = eight(i, &lanes.lo[axis]);
+            boxes.hi[axis] = eight(i, &lanes.hi[axis]);
+        }
+        boxes
+    }
+
+    /// The gap of each to that in the same lane of others.
+    #[inline(always)]
+    pub(super) fn gaps_to(&self, others: &Self) -> f32x8<I> {
+        let on = |axis: usize| {
+            let below = self.lo[axis] - others.hi[axis];
+            below.max(others.lo[axis] - self.hi[axis])
+        };
+        on(0).max(on(1)).max(on(2))
     }
 
     /// The gap of each to one box.
     #[inline(always)]
-    fn gaps(&self, one_lo: [f32; 3], one_hi: [f32; 3]) -> f32x8<I> {
+    fn gaps<const D: usize>(&self, one_lo: [f32; D], one_hi: [f32; D]) -> f32x8<I> {
         let i = self.lo[0].token();
         let on = |axis: usize| {
             let below = self.lo[axis] - one_hi[axis];
@@ -136,7 +169,7 @@ impl<I: Simd> Registers<I> {
 
 /// Which lanes are possibly near a box.
 #[inline(always)]
-pub(crate) fn near_box<I: Simd>(i: I, lanes: &Eight, all: &Aabb, limits: Limits) -> u64 {
+pub(crate) fn near_box<I: Simd>(i: I, lanes: &Eight, all: &PaddedBox, limits: Limits) -> u64 {
     let gaps = Registers::new(i, lanes).gaps(all.lo, all.hi);
     gaps.simd_le(f32x8::splat(i, limits.possible)).to_bitmask()
 }
@@ -154,7 +187,7 @@ pub(crate) fn near_pairs<I: Simd, const A: usize, const B: usize>(
 ) -> (u64, bool) {
     let registers = Registers::new(i, b);
     let corners_b = corners_b.map(|corners| u32x8::load_array(i, corners));
-    let [least_unsure, possible] = [limits.sure, limits.possible].map(|it| f32x8::splat(i, it));
+    let [least_unsure, possible] = limits.in_lanes(i);
     let mut all = 0;
     let mut unsure = mask32x8::splat(i, false);
     let mut rest = rows;

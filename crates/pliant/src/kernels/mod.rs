@@ -14,6 +14,7 @@
 //! apart         whether elements that move stay apart
 //! closest       where elements are closest, and between what their distance is
 //! gaps          boxes of vertices, edges and triangles, and which of them are near each other
+//! ring          the elements of one run, each with each other
 //! find          where a number is among eight
 //! ranks         how many of few numbers are smaller than each
 //! buffer        the lanes set in a mask, written to a list without branches
@@ -35,6 +36,7 @@ mod gather;
 mod instructions;
 mod quantized;
 pub(crate) mod ranks;
+pub(crate) mod ring;
 pub(crate) mod signs;
 
 pub(crate) use boxes::{BoxLanes, near_mask, overlap_mask};

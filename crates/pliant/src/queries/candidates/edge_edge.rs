@@ -5,6 +5,7 @@ use super::{Margin, Which, groups, keep};
 use crate::geometry::{Shape, larger};
 use crate::hits::EdgeEdge;
 use crate::ids::BodyId;
+use crate::kernels::ring::Ring;
 use crate::kernels::{Buffer, Coordinate, dispatch};
 use crate::queries::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves};
 use crate::statistics::Statistics;
@@ -79,14 +80,20 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
             let (a, b) = (&ends_a[a as usize], &ends_b[b as usize]);
             self.margin.holds(leaves, [0, 1], a, b)
         };
+        let mut ring = Ring::EMPTY;
         let before = hits.len();
         dispatch!(leaves.instructions, i => {
             for pairs in pairs.chunks(RUNS_AT_ONCE) {
                 let mut kept = [[0; 2]; RUNS_AT_ONCE];
-                for &[a, b] in near_runs(runs_a, runs_b, pairs, limits, &mut kept) {
-                    let itself = leaves.is_one_tree && a == b;
+                for &[a, b] in near_runs(i, runs_a, runs_b, pairs, limits, &mut kept) {
+                    if leaves.is_one_tree && a == b {
+                        runs_a.run(a).compare_within(i, &mut ring, limits, |pair, is_sure| {
+                            keep([1, u64::from(is_sure)], |_| pair, meet, holds, hits, statistics);
+                        });
+                        continue;
+                    }
                     let (a, b) = (runs_a.run(a), runs_b.run(b));
-                    a.compare(i, &b, (leaves.is_one_body, itself), limits, |[first_a, first_b], near, sure| {
+                    a.compare(i, &b, leaves.is_one_body, limits, |[first_a, first_b], near, sure| {
                         let pair = |bit: u32| [first_a + bit / 8, first_b + bit % 8];
                         keep([near, sure], pair, meet, holds, hits, statistics);
                     });

@@ -6,10 +6,11 @@
 use crate::geometry::{Aabb, Points, Shape, larger};
 use crate::held::{self, Held};
 use crate::ids::TreeVertex;
-use crate::kernels::gaps::{self, Eight, EightCorners, Limits};
+use crate::kernels::gaps::{self, Eight, EightCorners, Limits, PaddedBox};
+use crate::kernels::ring::{MOST_OF_RUN, Ring};
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::threads::Executor;
-use crate::tree::{STRICT_UPPER, Version};
+use crate::tree::Version;
 use std::ops::Range;
 
 /// Runs in a job: some microseconds of work.
@@ -33,7 +34,7 @@ pub(crate) struct RunBoxes<const C: usize> {
 #[derive(Debug)]
 struct Run {
     /// The box of all elements.
-    hull: Aabb,
+    hull: PaddedBox,
     /// Its first eight.
     first: u32,
     /// Its elements: from this number on,
@@ -75,9 +76,9 @@ impl<const C: usize> RunBoxes<C> {
         let mut eights = Vec::new();
         for elements in elements_of {
             // Up to three vertices, or edges, belong to a triangle.
-            debug_assert!(elements.len() <= 24, "{elements:?}");
+            debug_assert!(elements.len() <= MOST_OF_RUN, "{elements:?}");
             runs.push(Run {
-                hull: Eight::EMPTY.get(0),
+                hull: Eight::EMPTY.get(0).into(),
                 first: eights.len() as u32,
                 start: elements.start,
                 count: elements.len() as u32,
@@ -136,8 +137,9 @@ impl<const C: usize> RunBoxes<C> {
                 let mut rest = &mut *job.eights;
                 for run in &mut *job.runs {
                     let own = rest.split_off_mut(..run.eights().len());
-                    run.hull = make_run(i, positions, own.unwrap_or_default());
-                    for side in [run.hull.lo, run.hull.hi] {
+                    let hull = make_run(i, positions, own.unwrap_or_default());
+                    run.hull = hull.into();
+                    for side in [hull.lo, hull.hi] {
                         for x in side {
                             // Of a run without elements it is no number, and passed over.
                             job.most = larger(job.most, x.abs());
@@ -203,7 +205,8 @@ pub(super) const RUNS_AT_ONCE: usize = 32;
 
 /// Keeps pairs of runs the boxes of whose elements are possibly near each other; there are no more than [`RUNS_AT_ONCE`].
 #[inline(always)]
-pub(super) fn near_runs<'k, const C: usize, const D: usize>(
+pub(super) fn near_runs<'k, I: Simd, const C: usize, const D: usize>(
+    i: I,
     a: &RunBoxes<C>,
     b: &RunBoxes<D>,
     pairs: &[[u32; 2]],
@@ -218,7 +221,7 @@ pub(super) fn near_runs<'k, const C: usize, const D: usize>(
         ];
         // Whether they are cannot be predicted. The box of no element is no number, and near nothing.
         kept[count] = pair;
-        count += usize::from(limits.are_possibly_near(a, b));
+        count += usize::from(limits.are_possibly_near(i, a, b));
     }
     &kept[..count]
 }
@@ -244,7 +247,7 @@ impl<const C: usize> ElementRun<'_, C> {
 
     /// Which elements are possibly near a box: bit i for the i-th.
     #[inline(always)]
-    fn near<I: Simd>(&self, i: I, other: &Aabb, limits: Limits) -> u32 {
+    fn near<I: Simd>(&self, i: I, other: &PaddedBox, limits: Limits) -> u32 {
         let mut near = 0;
         // In one number: a list of masks would be written byte by byte and read as one, which processors wait for.
         for (place, eight) in self.eights.iter().enumerate() {
@@ -254,14 +257,13 @@ impl<const C: usize> ElementRun<'_, C> {
     }
 
     /// Shows `found` the pairs of elements, one of either run, that are possibly near each other and those that surely are, as bits
-    /// 8 i + j of two masks, behind the numbers of the first elements. Of one body those that have no corner in common; of a run with
-    /// itself, if it is the same kind of elements too, each pair once and none with itself.
+    /// 8 i + j of two masks, behind the numbers of the first elements. Of one body those that have no corner in common.
     #[inline(always)]
     pub(super) fn compare<I: Simd, const D: usize>(
         &self,
         i: I,
         other: &ElementRun<'_, D>,
-        (is_one_body, itself): (bool, bool),
+        is_one_body: bool,
         limits: Limits,
         mut found: impl FnMut([u32; 2], u64, u64),
     ) {
@@ -278,8 +280,7 @@ impl<const C: usize> ElementRun<'_, C> {
                 continue;
             }
             let of_a = (&eight_a.boxes, &eight_a.corners);
-            let first = if itself { a } else { 0 };
-            for (b, eight_b) in other.eights.iter().enumerate().skip(first) {
+            for (b, eight_b) in other.eights.iter().enumerate() {
                 let columns = u64::from(columns >> (8 * b) & 0xFF);
                 if columns == 0 {
                     continue;
@@ -289,9 +290,6 @@ impl<const C: usize> ElementRun<'_, C> {
                     gaps::near_pairs(i, of_a, rows, of_b, is_one_body, limits);
                 // A byte of it for each row.
                 near &= columns * 0x0101_0101_0101_0101;
-                if itself && a == b {
-                    near &= STRICT_UPPER;
-                }
                 if near != 0 {
                     let sure = if is_unsure {
                         gaps::sure_pairs(i, of_a.0, of_b.0, limits)
@@ -302,6 +300,25 @@ impl<const C: usize> ElementRun<'_, C> {
                 }
             }
         }
+    }
+}
+
+impl<const C: usize> ElementRun<'_, C> {
+    /// Shows `found` the pairs of its elements that are possibly near each other and have no corner in common, and whether they surely are.
+    #[inline(always)]
+    pub(super) fn compare_within<I: Simd>(
+        &self,
+        i: I,
+        ring: &mut Ring<C>,
+        limits: Limits,
+        mut found: impl FnMut([u32; 2], bool),
+    ) {
+        let eights = self.eights.iter();
+        let eights = eights.map(|eight| (&eight.boxes, &eight.corners));
+        ring.fill(self.run.count as usize, eights);
+        ring.near_pairs(i, limits, |places, is_sure| {
+            found(places.map(|place| self.run.start + place as u32), is_sure);
+        });
     }
 }
 

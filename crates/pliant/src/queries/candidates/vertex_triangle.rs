@@ -145,9 +145,9 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
                     count += usize::from(!(side == 1 && leaves.is_one_tree && pair[0] == pair[1]));
                 }
                 let mut kept = [[0; 2]; RUNS_AT_ONCE];
-                for &[a, b] in near_runs(vertices, triangles, &sided[..count], limits, &mut kept) {
+                for &[a, b] in near_runs(i, vertices, triangles, &sided[..count], limits, &mut kept) {
                     let (a, b) = (vertices.run(a), triangles.run(b));
-                    a.compare(i, &b, (leaves.is_one_body, false), limits, |[first, second], near, sure| {
+                    a.compare(i, &b, leaves.is_one_body, limits, |[first, second], near, sure| {
                         let pair = |bit: u32| [first + bit / 8, (second + bit % 8) | tag];
                         keep([near, sure], pair, meet, holds, hits, statistics);
                     });

@@ -37,8 +37,8 @@ impl<const C: usize> Ring<C> {
     ) {
         self.count = count.min(MOST_OF_RUN);
         // What is behind the last of the first time is written over the second time.
-        for start in [0, self.count] {
-            for (place, (boxes, corners)) in eights.clone().enumerate() {
+        for (start, eights) in [(0, eights.clone()), (self.count, eights)] {
+            for (place, (boxes, corners)) in eights.enumerate() {
                 let at = (start + 8 * place).min(PLACES - 8);
                 for axis in 0..3 {
                     self.lo[axis][at..at + 8].copy_from_slice(&boxes.lo[axis]);

@@ -1,6 +1,6 @@
 //! Edges near edges.
 
-use super::runs::{RUNS_AT_ONCE, near_runs};
+use super::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use super::{Margin, Which, groups, keep};
 use crate::geometry::{Shape, larger};
 use crate::hits::EdgeEdge;
@@ -84,8 +84,13 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
         let before = hits.len();
         dispatch!(leaves.instructions, i => {
             for pairs in pairs.chunks(RUNS_AT_ONCE) {
+                let runs = RunPairs {
+                    pairs,
+                    first: 0,
+                    without_itself: false,
+                };
                 let mut kept = [[0; 2]; RUNS_AT_ONCE];
-                for &[a, b] in near_runs(i, runs_a, runs_b, pairs, limits, &mut kept) {
+                for &[a, b] in near_runs(i, (runs_a, runs_b), runs, limits, &mut kept) {
                     if leaves.is_one_tree && a == b {
                         runs_a.run(a).compare_within(i, &mut ring, limits, |pair, is_sure| {
                             keep([1, u64::from(is_sure)], |_| pair, meet, holds, hits, statistics);

@@ -203,25 +203,37 @@ fn make_run<I: Simd, S: Coordinate, const C: usize>(
 /// So many pairs of runs are looked at in a row.
 pub(super) const RUNS_AT_ONCE: usize = 32;
 
-/// Keeps pairs of runs the boxes of whose elements are possibly near each other; there are no more than [`RUNS_AT_ONCE`].
+/// Which runs of two bodies, or of one, are looked at.
+#[derive(Clone, Copy)]
+pub(super) struct RunPairs<'p> {
+    /// There are no more than [`RUNS_AT_ONCE`].
+    pub(super) pairs: &'p [[u32; 2]],
+    /// The place in a pair of the run that comes first here.
+    pub(super) first: usize,
+    /// Whether a run is not looked at with itself.
+    pub(super) without_itself: bool,
+}
+
+/// Keeps pairs of runs the boxes of whose elements are possibly near each other.
 #[inline(always)]
 pub(super) fn near_runs<'k, I: Simd, const C: usize, const D: usize>(
     i: I,
-    a: &RunBoxes<C>,
-    b: &RunBoxes<D>,
-    pairs: &[[u32; 2]],
+    (a, b): (&RunBoxes<C>, &RunBoxes<D>),
+    runs: RunPairs,
     limits: Limits,
     kept: &'k mut [[u32; 2]; RUNS_AT_ONCE],
 ) -> &'k [[u32; 2]] {
     let mut count = 0;
-    for &pair in pairs {
+    for pair in runs.pairs {
+        let pair = [pair[runs.first], pair[1 - runs.first]];
         let [a, b] = [
             &a.runs[pair[0] as usize].hull,
             &b.runs[pair[1] as usize].hull,
         ];
         // Whether they are cannot be predicted. The box of no element is no number, and near nothing.
         kept[count] = pair;
-        count += usize::from(limits.are_possibly_near(i, a, b));
+        let is_left_out = runs.without_itself & (pair[0] == pair[1]);
+        count += usize::from(limits.are_possibly_near(i, a, b) & !is_left_out);
     }
     &kept[..count]
 }
@@ -301,9 +313,7 @@ impl<const C: usize> ElementRun<'_, C> {
             }
         }
     }
-}
 
-impl<const C: usize> ElementRun<'_, C> {
     /// Shows `found` the pairs of its elements that are possibly near each other and have no corner in common, and whether they surely are.
     #[inline(always)]
     pub(super) fn compare_within<I: Simd>(

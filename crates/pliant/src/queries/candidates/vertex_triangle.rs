@@ -1,6 +1,6 @@
 //! Vertices near triangles.
 
-use super::runs::{RUNS_AT_ONCE, near_runs};
+use super::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use super::{Margin, Which, groups, keep};
 use crate::geometry::{Shape, larger};
 use crate::hits::VertexTriangle;
@@ -137,15 +137,14 @@ impl<S: Coordinate> VertexTriangleCandidates<S> {
         let tag = if side == 1 { OF_SECOND } else { 0 };
         dispatch!(leaves.instructions, i => {
             for pairs in pairs.chunks(RUNS_AT_ONCE) {
-                let mut sided = [[0; 2]; RUNS_AT_ONCE];
-                let mut count = 0;
-                for pair in pairs {
-                    sided[count] = [pair[side], pair[1 - side]];
+                let runs = RunPairs {
+                    pairs,
+                    first: side,
                     // Within one run, all of its vertices meet all of its triangles.
-                    count += usize::from(!(side == 1 && leaves.is_one_tree && pair[0] == pair[1]));
-                }
+                    without_itself: side == 1 && leaves.is_one_tree,
+                };
                 let mut kept = [[0; 2]; RUNS_AT_ONCE];
-                for &[a, b] in near_runs(i, vertices, triangles, &sided[..count], limits, &mut kept) {
+                for &[a, b] in near_runs(i, (vertices, triangles), runs, limits, &mut kept) {
                     let (a, b) = (vertices.run(a), triangles.run(b));
                     a.compare(i, &b, leaves.is_one_body, limits, |[first, second], near, sure| {
                         let pair = |bit: u32| [first + bit / 8, (second + bit % 8) | tag];

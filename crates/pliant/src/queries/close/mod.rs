@@ -55,21 +55,19 @@ fn half(distance: f64) -> f64 {
 pub(crate) trait ElementCandidates:
     Kind<TreeHit = [u32; 2], Buffers = (), Hit: ElementPair>
 {
-    /// The four corners of a candidate: vertex, triangle; or both ends of either edge.
+    /// The four corners of a candidate, and of which body each is: vertex, triangle; or both ends of either edge.
+    fn vertices(leaves: &LeafTest<Self::Scalar>, hit: [u32; 2])
+    -> Option<[(usize, TreeVertex); 4]>;
+
+    /// Where they are.
     #[inline(always)]
     fn corners<'q>(
         leaves: &LeafTest<'q, Self::Scalar>,
         hit: [u32; 2],
     ) -> Option<Corners<'q, Self::Scalar>> {
-        Self::corners_in(leaves, leaves.shapes.map(|shape| shape.positions), hit)
+        let positions = leaves.shapes.map(|shape| shape.positions);
+        Some(corners_at(Self::vertices(leaves, hit)?, positions))
     }
-
-    /// The same where vertices of the two bodies are at these positions.
-    fn corners_in<'q>(
-        leaves: &LeafTest<'q, Self::Scalar>,
-        positions: [&'q Points<Self::Scalar>; 2],
-        hit: [u32; 2],
-    ) -> Option<Corners<'q, Self::Scalar>>;
 
     /// The same in the order in which the caller has them.
     #[inline(always)]
@@ -80,6 +78,16 @@ pub(crate) trait ElementCandidates:
     ) -> Option<Corners<'q, Self::Scalar>> {
         Self::corners(leaves, hit)
     }
+}
+
+/// Where corners are, if vertices of the two bodies are at these positions.
+#[inline(always)]
+pub(super) fn corners_at<S>(
+    [a, b, c, d]: [(usize, TreeVertex); 4],
+    positions: [&Points<S>; 2],
+) -> Corners<'_, S> {
+    let at = |(side, vertex): (usize, TreeVertex)| positions[side].padded(vertex);
+    [at(a), at(b), at(c), at(d)]
 }
 
 /// Where four pairs are closest, and between what their distances are.
@@ -276,34 +284,19 @@ impl<K: ElementCandidates> Close<K> {
 
 impl<S: Coordinate> ElementCandidates for VertexTriangleCandidates<S> {
     #[inline(always)]
-    fn corners_in<'q>(
-        leaves: &LeafTest<'q, S>,
-        positions: [&'q Points<S>; 2],
-        hit: [u32; 2],
-    ) -> Option<Corners<'q, S>> {
+    fn vertices(leaves: &LeafTest<S>, hit: [u32; 2]) -> Option<[(usize, TreeVertex); 4]> {
         let (side, vertex, triangle) = Self::sides_of(hit);
-        let [a, b, c] = leaves.shapes[1 - side].triangles[triangle.index()];
-        let of_triangle = positions[1 - side];
-        Some([
-            positions[side].padded(vertex),
-            of_triangle.padded(a),
-            of_triangle.padded(b),
-            of_triangle.padded(c),
-        ])
+        let other = 1 - side;
+        let [a, b, c] = leaves.shapes[other].triangles[triangle.index()];
+        Some([(side, vertex), (other, a), (other, b), (other, c)])
     }
 }
 
 impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
     #[inline(always)]
-    fn corners_in<'q>(
-        leaves: &LeafTest<'q, S>,
-        [of_a, of_b]: [&'q Points<S>; 2],
-        hit: [u32; 2],
-    ) -> Option<Corners<'q, S>> {
-        let [first, second] = Self::ends(leaves, hit)?;
-        let [a0, a1] = first.map(|end| of_a.padded(end));
-        let [b0, b1] = second.map(|end| of_b.padded(end));
-        Some([a0, a1, b0, b1])
+    fn vertices(leaves: &LeafTest<S>, hit: [u32; 2]) -> Option<[(usize, TreeVertex); 4]> {
+        let [[a0, a1], [b0, b1]] = Self::ends(leaves, hit)?;
+        Some([(0, a0), (0, a1), (1, b0), (1, b1)])
     }
 
     fn callers_corners<'q>(

@@ -4,7 +4,7 @@
 //! precision (`kernels::apart`), which leaves few; each of these in double precision where rounding cannot matter, else in integers
 //! (`predicates::motion`). What is found of a pair is its cell of a grid of times, which depends on nothing but the pair.
 
-use super::close::ElementCandidates;
+use super::close::{ElementCandidates, corners_at};
 use super::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves, Reach};
 use crate::geometry::{Real, Shape};
 use crate::hits::{EdgeEdge, Hit, VertexTriangle};
@@ -277,8 +277,9 @@ fn moving_corners<'q, K: ElementCandidates>(
         leaves.motions[0].unwrap_or(start[0]),
         leaves.motions[1].unwrap_or(start[1]),
     ];
-    let [a, b, c, d] = K::corners_in(leaves, start, candidate)?;
-    let [e, f, g, h] = K::corners_in(leaves, end, candidate)?;
+    let vertices = K::vertices(leaves, candidate)?;
+    let [a, b, c, d] = corners_at(vertices, start);
+    let [e, f, g, h] = corners_at(vertices, end);
     Some([a, b, c, d, e, f, g, h])
 }
 

@@ -743,7 +743,8 @@ impl World {
     }
 
     /// Asks which edges are near which edges, as vertex_triangle_candidates asks it of vertices and triangles: rows of body, edge, body,
-    /// edge, the smaller (body, edge) first. Edges have the numbers that edges(body) gives them; two that have an end in common are none.
+    /// edge, the smaller (body, edge) first, or the body that the selection names first. Edges have the numbers that edges(body) gives
+    /// them; two that have an end in common are none.
     #[pyo3(signature = (of, radius))]
     fn edge_edge_candidates(slf: Py<Self>, of: Selection, radius: f64) -> Query {
         Query::new(slf, Kind::EdgeEdgeCandidates(radius), of)

@@ -85,7 +85,8 @@ pub struct VertexTriangle {
 
 /// Two edges near each other that have no end in common, of two bodies or of one.
 ///
-/// Ordered by its fields; the smaller (body, edge) is first. [`World::edges`](crate::World::edges) numbers edges.
+/// Ordered by its fields. The smaller (body, edge) is first; but of two bodies that the query names, the one that is named first.
+/// [`World::edges`](crate::World::edges) numbers edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct EdgeEdge {
     /// The first body.

@@ -62,6 +62,14 @@ impl Impact {
         }
     }
 
+    /// Of two at one time the first in this order is the first: vertices and triangles before edges, each by their numbers.
+    pub(crate) fn order(&self) -> (bool, [u32; 4]) {
+        match self {
+            Self::VertexTriangle(impact) => (false, impact.numbers()),
+            Self::EdgeEdge(impact) => (true, impact.numbers()),
+        }
+    }
+
     /// With other times.
     pub(crate) fn with_cell(self, [low, high]: [f64; 2]) -> Self {
         match self {

@@ -110,7 +110,7 @@ fn impacts<S: Scalar>(
                 are_edges,
                 corners: eight[lane].map(|corners| corners.map(|[x, y, z, _]| [x, y, z])),
             };
-            impact(&moving, grid, 1.0).0
+            impact(&moving, grid).0
         }));
     }
     Ok(all)

@@ -83,7 +83,8 @@ class VertexTriangle(NamedTuple):
 class EdgeEdge(NamedTuple):
     """Two edges near each other that have no end in common, of two bodies or of one; World.edges numbers them.
 
-    The smaller (body, edge) is first. Rows of Query.all have the same four numbers.
+    The smaller (body, edge) is first; but of two bodies that the selection names, the one that is named first. Rows of
+    Query.all have the same four numbers.
     """
 
     body_a: int

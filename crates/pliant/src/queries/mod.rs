@@ -27,7 +27,7 @@ pub(crate) use close::{
     Close, CloseKind, Measurable, Measured, NearTriangles, NearestPair, close,
     closest_of_triangles, corners_of,
 };
-pub(crate) use impacts::{Impacts, LIMIT, MayMeet};
+pub(crate) use impacts::{Earliest, First, Impacts, LIMIT};
 pub(crate) use intersections::{Contacts, Intersections};
 
 /// Two triangles whose boxes overlap, of the first body and of the second.
@@ -167,6 +167,7 @@ pub(crate) struct LeafTest<'q, S> {
     pub(crate) ends: [Option<&'q Points<S>>; 2],
     /// Where vertices are going.
     pub(crate) motions: [Option<&'q Points<S>>; 2],
+    pub(crate) ids: CallerIds<'q>,
     /// For kinds that are shown runs.
     pub(crate) elements: [Option<NearElements<'q>>; 2],
     /// Whether it is one body with itself,

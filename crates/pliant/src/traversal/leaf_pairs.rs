@@ -310,6 +310,7 @@ where
         shapes: [a.source.shape(), b.source.shape()],
         ends: [a.end(), b.end()],
         motions: [a.motion, b.motion],
+        ids: context.pair.caller_ids(),
         elements: [a.elements, b.elements],
         is_one_body: context.pair.is_one_body(),
         is_one_tree: P::ITSELF,

@@ -158,6 +158,18 @@ where
         Ok(all)
     }
 
+    /// Goes through all candidates of a kind that keeps to itself what it finds.
+    pub(super) fn search<const N: usize>(
+        &mut self,
+        kind: &K,
+        common: &mut Common<N, K::Scalar>,
+        request: &Request,
+    ) -> Result<(), Error> {
+        let interrupt = Interrupt::new(request.question);
+        let buffers = (&mut self.scratch, &mut self.scheduler);
+        Self::collect(buffers, kind, common, request, &interrupt, &|_| {})
+    }
+
     /// Shows every hit once, until the visitor breaks.
     pub(super) fn visit<const N: usize>(
         &mut self,

@@ -453,18 +453,6 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         })
     }
 
-    /// The same at the end of the motion, where the body stays if it has none; it was brought into tree order with its motion.
-    pub(super) fn places_at_end(&self) -> Option<Places<'_, S>> {
-        let places = self.places()?;
-        Some(match self.motion() {
-            Some(motion) => Places {
-                positions: motion.end.in_tree_order(),
-                ..places
-            },
-            None => places,
-        })
-    }
-
     /// By how many lengths of an edge vertices move, on the mean of some of both; 0 if there is no motion.
     pub(super) fn motion_in_edges(&self) -> f64 {
         let Some(motion) = self.motion() else {

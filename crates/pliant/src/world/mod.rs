@@ -726,7 +726,7 @@ impl<S: Scalar> World<S> {
     /// vertex meets a triangle and no edge another. 1 if that is so of the whole motion; then [`finish_motion`](Self::finish_motion) does
     /// the same.
     ///
-    /// With a `min_distance` of 0, t is at least 0.9 of the exact time of the first contact, if up to then everything is apart by 8 units
+    /// With a `min_distance` of 0, t is at least 0.9 of the exact time of the first contact, if up to 0.91 of it everything is apart by 9 units
     /// in the last place of the largest coordinate; else perhaps smaller, or 0. What meets at the start already does not count: it is in
     /// the lists of impacts, with time 0. So a world that begins without intersections, and is advanced by such steps alone, never has any.
     ///

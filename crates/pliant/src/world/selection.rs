@@ -25,7 +25,7 @@ pub enum Selection {
     /// Every two bodies that may meet, and each body with itself: what a step of a simulator asks. A body meets itself
     /// unless its own membership and mask have no bit in common, or it is ignored with itself.
     Everything,
-    /// Two different bodies, whatever filters say. The first is the first of every hit.
+    /// Two different bodies, whatever filters say. The first is the first of every hit; but a vertex comes before a triangle.
     Between(BodyId, BodyId),
     /// One body with itself, whatever filters say.
     Within(BodyId),

@@ -12,11 +12,11 @@ use std::ops::ControlFlow;
 
 /// What a test knows of a body.
 #[derive(Clone, Debug)]
-struct Known<S> {
-    id: BodyId,
-    triangles: Vec<[u32; 3]>,
-    positions: Vec<[S; 3]>,
-    end: Option<Vec<[S; 3]>>,
+pub(crate) struct Known<S> {
+    pub(crate) id: BodyId,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) positions: Vec<[S; 3]>,
+    pub(crate) end: Option<Vec<[S; 3]>>,
 }
 
 impl<S> Known<S> {
@@ -32,9 +32,9 @@ impl<S> Known<S> {
 
 /// Both lists.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Lists {
-    vertex_triangle: Vec<VertexTriangleImpact>,
-    edge_edge: Vec<EdgeEdgeImpact>,
+pub(crate) struct Lists {
+    pub(crate) vertex_triangle: Vec<VertexTriangleImpact>,
+    pub(crate) edge_edge: Vec<EdgeEdgeImpact>,
 }
 
 impl Lists {
@@ -71,7 +71,6 @@ impl Lists {
             let found = reference::vertex_triangle_impacts(&of.moving(), &with.moving(), width);
             self.of_vertices(of, with, found.unwrap());
         }
-        let (a, b) = if a.id < b.id { (a, b) } else { (b, a) };
         let found = reference::edge_edge_impacts(&a.moving(), &b.moving(), width);
         self.of_edges(a, b, found.unwrap());
     }
@@ -83,7 +82,19 @@ impl Lists {
         self.of_edges(body, body, found.unwrap());
     }
 
-    fn sorted(mut self) -> Self {
+    /// Of all bodies, each with itself and with every other.
+    pub(crate) fn of_all<S: Scalar>(known: &[Known<S>], width: f64) -> Self {
+        let mut all = Self::default();
+        for (at, a) in known.iter().enumerate() {
+            all.one(a, width);
+            for b in &known[at + 1..] {
+                all.two(a, b, width);
+            }
+        }
+        all
+    }
+
+    pub(crate) fn sorted(mut self) -> Self {
         self.vertex_triangle.sort_by_key(|impact| impact.pair);
         self.edge_edge.sort_by_key(|impact| impact.pair);
         self
@@ -153,13 +164,10 @@ fn check<S: Scalar>(world: &mut World<S>, known: &[Known<S>], width: f64, when: 
         assert_eq!(found, own.sorted(), "{when}, {options:?}");
         all.one(a, width);
         for b in &known[at + 1..] {
-            let mut two = Lists::default();
-            two.two(a, b, width);
-            let two = two.sorted();
-            for of in [
-                Selection::Between(a.id, b.id),
-                Selection::Between(b.id, a.id),
-            ] {
+            for [a, b] in [[a, b], [b, a]] {
+                let mut two = Lists::default();
+                two.two(a, b, width);
+                let (of, two) = (Selection::Between(a.id, b.id), two.sorted());
                 assert_eq!(ask(world, of, width), two, "{when}, {of:?}, {options:?}");
             }
             between.two(a, b, width);
@@ -180,13 +188,7 @@ fn check<S: Scalar>(world: &mut World<S>, known: &[Known<S>], width: f64, when: 
 
 /// Whether nothing meets after the start, by the reference.
 fn is_free<S: Scalar>(known: &[Known<S>]) -> bool {
-    let mut all = Lists::default();
-    for (at, a) in known.iter().enumerate() {
-        all.one(a, 1.0);
-        for b in &known[at + 1..] {
-            all.two(a, b, 1.0);
-        }
-    }
+    let all = Lists::of_all(known, 1.0);
     let vertices = all.vertex_triangle.iter().map(|impact| impact.high);
     let edges = all.edge_edge.iter().map(|impact| impact.high);
     vertices.chain(edges).all(|high| high == 0.0)
@@ -194,13 +196,7 @@ fn is_free<S: Scalar>(known: &[Known<S>]) -> bool {
 
 /// The time of the first contact after the start, or a little later; by the reference.
 fn first_after_start<S: Scalar>(known: &[Known<S>]) -> Option<f64> {
-    let mut all = Lists::default();
-    for (at, a) in known.iter().enumerate() {
-        all.one(a, 0.0);
-        for b in &known[at + 1..] {
-            all.two(a, b, 0.0);
-        }
-    }
+    let all = Lists::of_all(known, 0.0);
     let vertices = all.vertex_triangle.iter().map(|impact| impact.high);
     let edges = all.edge_edge.iter().map(|impact| impact.high);
     let later = vertices.chain(edges).filter(|&high| high > 0.0);

@@ -18,6 +18,7 @@ mod distances;
 mod edits;
 mod edits_refused;
 mod figure_2;
+mod first_impact;
 mod flush_to_zero;
 mod hashes;
 mod impacts;

@@ -92,7 +92,7 @@ pub(super) struct Polygon {
     most: Corners,
 }
 
-/// What is certain of a pair, by cells of a grid; what is after `until` may be left out.
+/// What is certain of a pair, by cells of a grid. What surely is after `until` may be left out; that is 0 or a multiple of 2^-44.
 #[inline]
 pub(crate) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     let polygon = Polygon::new(moving);
@@ -224,6 +224,15 @@ fn halves([a, b, c, d]: [f64; 4]) -> [[f64; 4]; 2] {
     [[a, ab, abc, all], [all, bcd, cd, d]]
 }
 
+/// The Bernstein coefficients of the part before a time.
+fn before([a, b, c, d]: [f64; 4], t: f64) -> [f64; 4] {
+    let s = 1.0 - t;
+    let mean = |x: f64, y: f64| s * x + t * y;
+    let (ab, bc, cd) = (mean(a, b), mean(b, c), mean(c, d));
+    let (abc, bcd) = (mean(ab, bc), mean(bc, cd));
+    [a, ab, abc, mean(abc, bcd)]
+}
+
 /// What cross products and corners say about a part.
 enum Sides {
     Apart,
@@ -303,6 +312,19 @@ impl Polygon {
         [self.at(low), self.at(high)]
     }
 
+    /// Whether on an axis all corners seem to be on one side at the start, and none beyond the other at a time: worth an exact look.
+    pub(super) fn is_perhaps_apart(&self, axis: usize, t: f64) -> bool {
+        let s = 1.0 - t;
+        let is_beyond = |side: f64| {
+            (0..self.count).all(|i| {
+                let (start, end, most) = self.corner(i);
+                let there = s * start[axis] + t * end[axis];
+                side * start[axis] > 0.0 && side * there >= -most[axis] * OF_POINT
+            })
+        };
+        is_beyond(1.0) || is_beyond(-1.0)
+    }
+
     /// The sign that a component of a corner has throughout a part, if that is certain and not zero.
     pub(super) fn corner_sign(&self, [first, last]: &[Corners; 2], i: usize, axis: usize) -> i8 {
         let error = self.most[i][axis] * OF_POINT + LOST_OF_POINT;
@@ -335,38 +357,49 @@ impl Polygon {
             return OneRoot::IsNotOne;
         }
         let length = part.high - part.low;
+        let value = |t: f64| value_at(part.determinant, (t - part.low) / length).0;
+        // The sign has not changed yet: the root is later.
+        if until < part.high && sign(value(until)) == first {
+            return OneRoot::Decided(Certain::Never);
+        }
         if length < grid.spacing || grid.spacing < power(-(DEEPEST as i32)) {
             return OneRoot::Undecided;
         }
         let guess = root_of(part.determinant, 0.25 * grid.spacing / length);
         let guess = part.low + guess * length;
-        let mut cell = grid.cell_of(guess, guess);
-        // It may be in the cell beside that of the guess.
-        for _ in 0..3 {
-            let [low, high] = cell;
-            if low < part.low || high > part.high || low == high {
-                break;
-            }
-            if low >= until && low > 0.0 {
-                return OneRoot::Decided(Certain::Never);
-            }
-            let signs = cell.map(|t| sign(value_at(part.determinant, (t - part.low) / length).0));
-            if signs == [first, last] {
-                return match self.sides(low, high) {
+        let cell = [0.0, grid.spacing].map(|more| grid.down(guess) + more);
+        let has_it = |ends: [f64; 2]| ends.map(|t| sign(value(t))) == [first, last];
+        // It may be in the cell beside that of the guess, or at the end of one, where no sign is certain.
+        for beside in [0.0, -grid.spacing, grid.spacing] {
+            let ends = cell.map(|t| t + beside);
+            if ends[0] >= part.low && ends[1] <= part.high && has_it(ends) {
+                return match self.sides(ends[0], ends[1]) {
                     Sides::Apart => OneRoot::Decided(Certain::Never),
-                    Sides::Inside => OneRoot::Decided(Certain::Within(cell)),
+                    Sides::Inside => OneRoot::Decided(Certain::Within(ends)),
                     Sides::Unknown => OneRoot::Undecided,
                 };
             }
-            cell = if signs[0] == last {
-                [low - grid.spacing, low]
-            } else if signs[1] == first {
-                [high, high + grid.spacing]
-            } else {
-                break;
-            };
         }
-        OneRoot::Undecided
+        let [low, high] = [cell[0] - grid.spacing, cell[1] + grid.spacing];
+        if low < part.low || high > part.high || !has_it([low, high]) {
+            return OneRoot::Undecided;
+        }
+        OneRoot::Decided(match self.sides(low, high) {
+            Sides::Apart => Certain::Never,
+            _ => Certain::Nothing,
+        })
+    }
+
+    /// Whether the determinant surely has one root at most after the start and up to a time, which is a multiple of 2^-44, and none at the
+    /// start.
+    pub(super) fn has_one_root_until(&self, until: f64) -> bool {
+        let (determinant, error) = self.determinant();
+        let [first, second, third, last] =
+            before(determinant, until).map(|x| i8::from(x > error) - i8::from(x < -error));
+        // Whatever the signs are that are not certain, there is one change.
+        let is_late = second == first && (third == first || last == -first);
+        let is_early = third == -first && last == -first;
+        first != 0 && (is_late || is_early)
     }
 
     fn sides(&self, low: f64, high: f64) -> Sides {

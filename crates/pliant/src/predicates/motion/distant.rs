@@ -27,8 +27,9 @@ const NEAR: f64 = 1.001;
 /// Then gains below this part of the time are little.
 const LITTLE: f64 = 1.0 / 1024.0;
 
-/// A time up to which two elements surely stay further apart than `distance`, which is above 0: from 0, where perhaps they are not, to 1.
-pub(crate) fn distant_until(moving: &Moving, distance: f64) -> f64 {
+/// A time up to which two elements surely stay further apart than `distance`, which is above 0: from 0, where perhaps they are not, to 1;
+/// or some such time after `of_interest`.
+pub(crate) fn distant_until(moving: &Moving, distance: f64, of_interest: f64) -> f64 {
     let polygon = Polygon::new(&in_order(moving));
     let mut known: f64 = 0.0;
     for _ in 0..MOST_DIRECTIONS {
@@ -63,7 +64,7 @@ pub(crate) fn distant_until(moving: &Moving, distance: f64) -> f64 {
             return known;
         }
         known = next;
-        if is_little {
+        if is_little || known > of_interest {
             return known;
         }
     }
@@ -200,7 +201,7 @@ mod tests {
                 }
             }
             let distance = [0.01, 0.1, 0.3][round % 3];
-            let known = distant_until(&moving, distance);
+            let known = distant_until(&moving, distance, 1.0);
             // The order of corners does not matter.
             let [start, end] = moving.corners;
             let turned = |[a, b, c, d]: [Point; 4]| {
@@ -214,7 +215,7 @@ mod tests {
                 corners: [turned(start), turned(end)],
                 ..moving
             };
-            assert_eq!(distant_until(&other, distance), known);
+            assert_eq!(distant_until(&other, distance, 1.0), known);
             let ticks = (0..=1024).map(|tick| f64::from(tick) / 1024.0);
             for t in ticks.take_while(|&t| t <= known) {
                 if known > 0.0 {

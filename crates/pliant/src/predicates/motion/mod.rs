@@ -27,6 +27,7 @@
 //! What is told of a time is a *cell* ([`Contact::cell`]): neighbours of a grid around it. So what is told depends on the exact time and
 //! on the width of the grid alone, not on the way in which it was found.
 
+mod before;
 mod certain;
 mod distant;
 mod fraction;
@@ -35,7 +36,8 @@ mod root;
 mod sturm;
 
 use super::integer::{Integer, powers_of_all};
-use certain::{Certain, certain};
+pub(crate) use certain::Certain;
+use certain::certain;
 pub(crate) use distant::{distant_until, starts_surely_within};
 use polynomial::Polynomial;
 use root::{Root, visit_roots};
@@ -99,20 +101,26 @@ pub(crate) enum Decided {
     InIntegers,
 }
 
-/// The cell of a grid in which two elements first meet, if they do in [0, 1]; and how that was decided. What begins after `until` may be
-/// left out.
+/// The cell of a grid in which two elements first meet, if they do in [0, 1]; and how that was decided.
 #[inline]
-pub(crate) fn impact(moving: &Moving, grid: Grid, until: f64) -> (Option<[f64; 2]>, Decided) {
-    if moving.begins_with_a_corner_in_common() {
-        return (Some([0.0; 2]), Decided::InFloatingPoint);
-    }
-    match certain(moving, grid, until) {
+pub(crate) fn impact(moving: &Moving, grid: Grid) -> (Option<[f64; 2]>, Decided) {
+    match quick(moving, grid, 1.0) {
         Certain::Never => (None, Decided::InFloatingPoint),
         Certain::Within(cell) => (Some(cell), Decided::InFloatingPoint),
         Certain::Nothing => {
             let cell = first_contact(moving).map(|contact| contact.cell(grid));
             (cell, Decided::InIntegers)
         }
+    }
+}
+
+/// What is known of the first contact without integers. What surely is after `until`, which is a multiple of 2^-44, may be left out.
+#[inline]
+pub(crate) fn quick(moving: &Moving, grid: Grid, until: f64) -> Certain {
+    if moving.begins_with_a_corner_in_common() {
+        Certain::Within([0.0; 2])
+    } else {
+        certain(moving, grid, until)
     }
 }
 
@@ -134,42 +142,32 @@ pub(crate) fn first_contact(moving: &Moving) -> Option<Contact> {
     first.map(|root| Contact::Later(Later(root)))
 }
 
+/// One component of the corners of the polygon, in units of a power of two; of a triangle the last is zero.
+fn differences(moving: &Moving, axis: usize, unit: i32) -> [Polynomial; 4] {
+    let [start, end] = moving
+        .corners
+        .map(|corners| corners.map(|corner| Integer::new(corner[axis], unit)));
+    let difference = |[p, q]: [usize; 2]| {
+        let [start, end] = [&start, &end].map(|it| it[p].minus(&it[q]));
+        Polynomial::affine(start, &end)
+    };
+    if moving.are_edges {
+        [[0, 2], [1, 2], [1, 3], [0, 3]].map(difference)
+    } else {
+        [[1, 0], [2, 0], [3, 0], [0, 0]].map(difference)
+    }
+}
+
 impl Polygon {
     fn new(moving: &Moving) -> Self {
         let [unit, _] = powers_of_all(moving.corners.as_flattened().as_flattened());
-        let integers = moving
-            .corners
-            .map(|corners| corners.map(|corner| corner.map(|x| Integer::new(x, unit))));
-        let [start, end] = &integers;
-        let difference = |p: usize, q: usize| -> Vector {
-            std::array::from_fn(|axis| {
-                let [start, end] = [start, end].map(|it| it[p][axis].minus(&it[q][axis]));
-                Polynomial::affine(start, &end)
-            })
-        };
-        let rounded = certain::Polygon::new(moving);
-        if moving.are_edges {
-            Self {
-                rounded,
-                corners: [
-                    difference(0, 2),
-                    difference(1, 2),
-                    difference(1, 3),
-                    difference(0, 3),
-                ],
-                count: 4,
-            }
-        } else {
-            Self {
-                rounded,
-                corners: [
-                    difference(1, 0),
-                    difference(2, 0),
-                    difference(3, 0),
-                    [Polynomial::ZERO; 3],
-                ],
-                count: 3,
-            }
+        let axes = [0, 1, 2].map(|axis| differences(moving, axis, unit));
+        let [x, y, z] = axes.each_ref();
+        let corner = |i: usize| [x, y, z].map(|axis| axis[i].clone());
+        Self {
+            rounded: certain::Polygon::new(moving),
+            corners: [0, 1, 2, 3].map(corner),
+            count: if moving.are_edges { 4 } else { 3 },
         }
     }
 
@@ -543,7 +541,12 @@ mod tests {
                     are_edges: matches!(elements, Elements::EdgeEdge),
                     corners,
                 };
-                let (cell, _) = impact(&moving, Grid::new(1e-6), 0.0);
+                let grid = Grid::new(1e-6);
+                let cell = match quick(&moving, grid, 0.0) {
+                    Certain::Never => None,
+                    Certain::Within(cell) => Some(cell),
+                    Certain::Nothing => first_contact(&moving).map(|it| it.cell(grid)),
+                };
                 if matches!(first_contact(&moving), Some(Contact::AtStart)) {
                     assert_eq!(cell, Some([0.0; 2]), "{moving:?}");
                     at_start += 1;

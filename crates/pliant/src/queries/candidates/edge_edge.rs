@@ -4,7 +4,6 @@ use super::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use super::{Margin, Which, groups, keep};
 use crate::geometry::{Shape, larger};
 use crate::hits::EdgeEdge;
-use crate::ids::BodyId;
 use crate::kernels::ring::Ring;
 use crate::kernels::{Buffer, Coordinate, dispatch};
 use crate::queries::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves};
@@ -110,33 +109,33 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
 
     #[inline]
     fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> EdgeEdge {
-        // Which of two edges is the lower cannot be predicted.
+        let [body_a, body_b] = ids.bodies;
         let [a, b] = Self::of_caller(ids, hit);
-        let (lower, upper) = (a.min(b), a.max(b));
+        // In one body the smaller edge is first. Which one that is cannot be predicted.
+        let [edge_a, edge_b] = if body_a == body_b {
+            [a.min(b), a.max(b)]
+        } else {
+            [a, b]
+        };
         EdgeEdge {
-            body_a: BodyId((lower >> u32::BITS) as u32),
-            edge_a: lower as u32,
-            body_b: BodyId((upper >> u32::BITS) as u32),
-            edge_b: upper as u32,
+            body_a,
+            edge_a,
+            body_b,
+            edge_b,
         }
     }
 }
 
 impl<S> EdgeEdgeCandidates<S> {
-    /// Whether the second edge is the first of the two as the caller numbers bodies and edges.
+    /// Whether the second edge is the first of the two as the caller numbers edges.
     #[inline]
     pub(crate) fn is_swapped(ids: &CallerIds, hit: [u32; 2]) -> bool {
         let [a, b] = Self::of_caller(ids, hit);
-        b < a
+        ids.bodies[0] == ids.bodies[1] && b < a
     }
 
-    /// Bodies and edges as the caller numbers them, each pair in one integer.
     #[inline]
-    fn of_caller(ids: &CallerIds, [a, b]: [u32; 2]) -> [u64; 2] {
-        let of_caller = |side: usize, edge: u32| {
-            let edge = ids.edges[side][edge as usize];
-            u64::from(ids.bodies[side].0) << u32::BITS | u64::from(edge)
-        };
-        [of_caller(0, a), of_caller(1, b)]
+    fn of_caller(ids: &CallerIds, [a, b]: [u32; 2]) -> [u32; 2] {
+        [ids.edges[0][a as usize], ids.edges[1][b as usize]]
     }
 }

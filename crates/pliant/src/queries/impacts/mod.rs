@@ -4,11 +4,13 @@
 //! precision (`kernels::apart`), which leaves few; each of these in double precision where rounding cannot matter, else in integers
 //! (`predicates::motion`). What is found of a pair is its cell of a grid of times, which depends on nothing but the pair.
 
+mod earliest;
+
 use super::close::{ElementCandidates, corners_at};
 use super::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves, Reach};
 use crate::geometry::{Real, Shape};
 use crate::hits::{EdgeEdge, Hit, VertexTriangle};
-use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
+use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
 use crate::kernels::{Buffer, Simd, dispatch};
 use crate::predicates::distance::{Primitives, are_within_distance};
@@ -16,36 +18,19 @@ use crate::predicates::motion::{
     Decided, Grid, Moving, distant_until, impact, starts_surely_within,
 };
 use crate::statistics::Statistics;
-use std::sync::atomic::{AtomicU64, Ordering};
+pub(crate) use earliest::{Earliest, First};
 
 /// Candidates of a kind that meet during a motion.
 #[derive(Debug)]
 pub(crate) struct Impacts<K> {
     candidates: K,
     grid: Grid,
-    until: Until,
     reach: Reach,
     /// How near is as good as contact; 0 for contact itself.
     distance: f64,
-}
-
-/// A time after which nothing is of interest.
-#[derive(Debug)]
-pub(crate) struct Until(AtomicU64);
-
-impl Until {
-    pub(crate) fn new(time: f64) -> Self {
-        Self(AtomicU64::new(time.to_bits()))
-    }
-
-    pub(crate) fn get(&self) -> f64 {
-        f64::from_bits(self.0.load(Ordering::Relaxed))
-    }
-
-    /// Tasks read it while they are at work, so it is only set between: what they do then does not depend on threads.
-    pub(crate) fn set(&self, time: f64) {
-        self.0.store(time.to_bits(), Ordering::Relaxed);
-    }
+    /// Whether the earliest alone is looked for. It is kept here, and nothing is found.
+    is_first: bool,
+    earliest: Earliest,
 }
 
 /// Two elements that meet, in tree order, and the cell of the grid in which they first do.
@@ -58,7 +43,7 @@ pub(crate) struct TimedHit {
 /// Two elements that may meet.
 pub(crate) trait MayMeet: Hit {
     const ARE_EDGES: bool;
-    type Impact: Copy + std::fmt::Debug + Send + Sync;
+    type Impact: Copy + std::fmt::Debug + Send + Sync + Into<Impact>;
 
     /// With the cell in which they do.
     fn impact(self, cell: [f64; 2]) -> Self::Impact;
@@ -99,11 +84,9 @@ impl<K> Impacts<K> {
             distance: 0.0,
             candidates,
             grid,
-            until: Until::new(match reach {
-                Reach::Until(time) => time,
-                Reach::End | Reach::To(_) => 1.0,
-            }),
             reach,
+            is_first: false,
+            earliest: Earliest::new(false, 1.0),
         }
     }
 
@@ -113,8 +96,17 @@ impl<K> Impacts<K> {
         Self { distance, ..self }
     }
 
-    pub(crate) fn until(&self) -> &Until {
-        &self.until
+    /// Nothing but what may be earlier than this, which it becomes.
+    pub(crate) fn earlier_than(self, earliest: Earliest) -> Self {
+        Self {
+            is_first: true,
+            earliest,
+            ..self
+        }
+    }
+
+    pub(crate) fn into_earliest(self) -> Earliest {
+        self.earliest
     }
 }
 
@@ -161,7 +153,7 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
         // Of impacts, not of candidates.
         statistics.pairs = before.pairs;
         statistics.exact_decisions = before.exact_decisions;
-        let until = self.until.get();
+        let until = self.earliest.until();
         let used = candidates.len();
         let eights = candidates.eights();
         dispatch!(leaves.instructions, i => {
@@ -220,19 +212,25 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
                 return None;
             }
             let moving = moving::<K>(&corners, lane);
-            let (cell, decided) = if self.distance == 0.0 {
-                impact(&moving, self.grid, until)
+            let pair = candidates[lane];
+            let (cell, decided) = if self.distance > 0.0 {
+                approach(&moving, self.distance, until)
+            } else if self.is_first {
+                let hit = self.candidates.to_caller(&leaves.ids, pair);
+                let (is_taken, decided) = self.earliest.offer(&moving, hit.impact([0.0; 2]).into());
+                statistics.pairs += u64::from(is_taken);
+                (None, decided)
             } else {
-                approach(&moving, self.distance)
+                impact(&moving, self.grid)
             };
             statistics.scalar_decisions += 1;
             statistics.exact_decisions += u64::from(decided == Decided::InIntegers);
-            if let Some(cell) = cell {
-                statistics.pairs += 1;
-                hits.push(TimedHit {
-                    pair: candidates[lane],
-                    cell,
-                });
+            let Some(cell) = cell else { continue };
+            statistics.pairs += 1;
+            if self.is_first {
+                self.earliest.take_time(cell[0]);
+            } else {
+                hits.push(TimedHit { pair, cell });
             }
         }
         Some(())
@@ -243,10 +241,10 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
 pub(crate) const LIMIT: f64 = 1.002;
 
 /// A time up to which two elements stay further apart than a distance, twice, if that is not all the time; of those that are not at the
-/// start, one up to which they do not meet, if they meet later.
+/// start, one up to which they do not meet, if they meet later. What is after a time may be left out.
 #[cold]
-fn approach(moving: &Moving, distance: f64) -> (Option<[f64; 2]>, Decided) {
-    let until = distant_until(moving, distance);
+fn approach(moving: &Moving, distance: f64, of_interest: f64) -> (Option<[f64; 2]>, Decided) {
+    let until = distant_until(moving, distance, of_interest);
     let [start, _] = moving.corners;
     let start = if moving.are_edges {
         Primitives::EdgeEdge(start)
@@ -261,7 +259,7 @@ fn approach(moving: &Moving, distance: f64) -> (Option<[f64; 2]>, Decided) {
             Decided::InFloatingPoint,
         );
     }
-    let (cell, decided) = impact(moving, Grid::new(0.0), 1.0);
+    let (cell, decided) = impact(moving, Grid::new(0.0));
     let later = cell.filter(|[_, high]| *high > 0.0);
     (later.map(|[low, _]| [low; 2]), decided)
 }

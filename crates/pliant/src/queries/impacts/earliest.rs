@@ -1,0 +1,121 @@
+//! The earliest contact of a motion, while it is looked for: what tasks find is compared with it at once, and none is listed.
+//!
+//! It is the least in one order: by exact time, then vertices and triangles before edges, then by the caller's numbers. So it is the same
+//! in whatever order contacts come. Its time bounds what is of interest, and may become smaller at any moment: what is surely later is left
+//! out, and what is surely not earlier, if it is behind it in order.
+
+use crate::impacts::Impact;
+use crate::predicates::motion::{Certain, Contact, Decided, Grid, Moving, first_contact, quick};
+use std::cmp::Ordering::Less;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{PoisonError, RwLock};
+
+/// The cells of times that bound what is of interest: 2^-40 wide.
+const WIDTH: f64 = f64::from_bits((1023 - 40) << 52);
+
+/// The earliest contact that is known, or the first time at which elements come as near as a distance.
+#[derive(Debug)]
+pub(crate) struct Earliest {
+    /// Whether what meets at the start is passed over.
+    after_start: bool,
+    /// Up to here the motion is looked at. What is later may not be the first of those.
+    reach: f64,
+    /// The bits of a time after which nothing is of interest: those of numbers that are not negative are in the order of these.
+    until: AtomicU64,
+    first: RwLock<Option<First>>,
+}
+
+/// Two elements that meet, and exactly when.
+#[derive(Debug)]
+pub(crate) struct First {
+    pub(crate) impact: Impact,
+    pub(crate) contact: Contact,
+}
+
+impl Earliest {
+    pub(crate) fn new(after_start: bool, reach: f64) -> Self {
+        Self {
+            after_start,
+            reach,
+            until: AtomicU64::new(f64::INFINITY.to_bits()),
+            first: RwLock::default(),
+        }
+    }
+
+    /// Nothing that is later is of interest.
+    pub(crate) fn until(&self) -> f64 {
+        self.known().min(self.reach)
+    }
+
+    /// When the earliest is, or a little later; infinite if none is known.
+    pub(crate) fn known(&self) -> f64 {
+        f64::from_bits(self.until.load(Ordering::Relaxed))
+    }
+
+    pub(crate) fn first(self) -> Option<First> {
+        self.first
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes a time at which elements come near, if none is earlier.
+    pub(super) fn take_time(&self, time: f64) {
+        if time <= self.reach {
+            self.until.fetch_min(time.to_bits(), Ordering::Relaxed);
+        }
+    }
+
+    /// Takes two elements, if they meet and none is before them. Returns whether they are taken, and how that was decided.
+    pub(super) fn offer(&self, moving: &Moving, impact: Impact) -> (bool, Decided) {
+        let grid = Grid::new(WIDTH);
+        let until = self.until();
+        let certain = quick(moving, grid, until);
+        let cell = match certain {
+            Certain::Never => return (false, Decided::InFloatingPoint),
+            Certain::Within(cell) => Some(cell),
+            Certain::Nothing => None,
+        };
+        let is_of_no_interest =
+            |[_, high]: [f64; 2]| high > until || self.after_start && high == 0.0;
+        if cell.is_some_and(is_of_no_interest) {
+            return (false, Decided::InFloatingPoint);
+        }
+        if cell.is_none_or(|[_, high]| high == until) && self.surely_precedes(moving, impact) {
+            return (false, Decided::InIntegers);
+        }
+        let contact = match cell {
+            Some([_, 0.0]) => Some(Contact::AtStart),
+            _ => first_contact(moving),
+        };
+        let is_taken = contact.is_some_and(|contact| self.take(First { impact, contact }));
+        (is_taken, Decided::InIntegers)
+    }
+
+    /// Whether what is known surely is before two elements, without their own time being found.
+    fn surely_precedes(&self, moving: &Moving, impact: Impact) -> bool {
+        let first = self.first.read().unwrap_or_else(PoisonError::into_inner);
+        first.as_ref().is_some_and(|known| {
+            let may_tie = known.impact.order() < impact.order();
+            known.contact.surely_precedes(moving, self.known(), may_tie)
+        })
+    }
+
+    fn take(&self, new: First) -> bool {
+        let is_at_start = matches!(new.contact, Contact::AtStart);
+        if self.after_start && is_at_start || !new.contact.is_at_most(self.reach) {
+            return false;
+        }
+        let mut first = self.first.write().unwrap_or_else(PoisonError::into_inner);
+        let is_earlier = first.as_ref().is_none_or(|known| {
+            let by_time = new.contact.compare(&known.contact);
+            let in_order = || new.impact.order().cmp(&known.impact.order());
+            by_time.then_with(in_order) == Less
+        });
+        if is_earlier {
+            let [_, high] = new.contact.cell(Grid::new(WIDTH));
+            self.until.store(high.to_bits(), Ordering::Relaxed);
+            *first = Some(new);
+        }
+        is_earlier
+    }
+}

@@ -29,7 +29,7 @@ use crate::world::Scalar;
 /// ```
 ///
 /// Cost: some tens of nanoseconds a pair that does not meet, less than a microsecond for most others; tens of microseconds for what only
-/// exact arithmetic can tell, and up to a tenth of a second where coordinates of a pair are a thousand powers of two apart. One thread.
+/// exact arithmetic can tell, and some ten milliseconds where coordinates of a pair are a thousand powers of two apart. One thread.
 ///
 /// # Errors
 ///

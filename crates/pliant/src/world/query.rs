@@ -122,7 +122,7 @@ impl<'w, H: Copy> Query<'w, H> {
     /// Ends the query early, with an error, when `question` says so. It is asked by every thread that works on the query, every 10
     /// milliseconds at least and mostly much more often, so it should cost little: a flag that is read, a clock. Three things may
     /// take longer: memory for a list of millions is asked of the system in one piece, a list of hundreds of thousands of pairs of
-    /// bodies is sorted in one, and one pair of moving elements takes up to a tenth of a second where its coordinates are a thousand
+    /// bodies is sorted in one, and one pair of moving elements may take some ten milliseconds where its coordinates are a thousand
     /// powers of two apart.
     ///
     /// The boxes of all bodies are then made anew by the next query; nothing else is lost.

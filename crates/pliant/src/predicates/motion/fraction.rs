@@ -32,6 +32,20 @@ impl Dyadic {
         }
     }
 
+    /// A power of two that is at most 1.
+    pub(super) fn power_of_two(power: i32) -> Self {
+        Self {
+            over: Integer::from(1),
+            twos: power.min(0).unsigned_abs() as usize,
+        }
+    }
+
+    /// The largest power of two that it is not below; none for zero.
+    pub(super) fn power(&self) -> Option<i32> {
+        let (_, power) = self.over.approximately();
+        (self.over.sign() != 0).then(|| power - self.twos as i32)
+    }
+
     /// A number from 0 to 1.
     pub(super) fn new(x: f64) -> Self {
         let (_, integer, exponent) = parts(x);

@@ -144,6 +144,7 @@ fn visit_counted<B>(
 
 /// Where parts with several roots are cut: in the middle, and close before and behind the place where roots are near each other, if any
 /// are. That is known twice as well with every 50 bits more of it; halves alone would take a step a bit, and there may be a thousand.
+/// As many are between 1 and roots that are tiny: so a long part is cut at a power of two in the middle of those that it holds, too.
 struct Cuts {
     /// Near it are those that are near each other.
     of: Option<Fraction>,
@@ -178,10 +179,24 @@ impl Cuts {
             1 if self.turn > 1 => Some(self.about.plus(&self.error)),
             _ => None,
         });
+        let power = || match self.turn % 3 {
+            2 if self.turn > 8 => middle_power(low, high),
+            _ => None,
+        };
         close
-            .filter(|close| close > low && close < high)
+            .or_else(power)
+            .filter(|cut| cut > low && cut < high)
             .unwrap_or_else(|| low.middle(high))
     }
+}
+
+/// The power of two in the middle of those between two times, if these are far apart; behind 0 there are many.
+fn middle_power(low: &Dyadic, high: &Dyadic) -> Option<Dyadic> {
+    const FAR: i32 = 32;
+    let highest = high.power();
+    let lowest = low.power().unwrap_or(4 * highest? - 2 * FAR);
+    let power = highest?.midpoint(lowest);
+    (highest? > lowest + FAR).then(|| Dyadic::power_of_two(power))
 }
 
 impl Root {
@@ -527,6 +542,43 @@ mod tests {
     }
 
     /// Roots of m t^2 - n, and the signs of what is zero there, or nearly so.
+    /// However many powers of two are between them and 1, and each other.
+    #[test]
+    fn tiny_roots_are_told_apart_by_few_cuts() {
+        let at = |over: u64, twos: usize| {
+            Fraction::new(Integer::from(over), Integer::from(1).shifted(twos))
+        };
+        for twos in [2, 40, 300, 1190, 2300] {
+            for others in [[5, 7], [3, 1 << 20], [4, 1 << 40]] {
+                let expected = [
+                    at(1, twos),
+                    at(others[0], twos + 1),
+                    at(others[1], twos + 42),
+                ];
+                let mut expected = expected.to_vec();
+                expected.sort();
+                let factors: Vec<_> = expected.iter().map(factor).collect();
+                let polynomial = product(&factors);
+                let roots = roots_of(&polynomial);
+                assert_eq!(roots.len(), 3);
+                for (root, expected) in roots.iter().zip(expected) {
+                    assert_eq!(root.compare(&Root::At(expected)), Ordering::Equal);
+                }
+                // As roots are looked for: parts with two or three of them are cut.
+                let sturm = Sturm::new(&polynomial);
+                let (mut cuts, mut parts) =
+                    (Cuts::new(&sturm), vec![[Dyadic::zero(), Dyadic::one()]]);
+                while let Some([low, high]) = parts.pop() {
+                    if sturm.roots_between(&low, &high) > 1 {
+                        let cut = cuts.next(&low, &high);
+                        parts.extend([[cut.clone(), high], [low, cut]]);
+                    }
+                }
+                assert!(cuts.turn < 250, "{twos} {others:?}: {}", cuts.turn);
+            }
+        }
+    }
+
     #[test]
     fn roots_that_are_no_fractions() {
         let mut random = Random::new(12);

@@ -108,7 +108,9 @@ impl Steps for PlaceVertex {
 ///
 /// Each step goes on from the mesh that the steps before it leave. Numbers stay: a triangle or a vertex that goes leaves its number empty,
 /// and what comes is numbered behind all others, so that its numbers are known at once. An empty number is used again where a step names it.
-/// A vertex that loses its last triangle by the edit goes; one that never had any stays.
+/// A vertex that loses its last triangle by the edit goes at its end; one that never had any stays. One that is merged into another is
+/// empty at once, and may be placed again by a later step. An edit is of the world that began it: no other makes its changes, not even a
+/// copy.
 ///
 ///     edit = world.edit(body)
 ///     new = edit.split_vertex(0, [1])     # triangle 1 is torn off at vertex 0

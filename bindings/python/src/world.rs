@@ -352,8 +352,8 @@ impl World {
         Ok(edit::fused(py, fused)?)
     }
 
-    /// Makes boundary edges one where they coincide: where the ends of one are, one by one, at most a tolerance from those of another. Of
-    /// vertices that become one the lowest stays where it is, the others go. A boundary edge is one that exactly one triangle has. Returns
+    /// Makes boundary edges one where they coincide: where the ends of one are, one by one, at most a tolerance from those of another,
+    /// decided exactly. Of vertices that become one the lowest stays where it is, the others go. A boundary edge is one that exactly one triangle has. Returns
     /// an Edited.
     ///
     /// Vertices that coincide are not welded where no edges do, and never two corners of one triangle.
@@ -363,10 +363,13 @@ impl World {
         body: Body,
         tolerance: f64,
     ) -> Result<Bound<'py, PyAny>, Refused> {
-        let edited = self.with(
-            py,
-            |state| with_world!(&mut state.world, world => Ok(world.weld(body.0, tolerance)?)),
-        )?;
+        let edited = self.with(py, |state| {
+            interruptible(|question| {
+                with_world!(&mut state.world, world => {
+                    world.interruptible(question).weld(body.0, tolerance)
+                })
+            })
+        })?;
         Ok(edit::edited(py, edited)?)
     }
 
@@ -873,7 +876,7 @@ impl World {
 
     /// How far each vertex may move before anything can touch: a dictionary of bodies, with an array (n,) float64 each, at most half of
     /// cut_off. It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of, as
-    /// close_vertex_triangle_pairs looks at them; rounded down by at most 1e-6 of itself. If every vertex moves less than that, in
+    /// close_vertex_triangle_pairs looks at them; rounded down by at most 1e-6 of itself and 1e-323. If every vertex moves less than that, in
     /// whatever direction, none of these touch.
     #[pyo3(signature = (of, cut_off))]
     fn clearance<'py>(

@@ -121,3 +121,19 @@ def test_clearance_is_half_the_least_distance() -> None:
     assert all((of_body <= 0.25).all() for of_body in clearance.values())
     for (body, vertex, _, _), distance in zip(close.pairs.tolist(), close.distance, strict=True):
         assert clearance[body][vertex] <= distance / 2
+
+
+def test_only_what_touches_is_at_distance_0() -> None:
+    u = 5e-324
+    world = pliant.World()
+    corner = world.add([[0, 1, 2]], np.array([[0, 0, 0], [-9, 0, 0], [0, -9, 0]]) * u)
+    # In the plane x + 2 y + 2 z = u, which is u / 3 away.
+    over_it = world.add([[0, 1, 2]], np.array([[1, 0, 0], [-1, 1, 0], [-1, 0, 1]]) * u)
+    nearest = world.distance(corner, over_it)
+    assert nearest is not None and nearest.distance == u
+    assert nearest.direction == pytest.approx([-1 / 3, -2 / 3, -2 / 3])
+    assert world.distance(corner, over_it, 0.0) is None
+    touching = world.add([[0, 1, 2]], np.array([[0, 0, 0], [-9, 0, 0], [0, 0, -9]]) * u)
+    nearest = world.nearest_body(corner)
+    assert nearest is not None and isinstance(nearest.pair, pliant.Pair)
+    assert (nearest.pair.body_b, nearest.distance, nearest.direction) == (touching, 0, None)

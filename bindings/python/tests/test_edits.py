@@ -203,6 +203,16 @@ def test_what_is_no_edit() -> None:
     with pytest.raises(pliant.Error) as refused:
         other.apply(edit)
     assert refused.value.kind == "OutdatedEdit"
+    # Where ids, meshes and precision agree, and of a world that was made from it.
+    same = pliant.World()
+    same.add(world.triangles(body), world.positions(body))
+    for other in (same, copy.copy(world), pickle.loads(pickle.dumps(world))):
+        before = other.triangles(body)
+        with pytest.raises(pliant.Error, match="another world") as refused:
+            other.apply(edit)
+        assert refused.value.kind == "OutdatedEdit"
+        assert np.array_equal(other.triangles(body), before)
+        other.apply(other.edit(body))
     for call in (world.edit, world.components, world.split, world.live_triangles, world.live_vertices, world.mesh_revision):
         with pytest.raises(pliant.Error) as refused:
             call(7)
@@ -213,3 +223,51 @@ def test_what_is_no_edit() -> None:
     with pytest.raises(pliant.Error) as refused:
         world.weld(body, -1)
     assert refused.value.kind == "BadDistance"
+
+
+def test_a_vertex_is_placed_after_it_was_merged_away() -> None:
+    world, body, faces, _ = folded()
+    kept, gone, other = (int(corner) for corner in faces[0])
+    edit = world.edit(body)
+    edit.merge_vertices(kept, gone)
+    edit.place_vertex(gone, [0.25, 0.5, 4.0])
+    edited = world.apply(edit)
+    assert (edited.new_vertices.tolist(), edited.removed_vertices.tolist()) == ([gone], [])
+    assert world.live_vertices(body)[gone]
+    assert world.positions(body)[gone].tolist() == [0.25, 0.5, 4.0]
+    edit = world.edit(body)
+    edit.merge_vertices(kept, other)
+    edit.add_triangles([[kept, gone, other]])
+    with pytest.raises(pliant.Error, match=f"vertex {other}") as refused:
+        world.apply(edit)
+    assert refused.value.kind == "EmptyVertex"
+
+
+def test_a_loose_box_is_round_what_is_there() -> None:
+    world = pliant.World()
+    body = world.add([[0, 1, 2], [0, 1, 3]], [[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]])
+    box = ([-1.0, -1.0, -1.0], [2.0, 2.0, 2.0])
+    with pytest.raises(pliant.Error, match="vertex 3"):
+        world.set_loose_box(body, *box)
+    edit = world.edit(body)
+    edit.remove_triangles([1])
+    world.apply(edit)
+    world.set_loose_box(body, *box)
+
+
+def test_the_tolerance_of_a_weld_is_exact() -> None:
+    world = pliant.World()
+    tiny = 1.5e-162
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]]) * 1e-160
+    square[3:5, 0] += tiny
+    body = world.add([[0, 1, 2], [3, 4, 5]], square)
+    assert len(world.weld(body, 0.0).removed_vertices) == 0
+    assert len(world.weld(body, 0.99 * tiny).removed_vertices) == 0
+    assert world.weld(body, 1.01 * tiny).removed_vertices.tolist() == [3, 4]
+
+
+def test_many_vertices_in_one_place_are_welded() -> None:
+    world = pliant.World()
+    body = world.add(np.arange(60_000).reshape(-1, 3), np.zeros((60_000, 3)))
+    assert len(world.weld(body, 0.0).removed_vertices) == 59_997
+    assert (np.sort(world.triangles(body), axis=1) == [0, 1, 2]).all()

@@ -29,12 +29,10 @@ def lets_others_run(call: Callable[[], object], tries: int) -> bool:
             time.sleep(0)
 
     interval = sys.getswitchinterval()
+    # A thread runs until it lets go of the lock by itself: longer than any of these calls takes, however busy the machine is.
+    sys.setswitchinterval(1000)
     other = threading.Thread(target=count)
     other.start()
-    # From now on a thread runs until it lets go of the lock by itself.
-    sys.setswitchinterval(60)
-    # The other thread may be waiting still, to ask for the lock as it was told before.
-    time.sleep(0.01)
     try:
         for _ in range(tries):
             before = turns

@@ -23,8 +23,9 @@ FACES, FLAT = grid(120)
 SHAPE = fold(FLAT, 0.2)
 #: Without the copy one try in four kept a number that it had not checked.
 TRIES = 200
-#: A refusal takes microseconds, so that all tries may be over before a busy machine lets the other thread write once.
-PATIENCE_S = 60.0
+#: A refusal takes microseconds, so that all tries may be over before a busy machine lets the other thread write once. So long only if it
+#: never does.
+PATIENCE_S = 600.0
 
 
 @contextmanager

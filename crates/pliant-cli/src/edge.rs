@@ -1,5 +1,6 @@
 //! The edge of the program: a panic, which is a bug of ours or of a library's, ends as everything else that goes wrong does, in one line
-//! and exit code 2. A signal that ends it (Ctrl-C) leaves no half of a file behind.
+//! and exit code 2. A signal that ends it (Ctrl-C) leaves no half of a file behind; one that says that a file is too large ends nothing, for
+//! writing then fails, which is said.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -17,13 +18,20 @@ pub(crate) fn be_silent() {
     }));
 }
 
-/// From now on Ctrl-C, and the signal that asks a program to end, take away what is not whole yet and then do what they always do:
-/// whoever started the program, a loop of a shell above all, learns that a signal ended it.
+/// From now on Ctrl-C, and all other signals by which a program is asked to end, take away what is not whole yet and then do what they
+/// always do: whoever started the program, a loop of a shell above all, learns that a signal ended it.
 #[cfg(unix)]
 pub(crate) fn clean_up_after_signals() {
-    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::consts::{
+        SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ,
+    };
+    // A handler that does nothing: then the system says of a write what it otherwise ends the program for.
+    let _ = signal_hook::flag::register(SIGXFSZ, std::sync::Arc::default());
+    let unless_ignored = [SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU];
+    let mut ending = vec![SIGINT, SIGTERM];
+    ending.extend(unless_ignored.into_iter().filter(|&it| !is_ignored(it)));
     // Where that is refused, signals do what they always do, and nothing else.
-    let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM]) else {
+    let Ok(mut signals) = signal_hook::iterator::Signals::new(ending) else {
         return;
     };
     std::thread::spawn(move || {
@@ -32,6 +40,20 @@ pub(crate) fn clean_up_after_signals() {
             let _ = signal_hook::low_level::emulate_default_handler(signal);
         }
     });
+}
+
+/// Whether whoever started the program has it ignore a signal, as `nohup` does with the end of a terminal. Where the system does not say
+/// so, that one is left alone: it would end a program that is to go on.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mut lines = status.lines();
+    let ignored = lines.find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok());
+    match ignored {
+        Some(bits) => bits >> (signal - 1) & 1 == 1,
+        None => signal == signal_hook::consts::SIGHUP,
+    }
 }
 
 /// Elsewhere a file that is not whole stays behind.

@@ -17,9 +17,10 @@ pub enum ClosestFeatures {
 
 /// A vertex close to a triangle that it is no corner of.
 ///
-/// The distance is off by at most 2^-30 of itself; it is 0 exactly if they touch, or are closer than any number. Let s be the largest
+/// The distance is off by at most 2^-30 of itself and 2^-1074, the smallest number; it is 0 exactly if they touch. Let s be the largest
 /// coordinate of any difference of the four vertices; then the vertex and the point that `barycentric` names are no further apart than the
-/// distance and 2^-30 of it and 2^-48 s, and along `direction` the elements are apart by the distance but for as much.
+/// distance and 2^-30 of it and 2^-48 s and 2^-1074, and along `direction` the elements are apart by the distance but for as much. (In a
+/// thread that flushes subnormal numbers 2^-1022 takes the place of 2^-1074.)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseVertexTriangle {
     /// Which they are.
@@ -52,12 +53,13 @@ pub struct CloseEdgeEdge {
 
 /// Two triangles close to each other, of two bodies or of one.
 ///
-/// The distance is off by at most 2^-30 of itself; it is 0 exactly if they intersect, or are closer than any number. Let s be the largest
+/// The distance is off by at most 2^-30 of itself and 2^-1074, the smallest number; it is 0 exactly if they intersect. Let s be the largest
 /// coordinate of any difference of their corners; then the points that `barycentric_a` and `barycentric_b` name are no further apart than
-/// the distance and 2^-30 of it and 2^-40 s: where triangles intersect, they are a point in common. Along `direction` the triangles are
-/// apart by the distance but for 2^-30 of it and 2^-48 s. Of several closest points, those here are some. Where corners a, b, c count x, y, z
-/// the point is a + y (b - a) + z (c - a); `point_a` and `point_b` are the same points, each coordinate off by at most 2^-50 of the largest
-/// coordinate of the triangle's corners.
+/// the distance and 2^-30 of it and 2^-40 s and 2^-1074: where triangles intersect, they are a point in common. Along `direction` the
+/// triangles are apart by the distance but for 2^-30 of it and 2^-48 s and 2^-1074. Of several closest points, those here are some. Where
+/// corners a, b, c count x, y, z the point is a + y (b - a) + z (c - a); `point_a` and `point_b` are the same points, each coordinate off by
+/// at most 2^-50 of the largest coordinate of the triangle's corners, and 2^-1073. (In a thread that flushes subnormal numbers 2^-1022 and
+/// 2^-1020 take the places of 2^-1074 and 2^-1073.)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CloseTriangles {
     /// Which they are.

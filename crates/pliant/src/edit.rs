@@ -9,7 +9,10 @@ use std::ops::Range;
 /// goes on from the mesh that the steps before it leave. Numbers stay: a triangle or a vertex that goes leaves its number empty, and what
 /// comes is numbered behind all others, so that its numbers are known at once. An empty number is used again where a step names it.
 ///
-/// A vertex that loses its last triangle by the edit goes; one that never had any stays.
+/// A vertex that loses its last triangle by the edit goes at its end; one that never had any stays. One that is merged into another is
+/// empty at once, and may be placed again by a later step: then it is there after the edit.
+///
+/// An edit is of the world that began it: no other makes its changes, not even a clone.
 ///
 /// ```
 /// use pliant::World;
@@ -29,6 +32,8 @@ use std::ops::Range;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Edit<S> {
+    /// Which world, among all of the process.
+    pub(crate) world: u64,
     pub(crate) body: BodyId,
     /// Which mesh the numbers are of.
     pub(crate) mesh: u64,
@@ -50,8 +55,12 @@ pub(crate) enum Step<S> {
 }
 
 impl<S: Copy> Edit<S> {
-    pub(crate) fn new(body: BodyId, mesh: u64, vertices: usize, triangles: usize) -> Self {
+    pub(crate) fn new(
+        (world, body, mesh): (u64, BodyId, u64),
+        [vertices, triangles]: [usize; 2],
+    ) -> Self {
         Self {
+            world,
             body,
             mesh,
             vertices: vertices as u32,

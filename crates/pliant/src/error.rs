@@ -155,7 +155,7 @@ pub enum ErrorKind {
         /// The vertex that was to be split.
         vertex: u32,
     },
-    /// The mesh was changed since [`World::edit`](crate::World::edit) began this edit, or it is of another body.
+    /// The mesh was changed since [`World::edit`](crate::World::edit) began this edit, or another world began it.
     OutdatedEdit,
 }
 
@@ -304,7 +304,7 @@ impl ErrorKind {
             ),
             Self::OutdatedEdit => write!(
                 f,
-                "the mesh was changed since this edit was begun; begin another"
+                "the mesh was changed since this edit was begun, or it was begun in another world; begin another"
             ),
             _ => Ok(()),
         }

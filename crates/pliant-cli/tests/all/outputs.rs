@@ -152,24 +152,32 @@ fn pipes_devices_and_folders_are_refused_at_once() {
     }
 }
 
-/// What the program says where no more than 8 KB may be written to a file, as on a full disk; `None` without a shell that limits that.
+/// What the program says where no more than 8 KB may be written to a file, as on a full disk, whether the signal of that is ignored or not;
+/// `None` without a shell that limits that.
 #[cfg(target_os = "linux")]
 fn on_a_full_disk(folder: &Path, command: &[&str]) -> Option<crate::common::Said> {
-    let script = format!(
-        "trap '' XFSZ; ulimit -f 8; exec '{}' {}",
-        env!("CARGO_BIN_EXE_pliant"),
-        command.join(" ")
-    );
-    let mut shell = std::process::Command::new("bash");
-    let Ok(said) = shell.args(["-c", &script]).current_dir(folder).output() else {
+    let [said, ignored] = ["", "trap '' XFSZ; "].map(|trap| {
+        let script = format!(
+            "{trap}ulimit -f 8; exec '{}' {}",
+            env!("CARGO_BIN_EXE_pliant"),
+            command.join(" ")
+        );
+        let mut shell = std::process::Command::new("bash");
+        let said = shell.args(["-c", &script]).current_dir(folder).output();
+        let said = said.ok()?;
+        assert!(said.status.code().is_some(), "{trap}{}", said.status);
+        Some(crate::common::Said {
+            code: said.status.code().unwrap(),
+            out: String::from_utf8(said.stdout).unwrap(),
+            err: String::from_utf8(said.stderr).unwrap(),
+        })
+    });
+    let (Some(said), Some(ignored)) = (said, ignored) else {
         eprintln!("skipped: no shell that limits the size of files");
         return None;
     };
-    Some(crate::common::Said {
-        code: said.status.code().unwrap(),
-        out: String::from_utf8(said.stdout).unwrap(),
-        err: String::from_utf8(said.stderr).unwrap(),
-    })
+    assert_eq!((said.code, &said.err), (ignored.code, &ignored.err));
+    Some(said)
 }
 
 /// What was there stays, and nothing else is left.
@@ -215,13 +223,59 @@ fn converting_onto_a_full_disk_is_one_line() {
     }
 }
 
-/// Ctrl-C, or a program that asks it to end: what was there stays, no half of a file is left, and the caller learns of the signal.
+/// A program that will be writing for many seconds, and writes.
+#[cfg(unix)]
+fn writing(path: &Path, before: &str) -> std::process::Child {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let script = format!(
+        "{before}exec '{}' convert a.obj+a.pc2 out.npz --force",
+        env!("CARGO_BIN_EXE_pliant")
+    );
+    let program = Command::new("sh")
+        .args(["-c", &script])
+        .current_dir(path)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // So long only if it hangs.
+    let until = Instant::now() + Duration::from_secs(600);
+    while !left(path).iter().any(|name| name.starts_with(".pliant-")) {
+        assert!(Instant::now() < until, "it never began to write");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    program
+}
+
+/// Whether a program that is begun here ignores a signal from the beginning; but Ctrl-C, which this one heeds.
+#[cfg(unix)]
+fn is_ignored_here(signal: i32) -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let ignored = ignored.map(|bits| u64::from_str_radix(bits.trim(), 16).unwrap());
+    let unsure = signal == signal_hook::consts::SIGHUP;
+    signal != signal_hook::consts::SIGINT
+        && ignored.map_or(unsure, |bits| bits >> (signal - 1) & 1 == 1)
+}
+
+#[cfg(unix)]
+fn send(signal: &str, program: &std::process::Child) {
+    let mut kill = std::process::Command::new("kill");
+    let sent = kill
+        .args(["-s", signal, &program.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+}
+
+/// Ctrl-C, a terminal that is closed, or a program that asks it to end: what was there stays, no half of a file is left, and the caller
+/// learns of the signal.
 #[cfg(unix)]
 #[test]
 fn a_signal_leaves_nothing_behind() {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU};
     use std::os::unix::process::ExitStatusExt;
-    use std::process::{Command, Stdio};
-    use std::time::{Duration, Instant};
 
     let folder = meshes();
     let path = folder.path();
@@ -239,33 +293,36 @@ fn a_signal_leaves_nothing_behind() {
     file.unwrap().set_len(length).unwrap();
     fs::write(path.join("out.npz"), "mine").unwrap();
 
-    for (signal, number) in [("INT", 2), ("TERM", 15)] {
-        let mut program = Command::new(env!("CARGO_BIN_EXE_pliant"))
-            .args(["convert", "a.obj+a.pc2", "out.npz", "--force"])
-            .current_dir(path)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let began = Instant::now();
-        while !left(path).iter().any(|name| name.starts_with(".pliant-")) {
-            assert!(
-                began.elapsed() < Duration::from_secs(60),
-                "it never began to write"
-            );
-            std::thread::sleep(Duration::from_millis(1));
+    for (signal, number) in [
+        ("HUP", SIGHUP),
+        ("INT", SIGINT),
+        ("QUIT", SIGQUIT),
+        ("TERM", SIGTERM),
+        ("USR1", SIGUSR1),
+        ("USR2", SIGUSR2),
+        ("XCPU", SIGXCPU),
+    ] {
+        if is_ignored_here(number) {
+            eprintln!("skipped: whoever runs this test has it ignore SIG{signal}");
+            continue;
         }
-        let id = program.id().to_string();
-        assert!(
-            Command::new("kill")
-                .args(["-s", signal, &id])
-                .status()
-                .unwrap()
-                .success()
-        );
+        // Of those that leave an image of the memory, no image.
+        let mut program = writing(path, "ulimit -c 0; ");
+        send(signal, &program);
         let status = program.wait().unwrap();
-        assert_eq!(status.signal(), Some(number), "{status}");
-        assert_eq!(left(path), ["out.npz"]);
+        assert_eq!(status.signal(), Some(number), "{signal}: {status}");
+        assert_eq!(left(path), ["out.npz"], "{signal}");
         assert_eq!(fs::read(path.join("out.npz")).unwrap(), b"mine");
+    }
+    // What whoever started it has it ignore does not end it: the one that comes behind does.
+    if cfg!(target_os = "linux") {
+        for ignored in ["HUP", "QUIT", "USR1"] {
+            let mut program = writing(path, &format!("trap '' {ignored}; "));
+            send(ignored, &program);
+            send("TERM", &program);
+            let status = program.wait().unwrap();
+            assert_eq!(status.signal(), Some(15), "{ignored}: {status}");
+            assert_eq!(left(path), ["out.npz"], "{ignored}");
+        }
     }
 }

@@ -26,7 +26,9 @@ pub(crate) struct Draft<'m, S> {
     positions: BTreeMap<u32, [S; 3]>,
     /// Of vertices that have come, the one they were split from.
     split_from: BTreeMap<u32, u32>,
+    /// Vertices that became others, and those that have come since and have had no triangle yet.
     merged: BTreeSet<u32>,
+    alone: BTreeSet<u32>,
     live: usize,
 }
 
@@ -40,7 +42,7 @@ pub(crate) struct Outcome<S> {
     pub(crate) vertices: usize,
     /// Vertices that were empty or not there, with their positions, in order.
     pub(crate) new_vertices: Vec<(u32, [S; 3])>,
-    /// Those of them that were split from another.
+    /// Of those of them that were split from others, which they were before the edit; none of those that were not there.
     pub(crate) split_from: BTreeMap<u32, u32>,
     /// Vertices that no triangle uses any more, in order.
     pub(crate) emptied: Vec<u32>,
@@ -65,6 +67,7 @@ impl<'m, S: Copy> Draft<'m, S> {
             positions: BTreeMap::new(),
             split_from: BTreeMap::new(),
             merged: BTreeSet::new(),
+            alone: BTreeSet::new(),
             live: topology.live_count(),
         }
     }
@@ -89,7 +92,9 @@ impl<'m, S: Copy> Draft<'m, S> {
             Step::SplitVertex(vertex, triangles) => {
                 self.check_vertex(*vertex)?;
                 let new = self.add_vertex(self.position(*vertex))?;
-                self.split_from.insert(new, *vertex);
+                if let Some(from) = self.before_splits(*vertex) {
+                    self.split_from.insert(new, from);
+                }
                 for &triangle in triangles {
                     let corners = self.live_corners(triangle)?;
                     if !corners.contains(vertex) {
@@ -110,6 +115,7 @@ impl<'m, S: Copy> Draft<'m, S> {
                         self.set(triangle, renamed(self.corners(triangle), gone, kept));
                     }
                     self.merged.insert(gone);
+                    self.alone.remove(&gone);
                 }
             }
             Step::AddTriangles(all) => {
@@ -152,7 +158,9 @@ impl<'m, S: Copy> Draft<'m, S> {
                 emptied.extend(old.into_iter().filter(|&vertex| vertex != u32::MAX));
             }
         }
-        emptied.retain(|&vertex| self.triangles_at(vertex).next().is_none());
+        emptied.retain(|vertex| {
+            !self.alone.contains(vertex) && self.triangles_at(*vertex).next().is_none()
+        });
         Ok(Outcome {
             changed,
             triangles: self.triangles,
@@ -176,7 +184,16 @@ impl<'m, S: Copy> Draft<'m, S> {
     fn place(&mut self, vertex: u32, position: [S; 3]) {
         self.positions.insert(vertex, position);
         self.merged.remove(&vertex);
+        self.alone.insert(vertex);
         self.split_from.remove(&vertex);
+    }
+
+    /// The vertex of the mesh before that one was split from, or is; none of one that came by itself.
+    fn before_splits(&self, vertex: u32) -> Option<u32> {
+        if self.positions.contains_key(&vertex) {
+            return self.split_from.get(&vertex).copied();
+        }
+        Some(vertex)
     }
 
     fn position(&self, vertex: u32) -> [S; 3] {
@@ -201,6 +218,7 @@ impl<'m, S: Copy> Draft<'m, S> {
         if corners != EMPTY {
             for vertex in corners {
                 self.came.insert([vertex, triangle]);
+                self.alone.remove(&vertex);
             }
         }
         self.corners.insert(triangle, corners);

@@ -225,7 +225,7 @@ impl TriangleRun {
 }
 
 /// The edges of a triangle that have two different ends, the smaller first.
-fn edges_of(&[a, b, c]: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> {
+pub(super) fn edges_of(&[a, b, c]: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> {
     let three = [[a, b], [b, c], [c, a]];
     let three = three.into_iter().filter(|[a, b]| a != b);
     three.map(|[a, b]| [a.min(b), a.max(b)])

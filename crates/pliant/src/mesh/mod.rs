@@ -16,4 +16,4 @@ pub(crate) use elements::{Changed, Elements, TriangleRun};
 pub(crate) use order::{Moved, Order, OrderBuilder};
 pub(crate) use topology::{EMPTY, Topology, share_a_vertex, validate};
 pub(crate) use triangles_at::TrianglesAt;
-pub(crate) use weld::coinciding;
+pub(crate) use weld::{Nearness, coinciding};

@@ -3,239 +3,652 @@
 //! A boundary edge is an edge of exactly one triangle. Two of them coincide if their ends do, one by one. Single vertices that coincide are
 //! not welded: two sheets that touch in a point are two sheets. And never are two corners of one triangle, however short its edges are:
 //! no triangle is lost.
+//!
+//! An edge is two *sides*, one for each direction: points of six coordinates. A tree of boxes over these finds those that coincide; whatever
+//! is so small that all in it do is not divided further, for there each is compared with few others, one for each pair of vertices that the
+//! sides before it came to. Two sides whose ends may not become one never may, for vertices that became one stay so: each two are
+//! asked about once.
 
+mod classes;
+
+use super::elements::edges_of;
 use super::topology::EMPTY;
-use std::collections::{BTreeMap, HashMap};
+use classes::Classes;
+use std::ops::Range;
 
-/// Pairs of a vertex that stays and one that becomes the same: the lowest of all that become one stays. Sorted by the second.
+/// What there is to know of positions and a tolerance.
+pub(crate) struct Nearness<'w> {
+    pub(crate) position: &'w dyn Fn(u32) -> [f64; 3],
+    pub(crate) tolerance: f64,
+    /// Whether two points are at most the tolerance apart, exactly.
+    pub(crate) are_near: &'w dyn Fn([f64; 3], [f64; 3]) -> bool,
+}
+
+/// Pairs of a vertex that stays and one that becomes the same: the lowest of all that become one stays. Sorted by the second. `None` if
+/// `stop` said so on the way.
 ///
-/// Two vertices coincide if they are at most a tolerance apart, as double precision has it. Cost: O(m log m), and for every vertex of the
-/// boundary those within some tolerances.
+/// Cost: O(m log m), and for sides that are all within the tolerance as often as there are pairs of vertices that they come to.
 pub(crate) fn coinciding(
     triangles: &[[u32; 3]],
-    position: impl Fn(u32) -> [f64; 3],
-    tolerance: f64,
-) -> Vec<[u32; 2]> {
-    let edges = boundary_edges(triangles);
-    let mut others: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-    for &[a, b] in &edges {
-        others.entry(a).or_default().push(b);
-        others.entry(b).or_default().push(a);
-    }
-    let vertices: Vec<(u32, [f64; 3])> = others.keys().map(|&it| (it, position(it))).collect();
-    let grid = Grid::new(&vertices, tolerance);
-    let are_near = |a: [f64; 3], b: [f64; 3]| {
-        let apart: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
-        apart.sqrt() <= tolerance
+    vertices: usize,
+    near: &Nearness,
+    stop: &dyn Fn() -> bool,
+) -> Option<Vec<[u32; 2]>> {
+    let edges = boundary_edges(triangles, vertices, stop)?;
+    let sides: Vec<[u32; 2]> = edges.iter().flat_map(|&[a, b]| [[a, b], [b, a]]).collect();
+    let classes = Classes::new(triangles, vertices, &edges, stop)?;
+    drop(edges);
+    let mut search = Search {
+        near,
+        stop,
+        steps: 0,
+        sides,
+        nodes: Vec::new(),
+        classes,
     };
-    let mut classes = Classes::new(triangles, &others);
-    for &[a, b] in &edges {
-        let [at_a, at_b] = [a, b].map(&position);
-        for x in grid.around(at_a) {
-            if !are_near(at_a, position(x)) {
-                continue;
-            }
-            for &y in &others[&x] {
-                let is_same = [x.min(y), x.max(y)] == [a, b];
-                if !is_same && are_near(at_b, position(y)) {
-                    classes.join([[a, x], [b, y]]);
-                }
-            }
-        }
+    if !search.sides.is_empty() {
+        search.build(0..search.sides.len())?;
+        search.within(0)?;
     }
-    classes.pairs()
+    Some(search.classes.pairs())
 }
+
+/// So many triangles or vertices are gone through before it is asked whether somebody wants to stop.
+const UNINTERRUPTED: usize = 1 << 14;
 
 /// The edges that exactly one triangle has, the smaller end first, sorted. A degenerate triangle has an edge once, however often it runs
 /// along it.
-fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
-    let mut edges = Vec::with_capacity(3 * triangles.len());
-    for &[a, b, c] in triangles.iter().filter(|&&corners| corners != EMPTY) {
-        let mut three = [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]);
-        three.sort_unstable();
-        let mut last = None;
-        for edge in three {
-            if edge[0] != edge[1] && last != Some(edge) {
-                edges.push(edge);
+fn boundary_edges(
+    triangles: &[[u32; 3]],
+    vertices: usize,
+    stop: &dyn Fn() -> bool,
+) -> Option<Vec<[u32; 2]>> {
+    // By their lower end: how many there are, then where the next one goes.
+    let mut next = vec![0_usize; vertices + 1];
+    let each_edge = |found: &mut dyn FnMut([u32; 2])| {
+        for some in triangles.chunks(UNINTERRUPTED) {
+            for corners in some.iter().filter(|&&corners| corners != EMPTY) {
+                // Edges of a triangle that are one are beside each other, or its first and its last.
+                let [a, b, c] = *corners;
+                let has_two = a == b || b == c || c == a;
+                edges_of(corners)
+                    .take(if has_two { 1 } else { 3 })
+                    .for_each(&mut *found);
             }
-            last = Some(edge);
+            if stop() {
+                return None;
+            }
+        }
+        Some(())
+    };
+    each_edge(&mut |[low, _]| next[low as usize + 1] += 1)?;
+    for vertex in 0..vertices {
+        next[vertex + 1] += next[vertex];
+    }
+    let mut higher = vec![0_u32; next[vertices]];
+    each_edge(&mut |[low, high]| {
+        let place = &mut next[low as usize];
+        higher[*place] = high;
+        *place += 1;
+    })?;
+    let mut edges = Vec::new();
+    let mut start = 0;
+    for vertex in 0..vertices {
+        let end = next[vertex];
+        let others = &mut higher[start..end];
+        others.sort_unstable();
+        let alone = others
+            .chunk_by(|a, b| a == b)
+            .filter(|same| same.len() == 1);
+        edges.extend(alone.map(|same| [vertex as u32, same[0]]));
+        start = end;
+        if vertex % UNINTERRUPTED == 0 && stop() {
+            return None;
         }
     }
-    edges.sort_unstable();
-    let alone = edges.chunk_by(|a, b| a == b).filter(|same| same.len() == 1);
-    alone.map(|same| same[0]).collect()
+    Some(edges)
 }
 
-/// Vertices by the cells of a grid, whose sides are longer than two tolerances: what coincides is in cells beside each other.
-struct Grid {
-    lower: [f64; 3],
-    side: f64,
-    cells: HashMap<[i64; 3], Vec<u32>>,
+/// So few sides are a leaf.
+const FEW: usize = 8;
+
+/// A box around sides.
+struct Node {
+    lower: [f64; 6],
+    upper: [f64; 6],
+    below: Below,
 }
 
-/// No more cells than this on an axis, so that numbers of cells are exact.
-const CELLS: f64 = (1_u64 << 30) as f64;
+enum Below {
+    /// Some sides.
+    Leaf(Range<usize>),
+    /// The same once they were compared with each other: where those of each kind are.
+    Kinds(Vec<Range<usize>>),
+    /// The first child is the next node, the second that.
+    Inner(usize),
+}
 
-impl Grid {
-    fn new(vertices: &[(u32, [f64; 3])], tolerance: f64) -> Self {
-        let mut lower = [f64::INFINITY; 3];
-        let mut upper = [f64::NEG_INFINITY; 3];
-        for (_, at) in vertices {
-            for axis in 0..3 {
+/// The search for sides that coincide.
+struct Search<'s> {
+    near: &'s Nearness<'s>,
+    stop: &'s dyn Fn() -> bool,
+    /// How often it was said that there may be something to stop.
+    steps: u32,
+    sides: Vec<[u32; 2]>,
+    nodes: Vec<Node>,
+    classes: Classes,
+}
+
+impl Search<'_> {
+    /// Looks now and then whether somebody wants to stop.
+    fn go_on(&mut self) -> Option<()> {
+        self.steps = self.steps.wrapping_add(1);
+        (!self.steps.is_multiple_of(256) || !(self.stop)()).then_some(())
+    }
+
+    fn at(&self, [a, b]: [u32; 2]) -> [f64; 6] {
+        let [[a, b, c], [d, e, f]] = [a, b].map(self.near.position);
+        [a, b, c, d, e, f]
+    }
+
+    /// Builds the tree over some sides.
+    fn build(&mut self, sides: Range<usize>) -> Option<()> {
+        self.go_on()?;
+        let (mut lower, mut upper) = ([f64::INFINITY; 6], [f64::NEG_INFINITY; 6]);
+        for &side in &self.sides[sides.clone()] {
+            let at = self.at(side);
+            for axis in 0..6 {
                 lower[axis] = lower[axis].min(at[axis]);
                 upper[axis] = upper[axis].max(at[axis]);
             }
         }
-        let extent = (0..3).fold(0.0, |most: f64, axis| most.max(upper[axis] - lower[axis]));
-        let least = (extent / CELLS).max(f64::MIN_POSITIVE);
-        let mut grid = Self {
+        let width = |axis: usize| upper[axis] - lower[axis];
+        let widest = (1..6).fold(0, |most, axis| {
+            if width(axis) > width(most) {
+                axis
+            } else {
+                most
+            }
+        });
+        let node = self.nodes.len();
+        let below = Below::Leaf(sides.clone());
+        self.nodes.push(Node {
             lower,
-            side: (2.0 * tolerance).max(least),
-            cells: HashMap::new(),
+            upper,
+            below,
+        });
+        if self.are_all_near(&self.nodes[node]) {
+            // Whatever order they had until now, the lowest are the first.
+            self.sides[sides].sort_unstable();
+        } else if sides.len() > FEW {
+            let middle = sides.len() / 2;
+            let position = self.near.position;
+            let along = |&side: &[u32; 2]| position(side[widest / 3])[widest % 3];
+            self.sides[sides.clone()].select_nth_unstable_by(middle, |a, b| {
+                along(a).total_cmp(&along(b)).then(a.cmp(b))
+            });
+            self.build(sides.start..sides.start + middle)?;
+            self.nodes[node].below = Below::Inner(self.nodes.len());
+            self.build(sides.start + middle..sides.end)?;
+        }
+        Some(())
+    }
+
+    /// Whether every two sides in a box coincide: of each end, no coordinate differs by more than half the tolerance, so that the diagonal is
+    /// less than 0.87 of it.
+    fn are_all_near(&self, node: &Node) -> bool {
+        let most = self.near.tolerance / 2.0;
+        (0..6).all(|axis| node.upper[axis] - node.lower[axis] <= most)
+    }
+
+    /// Whether no side of one box coincides with one of the other. A difference is rounded, but never across the tolerance.
+    fn are_apart(&self, a: &Node, b: &Node) -> bool {
+        let gap = |axis: usize| (a.lower[axis] - b.upper[axis]).max(b.lower[axis] - a.upper[axis]);
+        let tolerance = self.near.tolerance;
+        let square = |first: usize| {
+            let gaps = [first, first + 1, first + 2].map(|axis| gap(axis).max(0.0));
+            gaps.iter().map(|gap| gap * gap).sum::<f64>()
         };
-        for &(vertex, at) in vertices {
-            let cell = grid.cell(at);
-            grid.cells.entry(cell).or_default().push(vertex);
+        // Far from where squares are rounded to nothing: all roundings together are less than that.
+        let most = tolerance * tolerance * (1.0 + 1e-9);
+        (0..6).any(|axis| gap(axis) > tolerance)
+            || most > 1e-290 && (square(0) > most || square(3) > most)
+    }
+
+    /// Whether two sides coincide.
+    fn coincide(&self, [a, b]: [u32; 2], [x, y]: [u32; 2]) -> bool {
+        let are_near = |p: u32, q: u32| {
+            let [p, q] = [p, q].map(self.near.position);
+            let is_far = (0..3).any(|axis| (p[axis] - q[axis]).abs() > self.near.tolerance);
+            !is_far && (p.map(f64::to_bits) == q.map(f64::to_bits) || (self.near.are_near)(p, q))
+        };
+        are_near(a, x) && are_near(b, y)
+    }
+
+    /// Compares all sides of a node with each other.
+    fn within(&mut self, node: usize) -> Option<()> {
+        let below = std::mem::replace(&mut self.nodes[node].below, Below::Inner(0));
+        match below {
+            Below::Inner(second) => {
+                self.nodes[node].below = Below::Inner(second);
+                self.within(node + 1)?;
+                self.within(second)?;
+                self.between(node + 1, second)
+            }
+            Below::Leaf(sides) => {
+                let kinds = if self.are_all_near(&self.nodes[node]) {
+                    self.kinds_of(sides)?
+                } else {
+                    for i in sides.clone() {
+                        for j in i + 1..sides.end {
+                            if self.coincide(self.sides[i], self.sides[j]) {
+                                self.classes.join(self.sides[i], self.sides[j]);
+                            }
+                        }
+                    }
+                    sides.map(|side| side..side + 1).collect()
+                };
+                self.nodes[node].below = Below::Kinds(kinds);
+                self.go_on()
+            }
+            Below::Kinds(_) => Some(()),
         }
-        grid
     }
 
-    fn cell(&self, at: [f64; 3]) -> [i64; 3] {
-        std::array::from_fn(|axis| ((at[axis] - self.lower[axis]) / self.side).floor() as i64)
-    }
-
-    /// The vertices in the cell of a place, and in those beside it.
-    fn around(&self, at: [f64; 3]) -> impl Iterator<Item = u32> {
-        let [i, j, k] = self.cell(at);
-        let beside = |at: i64| at - 1..=at + 1;
-        let cells = beside(i)
-            .flat_map(move |i| beside(j).flat_map(move |j| beside(k).map(move |k| [i, j, k])));
-        let of_cell = |cell| self.cells.get(&cell).into_iter().flatten();
-        cells.flat_map(of_cell).copied()
-    }
-}
-
-/// Vertices that become one, and the triangles at them.
-struct Classes<'t> {
-    triangles: &'t [[u32; 3]],
-    /// For each vertex of the boundary the lowest one of those that become one with it.
-    leaders: BTreeMap<u32, u32>,
-    /// By the lowest: the vertices, and their triangles.
-    members: BTreeMap<u32, (Vec<u32>, Vec<u32>)>,
-}
-
-impl<'t> Classes<'t> {
-    fn new(triangles: &'t [[u32; 3]], boundary: &BTreeMap<u32, Vec<u32>>) -> Self {
-        let mut members: BTreeMap<u32, (Vec<u32>, Vec<u32>)> = BTreeMap::new();
-        for &vertex in boundary.keys() {
-            members.insert(vertex, (vec![vertex], Vec::new()));
+    /// Makes sides one that all coincide, as far as they may be, and brings those that are one beside each other.
+    fn kinds_of(&mut self, sides: Range<usize>) -> Option<Vec<Range<usize>>> {
+        let mut kinds: Vec<Vec<[u32; 2]>> = Vec::new();
+        for place in sides.clone() {
+            let side = self.sides[place];
+            let mut found = None;
+            for (kind, of_kind) in kinds.iter().enumerate() {
+                self.go_on()?;
+                if self.classes.join(of_kind[0], side) {
+                    found = Some(kind);
+                    break;
+                }
+            }
+            match found {
+                Some(kind) => kinds[kind].push(side),
+                None => kinds.push(vec![side]),
+            }
         }
-        for (triangle, corners) in (0..).zip(triangles) {
-            for vertex in corners {
-                if let Some((_, of_vertex)) = members.get_mut(vertex) {
-                    of_vertex.push(triangle);
+        let mut end = sides.start;
+        let ranges = kinds.iter().map(|of_kind| {
+            let start = end;
+            end += of_kind.len();
+            self.sides[start..end].copy_from_slice(of_kind);
+            start..end
+        });
+        Some(ranges.collect())
+    }
+
+    /// Compares the sides of one node with those of another; both were compared within.
+    fn between(&mut self, a: usize, b: usize) -> Option<()> {
+        self.go_on()?;
+        if self.are_apart(&self.nodes[a], &self.nodes[b]) {
+            return Some(());
+        }
+        match (&self.nodes[a].below, &self.nodes[b].below) {
+            (&Below::Inner(second), _) => {
+                // The other is the next to be divided.
+                self.between(b, a + 1)?;
+                self.between(b, second)
+            }
+            (_, &Below::Inner(second)) => {
+                self.between(a, b + 1)?;
+                self.between(a, second)
+            }
+            (Below::Kinds(of_a), Below::Kinds(of_b)) => {
+                let (of_a, of_b) = (of_a.clone(), of_b.clone());
+                for kind in of_a {
+                    for other in &of_b {
+                        self.join_kinds(kind.clone(), other.clone())?;
+                    }
+                }
+                Some(())
+            }
+            _ => Some(()),
+        }
+    }
+
+    /// Makes two kinds of sides one, if they may be and some of both coincide.
+    fn join_kinds(&mut self, kind: Range<usize>, other: Range<usize>) -> Option<()> {
+        if !self
+            .classes
+            .may_join(self.sides[kind.start], self.sides[other.start])
+        {
+            return Some(());
+        }
+        for i in kind {
+            self.go_on()?;
+            for j in other.clone() {
+                if self.coincide(self.sides[i], self.sides[j]) {
+                    self.classes.join(self.sides[i], self.sides[j]);
+                    return Some(());
                 }
             }
         }
-        Self {
-            triangles,
-            leaders: boundary.keys().map(|&vertex| (vertex, vertex)).collect(),
-            members,
-        }
-    }
-
-    fn leader(&self, vertex: u32) -> u32 {
-        self.leaders.get(&vertex).copied().unwrap_or(vertex)
-    }
-
-    /// Makes the two vertices of each pair one; but none, if a triangle would lose a corner.
-    fn join(&mut self, pairs: [[u32; 2]; 2]) {
-        if pairs.iter().any(|&pair| self.share_a_triangle(pair)) {
-            return;
-        }
-        for pair in pairs {
-            let [a, b] = pair.map(|vertex| self.leader(vertex));
-            if a == b {
-                continue;
-            }
-            let (vertices, triangles) = self.members.remove(&a.max(b)).unwrap_or_default();
-            for &vertex in &vertices {
-                self.leaders.insert(vertex, a.min(b));
-            }
-            let kept = self.members.entry(a.min(b)).or_default();
-            kept.0.extend(vertices);
-            kept.1.extend(triangles);
-        }
-    }
-
-    /// Whether a triangle has corners among those that are one with either of two vertices, which are not one.
-    fn share_a_triangle(&self, pair: [u32; 2]) -> bool {
-        let [a, b] = pair.map(|vertex| self.leader(vertex));
-        let triangles = self.members.get(&a).map_or(&[][..], |(_, all)| all);
-        let has_b = |&triangle: &u32| {
-            let corners = self.triangles[triangle as usize];
-            corners.iter().any(|&corner| self.leader(corner) == b)
-        };
-        a != b && triangles.iter().any(has_b)
-    }
-
-    fn pairs(&self) -> Vec<[u32; 2]> {
-        let pairs = self.leaders.iter().map(|(&gone, &kept)| [kept, gone]);
-        pairs.filter(|[kept, gone]| kept != gone).collect()
+        Some(())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::predicates::distance::are_points_within;
+    use pliant_oracle::{Random, compare_length};
+    use std::cell::Cell;
+    use std::cmp::Ordering;
+    use std::collections::BTreeMap;
+
+    /// What is welded, how often a position was asked for, and how often at most between two looks.
+    fn weld(
+        triangles: &[[u32; 3]],
+        positions: &[[f64; 3]],
+        tolerance: f64,
+    ) -> (Vec<[u32; 2]>, usize, usize) {
+        let [asked, last, most] = [0, 0, 0].map(Cell::new);
+        let position = |vertex: u32| {
+            asked.set(asked.get() + 1);
+            positions[vertex as usize]
+        };
+        let stop = || {
+            most.set(most.get().max(asked.get() - last.get()));
+            last.set(asked.get());
+            false
+        };
+        let near = Nearness {
+            position: &position,
+            tolerance,
+            are_near: &|p, q| are_points_within(&p, &q, tolerance),
+        };
+        let pairs = coinciding(triangles, positions.len(), &near, &stop);
+        (pairs.expect("nobody stops it"), asked.get(), most.get())
+    }
+
+    fn pairs(triangles: &[[u32; 3]], positions: &[[f64; 3]], tolerance: f64) -> Vec<[u32; 2]> {
+        weld(triangles, positions, tolerance).0
+    }
 
     /// A strip of two squares, the second of which has vertices of its own where they meet.
     const APART: [[u32; 3]; 4] = [[0, 1, 2], [2, 1, 3], [4, 5, 6], [6, 5, 7]];
 
-    fn strip(off: f64) -> [[f64; 3]; 8] {
-        let at = |x: f64, y: f64| [x, y, 0.0];
+    /// What lies between them is off by so much, and all is so large.
+    fn strip(off: [f64; 3], scale: f64) -> [[f64; 3]; 8] {
+        let [x, y, z] = off;
+        let at = |x: f64, y: f64| [x * scale, y * scale, 0.0];
         [
             at(0.0, 0.0),
             at(0.0, 1.0),
-            at(1.0, 0.0),
-            at(1.0, 1.0),
-            at(1.0 + off, 0.0),
-            at(1.0 + off, 1.0),
+            [0.0; 3],
+            at(0.0, 1.0),
+            [x, y, z],
+            [x, scale + y, z],
             at(2.0, 0.0),
             at(2.0, 1.0),
         ]
     }
 
     #[test]
-    fn edges_that_coincide_are_welded_up_to_the_tolerance() {
-        let welded = |off: f64, tolerance: f64| {
-            let strip = strip(off);
-            coinciding(&APART, |vertex| strip[vertex as usize], tolerance)
+    fn edges_that_coincide_are_welded_up_to_the_tolerance_at_every_scale() {
+        let welded = |off: [f64; 3], scale: f64, tolerance: f64| {
+            let mut strip = strip(off, scale);
+            for at in &mut strip[..2] {
+                at[0] -= scale;
+            }
+            pairs(&APART, &strip, tolerance)
         };
-        assert_eq!(welded(0.0, 0.0), [[2, 4], [3, 5]]);
-        assert_eq!(welded(0.25, 0.25), [[2, 4], [3, 5]]);
-        assert!(welded(0.25, 0.25_f64.next_down()).is_empty());
-        assert!(welded(f64::EPSILON, 0.0).is_empty());
+        let both = [[2, 4], [3, 5]];
+        let power = |exponent: i32| {
+            let [a, b] = [exponent / 2, exponent - exponent / 2];
+            2f64.powi(a) * 2f64.powi(b)
+        };
+        for exponent in [
+            -1074, -1070, -1022, -1000, -538, -537, -300, -149, -40, 0, 100,
+        ] {
+            let by = power(exponent);
+            let scale = by * 64.0;
+            // 2, 3 and 6 are the sides of a box whose diagonal is 7.
+            let off = [2.0 * by, 3.0 * by, 6.0 * by];
+            assert_eq!(welded(off, scale, 7.0 * by), both, "{exponent}");
+            assert!(
+                welded(off, scale, (7.0 * by).next_down()).is_empty(),
+                "{exponent}"
+            );
+            assert!(welded(off, scale, 0.0).is_empty(), "{exponent}");
+            assert!(welded([0.0, 0.0, by], scale, 0.0).is_empty(), "{exponent}");
+            assert_eq!(welded([0.0; 3], scale, 0.0), both, "{exponent}");
+        }
+        assert_eq!(welded([0.25, 0.0, 0.0], 1.0, 0.25), both);
+        assert!(welded([0.25, 0.0, 0.0], 1.0, 0.25_f64.next_down()).is_empty());
+        assert!(welded([0.0, 1.5e-162, 0.0], 1.0, 0.0).is_empty());
+        assert_eq!(welded([-0.0, 0.0, -0.0], 1.0, 0.0), both);
+        // Where squares are rounded to the smallest numbers there are.
+        let near = [1.6e-162, 1.6e-162, 0.0];
+        assert_eq!(welded(near, 1e-160, 2.3e-162), both);
+        assert!(welded(near, 1e-160, 2.2e-162).is_empty());
+    }
+
+    #[test]
+    fn points_are_as_far_apart_as_the_oracle_says() {
+        let mut random = Random::new(47);
+        let [mut near, mut far] = [0; 2];
+        for round in 0..7_000 {
+            let exponent = [-1074, -1060, -530, -520, -149, 0, 90][round % 7];
+            let mut number = || {
+                let x = f64::from(random.below(1 << 21)) - 2f64.powi(20);
+                x * 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2)
+            };
+            let [p, q] = [0; 2].map(|_| [number(), number(), number()]);
+            let way = [0, 1, 2].map(|axis| p[axis] - q[axis]);
+            let most = way.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            let parts = way.map(|x| x / most);
+            let length = parts.iter().map(|x| x * x).sum::<f64>().sqrt() * most;
+            for distance in [
+                length.next_down(),
+                length,
+                length.next_up(),
+                length * 1.1,
+                0.0,
+            ] {
+                let distance = distance.max(0.0);
+                let exact = compare_length(&[(1.0, p), (-1.0, q)], distance);
+                let found = are_points_within(&p, &q, distance);
+                assert_eq!(found, exact != Ordering::Greater, "{p:?} {q:?} {distance}");
+                near += u32::from(found);
+                far += u32::from(!found);
+            }
+        }
+        assert!(near > 7_000 && far > 7_000, "{near} {far}");
     }
 
     #[test]
     fn vertices_alone_are_not_welded_and_no_triangle_is_lost() {
         // They meet in a point.
         let fan = [[0, 1, 2], [3, 4, 5]];
-        let at = |vertex: u32| [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]][vertex as usize % 3];
-        let apart = |vertex: u32| at(vertex).map(|x| if vertex < 3 { x } else { -x });
-        assert!(coinciding(&fan, apart, 0.1).is_empty());
+        let at = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let apart = [at, at.map(|at| at.map(|x| -x))].concat();
+        assert!(pairs(&fan, &apart, 0.1).is_empty());
         // With a tolerance as large as all there is, triangles keep three corners.
-        for tolerance in [0.0, 1.0, 10.0] {
-            let pairs = coinciding(&fan, at, tolerance);
-            let renamed = |vertex: u32| {
-                let pair = pairs.iter().find(|pair| pair[1] == vertex);
-                pair.map_or(vertex, |pair| pair[0])
-            };
-            for [a, b, c] in fan.map(|corners| corners.map(renamed)) {
-                assert!(a != b && b != c && c != a, "{tolerance}");
-            }
+        for tolerance in [0.0, 1.0, 10.0, 1e300] {
+            let pairs = pairs(&fan, &[at, at].concat(), tolerance);
+            assert_no_corner_is_lost(&fan, &pairs);
             assert_eq!(pairs.len(), 3);
+        }
+    }
+
+    fn renamed(pairs: &[[u32; 2]], vertex: u32) -> u32 {
+        let pair = pairs.binary_search_by_key(&vertex, |pair| pair[1]);
+        pair.map_or(vertex, |at| pairs[at][0])
+    }
+
+    fn assert_no_corner_is_lost(triangles: &[[u32; 3]], pairs: &[[u32; 2]]) {
+        for &[a, b, c] in triangles {
+            let [x, y, z] = [a, b, c].map(|vertex| renamed(pairs, vertex));
+            assert_eq!([a == b, b == c, c == a], [x == y, y == z, z == x]);
+        }
+    }
+
+    /// Random meshes on a coarse lattice, in which much coincides: what is welded hangs together by edges that coincide, and of those that are
+    /// left none may be welded.
+    #[test]
+    fn all_is_welded_that_may_be() {
+        let mut random = Random::new(48);
+        let [mut welded, mut left, mut all_of_it] = [0; 3];
+        for round in 0..1_500 {
+            let vertices = 6 + random.below(40);
+            let side = [2, 3, 9, 40][round % 4];
+            let axes = [3, 1, 2][round % 3];
+            let mut at = |axis| {
+                if axis < axes {
+                    f64::from(random.below(side))
+                } else {
+                    0.0
+                }
+            };
+            let positions: Vec<[f64; 3]> = (0..vertices).map(|_| [at(0), at(1), at(2)]).collect();
+            let soup = (0..vertices / 3).map(|it| [3 * it, 3 * it + 1, 3 * it + 2]);
+            let mut triangles: Vec<[u32; 3]> = soup.collect();
+            for _ in 0..random.below(4) {
+                let [a, b, c] = [0; 3].map(|_| random.below(vertices));
+                triangles.push([a, b, c]);
+            }
+            triangles.push(EMPTY);
+            let tolerance = [0.0, 1.0, 1.5, 2.0, 50.0][round % 5];
+            let pairs = pairs(&triangles, &positions, tolerance);
+            triangles.pop();
+            assert!(pairs.is_sorted_by_key(|pair| pair[1]));
+            assert_no_corner_is_lost(&triangles, &pairs);
+
+            // By comparing all with all.
+            let mut count: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+            for corners in &triangles {
+                let mut edges: Vec<[u32; 2]> = edges_of(corners).collect();
+                edges.sort_unstable();
+                edges.dedup();
+                edges
+                    .into_iter()
+                    .for_each(|edge| *count.entry(edge).or_default() += 1);
+            }
+            let edges = count.iter().filter(|(_, count)| **count == 1);
+            let sides = edges.flat_map(|(&[a, b], _)| [[a, b], [b, a]]);
+            let sides: Vec<[u32; 2]> = sides.collect();
+            let near = |p: u32, q: u32| {
+                let [p, q] = [p, q].map(|it| positions[it as usize]);
+                (0..3).map(|axis| (p[axis] - q[axis]).powi(2)).sum::<f64>() <= tolerance * tolerance
+            };
+            let of = |vertex: u32| renamed(&pairs, vertex);
+            let share = |p: u32, q: u32| {
+                let has = |corners: &[u32; 3], it: u32| corners.iter().any(|&at| of(at) == of(it));
+                of(p) != of(q)
+                    && triangles
+                        .iter()
+                        .any(|corners| has(corners, p) && has(corners, q))
+            };
+            let mut together: Vec<u32> = (0..vertices).collect();
+            let mut free: Vec<u32> = (0..vertices).collect();
+            for [a, b] in &sides {
+                for [x, y] in &sides {
+                    if !near(*a, *x) || !near(*b, *y) {
+                        continue;
+                    }
+                    let are_one = of(*a) == of(*x) && of(*b) == of(*y);
+                    left += u32::from(!are_one);
+                    assert!(are_one || share(*a, *x) || share(*b, *y), "{round}");
+                    for [p, q] in [[*a, *x], [*b, *y]] {
+                        let join = |all: &mut Vec<u32>| {
+                            let [p, q] = [all[p as usize], all[q as usize]];
+                            let of_both = all.iter_mut().filter(|it| **it == p || **it == q);
+                            of_both.for_each(|it| *it = p.min(q));
+                        };
+                        join(&mut free);
+                        if are_one {
+                            join(&mut together);
+                        }
+                    }
+                }
+            }
+            let found: Vec<u32> = (0..vertices).map(of).collect();
+            assert_eq!(found, together, "{round}");
+            welded += pairs.len() as u32;
+            // Where no triangle is in the way, it is everything that coincides.
+            all_of_it += u32::from(found == free);
+        }
+        assert!(
+            welded > 5_000 && left > 5_000 && all_of_it > 250,
+            "{welded} {left} {all_of_it}"
+        );
+    }
+
+    /// So many triangles, each with corners of its own.
+    fn soup(count: usize, at: impl FnMut(usize) -> [f64; 3]) -> (Vec<[u32; 3]>, Vec<[f64; 3]>) {
+        let triangles = (0..count as u32).map(|it| [3 * it, 3 * it + 1, 3 * it + 2]);
+        (triangles.collect(), (0..3 * count).map(at).collect())
+    }
+
+    /// However many are within the tolerance, four times as many take little more than four times as long; and looks are not far apart.
+    #[test]
+    fn the_work_is_in_proportion_to_the_mesh() {
+        type Shape = fn(&mut Random) -> [f64; 3];
+        fn unit(random: &mut Random) -> [f64; 3] {
+            [(); 3].map(|()| f64::from(random.below(1 << 20)) / 2f64.powi(20))
+        }
+        let shapes: [(&str, Shape, f64); 6] = [
+            ("one point", |_| [0.0; 3], 0.0),
+            ("tolerance over all", unit, 100.0),
+            ("several tolerances", unit, 0.3),
+            ("apart", unit, 1e-9),
+            (
+                "two heaps, just too far apart",
+                |random| unit(random).map(|x| (x > 0.5).into()),
+                0.9,
+            ),
+            (
+                "two places",
+                |random| unit(random).map(|x| (x > 0.5).into()),
+                0.0,
+            ),
+        ];
+        for (name, shape, tolerance) in shapes {
+            let work = [1_000, 4_000, 16_000].map(|count| {
+                let mut random = Random::new(49);
+                let (triangles, positions) = soup(count, |_| shape(&mut random));
+                let (pairs, asked, between) = weld(&triangles, &positions, tolerance);
+                assert_no_corner_is_lost(&triangles, &pairs);
+                assert_eq!(pairs.is_empty(), name == "apart", "{name}");
+                assert!(between < 2_000_000, "{name}: {between}");
+                asked
+            });
+            println!("{name}: {work:?}");
+            assert!(
+                work[1] < 6 * work[0] && work[2] < 6 * work[1],
+                "{name}: {work:?}"
+            );
+            assert!(work[2] < 16_000 * 1_000, "{name}: {work:?}");
+        }
+    }
+
+    #[test]
+    fn it_is_stopped_at_every_look() {
+        let (triangles, positions) = soup(400, |it| [(it % 7) as f64, 0.0, 0.0]);
+        let looks = Cell::new(0);
+        let near = Nearness {
+            position: &|vertex| positions[vertex as usize],
+            tolerance: 0.0,
+            are_near: &|p, q| p == q,
+        };
+        for allowed in 0.. {
+            looks.set(0);
+            let stop = || {
+                looks.set(looks.get() + 1);
+                looks.get() > allowed
+            };
+            if coinciding(&triangles, positions.len(), &near, &stop).is_some() {
+                assert!(looks.get() <= allowed && allowed > 10, "{allowed}");
+                break;
+            }
+            assert_eq!(looks.get(), allowed + 1);
         }
     }
 }

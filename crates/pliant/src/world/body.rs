@@ -784,10 +784,13 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             if !is_box {
                 return Err(ErrorKind::BadLooseBox);
             }
-            all_inside(&loose, &self.stored_positions())?;
+            // Of vertices that are empty it does not matter where they were.
+            let edits = self.edits.as_deref();
+            let is_empty = |vertex| edits.is_some_and(|edits| edits.empty.has(vertex));
+            all_inside(&loose, &self.stored_positions(), is_empty)?;
             if let Some(motion) = self.motion() {
                 let end = motion.end.in_callers_order(&self.order);
-                all_inside(&loose, &end)?;
+                all_inside(&loose, &end, is_empty)?;
             }
         }
         self.loose = loose;
@@ -886,7 +889,7 @@ impl<S: Coordinate> Taking<'_, S> {
             .loose
             .filter(|loose| !(loose.holds(all.lo) && loose.holds(all.hi)))
         {
-            all_inside(&loose, positions)?;
+            all_inside(&loose, positions, |_| false)?;
         }
         none_is_lost(positions)?;
         let order = self.order.vertex_order();
@@ -1029,17 +1032,20 @@ fn bounds_of<S: Real>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {
     bounds
 }
 
-/// Refuses positions of which some are outside a loose box.
+/// Refuses positions of which some are outside a loose box, but for vertices that are empty.
 pub(super) fn all_inside<S: Real>(
     loose: &Bounds<S>,
     positions: &[[S; 3]],
+    is_empty: impl Fn(u32) -> bool,
 ) -> Result<(), ErrorKind> {
-    let is_inside = |&position: &[S; 3]| loose.holds(position);
-    if positions.iter().all(is_inside) {
-        return Ok(());
-    }
-    let error = |vertex, position| ErrorKind::OutsideLooseBox { vertex, position };
-    Err(first_outside(positions, is_inside, error))
+    let mut all = (0..).zip(positions);
+    let outside = all.find(|&(vertex, &position)| !loose.holds(position) && !is_empty(vertex));
+    outside.map_or(Ok(()), |(vertex, position)| {
+        Err(ErrorKind::OutsideLooseBox {
+            vertex: vertex as usize,
+            position: position.map(S::to_f64),
+        })
+    })
 }
 
 /// The error for the first position that is not good; there is one.

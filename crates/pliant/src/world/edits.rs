@@ -35,10 +35,10 @@ const FEWEST: usize = 32;
 const MUCH: usize = 8;
 
 impl<const N: usize, S: Coordinate> Body<N, S> {
-    /// An edit of the mesh of now, without steps.
-    pub(super) fn begin_edit(&self) -> Edit<S> {
-        let [vertices, triangles] = [self.vertex_count(), self.triangle_numbers()];
-        Edit::new(self.id, self.meshes, vertices, triangles)
+    /// An edit of the mesh of now, of a world, without steps.
+    pub(super) fn begin_edit(&self, world: u64) -> Edit<S> {
+        let counts = [self.vertex_count(), self.triangle_numbers()];
+        Edit::new((world, self.id, self.meshes), counts)
     }
 
     /// Whether a triangle in tree order was taken out of the mesh.
@@ -101,7 +101,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     ) -> Result<(), ErrorKind> {
         super::body::validate(triangles, positions)?;
         if let Some(loose) = self.loose {
-            all_inside(&loose, positions)?;
+            all_inside(&loose, positions, |_| false)?;
         }
         let old = self.topology.triangles();
         let numbers = 0..old.len().max(triangles.len());
@@ -241,10 +241,15 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         self.topology.set_vertex_count(outcome.vertices);
         self.topology.set_triangle_count(outcome.triangles);
         if let Some(groups) = &mut self.groups {
-            groups.callers.resize(outcome.vertices, 0);
-            for &(vertex, _) in &outcome.new_vertices {
+            // Of vertices as they were before: one that was split may have gone since, and its number may be another's.
+            let group = |vertex: u32| {
                 let from = outcome.split_from.get(&vertex);
-                let group = from.map_or(0, |&from| groups.callers[from as usize]);
+                from.map_or(0, |&from| groups.callers[from as usize])
+            };
+            let new = outcome.new_vertices.iter();
+            let new: Vec<(u32, u32)> = new.map(|&(vertex, _)| (vertex, group(vertex))).collect();
+            groups.callers.resize(outcome.vertices, 0);
+            for (vertex, group) in new {
                 groups.callers[vertex as usize] = group;
             }
             groups.of_elements = None;

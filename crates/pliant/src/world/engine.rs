@@ -32,7 +32,9 @@ use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Question, Threads};
 use crate::traversal::Visitor;
 use crate::tree::Tree;
+use std::convert::Infallible;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// An engine of any degree. What its methods do is said where [`World`](super::World) has them.
 pub(crate) trait AnyEngine<S>:
@@ -126,6 +128,9 @@ pub(crate) trait AnyEngine<S>:
     fn validate(&self) -> Result<(), String>;
 }
 
+/// How many engines there were.
+static ENGINES: AtomicU64 = AtomicU64::new(0);
+
 /// An engine whose trees have degree `N`.
 pub(super) struct Engine<const N: usize, S: Coordinate> {
     pub(super) common: Common<N, S>,
@@ -141,6 +146,8 @@ pub(super) struct Engine<const N: usize, S: Coordinate> {
     distances: Distances,
     /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
     lent: Vec<[S; 3]>,
+    /// Which world it is, among all of the process.
+    number: u64,
     #[cfg(test)]
     pub(super) grown: Asked<crate::queries::grown::Near<S>>,
 }
@@ -186,6 +193,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             witnesses: Witnesses::default(),
             distances: Distances::default(),
             lent: Vec::new(),
+            number: ENGINES.fetch_add(1, Ordering::Relaxed),
             #[cfg(test)]
             grown: Asked::default(),
         }
@@ -231,16 +239,34 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
     }
 
     /// Ends the motion of every body that has one. The error is that of the first body whose motion cannot be ended.
-    fn end_motions(
+    fn end_motions<E>(
         &mut self,
-        mut end: impl FnMut(&mut Body<N, S>, Instructions, Executor) -> Result<(), ErrorKind>,
-    ) -> Result<(), Error> {
+        mut end: impl FnMut(&mut Body<N, S>, Instructions, Executor) -> Result<(), E>,
+    ) -> Result<(), (BodyId, E)> {
+        let Common {
+            options,
+            instructions,
+            threads,
+            bodies,
+            ..
+        } = &mut self.common;
+        let executor = Executor {
+            threads: threads.here(),
+            interrupt: &Interrupt::default(),
+        };
         let mut ended = Ok(());
-        for rank in 0..self.common.bodies.ids.len() {
-            let id = self.common.bodies.ids[rank];
-            if self.body(id)?.is_moving() {
-                let one = self.change(id, &mut end).and_then(|()| self.mend(id));
-                ended = ended.and(one);
+        for place in &bodies.places {
+            let body = &mut bodies.list[place.index()];
+            if !body.is_moving() {
+                continue;
+            }
+            match end(body, *instructions, executor) {
+                Ok(()) if options.mending && body.mend(options) => {
+                    self.witnesses.forget(body.id);
+                    self.distances.last.forget(body.id);
+                }
+                Ok(()) => {}
+                Err(kind) => ended = ended.and(Err((body.id, kind))),
             }
         }
         self.common.note_movement();
@@ -363,11 +389,14 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
     }
 
     fn edit(&self, id: BodyId) -> Result<Edit<S>, Error> {
-        Ok(self.body(id)?.begin_edit())
+        Ok(self.body(id)?.begin_edit(self.number))
     }
 
     fn apply(&mut self, edit: &Edit<S>) -> Result<Edited, Error> {
         let id = edit.body();
+        if edit.world != self.number {
+            return Err(about(id)(ErrorKind::OutdatedEdit));
+        }
         let options = self.common.options;
         let body = self.common.bodies.get_mut(id)?;
         let edited = body.apply(edit, &options).map_err(about(id))?;
@@ -408,11 +437,10 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
     }
 
     fn finish_motion(&mut self) {
-        let ended = self.end_motions(|body, _, _| {
+        let Ok(()) = self.end_motions::<Infallible>(|body, _, _| {
             body.finish_motion();
             Ok(())
         });
-        debug_assert!(ended.is_ok(), "ends of motions were checked: {ended:?}");
     }
 
     fn advance_motion(&mut self, t: f64) -> Result<(), Error> {
@@ -424,7 +452,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
             body.advance_motion(instructions, executor, t, &mut shape)
         });
         self.lent = shape;
-        advanced
+        advanced.map_err(|(id, kind)| about(id)(kind))
     }
 
     fn end_positions(&self, id: BodyId) -> Result<Option<Vec<[S; 3]>>, Error> {

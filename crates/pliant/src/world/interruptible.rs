@@ -1,7 +1,8 @@
-//! Questions with one answer that may be ended early.
+//! Questions with one answer, and what else takes long, that may be ended early.
 
 use super::{BodyId, Scalar, Selection, World, clearance};
 use crate::close_pairs::CloseTriangles;
+use crate::edit::Edited;
 use crate::error::Error;
 use crate::impacts::Impact;
 use crate::threads::Question;
@@ -77,6 +78,16 @@ impl<S: Scalar> Interruptible<'_, S> {
         cut_off: f64,
     ) -> Result<BTreeMap<BodyId, Vec<f64>>, Error> {
         clearance::clearance(self.world, of, cut_off, Some(self.question))
+    }
+
+    /// [`World::weld`](crate::World::weld), until it is known what is welded; nothing has changed if it is ended.
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn weld(self, body: BodyId, tolerance: f64) -> Result<Edited, Error> {
+        let question = Some(self.question);
+        self.world.weld_unless(body, tolerance, question)
     }
 }
 

@@ -281,7 +281,7 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// [`OutdatedEdit`](crate::ErrorKind::OutdatedEdit) if the mesh was changed since the edit was begun; [`NoTriangles`](crate::ErrorKind::NoTriangles) if none would be left;
+    /// [`OutdatedEdit`](crate::ErrorKind::OutdatedEdit) if the mesh was changed since the edit was begun, or another world began it; [`NoTriangles`](crate::ErrorKind::NoTriangles) if none would be left;
     /// [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle), [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle),
     /// [`NoSuchVertex`](crate::ErrorKind::NoSuchVertex), [`EmptyVertex`](crate::ErrorKind::EmptyVertex),
     /// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange), [`VertexInUse`](crate::ErrorKind::VertexInUse),
@@ -759,7 +759,7 @@ impl<S: Scalar> World<S> {
     ///
     /// It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of and that have no
     /// vertex in common, as [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) looks at them; rounded down by at most
-    /// 1e-6 of itself, and 0 where something touches. If every vertex moves less than that, in whatever direction, none of these pairs
+    /// 1e-6 of itself and 1e-323, and 0 where something touches. If every vertex moves less than that, in whatever direction, none of these pairs
     /// touches, on the way or at the end. The pairs that filters or vertex groups keep apart do not count.
     ///
     /// Cost: that of both queries for close pairs within `cut_off`.
@@ -789,7 +789,7 @@ impl<S: Scalar> World<S> {
     /// How far the surfaces of two bodies are apart, in the shape of now: their closest triangles, with the closest points, the first of
     /// the first body; none if they are further apart than `cut_off`, which may be infinite.
     ///
-    /// The distance is 0 exactly if any of their triangles intersect, or are closer than any number, and whether it is at most the cut-off
+    /// The distance is 0 exactly if any of their triangles intersect, and whether it is at most the cut-off
     /// is decided exactly; it is as good as [`CloseTriangles`] says. Where several triangles are the closest, or others nearer by no more
     /// than 2^-31 of it, it is some of them. Surfaces only: a body wholly inside another is as far from it as its surface is. Filters are
     /// not looked at, and a motion is not.

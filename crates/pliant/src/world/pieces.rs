@@ -4,7 +4,9 @@ use super::{Scalar, World};
 use crate::edit::Edited;
 use crate::error::{Error, ErrorKind};
 use crate::ids::BodyId;
-use crate::mesh;
+use crate::mesh::{self, Nearness};
+use crate::predicates::distance::are_points_within;
+use crate::threads::{Interrupt, Question};
 use std::ops::Range;
 
 /// A body that was a component of another.
@@ -195,8 +197,8 @@ impl<S: Scalar> World<S> {
     }
 
     /// Makes boundary edges one where they coincide: where the ends of one are, one by one, at most a tolerance from those of another, in
-    /// the unit of the positions. Of vertices that become one the lowest stays where it is, the others go. A boundary edge is one that
-    /// exactly one triangle has.
+    /// the unit of the positions, decided exactly. Of vertices that become one the lowest stays where it is, the others go. A boundary edge is
+    /// one that exactly one triangle has.
     ///
     /// Vertices that coincide are not welded where no edges do, and never two corners of one triangle. Says what has changed; nothing, if
     /// nothing coincides.
@@ -214,7 +216,8 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
-    /// Cost: O(m log m).
+    /// Cost: O(m log m), however many are within the tolerance; where not all of these may become one, as often as there are edges that they
+    /// come to.
     ///
     /// # Errors
     ///
@@ -222,6 +225,16 @@ impl<S: Scalar> World<S> {
     /// least 0.
     #[doc(alias = "stitch")]
     pub fn weld(&mut self, body: BodyId, tolerance: f64) -> Result<Edited, Error> {
+        self.weld_unless(body, tolerance, None)
+    }
+
+    /// The same, unless it is ended early.
+    pub(super) fn weld_unless(
+        &mut self,
+        body: BodyId,
+        tolerance: f64,
+        question: Option<Question>,
+    ) -> Result<Edited, Error> {
         let mut edit = self.edit(body)?;
         if !tolerance.is_finite() || tolerance < 0.0 {
             return Err(Error {
@@ -232,8 +245,15 @@ impl<S: Scalar> World<S> {
             });
         }
         let positions = self.positions(body)?;
-        let position = |vertex: u32| positions[vertex as usize].map(Scalar::to_f64);
-        for [kept, gone] in mesh::coinciding(self.triangles(body)?, position, tolerance) {
+        let near = Nearness {
+            position: &|vertex| positions[vertex as usize].map(Scalar::to_f64),
+            tolerance,
+            are_near: &|p, q| are_points_within(&p, &q, tolerance),
+        };
+        let interrupt = Interrupt::new(question);
+        let triangles = self.triangles(body)?;
+        let pairs = mesh::coinciding(triangles, positions.len(), &near, &|| interrupt.is_set());
+        for [kept, gone] in pairs.ok_or(ErrorKind::Interrupted.of_query())? {
             edit.merge_vertices(kept, gone);
         }
         self.apply(&edit)

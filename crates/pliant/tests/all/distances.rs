@@ -316,3 +316,72 @@ fn filters_are_for_the_nearest_body_only() {
     world.set_filter(a, 1, 1).unwrap();
     assert!(world.nearest_body(a, 9.0).unwrap().is_none());
 }
+
+/// Three vertices that are on this side of the plane x + 2 y + 2 z = u, the first at 0, where u is the smallest number; and a triangle in that
+/// plane over 0, which is u / 3 from it. In units of u.
+const CORNER: [[f64; 3]; 3] = [[0.0; 3], [-9.0, 0.0, 0.0], [0.0, -9.0, 0.0]];
+const OVER_IT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]];
+
+/// What is nearer than the smallest number there is, and does not touch, is not said to touch.
+#[test]
+fn only_what_touches_is_at_distance_0() {
+    let u = f64::from_bits(1);
+    let at = |all: [[f64; 3]; 3], by: f64| all.map(|it| it.map(|x| x * by));
+    // A third of u, 2 / 3 of it, and 4 / 3 and 5 / 3; and beyond the normal range, where nothing is rounded to so few digits.
+    for (by, told) in [
+        (1.0, u),
+        (2.0, u),
+        (4.0, u),
+        (5.0, 2.0 * u),
+        (2f64.powi(60), 0.0),
+    ] {
+        let mut world = World::<f64>::new();
+        let corner = world.add(&[[0, 1, 2]], &at(CORNER, by * u)).unwrap();
+        let over_it = world.add(&[[0, 1, 2]], &at(OVER_IT, by * u)).unwrap();
+        let found = world.distance(corner, over_it, 1.0).unwrap().unwrap();
+        let is_told = |distance: f64| {
+            let exact = by / 3.0 * u;
+            let right = if told == 0.0 { exact } else { told };
+            distance == right || told == 0.0 && (distance - exact).abs() <= exact * 1e-9
+        };
+        assert!(is_told(found.distance), "{by}: {found:?}");
+        let direction = found.direction.unwrap();
+        let normal = [-1.0 / 3.0, -2.0 / 3.0, -2.0 / 3.0];
+        assert!((0..3).all(|axis| (direction[axis] - normal[axis]).abs() < 1e-14));
+        let of = Selection::World;
+        let close = world.close_vertex_triangle_pairs(of, 1.0).all().unwrap();
+        let close = close
+            .iter()
+            .find(|it| (it.pair.vertex_body, it.pair.vertex) == (corner, 0));
+        assert!(close.is_some_and(|it| is_told(it.distance) && it.direction.is_some()));
+        let close = world.close_triangle_pairs(of, 1.0).all().unwrap();
+        assert!(close.len() == 1 && is_told(close[0].distance));
+        // Whether they are as near as some number is of the exact distance, whatever number is told.
+        assert!(
+            world
+                .close_triangle_pairs(of, 0.0)
+                .all()
+                .unwrap()
+                .is_empty()
+        );
+        let is_within_u = !world.close_triangle_pairs(of, u).all().unwrap().is_empty();
+        assert_eq!(is_within_u, by <= 3.0, "{by}");
+        assert_eq!(
+            world.distance(corner, over_it, u).unwrap().is_some(),
+            by <= 3.0
+        );
+
+        // One that touches is the nearest, though another was found first.
+        let nearest = world.nearest_body(corner, 1.0).unwrap().unwrap();
+        assert_eq!(nearest.pair.body_b, over_it);
+        let touching = at([[0.0; 3], [-9.0, 0.0, 0.0], [0.0, 0.0, -9.0]], by * u);
+        let touching = world.add(&[[0, 1, 2]], &touching).unwrap();
+        for (of, other) in [(corner, touching), (touching, corner)] {
+            let nearest = world.nearest_body(of, 1.0).unwrap().unwrap();
+            assert_eq!((nearest.pair.body_b, nearest.distance), (other, 0.0));
+            assert_eq!(nearest.direction, None);
+        }
+        let clearance = world.clearance(of, 1.0).unwrap();
+        assert_eq!(clearance[&corner][0], 0.0);
+    }
+}

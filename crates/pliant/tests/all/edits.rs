@@ -16,8 +16,9 @@ struct Known<S> {
     end: Option<Vec<[S; 3]>>,
     /// The number of every edge, once it was asked for.
     edges: BTreeMap<[u32; 2], u32>,
-    /// Vertices that an edit has placed.
+    /// Vertices that an edit has placed, and those of them that have had no triangle since.
     placed: BTreeSet<u32>,
+    alone: BTreeSet<u32>,
 }
 
 /// A body without empty numbers, and what it calls things.
@@ -40,6 +41,7 @@ impl<S: Number> Known<S> {
             end: None,
             edges: BTreeMap::new(),
             placed: BTreeSet::new(),
+            alone: BTreeSet::new(),
         }
     }
 
@@ -309,6 +311,9 @@ fn check<S: Number>(world: &mut World<S>, known: &mut [Known<S>], options: Optio
 
 /// A step of an edit, made both to the edit and to what is known.
 fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
+    let mut alone = std::mem::take(&mut known.alone);
+    alone.retain(|&vertex| !known.is_used(vertex));
+    known.alone = alone;
     let live = known.live_triangles();
     let some = |random: &mut Lcg| live[random.below(live.len() as u32) as usize];
     let position = |random: &mut Lcg| {
@@ -367,6 +372,8 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
             }
             if kept != gone {
                 known.positions[gone as usize] = None;
+                known.placed.remove(&gone);
+                known.alone.remove(&gone);
             }
         }
         5 => {
@@ -390,6 +397,10 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
                 known.placed.insert(vertex);
                 known.positions[vertex as usize] = Some(position);
                 known.groups[vertex as usize] = 0;
+                known.alone.insert(vertex);
+                if random.below(3) == 0 {
+                    return;
+                }
                 let [a, b, _] = known.triangles[some(random) as usize].unwrap();
                 edit.add_triangle([a, b, vertex]);
                 known.triangles.push(Some([a, b, vertex]));
@@ -407,11 +418,12 @@ fn step<S: Number>(edit: &mut Edit<S>, known: &mut Known<S>, random: &mut Lcg) {
 /// What an edit comes to, from the mesh before and after its steps: vertices that no triangle has any more are empty.
 fn finish<S: Number>(before: &Known<S>, known: &mut Known<S>) -> Edited {
     for vertex in 0..known.positions.len() as u32 {
-        let was_used = before.is_used(vertex);
+        let was_used = before.is_used(vertex) && !known.alone.contains(&vertex);
         if was_used && !known.is_used(vertex) {
             known.positions[vertex as usize] = None;
         }
     }
+    known.alone.clear();
     known.end = None;
     let placed = std::mem::take(&mut known.placed);
     let mut edited = Edited::default();

@@ -226,6 +226,227 @@ fn edits_of_another_mesh_or_of_nobody() {
     }
 }
 
+/// An edit is of the world that began it, whatever other worlds call things, those that were made from it too.
+#[test]
+fn edits_of_another_world() {
+    let (triangles, positions) = sheet(4);
+    let new = || {
+        let mut world = World::<f32>::new();
+        let body = world.add(&triangles, &positions).unwrap();
+        (world, body)
+    };
+    let ((world, body), (mut other, same)) = (new(), new());
+    assert_eq!(body, same);
+    let mut edit = world.edit(body).unwrap();
+    edit.remove_triangle(0);
+    for other in [&mut other, &mut world.clone()] {
+        let before = other.triangles(body).unwrap().to_vec();
+        let refused = other.apply(&edit).unwrap_err();
+        assert_eq!(
+            (refused.body, &refused.kind),
+            (Some(body), &Kind::OutdatedEdit)
+        );
+        assert!(refused.to_string().contains("another world"), "{refused}");
+        assert_eq!(other.triangles(body).unwrap(), before);
+        let own = other.edit(body).unwrap();
+        other.apply(&own).unwrap();
+    }
+    let mut world = world;
+    assert_eq!(world.apply(&edit).unwrap().removed_triangles, [0]);
+}
+
+/// Every step that names what an earlier step of the same edit has emptied is refused, or does what it says.
+#[test]
+fn what_an_earlier_step_has_emptied() {
+    let mut edited = Edited::new();
+    let corners = edited.world.triangles(edited.body).unwrap()[edited.live[0] as usize];
+    let ([kept, gone, other], some) = (corners, edited.live[0]);
+    let empty = Kind::EmptyVertex { vertex: gone };
+    let steps: [&dyn Fn(&mut Edit<f32>); 5] = [
+        &|edit| edit.merge_vertices(other, gone),
+        &|edit| edit.merge_vertices(gone, other),
+        &|edit| {
+            edit.split_vertex(gone, &[some]);
+        },
+        &|edit| edit.set_triangle(some, [kept, gone, other]),
+        &|edit| {
+            edit.add_triangle([kept, gone, other]);
+        },
+    ];
+    for step in steps {
+        edited.refuses(&empty, |edit| {
+            edit.merge_vertices(kept, gone);
+            step(edit);
+        });
+    }
+    // One that lost its last triangle is empty at the end, and can have others until then.
+    let used = Kind::VertexInUse { vertex: 1 };
+    let triangles = edited.world.triangles(edited.body).unwrap().to_vec();
+    let at_1 = (0..).zip(&triangles).filter(|(_, it)| it.contains(&1));
+    let at_1: Vec<u32> = at_1.map(|(at, _)| at).collect();
+    assert!(!at_1.is_empty() && at_1.len() < edited.live.len());
+    edited.refuses(&used, |edit| {
+        edit.remove_triangles(&at_1);
+        edit.place_vertex(1, [0.0; 3]);
+    });
+    let twice = Kind::VertexInUse { vertex: gone };
+    edited.refuses(&twice, |edit| {
+        edit.merge_vertices(kept, gone);
+        edit.place_vertex(gone, [0.0; 3]);
+        edit.place_vertex(gone, [1.0; 3]);
+    });
+    let removed = Kind::EmptyTriangle { triangle: some };
+    edited.refuses(&removed, |edit| {
+        edit.remove_triangle(some);
+        edit.split_vertex(kept, &[some]);
+    });
+    edited.refuses(&removed, |edit| {
+        edit.remove_triangle(some);
+        edit.remove_triangle(some);
+    });
+    let replaced = Kind::NotACorner {
+        triangle: some,
+        vertex: gone,
+    };
+    edited.refuses(&replaced, |edit| {
+        edit.set_triangle(some, [kept, other, other]);
+        edit.split_vertex(gone, &[some]);
+    });
+}
+
+/// A vertex that was merged away and then placed is where it was placed, be it alone or with a triangle.
+#[test]
+fn a_vertex_is_placed_after_it_was_merged_away() {
+    for with_triangle in [false, true] {
+        let mut edited = Edited::new();
+        let Edited {
+            world, body, live, ..
+        } = &mut edited;
+        let body = *body;
+        let [kept, gone, other] = world.triangles(body).unwrap()[live[0] as usize];
+        let at = [0.25, 0.5, 4.0];
+        let mut edit = world.edit(body).unwrap();
+        edit.merge_vertices(kept, gone);
+        edit.place_vertex(gone, at);
+        if with_triangle {
+            edit.add_triangle([kept, gone, other]);
+        }
+        let outcome = world.apply(&edit).unwrap();
+        assert_eq!(
+            (outcome.new_vertices, outcome.removed_vertices),
+            (vec![gone], vec![])
+        );
+        assert!(world.live_vertices(body).unwrap()[gone as usize]);
+        assert_eq!(world.positions(body).unwrap()[gone as usize], at);
+        assert_eq!(world.vertex_groups(body).unwrap()[gone as usize], 0);
+        world.validate().unwrap();
+        // It can be used by the next edit, and goes with its last triangle.
+        let mut edit = world.edit(body).unwrap();
+        let added = edit.add_triangle([kept, gone, other]);
+        world.apply(&edit).unwrap();
+        let mut edit = world.edit(body).unwrap();
+        let first = added - u32::from(with_triangle);
+        edit.remove_triangles(&(first..=added).collect::<Vec<_>>());
+        assert_eq!(world.apply(&edit).unwrap().removed_vertices, [gone]);
+        world.validate().unwrap();
+        // Merged away, placed, and merged away: it is gone.
+        let mut edit = world.edit(body).unwrap();
+        edit.place_vertex(gone, at);
+        edit.merge_vertices(kept, gone);
+        let outcome = world.apply(&edit).unwrap();
+        assert_eq!(
+            (outcome.new_vertices, outcome.removed_vertices),
+            (vec![], vec![])
+        );
+        assert!(!world.live_vertices(body).unwrap()[gone as usize]);
+        // With a triangle in between that goes again, it goes with that.
+        let mut edit = world.edit(body).unwrap();
+        edit.merge_vertices(kept, other);
+        edit.place_vertex(other, at);
+        let added = edit.add_triangle([kept, other, kept]);
+        edit.remove_triangle(added);
+        assert_eq!(world.apply(&edit).unwrap().removed_vertices, [other]);
+        world.validate().unwrap();
+    }
+}
+
+/// The group of a vertex is that which the one had that it was split from, whatever becomes of that one's number later.
+#[test]
+fn a_group_outlives_the_number_that_it_was_taken_from() {
+    let mut edited = Edited::new();
+    let Edited {
+        world, body, live, ..
+    } = &mut edited;
+    let body = *body;
+    let corners = world.triangles(body).unwrap()[live[0] as usize];
+    let groups = world.vertex_groups(body).unwrap();
+    let from = corners.into_iter().find(|&it| groups[it as usize] != 0);
+    let from = from.expect("groups are three in turns");
+    let kept = corners.into_iter().find(|&it| it != from).unwrap();
+    let group = groups[from as usize];
+    let mut edit = world.edit(body).unwrap();
+    let split = edit.split_vertex(from, &[live[0]]);
+    let again = edit.split_vertex(split, &[live[0]]);
+    edit.merge_vertices(kept, from);
+    edit.place_vertex(from, [0.5; 3]);
+    let of_placed = edit.split_vertex(from, &[]);
+    world.apply(&edit).unwrap();
+    let groups = world.vertex_groups(body).unwrap();
+    let found = [split, again, from, of_placed].map(|it| groups[it as usize]);
+    assert_eq!(found, [group, group, 0, 0]);
+    world.validate().unwrap();
+}
+
+/// Where a vertex was that an edit has emptied is nothing to a loose box, at the start of a motion and at its end.
+#[test]
+fn a_loose_box_is_round_what_is_there() {
+    let far = [9.0, 9.0, 9.0];
+    let shape = [
+        [0.0; 3],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        far,
+        [7.0, 0.0, 0.0],
+    ];
+    let around = Some(([-1.0; 3], [2.0; 3]));
+    let mut world = World::<f32>::new();
+    let body = world.add(&[[0, 1, 2], [0, 1, 3]], &shape).unwrap();
+    let outside = |world: &mut World<f32>| match world.set_loose_box(body, around) {
+        Err(refused) => match refused.kind {
+            Kind::OutsideLooseBox { vertex, position } => Some((vertex, position)),
+            other => panic!("{other}"),
+        },
+        Ok(()) => None,
+    };
+    assert_eq!(outside(&mut world), Some((3, [9.0; 3])));
+    let mut edit = world.edit(body).unwrap();
+    edit.remove_triangle(1);
+    world.apply(&edit).unwrap();
+    // A vertex that no triangle had is there, and where it is counts.
+    assert_eq!(outside(&mut world), Some((4, [7.0, 0.0, 0.0])));
+    let mut edit = world.edit(body).unwrap();
+    edit.merge_vertices(0, 4);
+    world.apply(&edit).unwrap();
+    let up = shape.map(|[x, y, z]| [x, y, z + 1.5]);
+    world.set_motion(body, &up).unwrap();
+    assert_eq!(outside(&mut world), None);
+    world.set_loose_box(body, None).unwrap();
+    let higher = shape.map(|[x, y, z]| [x, y, z + 2.5]);
+    world.set_motion(body, &higher).unwrap();
+    assert_eq!(outside(&mut world), Some((0, [0.0, 0.0, 2.5])));
+    // A body that was fused, or copied, has none of it either.
+    world.finish_motion();
+    world.set_positions(body, &shape).unwrap();
+    assert_eq!(outside(&mut world), None);
+    assert_eq!(outside(&mut world.clone()), None);
+    let mut edit = world.edit(body).unwrap();
+    edit.place_vertex(3, [3.0; 3]);
+    assert!(matches!(
+        world.apply(&edit).unwrap_err().kind,
+        Kind::OutsideLooseBox { vertex: 3, .. }
+    ));
+}
+
 /// A vertex that goes and comes again within one edit is a new one; one that comes and goes was never there.
 #[test]
 fn within_one_edit_numbers_go_and_come() {

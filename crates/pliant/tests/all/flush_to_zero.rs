@@ -128,3 +128,24 @@ fn what_such_a_thread_would_lose_is_refused() {
     // In a thread that keeps them they are welcome.
     world.set_positions(body, &bad).unwrap();
 }
+
+/// What is nearer than the smallest number that such a thread knows, and does not touch, is told as that.
+#[test]
+fn what_nearly_touches_is_not_said_to_touch() {
+    // A triangle in the plane x + 1000 y + 1000 z = 1, which is 1 / 1414 from 0, in units of 2^-1020 off a place.
+    let unit = 4.0 * f64::MIN_POSITIVE;
+    let at = |all: [[f64; 3]; 3]| all.map(|it| it.map(|x| 2f64.powi(-968) + x * unit));
+    let corner = at([[0.0; 3], [-2000.0, 0.0, 0.0], [0.0, -2000.0, 0.0]]);
+    let over_it = at([[1.0, 0.0, 0.0], [-999.0, 1.0, 0.0], [-999.0, 0.0, 1.0]]);
+    let ask = || {
+        let mut world = World::<f64>::new();
+        let [a, b] = [corner, over_it].map(|shape| world.add(&[[0, 1, 2]], &shape).unwrap());
+        world.distance(a, b, 1.0).unwrap().unwrap()
+    };
+    let exact = ask();
+    assert!((exact.distance / unit - 1.0 / 2_000_001_f64.sqrt()).abs() < 1e-6);
+    if let Some(found) = subnormals_flushed(ask) {
+        assert_eq!(found.distance, f64::MIN_POSITIVE);
+        assert_eq!(found.direction, exact.direction);
+    }
+}

@@ -189,7 +189,7 @@ fn edits_go_on_while_a_tree_is_built() {
             for &vertex in &beside {
                 positions.push(at(vertex, &positions));
             }
-            let mut edit = plain.edit(id).unwrap();
+            let mut edits = [plain.edit(id).unwrap(), mended.edit(id).unwrap()];
             let triangles = plain.triangles(id).unwrap();
             let live = plain.live_triangles(id).unwrap();
             let mut named: Vec<u32> = Vec::new();
@@ -203,19 +203,27 @@ fn edits_go_on_while_a_tree_is_built() {
                 // What an edit did to a triangle is not looked at, so no later one of it touches the same corners.
                 named.extend([a, b, c]);
                 match random.below(4) {
-                    0 => edit.remove_triangle(triangle),
-                    1 => edit.set_triangle(triangle, [b, a, a]),
+                    0 => edits
+                        .iter_mut()
+                        .for_each(|edit| edit.remove_triangle(triangle)),
+                    1 => edits
+                        .iter_mut()
+                        .for_each(|edit| edit.set_triangle(triangle, [b, a, a])),
                     2 => {
-                        let new = edit.split_vertex(a, &[triangle]);
-                        edit.add_triangle([a, b, new]);
+                        for edit in &mut edits {
+                            let new = edit.split_vertex(a, &[triangle]);
+                            edit.add_triangle([a, b, new]);
+                        }
                         beside.push(a.min(first_vertices as u32 - 1));
                     }
                     _ => {
                         let beside_a = a.min(first_vertices as u32 - 1);
-                        let new = edit.add_vertex(at(beside_a, &positions));
+                        for edit in &mut edits {
+                            let new = edit.add_vertex(at(beside_a, &positions));
+                            edit.set_triangle(triangle, [a, b, new]);
+                            edit.add_triangles(&[[b, c, new], [c, a, new]]);
+                        }
                         beside.push(beside_a);
-                        edit.set_triangle(triangle, [a, b, new]);
-                        edit.add_triangles(&[[b, c, new], [c, a, new]]);
                     }
                 }
             }
@@ -223,8 +231,8 @@ fn edits_go_on_while_a_tree_is_built() {
             for &vertex in &beside {
                 positions.push(at(vertex, &positions));
             }
-            for world in [&mut plain, &mut mended] {
-                world.apply(&edit).unwrap();
+            for (world, edit) in [&mut plain, &mut mended].into_iter().zip(&edits) {
+                world.apply(edit).unwrap();
                 world.set_positions(id, &positions).unwrap();
             }
             let of = Selection::Everything;

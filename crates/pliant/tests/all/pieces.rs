@@ -3,6 +3,7 @@
 use crate::common::{Lcg, sheet};
 use pliant::{BodyId, ErrorKind, Pair, Selection, World};
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Sheets of some sizes one above the other, as one mesh: triangles and vertices in an order that mixes them.
 fn sheets(random: &mut Lcg, sides: &[u32]) -> (Vec<[u32; 3]>, Vec<[f32; 3]>) {
@@ -216,4 +217,87 @@ fn what_was_cut_is_welded() {
         let refused = world.weld(body, tolerance).unwrap_err().kind;
         assert!(matches!(refused, ErrorKind::BadDistance { .. }));
     }
+}
+
+/// Two triangles, each with corners of its own, that share a side but for so much; the square is so large.
+fn nearly_joined(world: &mut World<f64>, off: [f64; 3], size: f64) -> pliant::BodyId {
+    let [x, y, z] = off;
+    let square = [
+        [0.0; 3],
+        [size, 0.0, 0.0],
+        [size, size, 0.0],
+        [x, y, z],
+        [size + x, size + y, z],
+        [0.0, size, 0.0],
+    ];
+    world.add(&[[0, 1, 2], [3, 4, 5]], &square).unwrap()
+}
+
+#[test]
+fn the_tolerance_of_a_weld_is_exact_at_every_scale() {
+    let mut world = World::<f64>::new();
+    // Nothing else is known of what two roundings do to squares of these.
+    let apart = nearly_joined(&mut world, [1.5e-162, 0.0, 0.0], 1e-160);
+    assert_eq!(world.weld(apart, 0.0).unwrap(), pliant::Edited::default());
+    assert_eq!(
+        world.weld(apart, 1.4e-162).unwrap(),
+        pliant::Edited::default()
+    );
+    let edited = world.weld(apart, 1.6e-162).unwrap();
+    assert_eq!(edited.removed_vertices, [3, 4]);
+    let u = f64::from_bits(1);
+    for by in [
+        u,
+        1024.0 * u,
+        2f64.powi(-500) * 2f64.powi(-30),
+        2f64.powi(-60),
+        1.0,
+        2f64.powi(100),
+    ] {
+        let off = [2.0 * by, 3.0 * by, 6.0 * by];
+        let body = nearly_joined(&mut world, off, 64.0 * by);
+        let below = (7.0 * by).next_down();
+        assert_eq!(
+            world.weld(body, below).unwrap(),
+            pliant::Edited::default(),
+            "{by}"
+        );
+        let edited = world.weld(body, 7.0 * by).unwrap();
+        assert_eq!(edited.removed_vertices, [3, 4], "{by}");
+    }
+}
+
+/// Ended at any look, a weld has changed nothing; else it does what it does without a question.
+#[test]
+fn a_weld_can_be_interrupted() {
+    let triangles: Vec<[u32; 3]> = (0..3_000)
+        .map(|it| [3 * it, 3 * it + 1, 3 * it + 2])
+        .collect();
+    let positions = vec![[0.0_f32; 3]; 9_000];
+    let mut world = World::<f32>::new();
+    let body = world.add(&triangles, &positions).unwrap();
+    let mut copy = world.clone();
+    let expected = copy.weld(body, 0.0).unwrap();
+    assert_eq!(expected.removed_vertices.len(), 8_997);
+    let mut allowed = 0;
+    loop {
+        let looks = AtomicUsize::new(0);
+        let question = || looks.fetch_add(1, Ordering::Relaxed) >= allowed;
+        match world.interruptible(&question).weld(body, 0.0) {
+            Ok(edited) => {
+                assert_eq!(edited, expected);
+                assert_eq!(
+                    world.triangles(body).unwrap(),
+                    copy.triangles(body).unwrap()
+                );
+                break;
+            }
+            Err(refused) => {
+                assert_eq!((refused.body, refused.kind), (None, ErrorKind::Interrupted));
+                assert_eq!(world.triangles(body).unwrap(), triangles);
+            }
+        }
+        allowed += 1 + allowed / 8;
+    }
+    assert!(allowed > 100, "{allowed} looks are no test");
 }

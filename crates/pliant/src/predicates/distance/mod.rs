@@ -23,6 +23,7 @@
 mod triangles;
 
 use super::integer::{Integer, parts, powers_of_all};
+use crate::geometry::denormals_are_kept;
 #[cfg(test)]
 pub(crate) use triangles::point_in_common;
 pub(crate) use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_triangles};
@@ -76,6 +77,20 @@ pub(crate) fn are_within_distance(elements: &Primitives, distance: f64) -> bool 
     is_within
 }
 
+/// Whether two points are at most so far apart; as [`are_within_distance`], but for most points at once.
+///
+/// Coordinates and the distance are off by nothing, a difference, a square, two sums by 2^-53 of themselves each, and below the normal
+/// range by 2^-1022: that is nothing beside a limit that is not there.
+pub(crate) fn are_points_within(p: &Point, q: &Point, distance: f64) -> bool {
+    let [x, y, z] = std::array::from_fn(|axis| p[axis] - q[axis]);
+    let square = x * x + y * y + z * z;
+    let limit = distance * distance;
+    if limit >= f64::powi(0.5, 900) && (square - limit).abs() > limit * (16.0 * f64::EPSILON) {
+        return square < limit;
+    }
+    are_within_distance(&Primitives::EdgeEdge([*p, *p, *q, *q]), distance)
+}
+
 /// Whether the distance of a pair of features is at most this.
 fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
     if feet.over.is_zero() || distance == 0.0 {
@@ -103,7 +118,7 @@ fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
 }
 
 /// Where elements are closest: distance and direction with an error of less than 2^-48 of themselves, and what is `along` within 2^-48
-/// of the exact one. The distance is zero where they touch, or are closer than any number.
+/// of the exact one. The distance is zero where they touch alone: what is below the smallest number is that, and off by as much.
 #[cold]
 pub(crate) fn closest(elements: &Primitives) -> Closest {
     closest_of(std::slice::from_ref(elements)).1
@@ -136,17 +151,29 @@ fn closest_of(pairs: &[Primitives]) -> (usize, Closest) {
     } else {
         (2.0 * square, exponent - 1)
     };
-    let distance = scaled(square.sqrt(), exponent / 2 + unit);
-    let closest = Closest {
-        distance,
+    let mut closest = Closest {
         along: feet.along,
-        direction: if distance == 0.0 {
-            [0.0; 3]
-        } else {
-            unit_vector(&feet.way)
-        },
+        ..Closest::default()
     };
+    if !feet.over.is_zero() {
+        let distance = scaled(square.sqrt(), exponent / 2 + unit);
+        closest.distance = if distance == 0.0 {
+            smallest()
+        } else {
+            distance
+        };
+        closest.direction = unit_vector(&feet.way);
+    }
     (which, closest)
+}
+
+/// The smallest number that is not zero to this thread.
+fn smallest() -> f64 {
+    if denormals_are_kept() {
+        f64::from_bits(1)
+    } else {
+        f64::MIN_POSITIVE
+    }
 }
 
 impl Primitives {
@@ -357,7 +384,7 @@ mod tests {
     #[test]
     fn the_exact_distance_is_that_of_the_oracle() {
         let mut random = Random::new(41);
-        let [mut inside, mut touching, mut total] = [0; 3];
+        let [mut inside, mut touching, mut tiny, mut total] = [0; 4];
         for round in 0..6_000 {
             let pair = Class::ALL[round % Class::ALL.len()].pair(&mut random);
             for (elements, a, b) in hard_pairs(&pair) {
@@ -379,23 +406,28 @@ mod tests {
                         "{elements:?} {x}"
                     );
                 }
-                if d > f64::MIN_POSITIVE {
-                    let slack = 2f64.powi(-48);
-                    assert_ne!(
-                        compare_distance(&a, &b, d * (1.0 + slack)),
-                        Ordering::Greater
-                    );
-                    assert_ne!(compare_distance(&a, &b, d * (1.0 - slack)), Ordering::Less);
-                }
+                // Below the normal range by no more than the smallest number besides.
+                let slack = 2f64.powi(-48);
+                let [below, above] = [d * (1.0 - slack), d * (1.0 + slack)];
+                let [below, above] = if d > f64::MIN_POSITIVE {
+                    [below, above]
+                } else {
+                    [below.next_down().max(0.0), above.next_up()]
+                };
+                assert_ne!(compare_distance(&a, &b, above), Ordering::Greater);
+                assert_ne!(compare_distance(&a, &b, below), Ordering::Less);
+                let touch = compare_distance(&a, &b, 0.0) == Ordering::Equal;
+                assert_eq!(d == 0.0, touch, "{elements:?}");
                 total += 1;
-                touching += u32::from(d == 0.0);
+                touching += u32::from(touch);
+                tiny += u32::from(!touch && compare_distance(&a, &b, f64::from_bits(1)).is_lt());
                 inside += u32::from(found.along.iter().all(|&x| x > 0.0 && x < 1.0));
                 assert_eq!(d == 0.0, found.direction == [0.0; 3], "{elements:?}");
             }
         }
         assert!(
-            touching > total / 50 && inside > total / 20,
-            "{touching} {inside} {total}"
+            touching > total / 50 && inside > total / 20 && tiny > 20,
+            "{touching} {inside} {tiny} {total}"
         );
     }
 }

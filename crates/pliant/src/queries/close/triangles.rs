@@ -379,7 +379,7 @@ mod tests {
                 (-1.0, found),
             ];
             let off = sum.map(|(by, p)| (by, only(p)));
-            let most = 2f64.powi(-50) * largest + f64::MIN_POSITIVE;
+            let most = 2f64.powi(-50) * largest + 2.0 * f64::from_bits(1);
             assert_ne!(
                 compare_length(&off, most),
                 Ordering::Greater,
@@ -407,35 +407,31 @@ mod tests {
             let d = found.distance;
             let [nearly, hardly] = [2f64.powi(-30), 2f64.powi(-48)];
             let s = size(&a, &b);
-            // Below the normal range no part of a number is a number.
-            let least = f64::MIN_POSITIVE;
+            let least = f64::from_bits(1);
             assert_ne!(
                 compare_distance(&a, &b, d * (1.0 + nearly) + least),
                 Ordering::Greater
             );
-            if d > least {
-                assert_ne!(compare_distance(&a, &b, d * (1.0 - nearly)), Ordering::Less);
-            }
-            if intersect(&a, &b) {
-                assert_eq!(d, 0.0);
-                crossing += 1;
-            }
+            let below = (d * (1.0 - nearly) - least).max(0.0);
+            assert_ne!(compare_distance(&a, &b, below), Ordering::Less);
+            assert_eq!(intersect(&a, &b), d == 0.0, "{a:?} {b:?}");
+            crossing += u64::from(d == 0.0);
             check_points(
                 &a,
                 &b,
                 &found,
                 d * (1.0 + nearly) + 2f64.powi(-40) * s + least,
             );
-            if d > least {
+            if d > 0.0 {
                 apart += 1;
-                let slack = nearly * d + hardly * s;
+                let slack = nearly * d + hardly * s + least;
                 for p in &a {
                     for q in &b {
                         let by = compare_dot(found.direction, *p, *q, d - slack);
                         assert_ne!(by, Ordering::Less, "{a:?} {b:?} {found:?}");
                     }
                 }
-            } else if d == 0.0 {
+            } else {
                 assert_eq!(found.direction, [0.0; 3]);
             }
             for x in [
@@ -479,7 +475,7 @@ mod tests {
                 along: [0.0; 2],
                 apart: f64::INFINITY,
             };
-            let least = f64::MIN_POSITIVE;
+            let least = f64::from_bits(1);
             let found = closest_triangles::<f64>(&a, &b, unknown);
             check_points(&a, &b, &found, 2f64.powi(-40) * size(&a, &b) + least);
             let barycentric = crate::predicates::distance::point_in_common(&a, &b);

@@ -1,0 +1,124 @@
+//! Vertices that become one, and which of them may not: corners of one triangle.
+
+use super::UNINTERRUPTED;
+use std::collections::BTreeSet;
+
+/// The vertices at some edges, by which of them have become one. Those that share a triangle never do.
+pub(super) struct Classes {
+    /// The vertices, in order.
+    vertices: Vec<u32>,
+    /// For each of all vertices its place there, if it has one.
+    places: Vec<u32>,
+    /// By place: another of those that are one, or itself if it stands for them.
+    next: Vec<u32>,
+    /// Of those that stand for others: the lowest of them, and which have a triangle in common with one of them.
+    lowest: Vec<u32>,
+    foes: Vec<BTreeSet<u32>>,
+}
+
+impl Classes {
+    /// Of the ends of some edges; `None` if `stop` said so on the way.
+    pub(super) fn new(
+        triangles: &[[u32; 3]],
+        count: usize,
+        edges: &[[u32; 2]],
+        stop: &dyn Fn() -> bool,
+    ) -> Option<Self> {
+        let mut places = vec![u32::MAX; count];
+        for &vertex in edges.as_flattened() {
+            places[vertex as usize] = 0;
+        }
+        let vertices = (0..count as u32).filter(|&it| places[it as usize] == 0);
+        let vertices: Vec<u32> = vertices.collect();
+        for (place, &vertex) in (0..).zip(&vertices) {
+            places[vertex as usize] = place;
+        }
+        let all = 0..vertices.len() as u32;
+        let mut foes = vec![BTreeSet::new(); vertices.len()];
+        for some in triangles.chunks(UNINTERRUPTED) {
+            for corners in some {
+                let of = |corner: usize| places.get(corners[corner] as usize).copied();
+                for [i, j] in [[0, 1], [1, 2], [2, 0]] {
+                    if let (Some(a), Some(b)) = (of(i), of(j))
+                        && a != u32::MAX
+                        && b != u32::MAX
+                        && a != b
+                    {
+                        foes[a as usize].insert(b);
+                        foes[b as usize].insert(a);
+                    }
+                }
+            }
+            if stop() {
+                return None;
+            }
+        }
+        Some(Self {
+            next: all.clone().collect(),
+            lowest: all.collect(),
+            vertices,
+            places,
+            foes,
+        })
+    }
+
+    /// The place that stands for a vertex.
+    fn of(&mut self, vertex: u32) -> u32 {
+        let mut place = self.places[vertex as usize];
+        while self.next[place as usize] != place {
+            let beyond = self.next[self.next[place as usize] as usize];
+            self.next[place as usize] = beyond;
+            place = beyond;
+        }
+        place
+    }
+
+    /// Whether the ends of two sides, one by one, are not all one and may become it. What they may not, they never may.
+    pub(super) fn may_join(&mut self, [a, b]: [u32; 2], [x, y]: [u32; 2]) -> bool {
+        let [a, b, x, y] = [a, b, x, y].map(|vertex| self.of(vertex));
+        let may = |one: u32, other: u32| !self.foes[one as usize].contains(&other);
+        [a, b] != [x, y] && may(a, x) && may(b, y)
+    }
+
+    /// Makes the ends of two sides one, if they may be. Returns whether they are.
+    pub(super) fn join(&mut self, [a, b]: [u32; 2], [x, y]: [u32; 2]) -> bool {
+        if self.may_join([a, b], [x, y]) {
+            self.make_one(a, x);
+            self.make_one(b, y);
+        }
+        self.of(a) == self.of(x) && self.of(b) == self.of(y)
+    }
+
+    fn make_one(&mut self, a: u32, b: u32) {
+        let [a, b] = [self.of(a), self.of(b)];
+        if a == b {
+            return;
+        }
+        // The fewer are told that they have another name now.
+        let is_more = self.foes[a as usize].len() >= self.foes[b as usize].len();
+        let (kept, gone) = if is_more { (a, b) } else { (b, a) };
+        for foe in std::mem::take(&mut self.foes[gone as usize]) {
+            let of_foe = &mut self.foes[foe as usize];
+            of_foe.remove(&gone);
+            of_foe.insert(kept);
+            self.foes[kept as usize].insert(foe);
+        }
+        self.next[gone as usize] = kept;
+        let lowest = self.lowest[gone as usize].min(self.lowest[kept as usize]);
+        self.lowest[kept as usize] = lowest;
+    }
+
+    /// Pairs of the lowest of those that are one and another of them, sorted by the other.
+    pub(super) fn pairs(&mut self) -> Vec<[u32; 2]> {
+        let mut pairs = Vec::new();
+        for place in 0..self.vertices.len() {
+            let vertex = self.vertices[place];
+            let stands = self.of(vertex);
+            let lowest = self.vertices[self.lowest[stands as usize] as usize];
+            if lowest != vertex {
+                pairs.push([lowest, vertex]);
+            }
+        }
+        pairs
+    }
+}

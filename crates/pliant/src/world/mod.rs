@@ -90,66 +90,11 @@ impl<S: Scalar> Clone for World<S> {
     }
 }
 
+/// Bodies, and the shapes that they have.
 impl<S: Scalar> World<S> {
     /// An empty world with the options that measured best.
     pub fn new() -> Self {
         Self::with_options(Options::default())
-    }
-
-    /// An empty world, with threads of its own if [`Options::threads`] asks for more than one.
-    pub fn with_options(options: Options) -> Self {
-        let threads = Threads::private(options.threads);
-        Self {
-            engine: S::engine(options, threads),
-        }
-    }
-
-    /// An empty world whose queries are shared with the threads of a pool that the application has anyway, so that no others are
-    /// made: the calling thread and as many of the pool's as make [`Options::threads`] together.
-    ///
-    /// Queries may be asked from any thread, those of the pool included. As with everything that waits inside of a rayon pool, such a
-    /// thread may begin other work of the pool while it waits for the end of a query.
-    ///
-    /// ```
-    /// use pliant::{Options, World};
-    /// use std::num::NonZeroUsize;
-    /// use std::sync::Arc;
-    ///
-    /// let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(3).build()?);
-    /// let mut options = Options::default();
-    /// options.threads = NonZeroUsize::new(4).expect("4 is not 0");
-    /// let world = World::<f32>::with_pool(options, Arc::clone(&pool));
-    /// # drop(world);
-    /// # Ok::<(), rayon::ThreadPoolBuildError>(())
-    /// ```
-    pub fn with_pool(options: Options, pool: Arc<rayon::ThreadPool>) -> Self {
-        let threads = Threads::lent(options.threads, pool);
-        Self {
-            engine: S::engine(options, threads),
-        }
-    }
-
-    /// Makes the kernels use other instructions, for tests that all of them give the same answers.
-    #[doc(hidden)]
-    pub fn use_instructions(&mut self, instructions: Instructions) {
-        self.engine.use_instructions(instructions);
-    }
-
-    /// The id of the next body, for whoever writes a world down; none if there are no more.
-    #[doc(hidden)]
-    pub fn next_id(&self) -> Option<u32> {
-        self.engine.next_id()
-    }
-
-    /// Uses no id below this one any more, or none at all, for whoever reads a world that was written down. Ids never go back.
-    #[doc(hidden)]
-    pub fn skip_ids(&mut self, next: Option<u32>) {
-        self.engine.skip_ids(next);
-    }
-
-    /// The options of this world.
-    pub fn options(&self) -> &Options {
-        self.engine.options()
     }
 
     /// Adds a body: triangles as corner indices into positions, shape (m, 3) and (n, 3).
@@ -168,20 +113,6 @@ impl<S: Scalar> World<S> {
     #[doc(alias = "insert")]
     pub fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error> {
         self.engine.add(triangles, positions)
-    }
-
-    /// Removes a body. Its id will not be used again.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn remove(&mut self, body: BodyId) -> Result<(), Error> {
-        self.engine.remove(body)
-    }
-
-    /// The bodies of this world, in the order in which they were added.
-    pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyId> {
-        self.engine.ids().iter().copied()
     }
 
     /// Gives a body a new shape: one position for each of its vertices, shape (n, 3), in the order in which it was added.
@@ -223,271 +154,61 @@ impl<S: Scalar> World<S> {
         })
     }
 
-    /// Gives a body another mesh and its shape, shapes (m, 3) and (n, 3), of any size. Id, filter, ignored pairs and loose box stay;
-    /// triangles and vertices are numbered as these are, and none is empty. A mesh that is not that which the body has ends a motion, and
-    /// takes the vertices their groups.
+    /// Removes a body. Its id will not be used again.
     ///
-    /// What is equal by number stays, what differs is edited. So this costs a comparison of all triangles, which is as quick as
-    /// [`set_positions`](Self::set_positions), and what [`apply`](Self::apply) costs for those that differ. Where they are more than an
-    /// eighth, or vertices fewer than before, all is made anew, which costs as much as [`add`](Self::add): edges have other numbers then.
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn remove(&mut self, body: BodyId) -> Result<(), Error> {
+        self.engine.remove(body)
+    }
+
+    /// The bodies of this world, in the order in which they were added.
+    pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyId> {
+        self.engine.ids().iter().copied()
+    }
+
+    /// An empty world, with threads of its own if [`Options::threads`] asks for more than one.
+    pub fn with_options(options: Options) -> Self {
+        let threads = Threads::private(options.threads);
+        Self {
+            engine: S::engine(options, threads),
+        }
+    }
+
+    /// An empty world whose queries are shared with the threads of a pool that the application has anyway, so that no others are
+    /// made: the calling thread and as many of the pool's as make [`Options::threads`] together.
+    ///
+    /// Queries may be asked from any thread, those of the pool included. As with everything that waits inside of a rayon pool, such a
+    /// thread may begin other work of the pool while it waits for the end of a query.
     ///
     /// ```
-    /// use pliant::{Selection, World};
+    /// use pliant::{Options, World};
+    /// use std::num::NonZeroUsize;
+    /// use std::sync::Arc;
     ///
-    /// let mut world = World::<f32>::new();
-    /// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
-    /// // Cut from corner 0 to the middle of the side across.
-    /// let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 1.0, 0.0]];
-    /// world.set_mesh(body, &[[0, 1, 2], [0, 2, 3]], &positions)?;
-    /// assert_eq!(world.triangle_count(body)?, 2);
-    /// assert!(world.intersections(Selection::Within(body)).first()?.is_none());
-    /// # Ok::<(), pliant::Error>(())
+    /// let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(3).build()?);
+    /// let mut options = Options::default();
+    /// options.threads = NonZeroUsize::new(4).expect("4 is not 0");
+    /// let world = World::<f32>::with_pool(options, Arc::clone(&pool));
+    /// # drop(world);
+    /// # Ok::<(), rayon::ThreadPoolBuildError>(())
     /// ```
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), those of [`add`](Self::add), and
-    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox); the body keeps its mesh and its shape.
-    pub fn set_mesh(
-        &mut self,
-        body: BodyId,
-        triangles: &[[u32; 3]],
-        positions: &[[S; 3]],
-    ) -> Result<(), Error> {
-        self.engine.set_mesh(body, triangles, positions)
+    pub fn with_pool(options: Options, pool: Arc<rayon::ThreadPool>) -> Self {
+        let threads = Threads::lent(options.threads, pool);
+        Self {
+            engine: S::engine(options, threads),
+        }
     }
 
-    /// Begins an edit of a body's mesh: changes that [`apply`](Self::apply) makes all at once, or not at all. See [`Edit`].
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    #[doc(alias = "cut")]
-    #[doc(alias = "tear")]
-    pub fn edit(&self, body: BodyId) -> Result<Edit<S>, Error> {
-        self.engine.edit(body)
+    /// The options of this world.
+    pub fn options(&self) -> &Options {
+        self.engine.options()
     }
+}
 
-    /// Makes the changes of an edit, and says by number what has changed. Triangles and vertices that it does not name keep their numbers,
-    /// edges their numbers if they stay: see [`edges`](Self::edges).
-    ///
-    /// A number that is left empty is [`u32::MAX`] three times in [`triangles`](Self::triangles), and nothing in any answer. Positions keep
-    /// one row for every number; rows of empty vertices are not looked at when they are set, and NaN when they are asked for. Filter,
-    /// ignored pairs and loose box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends if anything
-    /// changes.
-    ///
-    /// Cost: by what the edit names, and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit
-    /// of a body, and when a sixteenth of the triangles were changed since, for the tree is then built anew.
-    ///
-    /// # Errors
-    ///
-    /// [`OutdatedEdit`](crate::ErrorKind::OutdatedEdit) if the mesh was changed since the edit was begun, or another world began it; [`NoTriangles`](crate::ErrorKind::NoTriangles) if none would be left;
-    /// [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle), [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle),
-    /// [`NoSuchVertex`](crate::ErrorKind::NoSuchVertex), [`EmptyVertex`](crate::ErrorKind::EmptyVertex),
-    /// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange), [`VertexInUse`](crate::ErrorKind::VertexInUse),
-    /// [`NotACorner`](crate::ErrorKind::NotACorner), and for new positions those of [`set_positions`](Self::set_positions).
-    pub fn apply(&mut self, edit: &Edit<S>) -> Result<Edited, Error> {
-        self.engine.apply(edit)
-    }
-
-    /// For each number whether it is that of a triangle, shape (m,): false where an edit has left it empty.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn live_triangles(&self, body: BodyId) -> Result<Vec<bool>, Error> {
-        self.engine.live_triangles(body)
-    }
-
-    /// For each number whether it is that of a vertex, shape (n,): false where an edit has left it empty.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn live_vertices(&self, body: BodyId) -> Result<Vec<bool>, Error> {
-        self.engine.live_vertices(body)
-    }
-
-    /// Counts the meshes of a body, and the orders that its trees bring them into: whoever keeps what [`vertex_order`](Self::vertex_order),
-    /// [`edges`](Self::edges) or [`triangles`](Self::triangles) says asks for them again when this is another.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn mesh_revision(&self, body: BodyId) -> Result<u64, Error> {
-        self.engine.mesh_revision(body)
-    }
-
-    /// How much more the tree of a body does than a fresh one would, estimated from what queries for triangles did in the shape of now: pairs
-    /// of nodes that were looked at, for one that a fresh tree would look at. 1 before a query says anything, or where little was looked at.
-    ///
-    /// The first queries after the body was added tell what a fresh tree does. With [`Options::mending`] trees that have decayed are built
-    /// anew, a part of the work whenever the body has a new shape (by [`set_positions`](Self::set_positions) or the end of a motion), as
-    /// soon as that would have paid by now; a tree along the mesh ([`Partition::Connectivity`](crate::Partition::Connectivity)) is not, for
-    /// it would be the same again.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn tree_quality(&self, body: BodyId) -> Result<f64, Error> {
-        self.engine.tree_quality(body)
-    }
-
-    /// Builds the tree of a body anew, on the shape it has now. Id, filters and loose box stay. Worth it when a shape has
-    /// become very different from the one it was built on; never needed for right answers.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn rebuild(&mut self, body: BodyId) -> Result<(), Error> {
-        self.engine.rebuild(body)
-    }
-
-    /// Begins a motion: says where the vertices of a body will be at the end of the step, shape (n, 3). On the way they move on straight
-    /// lines, from the shape that the body has now. Queries for candidates look at the whole way; what intersects is asked of the shape
-    /// of now, as ever. A body without a motion stands still.
-    ///
-    /// The positions are checked as those of [`set_positions`](Self::set_positions) are. A motion takes the place of the one before, and
-    /// ends with [`finish_motion`](Self::finish_motion), [`advance_motion`](Self::advance_motion), the next new shape or mesh.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`set_positions`](Self::set_positions); the body keeps the motion that it has.
-    #[doc(alias = "set_velocity")]
-    pub fn set_motion(&mut self, body: BodyId, end: &[[S; 3]]) -> Result<(), Error> {
-        self.engine.set_motion(body, end)
-    }
-
-    /// Ends all motions: every body that has one gets the shape at its end, without a copy. The others stand still.
-    pub fn finish_motion(&mut self) {
-        self.engine.finish_motion();
-    }
-
-    /// Ends all motions on the way: every body that has one gets the shape in which it is at time `t`, from 0 (where it is) to 1 (the end).
-    /// Each coordinate is x0 + t (x1 - x0), computed in `f64`, each operation rounded, kept between x0 and x1, and rounded to `S`; at 1 it
-    /// is x1, as after [`finish_motion`](Self::finish_motion).
-    ///
-    /// ```
-    /// # use pliant::World;
-    /// let mut world = World::<f32>::new();
-    /// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
-    /// world.set_motion(body, &[[0.0, 0.0, 4.0], [1.0, 0.0, 4.0], [0.0, 1.0, 4.0]])?;
-    /// world.advance_motion(0.25)?;
-    /// assert_eq!(world.positions(body)?[1], [1.0, 0.0, 1.0]);
-    /// assert_eq!(world.end_positions(body)?, None);
-    /// # Ok::<(), pliant::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    ///
-    /// [`BadTime`](crate::ErrorKind::BadTime) if `t` is not from 0 to 1; nothing has moved.
-    pub fn advance_motion(&mut self, t: f64) -> Result<(), Error> {
-        self.engine.advance_motion(t)
-    }
-
-    /// The shape that a body will have at the end of its motion; `None` if it has none.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn end_positions(&self, body: BodyId) -> Result<Option<Vec<[S; 3]>>, Error> {
-        self.engine.end_positions(body)
-    }
-
-    /// Gives every vertex of a body a group, shape (n,): candidates are left out if all their vertices are of one group, in whichever
-    /// bodies they are. Those of group 0, as all are at first, meet all. For vertices that are pinned, or glued together.
-    ///
-    /// They stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. Of the vertices that an [`Edit`] adds, those that
-    /// are split from another have the group of that, the others group 0; what is given for empty vertices is not looked at.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`WrongLength`](crate::ErrorKind::WrongLength).
-    #[doc(alias = "can_vertices_collide")]
-    pub fn set_vertex_groups(&mut self, body: BodyId, groups: &[u32]) -> Result<(), Error> {
-        self.engine.set_vertex_groups(body, groups)
-    }
-
-    /// The group of every vertex of a body.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn vertex_groups(&self, body: BodyId) -> Result<Vec<u32>, Error> {
-        self.engine.vertex_groups(body)
-    }
-
-    /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
-    /// common with the mask of the other. At first both are all ones. A query that names its bodies does not look at them.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    #[doc(alias = "collision_groups")]
-    pub fn set_filter(&mut self, body: BodyId, membership: u32, mask: u32) -> Result<(), Error> {
-        self.engine.set_filter(body, membership, mask)
-    }
-
-    /// The membership and the mask of a body, as [`set_filter`](Self::set_filter) says them.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn filter(&self, body: BodyId) -> Result<(u32, u32), Error> {
-        self.engine.filter(body)
-    }
-
-    /// From now on two bodies do not meet in queries of the whole world, or a body with itself if it is named twice. A query that
-    /// names its bodies does not look at this.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
-        self.engine.ignore(a, b)
-    }
-
-    /// Takes [`ignore`](Self::ignore) back.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
-        self.engine.unignore(a, b)
-    }
-
-    /// The pairs of bodies that [`ignore`](Self::ignore) keeps apart, each once, the lower id first; sorted.
-    pub fn ignored(&self) -> Vec<[BodyId; 2]> {
-        self.engine.ignored()
-    }
-
-    /// Gives a body a box, lower and upper corner, that holds it in every pose to come; `None` takes it away.
-    ///
-    /// The broad phase then works with this box, which stands still, and looks at the exact box only where loose boxes
-    /// overlap. Until it is taken away, a position outside it is refused. Worth it for many bodies that move on their spot.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`BadLooseBox`](crate::ErrorKind::BadLooseBox) if a corner is not finite, is
-    /// above `f32::MAX` in magnitude, or the lower one is above the upper one on some axis, and
-    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox) if the body is not inside now.
-    pub fn set_loose_box(
-        &mut self,
-        body: BodyId,
-        corners: Option<([S; 3], [S; 3])>,
-    ) -> Result<(), Error> {
-        self.engine.set_loose_box(body, corners)
-    }
-
-    /// The lower and the upper corner of the box that [`set_loose_box`](Self::set_loose_box) gave to a body; `None` if it has none.
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
-    pub fn loose_box(&self, body: BodyId) -> Result<Option<([S; 3], [S; 3])>, Error> {
-        self.engine.loose_box(body)
-    }
-
+/// What intersects, what is near, how far apart things are.
+impl<S: Scalar> World<S> {
     /// Asks which triangles intersect, of different bodies or of one: pairs of them, as closed sets. Touching counts. The
     /// [`Selection`] says who is asked about; the [`Query`] that comes back, how much is wanted.
     ///
@@ -663,6 +384,149 @@ impl<S: Scalar> World<S> {
         Query::<CloseTriangles>::new(&mut *self.engine, of).within(distance)
     }
 
+    /// How far the surfaces of two bodies are apart, in the shape of now: their closest triangles, with the closest points, the first of
+    /// the first body; none if they are further apart than `cut_off`, which may be infinite.
+    ///
+    /// The distance is 0 exactly if any of their triangles intersect, and whether it is at most the cut-off
+    /// is decided exactly; it is as good as [`CloseTriangles`] says. Where several triangles are the closest, or others nearer by no more
+    /// than 2^-31 of it, it is some of them. Surfaces only: a body wholly inside another is as far from it as its surface is. Filters are
+    /// not looked at, and a motion is not.
+    ///
+    /// Cost: what a query for intersections does ahead, and the nodes and triangles whose boxes are nearer to each other than the bodies
+    /// are. The triangles that were the closest the last time are measured first.
+    ///
+    /// ```
+    /// # use pliant::World;
+    /// let mut world = World::<f64>::new();
+    /// let wall = world.add(&[[0, 1, 2]], &[[0.0, -9.0, -9.0], [0.0, 9.0, -9.0], [0.0, 0.0, 9.0]])?;
+    /// let gripper = world.add(&[[0, 1, 2]], &[[3.0, 0.0, 0.0], [5.0, 1.0, 0.0], [5.0, 0.0, 1.0]])?;
+    /// let nearest = world.distance(gripper, wall, f64::INFINITY)?.expect("nothing is further apart");
+    /// assert_eq!((nearest.distance, nearest.direction), (3.0, Some([1.0, 0.0, 0.0])));
+    /// assert_eq!((nearest.point_a, nearest.point_b), ([3.0, 0.0, 0.0], [0.0; 3]));
+    /// assert!(world.distance(gripper, wall, 2.0)?.is_none());
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`SameBody`](crate::ErrorKind::SameBody) if both are one,
+    /// [`BadDistance`](crate::ErrorKind::BadDistance) if the cut-off is negative or NaN.
+    #[doc(alias = "separation")]
+    #[doc(alias = "closest_points")]
+    pub fn distance(
+        &mut self,
+        a: BodyId,
+        b: BodyId,
+        cut_off: f64,
+    ) -> Result<Option<CloseTriangles>, Error> {
+        self.engine.distance([a, b], cut_off, None)
+    }
+
+    /// How far a body is from all others that may meet it, as filters say: [`distance`](Self::distance) to the nearest of them, which
+    /// [`pair`](CloseTriangles::pair) names; none if no other is within `cut_off`. Of several that are equally near, it is some of them.
+    ///
+    /// Cost: that of the distance from those whose boxes are nearer than the nearest is.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), and [`BadDistance`](crate::ErrorKind::BadDistance) if the cut-off is negative or NaN.
+    pub fn nearest_body(
+        &mut self,
+        body: BodyId,
+        cut_off: f64,
+    ) -> Result<Option<CloseTriangles>, Error> {
+        self.engine.nearest_body(body, cut_off, None)
+    }
+
+    /// How far each vertex may move before anything can touch: of the selection's bodies one number for each vertex, at most half of
+    /// `cut_off`.
+    ///
+    /// It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of and that have no
+    /// vertex in common, as [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) looks at them; rounded down by at most
+    /// 1e-6 of itself and 1e-323, and 0 where something touches. If every vertex moves less than that, in whatever direction, none of these pairs
+    /// touches, on the way or at the end. The pairs that filters or vertex groups keep apart do not count.
+    ///
+    /// Cost: that of both queries for close pairs within `cut_off`.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// let mut world = World::<f64>::new();
+    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.5], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// let clearance = world.clearance(Selection::World, 2.0)?;
+    /// assert!(clearance[&leaf][0] <= 0.25 && clearance[&leaf][0] > 0.249_999);
+    /// assert!(clearance[&leaf][1] > 0.999_999);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    pub fn clearance(
+        &mut self,
+        of: Selection,
+        cut_off: f64,
+    ) -> Result<BTreeMap<BodyId, Vec<f64>>, Error> {
+        clearance::clearance(self, of, cut_off, None)
+    }
+
+    /// This world, for a question with one answer that is to end early, with an error, when `question` says so. What
+    /// [`Query::interrupt_if`] says of queries holds of these.
+    ///
+    /// ```
+    /// # use pliant::{ErrorKind, World};
+    /// use std::time::{Duration, Instant};
+    ///
+    /// # let mut world = World::<f32>::new();
+    /// # let [robot, wall] = [0.0, 1.0].map(|z| world.add(&[[0, 1, 2]], &[[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]]).unwrap());
+    /// let end = Instant::now() + Duration::from_secs(1);
+    /// let is_late = || Instant::now() > end;
+    /// let nearest = world.interruptible(&is_late).distance(robot, wall, 9.0)?;
+    /// # assert_eq!(nearest.unwrap().distance, 1.0);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn interruptible<'w>(
+        &'w mut self,
+        question: &'w (dyn Fn() -> bool + Sync),
+    ) -> Interruptible<'w, S> {
+        Interruptible {
+            world: self,
+            question,
+        }
+    }
+
+    /// What the last query did, with what [`Query::prepare`] did before it.
+    pub fn statistics(&self) -> &Statistics {
+        self.engine.statistics()
+    }
+}
+
+/// Where bodies are going, what meets on the way, and how far all may go.
+impl<S: Scalar> World<S> {
+    /// Begins a motion: says where the vertices of a body will be at the end of the step, shape (n, 3). On the way they move on straight
+    /// lines, from the shape that the body has now. Queries for candidates look at the whole way; what intersects is asked of the shape
+    /// of now, as ever. A body without a motion stands still.
+    ///
+    /// The positions are checked as those of [`set_positions`](Self::set_positions) are. A motion takes the place of the one before, and
+    /// ends with [`finish_motion`](Self::finish_motion), [`advance_motion`](Self::advance_motion), the next new shape or mesh.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`set_positions`](Self::set_positions); the body keeps the motion that it has.
+    #[doc(alias = "set_velocity")]
+    pub fn set_motion(&mut self, body: BodyId, end: &[[S; 3]]) -> Result<(), Error> {
+        self.engine.set_motion(body, end)
+    }
+
+    /// The shape that a body will have at the end of its motion; `None` if it has none.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn end_positions(&self, body: BodyId) -> Result<Option<Vec<[S; 3]>>, Error> {
+        self.engine.end_positions(body)
+    }
+
     /// Asks which vertices and triangles meet on the way to the end of a motion, and when first. See
     /// [`edge_edge_impacts`](Self::edge_edge_impacts) for the other half: surfaces that are apart first meet where a vertex meets a
     /// triangle or two edges meet.
@@ -754,137 +618,362 @@ impl<S: Scalar> World<S> {
         self.engine.collision_free_step(of, min_distance, None)
     }
 
-    /// How far each vertex may move before anything can touch: of the selection's bodies one number for each vertex, at most half of
-    /// `cut_off`.
-    ///
-    /// It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of and that have no
-    /// vertex in common, as [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) looks at them; rounded down by at most
-    /// 1e-6 of itself and 1e-323, and 0 where something touches. If every vertex moves less than that, in whatever direction, none of these pairs
-    /// touches, on the way or at the end. The pairs that filters or vertex groups keep apart do not count.
-    ///
-    /// Cost: that of both queries for close pairs within `cut_off`.
-    ///
-    /// ```
-    /// # use pliant::{Selection, World};
-    /// let mut world = World::<f64>::new();
-    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
-    /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.5], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
-    /// let clearance = world.clearance(Selection::World, 2.0)?;
-    /// assert!(clearance[&leaf][0] <= 0.25 && clearance[&leaf][0] > 0.249_999);
-    /// assert!(clearance[&leaf][1] > 0.999_999);
-    /// # Ok::<(), pliant::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Query`].
-    pub fn clearance(
-        &mut self,
-        of: Selection,
-        cut_off: f64,
-    ) -> Result<BTreeMap<BodyId, Vec<f64>>, Error> {
-        clearance::clearance(self, of, cut_off, None)
-    }
-
-    /// How far the surfaces of two bodies are apart, in the shape of now: their closest triangles, with the closest points, the first of
-    /// the first body; none if they are further apart than `cut_off`, which may be infinite.
-    ///
-    /// The distance is 0 exactly if any of their triangles intersect, and whether it is at most the cut-off
-    /// is decided exactly; it is as good as [`CloseTriangles`] says. Where several triangles are the closest, or others nearer by no more
-    /// than 2^-31 of it, it is some of them. Surfaces only: a body wholly inside another is as far from it as its surface is. Filters are
-    /// not looked at, and a motion is not.
-    ///
-    /// Cost: what a query for intersections does ahead, and the nodes and triangles whose boxes are nearer to each other than the bodies
-    /// are. The triangles that were the closest the last time are measured first.
+    /// Ends all motions on the way: every body that has one gets the shape in which it is at time `t`, from 0 (where it is) to 1 (the end).
+    /// Each coordinate is x0 + t (x1 - x0), computed in `f64`, each operation rounded, kept between x0 and x1, and rounded to `S`; at 1 it
+    /// is x1, as after [`finish_motion`](Self::finish_motion).
     ///
     /// ```
     /// # use pliant::World;
-    /// let mut world = World::<f64>::new();
-    /// let wall = world.add(&[[0, 1, 2]], &[[0.0, -9.0, -9.0], [0.0, 9.0, -9.0], [0.0, 0.0, 9.0]])?;
-    /// let gripper = world.add(&[[0, 1, 2]], &[[3.0, 0.0, 0.0], [5.0, 1.0, 0.0], [5.0, 0.0, 1.0]])?;
-    /// let nearest = world.distance(gripper, wall, f64::INFINITY)?.expect("nothing is further apart");
-    /// assert_eq!((nearest.distance, nearest.direction), (3.0, Some([1.0, 0.0, 0.0])));
-    /// assert_eq!((nearest.point_a, nearest.point_b), ([3.0, 0.0, 0.0], [0.0; 3]));
-    /// assert!(world.distance(gripper, wall, 2.0)?.is_none());
+    /// let mut world = World::<f32>::new();
+    /// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// world.set_motion(body, &[[0.0, 0.0, 4.0], [1.0, 0.0, 4.0], [0.0, 1.0, 4.0]])?;
+    /// world.advance_motion(0.25)?;
+    /// assert_eq!(world.positions(body)?[1], [1.0, 0.0, 1.0]);
+    /// assert_eq!(world.end_positions(body)?, None);
     /// # Ok::<(), pliant::Error>(())
     /// ```
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`SameBody`](crate::ErrorKind::SameBody) if both are one,
-    /// [`BadDistance`](crate::ErrorKind::BadDistance) if the cut-off is negative or NaN.
-    #[doc(alias = "separation")]
-    #[doc(alias = "closest_points")]
-    pub fn distance(
-        &mut self,
-        a: BodyId,
-        b: BodyId,
-        cut_off: f64,
-    ) -> Result<Option<CloseTriangles>, Error> {
-        self.engine.distance([a, b], cut_off, None)
+    /// [`BadTime`](crate::ErrorKind::BadTime) if `t` is not from 0 to 1; nothing has moved.
+    pub fn advance_motion(&mut self, t: f64) -> Result<(), Error> {
+        self.engine.advance_motion(t)
     }
 
-    /// How far a body is from all others that may meet it, as filters say: [`distance`](Self::distance) to the nearest of them, which
-    /// [`pair`](CloseTriangles::pair) names; none if no other is within `cut_off`. Of several that are equally near, it is some of them.
-    ///
-    /// Cost: that of the distance from those whose boxes are nearer than the nearest is.
+    /// Ends all motions: every body that has one gets the shape at its end, without a copy. The others stand still.
+    pub fn finish_motion(&mut self) {
+        self.engine.finish_motion();
+    }
+}
+
+/// Who may meet whom.
+impl<S: Scalar> World<S> {
+    /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
+    /// common with the mask of the other. At first both are all ones. A query that names its bodies does not look at them.
     ///
     /// # Errors
     ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), and [`BadDistance`](crate::ErrorKind::BadDistance) if the cut-off is negative or NaN.
-    pub fn nearest_body(
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(alias = "collision_groups")]
+    pub fn set_filter(&mut self, body: BodyId, membership: u32, mask: u32) -> Result<(), Error> {
+        self.engine.set_filter(body, membership, mask)
+    }
+
+    /// The membership and the mask of a body, as [`set_filter`](Self::set_filter) says them.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn filter(&self, body: BodyId) -> Result<(u32, u32), Error> {
+        self.engine.filter(body)
+    }
+
+    /// From now on two bodies do not meet in queries of the whole world, or a body with itself if it is named twice. A query that
+    /// names its bodies does not look at this.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
+        self.engine.ignore(a, b)
+    }
+
+    /// Takes [`ignore`](Self::ignore) back.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
+        self.engine.unignore(a, b)
+    }
+
+    /// The pairs of bodies that [`ignore`](Self::ignore) keeps apart, each once, the lower id first; sorted.
+    pub fn ignored(&self) -> Vec<[BodyId; 2]> {
+        self.engine.ignored()
+    }
+
+    /// Gives every vertex of a body a group, shape (n,): candidates are left out if all their vertices are of one group, in whichever
+    /// bodies they are. Those of group 0, as all are at first, meet all. For vertices that are pinned, or glued together.
+    ///
+    /// They stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. Of the vertices that an [`Edit`] adds, those that
+    /// are split from another have the group of that, the others group 0; what is given for empty vertices is not looked at.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`WrongLength`](crate::ErrorKind::WrongLength).
+    #[doc(alias = "can_vertices_collide")]
+    pub fn set_vertex_groups(&mut self, body: BodyId, groups: &[u32]) -> Result<(), Error> {
+        self.engine.set_vertex_groups(body, groups)
+    }
+
+    /// The group of every vertex of a body.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn vertex_groups(&self, body: BodyId) -> Result<Vec<u32>, Error> {
+        self.engine.vertex_groups(body)
+    }
+
+    /// Gives a body a box, lower and upper corner, that holds it in every pose to come; `None` takes it away.
+    ///
+    /// The broad phase then works with this box, which stands still, and looks at the exact box only where loose boxes
+    /// overlap. Until it is taken away, a position outside it is refused. Worth it for many bodies that move on their spot.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`BadLooseBox`](crate::ErrorKind::BadLooseBox) if a corner is not finite, is
+    /// above `f32::MAX` in magnitude, or the lower one is above the upper one on some axis, and
+    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox) if the body is not inside now.
+    pub fn set_loose_box(
         &mut self,
         body: BodyId,
-        cut_off: f64,
-    ) -> Result<Option<CloseTriangles>, Error> {
-        self.engine.nearest_body(body, cut_off, None)
+        corners: Option<([S; 3], [S; 3])>,
+    ) -> Result<(), Error> {
+        self.engine.set_loose_box(body, corners)
     }
 
-    /// This world, for a question with one answer that is to end early, with an error, when `question` says so. What
-    /// [`Query::interrupt_if`] says of queries holds of these.
+    /// The lower and the upper corner of the box that [`set_loose_box`](Self::set_loose_box) gave to a body; `None` if it has none.
     ///
-    /// ```
-    /// # use pliant::{ErrorKind, World};
-    /// use std::time::{Duration, Instant};
+    /// # Errors
     ///
-    /// # let mut world = World::<f32>::new();
-    /// # let [robot, wall] = [0.0, 1.0].map(|z| world.add(&[[0, 1, 2]], &[[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]]).unwrap());
-    /// let end = Instant::now() + Duration::from_secs(1);
-    /// let is_late = || Instant::now() > end;
-    /// let nearest = world.interruptible(&is_late).distance(robot, wall, 9.0)?;
-    /// # assert_eq!(nearest.unwrap().distance, 1.0);
-    /// # Ok::<(), pliant::Error>(())
-    /// ```
-    pub fn interruptible<'w>(
-        &'w mut self,
-        question: &'w (dyn Fn() -> bool + Sync),
-    ) -> Interruptible<'w, S> {
-        Interruptible {
-            world: self,
-            question,
-        }
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn loose_box(&self, body: BodyId) -> Result<Option<([S; 3], [S; 3])>, Error> {
+        self.engine.loose_box(body)
     }
+}
 
-    /// What the last query did, with what [`Query::prepare`] did before it.
-    pub fn statistics(&self) -> &Statistics {
-        self.engine.statistics()
-    }
-
-    /// How many bytes of memory this world holds: bodies, trees, boxes, and the lists that queries keep for the next ones, with all
-    /// that they have room for. Threads, and what a query that is under way takes besides, are not counted.
+/// Meshes that change.
+impl<S: Scalar> World<S> {
+    /// Gives a body another mesh and its shape, shapes (m, 3) and (n, 3), of any size. Id, filter, ignored pairs and loose box stay;
+    /// triangles and vertices are numbered as these are, and none is empty. A mesh that is not that which the body has ends a motion, and
+    /// takes the vertices their groups.
+    ///
+    /// What is equal by number stays, what differs is edited. So this costs a comparison of all triangles, which is as quick as
+    /// [`set_positions`](Self::set_positions), and what [`apply`](Self::apply) costs for those that differ. Where they are more than an
+    /// eighth, or vertices fewer than before, all is made anew, which costs as much as [`add`](Self::add): edges have other numbers then.
     ///
     /// ```
-    /// let mut world = pliant::World::<f32>::new();
+    /// use pliant::{Selection, World};
+    ///
+    /// let mut world = World::<f32>::new();
     /// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
-    /// let with_it = world.memory_usage();
-    /// world.remove(body)?;
-    /// assert!(world.memory_usage() < with_it);
+    /// // Cut from corner 0 to the middle of the side across.
+    /// let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 1.0, 0.0]];
+    /// world.set_mesh(body, &[[0, 1, 2], [0, 2, 3]], &positions)?;
+    /// assert_eq!(world.triangle_count(body)?, 2);
+    /// assert!(world.intersections(Selection::Within(body)).first()?.is_none());
     /// # Ok::<(), pliant::Error>(())
     /// ```
-    pub fn memory_usage(&self) -> usize {
-        self.engine.memory_usage()
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), those of [`add`](Self::add), and
+    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox); the body keeps its mesh and its shape.
+    pub fn set_mesh(
+        &mut self,
+        body: BodyId,
+        triangles: &[[u32; 3]],
+        positions: &[[S; 3]],
+    ) -> Result<(), Error> {
+        self.engine.set_mesh(body, triangles, positions)
     }
 
+    /// Begins an edit of a body's mesh: changes that [`apply`](Self::apply) makes all at once, or not at all. See [`Edit`].
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(alias = "cut")]
+    #[doc(alias = "tear")]
+    pub fn edit(&self, body: BodyId) -> Result<Edit<S>, Error> {
+        self.engine.edit(body)
+    }
+
+    /// Makes the changes of an edit, and says by number what has changed. Triangles and vertices that it does not name keep their numbers,
+    /// edges their numbers if they stay: see [`edges`](Self::edges).
+    ///
+    /// A number that is left empty is [`u32::MAX`] three times in [`triangles`](Self::triangles), and nothing in any answer. Positions keep
+    /// one row for every number; rows of empty vertices are not looked at when they are set, and NaN when they are asked for. Filter,
+    /// ignored pairs and loose box stay; a new vertex has group 0, or that of the vertex that it was split from; a motion ends if anything
+    /// changes.
+    ///
+    /// Cost: by what the edit names, and the triangles at the vertices of that, whatever the size of the mesh; but O(m) for the first edit
+    /// of a body, and when a sixteenth of the triangles were changed since, for the tree is then built anew.
+    ///
+    /// # Errors
+    ///
+    /// [`OutdatedEdit`](crate::ErrorKind::OutdatedEdit) if the mesh was changed since the edit was begun, or another
+    /// world began it; [`NoTriangles`](crate::ErrorKind::NoTriangles) if none would be left;
+    /// [`NoSuchTriangle`](crate::ErrorKind::NoSuchTriangle), [`EmptyTriangle`](crate::ErrorKind::EmptyTriangle),
+    /// [`NoSuchVertex`](crate::ErrorKind::NoSuchVertex), [`EmptyVertex`](crate::ErrorKind::EmptyVertex),
+    /// [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange), [`VertexInUse`](crate::ErrorKind::VertexInUse),
+    /// [`NotACorner`](crate::ErrorKind::NotACorner), and for new positions those of [`set_positions`](Self::set_positions).
+    pub fn apply(&mut self, edit: &Edit<S>) -> Result<Edited, Error> {
+        self.engine.apply(edit)
+    }
+
+    /// For each number whether it is that of a triangle, shape (m,): false where an edit has left it empty.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn live_triangles(&self, body: BodyId) -> Result<Vec<bool>, Error> {
+        self.engine.live_triangles(body)
+    }
+
+    /// For each number whether it is that of a vertex, shape (n,): false where an edit has left it empty.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn live_vertices(&self, body: BodyId) -> Result<Vec<bool>, Error> {
+        self.engine.live_vertices(body)
+    }
+
+    /// Counts the meshes of a body, and the orders that its trees bring them into: whoever keeps what [`vertex_order`](Self::vertex_order),
+    /// [`edges`](Self::edges) or [`triangles`](Self::triangles) says asks for them again when this is another.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn mesh_revision(&self, body: BodyId) -> Result<u64, Error> {
+        self.engine.mesh_revision(body)
+    }
+
+    /// Builds the tree of a body anew, on the shape it has now. Id, filters and loose box stay. Worth it when a shape has
+    /// become very different from the one it was built on; never needed for right answers.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn rebuild(&mut self, body: BodyId) -> Result<(), Error> {
+        self.engine.rebuild(body)
+    }
+
+    /// How much more the tree of a body does than a fresh one would, estimated from what queries for triangles did in the shape of now: pairs
+    /// of nodes that were looked at, for one that a fresh tree would look at. 1 before a query says anything, or where little was looked at.
+    ///
+    /// The first queries after the body was added tell what a fresh tree does. With [`Options::mending`] trees that have decayed are built
+    /// anew, a part of the work whenever the body has a new shape (by [`set_positions`](Self::set_positions) or the end of a motion), as
+    /// soon as that would have paid by now; a tree along the mesh ([`Partition::Connectivity`](crate::Partition::Connectivity)) is not, for
+    /// it would be the same again.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn tree_quality(&self, body: BodyId) -> Result<f64, Error> {
+        self.engine.tree_quality(body)
+    }
+
+    /// For each triangle of a body its component, shape (m,): two are in one if they share a vertex, or hang together through others that
+    /// do. Components are numbered from 0 in the order of their first triangles; an empty number has [`u32::MAX`].
+    ///
+    /// Cost: O(m + n).
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(alias = "connected_components")]
+    pub fn components(&self, body: BodyId) -> Result<Vec<u32>, Error> {
+        self.find_components(body)
+    }
+
+    /// Makes a body of each component, but of the largest, which stays what it is with all its numbers: that with the most triangles, of
+    /// several the first. Returns the new bodies in the order of their first triangles; none, and nothing has changed, if all hangs together.
+    ///
+    /// What they have from the body: filter, loose box, vertex groups, and whom it [ignores](Self::ignore); if it ignores itself, the
+    /// pieces ignore each other and it. So [`Everything`](crate::Selection::Everything) finds what it found. A motion of the body ends, as
+    /// by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let at = |x: f32| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]];
+    /// let body = world.add(&[[0, 1, 2], [3, 4, 5]], &[at(0.0), at(5.0)].concat())?;
+    /// let pieces = world.split(body)?;
+    /// assert_eq!(pieces[0].triangles, [1]);
+    /// assert_eq!(pieces[0].vertices, [3, 4, 5]);
+    /// assert_eq!(world.positions(pieces[0].body)?, at(5.0));
+    /// assert_eq!(world.live_triangles(body)?, [true, false]);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(m + n), and building the trees of the pieces.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`TooManyBodies`](crate::ErrorKind::TooManyBodies), and nothing has changed.
+    pub fn split(&mut self, body: BodyId) -> Result<Vec<Piece>, Error> {
+        self.split_apart(body)
+    }
+
+    /// Puts the triangles and vertices of a second body behind those of a first, and removes the second. Says which numbers they have now.
+    ///
+    /// The first keeps its numbers, its filter and whom it [ignores](Self::ignore); vertices keep their groups. The loose box is then one
+    /// around both if both had one, else there is none. Motions of either end, as by [`apply`](Self::apply). Nothing is welded: see
+    /// [`weld`](Self::weld).
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let at = |x: f32| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]];
+    /// let a = world.add(&[[0, 1, 2]], &at(0.0))?;
+    /// let b = world.add(&[[0, 1, 2]], &at(5.0))?;
+    /// let fused = world.fuse(a, b)?;
+    /// assert_eq!(fused.triangles, [1]);
+    /// assert_eq!(fused.vertices, [3, 4, 5]);
+    /// assert_eq!(world.bodies().len(), 1);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: building a tree for what comes; for both, if the second has more than a sixteenth of the triangles of the first.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`SameBody`](crate::ErrorKind::SameBody), [`TooLarge`](crate::ErrorKind::TooLarge); nothing has changed.
+    #[doc(alias = "merge")]
+    pub fn fuse(&mut self, a: BodyId, b: BodyId) -> Result<Fused, Error> {
+        self.fuse_with(a, b)
+    }
+
+    /// Makes boundary edges one where they coincide: where the ends of one are, one by one, at most a tolerance from those of another, in
+    /// the unit of the positions, decided exactly. Of vertices that become one the lowest stays where it is, the others go. A boundary edge is
+    /// one that exactly one triangle has.
+    ///
+    /// Vertices that coincide are not welded where no edges do, and never two corners of one triangle. Says what has changed; nothing, if
+    /// nothing coincides.
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// // Two triangles, each with vertices of its own.
+    /// let mut world = World::<f32>::new();
+    /// let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let body = world.add(&[[0, 1, 2], [3, 4, 5]], &square)?;
+    /// let edited = world.weld(body, 0.0)?;
+    /// assert_eq!(edited.removed_vertices, [3, 4]);
+    /// assert_eq!(world.triangles(body)?, [[0, 1, 2], [0, 2, 5]]);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(m log m), however many are within the tolerance; where not all of these may become one, as often as there are edges that they
+    /// come to.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`BadDistance`](crate::ErrorKind::BadDistance) if the tolerance is not a finite number that is at
+    /// least 0.
+    #[doc(alias = "stitch")]
+    pub fn weld(&mut self, body: BodyId, tolerance: f64) -> Result<Edited, Error> {
+        self.weld_unless(body, tolerance, None)
+    }
+}
+
+/// What a body is, and what its tree looks like.
+impl<S: Scalar> World<S> {
     /// The triangles of a body as they were added and edited, shape (m, 3): three times [`u32::MAX`] for a number that an [`Edit`] has left
     /// empty.
     ///
@@ -937,6 +1026,42 @@ impl<S: Scalar> World<S> {
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn vertex_count(&self, body: BodyId) -> Result<usize, Error> {
         self.engine.vertex_count(body)
+    }
+
+    /// The order in which queries read the vertices of a body, as the caller numbers them: at place i of memory is vertex
+    /// `order[i]`. Shape (n,).
+    ///
+    /// Queries are faster on a body whose vertices come in this order already, the more so the larger it is. A simulation that
+    /// can choose stores them so: vertex i of the new body is vertex `order[i]` of the old one, and triangles name the new
+    /// numbers. The tree of the new body is the same, and its order is 0, 1, 2, ...
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let mut triangles = vec![[9, 1, 2], [2, 1, 3], [4, 8, 6]];
+    /// let positions: Vec<[f32; 3]> = (0..10).map(|i| [i as f32, (i * i % 7) as f32, 0.0]).collect();
+    /// let body = world.add(&triangles, &positions)?;
+    ///
+    /// let order = world.vertex_order(body)?.to_vec();
+    /// let positions: Vec<_> = order.iter().map(|&old| positions[old as usize]).collect();
+    /// let mut new_number = vec![0; order.len()];
+    /// for (new, &old) in order.iter().enumerate() {
+    ///     new_number[old as usize] = new as u32;
+    /// }
+    /// for corner in triangles.as_flattened_mut() {
+    ///     *corner = new_number[*corner as usize];
+    /// }
+    /// let body = world.add(&triangles, &positions)?;
+    /// assert!(world.vertex_order(body)?.iter().copied().eq(0..10));
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn vertex_order(&self, body: BodyId) -> Result<&[u32], Error> {
+        self.engine.vertex_order(body)
     }
 
     /// The tree of a body in numbers.
@@ -1001,40 +1126,19 @@ impl<S: Scalar> World<S> {
         self.engine.tree_boxes(body, level)
     }
 
-    /// The order in which queries read the vertices of a body, as the caller numbers them: at place i of memory is vertex
-    /// `order[i]`. Shape (n,).
-    ///
-    /// Queries are faster on a body whose vertices come in this order already, the more so the larger it is. A simulation that
-    /// can choose stores them so: vertex i of the new body is vertex `order[i]` of the old one, and triangles name the new
-    /// numbers. The tree of the new body is the same, and its order is 0, 1, 2, ...
-    ///
-    /// # Errors
-    ///
-    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    /// How many bytes of memory this world holds: bodies, trees, boxes, and the lists that queries keep for the next ones, with all
+    /// that they have room for. Threads, and what a query that is under way takes besides, are not counted.
     ///
     /// ```
-    /// use pliant::World;
-    ///
-    /// let mut world = World::<f32>::new();
-    /// let mut triangles = vec![[9, 1, 2], [2, 1, 3], [4, 8, 6]];
-    /// let positions: Vec<[f32; 3]> = (0..10).map(|i| [i as f32, (i * i % 7) as f32, 0.0]).collect();
-    /// let body = world.add(&triangles, &positions)?;
-    ///
-    /// let order = world.vertex_order(body)?.to_vec();
-    /// let positions: Vec<_> = order.iter().map(|&old| positions[old as usize]).collect();
-    /// let mut new_number = vec![0; order.len()];
-    /// for (new, &old) in order.iter().enumerate() {
-    ///     new_number[old as usize] = new as u32;
-    /// }
-    /// for corner in triangles.as_flattened_mut() {
-    ///     *corner = new_number[*corner as usize];
-    /// }
-    /// let body = world.add(&triangles, &positions)?;
-    /// assert!(world.vertex_order(body)?.iter().copied().eq(0..10));
+    /// let mut world = pliant::World::<f32>::new();
+    /// let body = world.add(&[[0, 1, 2]], &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// let with_it = world.memory_usage();
+    /// world.remove(body)?;
+    /// assert!(world.memory_usage() < with_it);
     /// # Ok::<(), pliant::Error>(())
     /// ```
-    pub fn vertex_order(&self, body: BodyId) -> Result<&[u32], Error> {
-        self.engine.vertex_order(body)
+    pub fn memory_usage(&self) -> usize {
+        self.engine.memory_usage()
     }
 
     /// Checks every invariant of every tree: the structure, that each box that claims to be valid is the box of the vertices below it
@@ -1048,6 +1152,27 @@ impl<S: Scalar> World<S> {
     /// A sentence that names the body and what is wrong.
     pub fn validate(&self) -> Result<(), String> {
         self.engine.validate()
+    }
+}
+
+/// For tests, and for who writes worlds down.
+impl<S: Scalar> World<S> {
+    /// Makes the kernels use other instructions, for tests that all of them give the same answers.
+    #[doc(hidden)]
+    pub fn use_instructions(&mut self, instructions: Instructions) {
+        self.engine.use_instructions(instructions);
+    }
+
+    /// The id of the next body, for whoever writes a world down; none if there are no more.
+    #[doc(hidden)]
+    pub fn next_id(&self) -> Option<u32> {
+        self.engine.next_id()
+    }
+
+    /// Uses no id below this one any more, or none at all, for whoever reads a world that was written down. Ids never go back.
+    #[doc(hidden)]
+    pub fn skip_ids(&mut self, next: Option<u32>) {
+        self.engine.skip_ids(next);
     }
 }
 

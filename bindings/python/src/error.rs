@@ -114,9 +114,14 @@ impl From<pliant::Error> for Refused {
                 .with("triangle", triangle)
                 .with("vertex", vertex as usize)
                 .with("vertices", vertices),
-            ErrorKind::WrongLength { expected, found } => {
-                refused.with("expected", expected).with("found", found)
-            }
+            ErrorKind::WrongLength {
+                what,
+                expected,
+                found,
+            } => refused
+                .with("what", Fact::Text(what.to_owned()))
+                .with("expected", expected)
+                .with("found", found),
             ErrorKind::BadPosition { vertex, position }
             | ErrorKind::OutsideLooseBox { vertex, position } => refused
                 .with("vertex", vertex)

@@ -156,7 +156,11 @@ impl State {
         let found = given.len();
         if expected != found {
             let body = Some(body);
-            let kind = ErrorKind::WrongLength { expected, found };
+            let kind = ErrorKind::WrongLength {
+                what: "positions",
+                expected,
+                found,
+            };
             return Err(Error { body, kind }.into());
         }
         Ok(match given {

@@ -733,8 +733,8 @@ impl Check {
                 let counts = |&triangle: &u32| {
                     let corners = triangles[triangle as usize];
                     let before = corners.map(|it| start[it as usize].map(f64::from));
-                    !pliant::is_degenerate(before)
-                        || !pliant::is_degenerate(corners.map(|it| end.get(it)))
+                    !pliant::exact::is_degenerate(before)
+                        || !pliant::exact::is_degenerate(corners.map(|it| end.get(it)))
                 };
                 let body = |triangle| body(triangle).filter(|_| !skip || counts(&triangle));
                 let edges = world.edges(id)?;

@@ -125,6 +125,6 @@ pub(crate) fn has_degenerate(sources: &[Source], row: Row) -> bool {
             let source = &sources[source as usize];
             let positions = source.positions();
             let corners = source.triangles()[triangle as usize];
-            pliant::is_degenerate(corners.map(|vertex| positions.get(vertex)))
+            pliant::exact::is_degenerate(corners.map(|vertex| positions.get(vertex)))
         })
 }

@@ -28,7 +28,8 @@
 use crate::found::Row;
 use crate::joined::{Joined, Meshes};
 use crate::pieces::NONE;
-use pliant::{ContactKind, side_of_plane};
+use pliant::ContactKind;
+use pliant::exact::side_of_plane;
 use std::cmp::Ordering::{self, Equal, Greater};
 use std::collections::HashMap;
 
@@ -68,7 +69,7 @@ pub(crate) fn only_touch(meshes: &impl Meshes, pairs: &[(Row, ContactKind)]) -> 
 fn has_no_area(meshes: &impl Meshes, [source_a, a, source_b, b]: Row) -> bool {
     [(source_a, a), (source_b, b)]
         .iter()
-        .any(|&(source, triangle)| pliant::is_degenerate(points(meshes, source, triangle)))
+        .any(|&(source, triangle)| pliant::exact::is_degenerate(points(meshes, source, triangle)))
 }
 
 fn points(meshes: &impl Meshes, source: u32, triangle: u32) -> [Point; 3] {
@@ -193,7 +194,7 @@ impl Surfaces {
                     .find(|&(p, q)| {
                         let ends = [p, q].map(|vertex| meshes.position(other[0], vertex));
                         ends.iter()
-                            .all(|&end| pliant::is_degenerate([line[0], line[1], end]))
+                            .all(|&end| pliant::exact::is_degenerate([line[0], line[1], end]))
                     });
                 let around = match along {
                     // Edge on edge, which comes twice.
@@ -238,7 +239,7 @@ impl Surfaces {
                 .find(|&it| it != p && it != q)
                 .unwrap_or(p);
             let apex = meshes.position(source, apex);
-            let has_area = !pliant::is_degenerate([ends[0], ends[1], apex]);
+            let has_area = !pliant::exact::is_degenerate([ends[0], ends[1], apex]);
             let is_forward = runs_along(corners, p, q) == is_same_way;
             has_area.then_some(Half { apex, is_forward }).ok_or(Passes)
         };

@@ -38,11 +38,13 @@ pub enum ErrorKind {
         /// The vertices the body has.
         vertices: usize,
     },
-    /// The number of positions is not the number of vertices of the body.
+    /// The number of positions, or of groups, is not the number of vertices of the body.
     WrongLength {
+        /// `"positions"` or `"groups"`.
+        what: &'static str,
         /// Vertices of the body.
         expected: usize,
-        /// Positions given.
+        /// How many were given.
         found: usize,
     },
     /// A coordinate is NaN, infinite, or larger than `f32::MAX` in magnitude.
@@ -198,9 +200,11 @@ impl fmt::Display for ErrorKind {
                     "triangle {triangle} names vertex {vertex}, but there are {vertices} vertices (counted from 0)"
                 )
             }
-            Self::WrongLength { expected, found } => {
-                write!(f, "{found} positions for {expected} vertices")
-            }
+            Self::WrongLength {
+                what,
+                expected,
+                found,
+            } => write!(f, "{found} {what} for {expected} vertices"),
             Self::BadPosition { vertex, position } => write!(
                 f,
                 "vertex {vertex} is at {position:?}; coordinates must be finite and at most {:e} in magnitude",

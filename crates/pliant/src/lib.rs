@@ -35,7 +35,7 @@
 //! | what is near, now or on the way | [`World::vertex_triangle_candidates`], [`edge_edge_candidates`](World::edge_edge_candidates); [`VertexTriangle`], [`EdgeEdge`]; [`World::edges`] |
 //! | what is close, how far apart | [`World::close_vertex_triangle_pairs`], [`close_edge_edge_pairs`](World::close_edge_edge_pairs), [`close_triangle_pairs`](World::close_triangle_pairs); [`distance`](World::distance), [`nearest_body`](World::nearest_body); [`clearance`](World::clearance) |
 //! | where bodies are going | [`World::set_motion`], [`finish_motion`](World::finish_motion), [`advance_motion`](World::advance_motion) |
-//! | what meets on the way, and how far all may go | [`World::vertex_triangle_impacts`], [`edge_edge_impacts`](World::edge_edge_impacts), [`first_impact`](World::first_impact), [`collision_free_step`](World::collision_free_step); of single pairs, [`vertex_triangle_impacts`], [`edge_edge_impacts`] |
+//! | what meets on the way, and how far all may go | [`World::vertex_triangle_impacts`], [`edge_edge_impacts`](World::edge_edge_impacts), [`first_impact`](World::first_impact), [`free_step`](World::free_step), [`collision_free_step`](World::collision_free_step); of single pairs, [`vertex_triangle_impacts`], [`edge_edge_impacts`] |
 //! | of whom | [`Selection`]: the whole world, each body with itself too, two bodies, one with itself |
 //! | and how much | [`Query::all`], [`first`](Query::first), [`visit`](Query::visit), [`visit_some`](Query::visit_some); [`at_most`](Query::at_most), [`interrupt_if`](Query::interrupt_if); [`World::interruptible`] |
 //! | who may meet whom | [`World::set_filter`], [`ignore`](World::ignore), [`unignore`](World::unignore); of candidates, [`set_vertex_groups`](World::set_vertex_groups) |
@@ -45,6 +45,7 @@
 //! | how trees are built and updated | [`Options`], [`Degree`], [`Partition`], [`Update`]; [`World::tree_shape`], [`tree_cut`](World::tree_cut), [`vertex_order`](World::vertex_order) |
 //! | threads | [`Options::threads`], or your own pool: [`World::with_pool`] |
 //! | single or double precision | [`Scalar`] |
+//! | exact decisions on single points and triangles | [`exact`] |
 //! | the answer without any tree, to compare with | [`reference`](mod@reference) |
 //! | what a body looks like, for pictures | [`World::triangles`], [`positions`](World::positions), [`tree_boxes`](World::tree_boxes), [`NodeBox`] |
 //! | a whole simulation | `crates/pliant/examples/cloth_on_ball` in the repository: a cloth that falls on a moving ball and reacts to what is found |
@@ -58,16 +59,17 @@
 //! of the paper is.
 //!
 //! ```text
-//! world         bodies and their shapes; the one place where the phases meet
-//! mesh          what the caller said, and how a tree orders it; never moves
+//! world         bodies, their shapes, motions and edits; the one place where the phases meet
+//! mesh          what the caller said, how a tree orders it, its edges; what an edit makes of it
 //! geometry      f32 or f64 coordinates, boxes in f32, rounded outward
 //! tree          nodes of degree 2, 4, 8, and sets of their boxes; building: by shape, by mesh, balanced
 //! update        which boxes are made when: bottom-up, top-down, hybrid
 //! broad_phase   brute force; sweep and prune; a tree of bodies
 //! traversal     tree against tree, tree against itself, for any kind of query
-//! queries       one room a kind: what two leaves do to each other
-//! predicates    triangle against triangle, exact
-//! kernels       the inner loops, over boxes side by side
+//! queries       one room a kind: intersections and contacts, candidates, close pairs, impacts
+//! predicates    exact: whether and how triangles intersect, how far elements are apart, when they meet
+//! sort          hits in order
+//! kernels       the inner loops, over boxes and points side by side
 //! threads       one or many, private or lent
 //! reference     slow and obviously right
 //! ```
@@ -107,12 +109,19 @@ pub use impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 #[doc(hidden)]
 pub use kernels::Instructions;
 pub use options::{BroadPhase, Degree, Options, Partition, Update};
+#[doc(hidden)]
+pub use pair_impacts::pair_impacts;
 pub use pair_impacts::{edge_edge_impacts, vertex_triangle_impacts};
-pub use predicates::{is_degenerate, side_of_plane};
 pub use statistics::Statistics;
 pub use world::{
-    Fused, Interruptible, NodeBox, Piece, Query, Scalar, Selection, Timed, TreeShape, World,
+    FreeStep, Fused, InContact, Interruptible, NodeBox, Piece, Query, Scalar, Selection, TreeShape,
+    World,
 };
+
+/// Exact decisions on single points and triangles, for who asks about shapes beside a world.
+pub mod exact {
+    pub use crate::predicates::{is_degenerate, side_of_plane};
+}
 
 // A module of the documentation alone; its code is compiled and run like that of the README, with which this page begins.
 #[cfg(any(doc, doctest))]

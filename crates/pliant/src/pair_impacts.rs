@@ -7,6 +7,7 @@ use crate::error::{Error, ErrorKind};
 use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
 use crate::kernels::{Instructions, dispatch};
 use crate::predicates::motion::{Grid, Moving, impact};
+use crate::threads::Interrupt;
 use crate::world::Scalar;
 
 /// When vertices first meet triangles that move: of each pair the vertex and the three corners, at the start and at the end of the motion.
@@ -41,7 +42,7 @@ pub fn vertex_triangle_impacts<S: Scalar>(
     end: &[[[S; 3]; 4]],
     width: f64,
 ) -> Result<Vec<Option<[f64; 2]>>, Error> {
-    impacts(false, start, end, width)
+    pair_impacts(false, start, end, width, None)
 }
 
 /// When edges first meet edges that move: of each pair both ends of the one and both of the other, at the start and at the end of the
@@ -56,17 +57,27 @@ pub fn edge_edge_impacts<S: Scalar>(
     end: &[[[S; 3]; 4]],
     width: f64,
 ) -> Result<Vec<Option<[f64; 2]>>, Error> {
-    impacts(true, start, end, width)
+    pair_impacts(true, start, end, width, None)
 }
 
 /// The corners of a pair at the start and at the end, each with padding.
 type Padded = [[[f64; 4]; 4]; 2];
 
-fn impacts<S: Scalar>(
+/// So many eights are known to be apart before it is asked whether somebody wants to stop.
+const UNINTERRUPTED: usize = 1024;
+
+/// Of vertices and triangles or of edges, ended early where `question` says so: it is asked before each pair that takes long.
+///
+/// # Errors
+///
+/// Those of [`vertex_triangle_impacts`], and [`Interrupted`](crate::ErrorKind::Interrupted).
+#[doc(hidden)]
+pub fn pair_impacts<S: Scalar>(
     are_edges: bool,
     start: &[[[S; 3]; 4]],
     end: &[[[S; 3]; 4]],
     width: f64,
+    question: Option<&(dyn Fn() -> bool + Sync)>,
 ) -> Result<Vec<Option<[f64; 2]>>, Error> {
     if start.len() != end.len() {
         return Err(ErrorKind::DifferentCounts {
@@ -84,7 +95,12 @@ fn impacts<S: Scalar>(
     let grid = Grid::new(width);
     let instructions = Instructions::widest();
     let mut all = Vec::with_capacity(start.len());
-    for (start, end) in start.chunks(8).zip(end.chunks(8)) {
+    let interrupt = Interrupt::new(question);
+    let interrupted = || Err(ErrorKind::Interrupted.of_query());
+    for (place, (start, end)) in start.chunks(8).zip(end.chunks(8)).enumerate() {
+        if place % UNINTERRUPTED == 0 && interrupt.is_set() {
+            return interrupted();
+        }
         let mut eight: [Padded; 8] = [[[[0.0; 4]; 4]; 2]; 8];
         for lane in 0..8 {
             // What is left of the last eight is filled with the first.
@@ -102,16 +118,20 @@ fn impacts<S: Scalar>(
         } else {
             vertices_and_triangles(i, &corners, 1.0, 0.0)
         });
-        all.extend((0..start.len()).map(|lane| {
+        for (lane, corners) in eight.iter().enumerate().take(start.len()) {
             if are_apart >> lane & 1 == 1 {
-                return None;
+                all.push(None);
+                continue;
+            }
+            if interrupt.is_set() {
+                return interrupted();
             }
             let moving = Moving {
                 are_edges,
-                corners: eight[lane].map(|corners| corners.map(|[x, y, z, _]| [x, y, z])),
+                corners: corners.map(|corners| corners.map(|[x, y, z, _]| [x, y, z])),
             };
-            impact(&moving, grid).0
-        }));
+            all.push(impact(&moving, grid).0);
+        }
     }
     Ok(all)
 }

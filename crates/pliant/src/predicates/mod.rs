@@ -1,10 +1,16 @@
-//! Whether two triangles intersect, decided exactly, one pair at a time.
+//! What is decided exactly, one pair at a time, and says the last word wherever lanes are not certain.
 //!
-//! `orientation` gives the sign of a determinant of four points: by a floating-point filter with a proven bound, and by exact
-//! arithmetic where the filter is not certain; `lattice` is that arithmetic where integers of 128 bits are enough, which they are
-//! for most exact contact, and `accumulator` for coordinates near the smallest there are. `triangles` decides on these signs alone,
-//! so its answer is that of exact arithmetic: independent of scale, of the order of triangles and corners, of processor and
-//! compiler.
+//! **Triangles.** `orientation` gives the sign of a determinant of four points: by a floating-point
+//! filter with a proven bound, and by exact arithmetic where the filter is not certain. `lattice` is
+//! that arithmetic where integers of 128 bits are enough, which they are for most exact contact;
+//! `accumulator` is for coordinates near the smallest there are. `triangles` decides on these signs
+//! alone whether two triangles intersect, `contact_kind` how they do. So the answer is that of exact
+//! arithmetic: independent of scale, of the order of triangles and corners, of processor and compiler.
+//!
+//! **Elements.** `gap` decides whether boxes of elements are near each other (candidates), `distance`
+//! how far elements are apart and whether that is at most so far (close pairs), and `motion` whether
+//! and when they meet that move (impacts): each in double precision where that is certain, else in the
+//! integers of any length of `integer`.
 //!
 //! The paper uses the test of Möller (1997), which decides on rounded interval ends and a tolerance.
 
@@ -35,8 +41,10 @@ pub(crate) use triangles::triangles_intersect;
 /// most `f32::MAX` in magnitude; with others the answer is false. Single precision, widened, is as good.
 ///
 /// ```
-/// assert!(pliant::is_degenerate([[0.0; 3], [1.0; 3], [3.0; 3]]));
-/// assert!(!pliant::is_degenerate([[0.0; 3], [1.0; 3], [3.0, 3.0, 3.0 + 1e-15]]));
+/// use pliant::exact::is_degenerate;
+///
+/// assert!(is_degenerate([[0.0; 3], [1.0; 3], [3.0; 3]]));
+/// assert!(!is_degenerate([[0.0; 3], [1.0; 3], [3.0, 3.0, 3.0 + 1e-15]]));
 /// ```
 pub fn is_degenerate([a, b, c]: [[f64; 3]; 3]) -> bool {
     if ![a, b, c].iter().all(is_in_range) {
@@ -60,7 +68,7 @@ pub fn is_degenerate([a, b, c]: [[f64; 3]; 3]) -> bool {
 /// use std::cmp::Ordering::{Equal, Greater, Less};
 ///
 /// let floor = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-/// let sides = [1e-300, 0.0, -1e-300].map(|z| pliant::side_of_plane(floor, [5.0, 7.0, z]));
+/// let sides = [1e-300, 0.0, -1e-300].map(|z| pliant::exact::side_of_plane(floor, [5.0, 7.0, z]));
 /// assert_eq!(sides, [Greater, Equal, Less]);
 /// ```
 pub fn side_of_plane([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> Ordering {

@@ -51,6 +51,8 @@ pub(super) struct Body<const N: usize, S> {
     motions: u64,
     /// Edges, and who owns what, once somebody asks.
     pub(super) elements: OnceLock<Box<Elements>>,
+    /// Whether somebody asked before the tree was exchanged, or another body was made like this one.
+    edges_were_known: bool,
     /// None where all vertices meet.
     pub(super) groups: Option<Box<VertexGroups>>,
     /// Once the mesh is edited.
@@ -216,6 +218,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             motion: None,
             motions: 0,
             elements: OnceLock::new(),
+            edges_were_known: false,
             groups: None,
             edits: None,
         }
@@ -251,6 +254,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
             }),
             motions: self.motions,
             elements: self.edited_elements(),
+            edges_were_known: self.edges_are_known(),
             groups: self.groups.as_ref().map(|groups| {
                 Box::new(VertexGroups {
                     callers: groups.callers.clone(),
@@ -285,6 +289,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
                 edits.take_out(triangle);
             }
         }
+        self.edges_were_known = self.edges_are_known();
         match (self.elements.get_mut(), &self.edits) {
             (Some(elements), Some(edits)) if elements.follows() => {
                 elements.append(&self.order, &edits.gone, TreeTriangle(0), 0);
@@ -434,6 +439,30 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         })
     }
 
+    /// Whether the edges have numbers that stay: from when somebody asks for them on.
+    fn edges_are_known(&self) -> bool {
+        self.edges_were_known || self.elements.get().is_some()
+    }
+
+    /// Of a mesh that is going to be edited: finds out the edges if they have numbers that stay.
+    pub(super) fn remember_edges(&self) {
+        if self.edges_were_known {
+            self.known_elements();
+        }
+    }
+
+    /// The edges, if they have numbers that stay.
+    pub(super) fn numbered_edges(&self) -> Option<&[[u32; 2]]> {
+        self.edges_are_known().then(|| self.edges())
+    }
+
+    /// Numbers the edges as those of another body with this mesh are. Returns false if they are not its edges, or have numbers already.
+    pub(super) fn number_edges(&mut self, edges: &[[u32; 2]]) -> bool {
+        let is_new = !self.edges_are_known() && self.known_elements().is_some();
+        let (elements, topology) = (self.elements.get_mut(), &self.topology);
+        is_new && elements.is_some_and(|elements| elements.renumber(edges, topology))
+    }
+
     /// The edges, as the caller numbers them.
     pub(super) fn edges(&self) -> &[[u32; 2]] {
         self.known_elements().map_or(&[], Elements::callers)
@@ -478,6 +507,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     pub(super) fn set_groups(&mut self, groups: &[u32]) -> Result<(), ErrorKind> {
         if groups.len() != self.vertex_count() {
             return Err(ErrorKind::WrongLength {
+                what: "groups",
                 expected: self.vertex_count(),
                 found: groups.len(),
             });
@@ -872,6 +902,7 @@ impl<S: Coordinate> Taking<'_, S> {
     fn take(&self, place: &mut Positions<S>, positions: &[[S; 3]]) -> Result<Bounds<S>, ErrorKind> {
         if positions.len() != place.len() {
             return Err(ErrorKind::WrongLength {
+                what: "positions",
                 expected: place.len(),
                 found: positions.len(),
             });

@@ -30,14 +30,9 @@ pub(super) fn clearance<S: Scalar>(
     cut_off: f64,
     question: Option<Question>,
 ) -> Result<Clearances, Error> {
-    let of_selection: Vec<BodyId> = match of {
-        Selection::World | Selection::Everything => world.bodies().collect(),
-        Selection::Between(a, b) => vec![a, b],
-        Selection::Within(a) => vec![a],
-    };
     let mut clearances = Clearances::new();
     let mut corners: BTreeMap<BodyId, (Vec<[u32; 3]>, Vec<[u32; 2]>)> = BTreeMap::new();
-    for body in of_selection {
+    for body in of.bodies(world) {
         let vertices = world.vertex_count(body)?;
         clearances.insert(body, vec![half_of(cut_off); vertices]);
         let mesh = (world.triangles(body)?.to_vec(), world.edges(body)?.to_vec());

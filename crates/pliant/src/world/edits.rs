@@ -217,6 +217,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
 
     /// Changes the mesh, and what is said of it in the caller's numbers; nothing in tree order.
     fn follow(&mut self, outcome: &Outcome<S>) {
+        self.remember_edges();
         let Some(edits) = &mut self.edits else {
             return;
         };

@@ -81,9 +81,12 @@ pub(crate) trait AnyEngine<S>:
     fn finish_motion(&mut self);
     fn advance_motion(&mut self, t: f64) -> Result<(), Error>;
     fn end_positions(&self, id: BodyId) -> Result<Option<Vec<[S; 3]>>, Error>;
+    fn is_moving(&self, id: BodyId) -> Result<bool, Error>;
     fn set_vertex_groups(&mut self, id: BodyId, groups: &[u32]) -> Result<(), Error>;
     fn vertex_groups(&self, id: BodyId) -> Result<Vec<u32>, Error>;
     fn edges(&self, id: BodyId) -> Result<&[[u32; 2]], Error>;
+    fn numbered_edges(&self, id: BodyId) -> Result<Option<&[[u32; 2]]>, Error>;
+    fn number_edges(&mut self, id: BodyId, edges: &[[u32; 2]]) -> Result<bool, Error>;
     fn set_filter(&mut self, id: BodyId, membership: u32, mask: u32) -> Result<(), Error>;
     fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error>;
     fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error>;
@@ -460,6 +463,10 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         Ok(end.map(std::borrow::Cow::into_owned))
     }
 
+    fn is_moving(&self, id: BodyId) -> Result<bool, Error> {
+        Ok(self.body(id)?.is_moving())
+    }
+
     fn set_vertex_groups(&mut self, id: BodyId, groups: &[u32]) -> Result<(), Error> {
         let body = self.common.bodies.get_mut(id)?;
         body.set_groups(groups).map_err(about(id))
@@ -471,6 +478,14 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
 
     fn edges(&self, id: BodyId) -> Result<&[[u32; 2]], Error> {
         Ok(self.body(id)?.edges())
+    }
+
+    fn numbered_edges(&self, id: BodyId) -> Result<Option<&[[u32; 2]]>, Error> {
+        Ok(self.body(id)?.numbered_edges())
+    }
+
+    fn number_edges(&mut self, id: BodyId, edges: &[[u32; 2]]) -> Result<bool, Error> {
+        Ok(self.common.bodies.get_mut(id)?.number_edges(edges))
     }
 
     fn set_filter(&mut self, id: BodyId, membership: u32, mask: u32) -> Result<(), Error> {

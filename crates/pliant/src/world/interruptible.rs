@@ -1,6 +1,6 @@
 //! Questions with one answer, and what else takes long, that may be ended early.
 
-use super::{BodyId, Scalar, Selection, World, clearance};
+use super::{BodyId, FreeStep, Scalar, Selection, World, clearance};
 use crate::close_pairs::CloseTriangles;
 use crate::edit::Edited;
 use crate::error::Error;
@@ -65,6 +65,16 @@ impl<S: Scalar> Interruptible<'_, S> {
     pub fn collision_free_step(self, of: Selection, min_distance: f64) -> Result<f64, Error> {
         let engine = &mut self.world.engine;
         engine.collision_free_step(of, min_distance, Some(self.question))
+    }
+
+    /// [`World::free_step`](crate::World::free_step).
+    ///
+    /// # Errors
+    ///
+    /// See [`Interruptible`].
+    pub fn free_step(self, of: Selection, min_distance: f64) -> Result<FreeStep, Error> {
+        self.world
+            .find_free_step(of, min_distance, Some(self.question))
     }
 
     /// [`World::clearance`](crate::World::clearance).

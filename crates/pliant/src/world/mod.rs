@@ -1,9 +1,19 @@
 //! The world: bodies, their shapes, and the questions that users ask.
 //!
-//! `World` is what users see; behind it an `engine` of some degree is the one place where the phases meet. `bodies` are there, each a
-//! `body` whose `positions` are in the caller's order or in the tree's; `body_pairs` says who may meet whom in a `selection`, `asked`
-//! answers a `query` of some kind, pair by pair (`step`) or many pairs at once (`scheduler`); `witness` is the last first pair, `origin`
-//! what boxes are relative to. `debug_view` and `tree_cut` are for those who look at trees, `validate` looks at every invariant.
+//! `World` is what users see; behind it an `engine` of some degree is the one place where the phases
+//! meet. `bodies` are there, each a `body` of one `part` or several, whose `positions` are in the
+//! caller's order or in the tree's. `body_pairs` says who may meet whom in a `selection`.
+//!
+//! `asked` answers a `query` of some kind, pair by pair (`step`) or many pairs at once (`scheduler`);
+//! `witness` is the last first pair, `origin` what boxes are relative to. Close pairs are put in order
+//! and measured in `close`; how far bodies are apart is found in `distance`, how far vertices may go in
+//! `clearance`. What meets first, and how far everything may go, is found in `impacts`; `free_step` says
+//! besides how that begins. `interruptible` has the questions with one answer that may end early.
+//!
+//! Meshes change by `edits`, which need an `edit_state`; `pieces` makes bodies from one and one from
+//! bodies. How far a tree has decayed is counted in `decay`, and `mending` builds another
+//! (`mending_state`). `debug_view` and `tree_cut` are for those who look at trees, `validate` looks at
+//! every invariant.
 
 mod asked;
 mod bodies;
@@ -17,6 +27,7 @@ mod distance;
 mod edit_state;
 mod edits;
 mod engine;
+mod free_step;
 mod impacts;
 mod interruptible;
 mod mending;
@@ -50,16 +61,18 @@ use crate::threads::Threads;
 pub(crate) use body::validate as validate_body;
 pub use debug_view::{NodeBox, TreeShape};
 use engine::AnyEngine;
+pub use free_step::{FreeStep, InContact};
 pub use interruptible::Interruptible;
 pub use pieces::{Fused, Piece};
-pub use query::{Query, Timed};
+pub use query::Query;
 pub use scalar::Scalar;
 pub use selection::Selection;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-/// Bodies that change their shape, and the questions which of their triangles intersect.
+/// Bodies that change their shape, and the questions which of their triangles intersect, which of
+/// their vertices, edges and triangles are near each other, and which meet on their way.
 ///
 /// `S` is the type of the coordinates, `f32` or `f64`. Moving a body is [`set_positions`](Self::set_positions); there is
 /// nothing else to call: every query brings up to date what it touches, and none can answer for old positions.
@@ -585,10 +598,63 @@ impl<S: Scalar> World<S> {
         self.engine.first_impact(of, width, None)
     }
 
+    /// How far everything may go on its way to the end of a motion and stay further apart than
+    /// `min_distance`, a time t from 0 to 1 to call [`advance_motion`](Self::advance_motion) with;
+    /// and what that number does not say. `t` is what [`collision_free_step`](Self::collision_free_step)
+    /// gives, and promises what that does.
+    ///
+    /// It promises nothing for what is in contact at the start. Surfaces that are through each other
+    /// meet on every way out, so `t` may be small for no other reason. Elements that touch may go through
+    /// each other; those that are nearer than `min_distance` are kept from touching, not from coming
+    /// nearer. [`begins_in_contact`](FreeStep::begins_in_contact) names the first such pair:
+    ///
+    /// - triangles that intersect in the shape of now, of those that
+    ///   [`intersections`](Self::intersections) looks at, unless all six vertices are of one
+    ///   [group](Self::set_vertex_groups);
+    /// - if there are none, elements at most `min_distance` apart, of those that
+    ///   [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) and
+    ///   [`edge_edge_impacts`](Self::edge_edge_impacts) look at; with a `min_distance` of 0, that touch.
+    ///
+    /// Both are decided exactly, and touching counts. So a world in which no pair is named, and which is
+    /// advanced by such steps alone, never has one, unless groups of vertices let it. What is not found
+    /// are triangles that share a vertex of the mesh and are through each other beyond it.
+    ///
+    /// A mesh with edges shorter than `min_distance` is always that near to itself: see whether it is
+    /// [`InContact::Triangles`], or ask with a smaller one. Elements further apart than `min_distance` by
+    /// a thousandth of it or less are in no contact, but may stop the step at 0.
+    ///
+    /// Without any motion there is nowhere to go, and `t` is 1: [`moves`](FreeStep::moves) is false then.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// # let mut world = World::<f64>::new();
+    /// # let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// # let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 2.0], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// world.set_motion(leaf, &[[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// let step = world.free_step(Selection::Everything, 0.0)?;
+    /// assert!(step.moves && step.begins_in_contact.is_none());
+    /// assert!(step.t > 0.6 && step.t < 2.0 / 3.0);
+    /// world.advance_motion(step.t)?;
+    /// assert!(world.intersections(Selection::Everything).first()?.is_none());
+    /// assert!(!world.free_step(Selection::Everything, 0.0)?.moves);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: that of [`collision_free_step`](Self::collision_free_step), of both queries for close pairs
+    /// within `min_distance`, and of the first intersection. [`statistics`](Self::statistics) are those
+    /// of the first alone.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    pub fn free_step(&mut self, of: Selection, min_distance: f64) -> Result<FreeStep, Error> {
+        self.find_free_step(of, min_distance, None)
+    }
+
     /// How far everything may go on its way to the end of a motion and stay further apart than `min_distance`: a time t from 0 to 1 to call
     /// [`advance_motion`](Self::advance_motion) with. It is proven that on straight ways to the shape that this makes, rounded as it is, no
     /// vertex meets a triangle and no edge another. 1 if that is so of the whole motion; then [`finish_motion`](Self::finish_motion) does
-    /// the same.
+    /// the same. 1 also if nothing moves, and less without a word if the start intersects: [`free_step`](Self::free_step) says so.
     ///
     /// With a `min_distance` of 0, t is at least 0.9 of the exact time of the first contact, if up to 0.91 of it everything is apart by 9 units
     /// in the last place of the largest coordinate; else perhaps smaller, or 0. What meets at the start already does not count: it is in
@@ -1161,6 +1227,28 @@ impl<S: Scalar> World<S> {
     #[doc(hidden)]
     pub fn use_instructions(&mut self, instructions: Instructions) {
         self.engine.use_instructions(instructions);
+    }
+
+    /// The edges of a body, if anybody has asked for them, for whoever writes a world down: their
+    /// numbers stay. None if nobody has; they will be sorted.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(hidden)]
+    pub fn numbered_edges(&self, body: BodyId) -> Result<Option<&[[u32; 2]]>, Error> {
+        self.engine.numbered_edges(body)
+    }
+
+    /// Numbers the edges of a body as they were when the world was written down. Returns false if
+    /// these are not the edges of its mesh, or somebody has asked for them.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(hidden)]
+    pub fn number_edges(&mut self, body: BodyId, edges: &[[u32; 2]]) -> Result<bool, Error> {
+        self.engine.number_edges(body, edges)
     }
 
     /// The id of the next body, for whoever writes a world down; none if there are no more.

@@ -249,24 +249,20 @@ impl<'w, H: Copy> Query<'w, H> {
     }
 }
 
-/// Hits that have a time.
-pub trait Timed: sealed::Timed {}
-
-mod sealed {
-    pub trait Timed {}
-}
-
-impl sealed::Timed for VertexTriangleImpact {}
-impl sealed::Timed for EdgeEdgeImpact {}
-impl Timed for VertexTriangleImpact {}
-impl Timed for EdgeEdgeImpact {}
-
-impl<H: Timed> Query<'_, H> {
+impl Query<'_, VertexTriangleImpact> {
     /// How wide the interval of an impact may be: `high - low` is at most this, 10^-6 if nothing is said. Finite, at least 0; 0 for two
     /// neighbouring numbers, which are as near as there are.
     ///
     /// The interval is the cell of a grid: its ends are the multiples next to the exact time of the largest power of two that is not above
     /// the width; or numbers next to it, where these are further from each other than that. A width of 10^-6 costs next to nothing.
+    pub fn width(mut self, width: f64) -> Self {
+        self.request.width = width;
+        self
+    }
+}
+
+impl Query<'_, EdgeEdgeImpact> {
+    /// How wide the interval of an impact may be, as of vertices and triangles.
     pub fn width(mut self, width: f64) -> Self {
         self.request.width = width;
         self

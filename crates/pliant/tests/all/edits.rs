@@ -679,3 +679,131 @@ fn the_motion_after_an_edit_is_another() {
         assert_eq!(met(&mut world), BTreeSet::from([0]));
     }
 }
+
+/// Takes out, tears off, adds: what gives edges that come and go.
+fn some_edit(world: &mut World<f32>, body: BodyId, random: &mut Lcg) {
+    let live = world.live_triangles(body).unwrap();
+    let live: Vec<u32> = (0..).zip(live).filter(|it| it.1).map(|it| it.0).collect();
+    let mut some = || live[random.below(live.len() as u32) as usize];
+    let (one, other) = (some(), some());
+    let corners = world.triangles(body).unwrap()[one as usize];
+    let mut edit = world.edit(body).unwrap();
+    match other % 3 {
+        0 => edit.remove_triangle(one),
+        1 => drop(edit.split_vertex(corners[0], &[one])),
+        _ => {
+            let vertex = edit.add_vertex([other as f32, 0.5, 1.0]);
+            edit.set_triangle(one, [corners[0], corners[1], vertex]);
+        }
+    }
+    world.apply(&edit).unwrap();
+}
+
+/// Once somebody has asked for them, edges keep their numbers, whether a world was copied since, its trees were built anew or mended
+/// themselves, or it was written down and read.
+#[test]
+fn numbers_of_edges_stay_in_copies_and_whatever_becomes_of_trees() {
+    let (triangles, positions) = sheet(8);
+    let mut random = Lcg(6);
+    for is_asked in [true, false] {
+        let mut world = World::<f32>::new();
+        let body = world.add(&triangles, &positions).unwrap();
+        if is_asked {
+            world.edges(body).unwrap();
+        }
+        let mut rebuilt = world.clone();
+        rebuilt.rebuild(body).unwrap();
+        let mut worlds = vec![world.clone(), rebuilt.clone(), rebuilt, world];
+        for round in 0..30 {
+            let seed = random.below(u32::MAX);
+            for world in &mut worlds {
+                some_edit(world, body, &mut Lcg(seed.into()));
+            }
+            if round % 5 == 4 {
+                let copy = worlds[0].clone();
+                worlds[0] = copy;
+                worlds[1].rebuild(body).unwrap();
+            }
+            if round % 3 == 2 {
+                let all: Vec<_> = worlds.iter().map(|it| it.edges(body).unwrap()).collect();
+                assert!(
+                    all.iter().all(|edges| *edges == all[0]),
+                    "{is_asked}, {round}"
+                );
+            }
+        }
+        worlds.iter().for_each(|world| world.validate().unwrap());
+    }
+}
+
+/// Numbers that were written down make another world answer with the same rows, now and after more edits.
+#[test]
+fn numbers_of_edges_are_taken_over() {
+    let (triangles, positions) = sheet(6);
+    for round in 0..40 {
+        let mut random = Lcg(round);
+        let mut world = World::<f32>::new();
+        let body = world.add(&triangles, &positions).unwrap();
+        assert_eq!(world.numbered_edges(body), Ok(None));
+        world.edges(body).unwrap();
+        for _ in 0..random.below(12) {
+            some_edit(&mut world, body, &mut random);
+        }
+        let numbers = world.numbered_edges(body).unwrap().unwrap().to_vec();
+        assert_eq!(numbers, world.edges(body).unwrap());
+
+        // As it is read: the triangles with whatever in the place of those that are not there, which goes again.
+        let (now, mut rows) = (
+            world.triangles(body).unwrap(),
+            world.positions(body).unwrap(),
+        );
+        let live = world.live_triangles(body).unwrap();
+        let some = now[live.iter().position(|&it| it).unwrap()];
+        let fill = |(it, is_live): (&[u32; 3], &bool)| if *is_live { *it } else { some };
+        let filled: Vec<_> = now.iter().zip(&live).map(fill).collect();
+        let empty: Vec<u32> = (0..)
+            .zip(world.live_vertices(body).unwrap())
+            .filter(|it| !it.1)
+            .map(|it| it.0)
+            .collect();
+        for &vertex in &empty {
+            rows[vertex as usize] = rows[some[0] as usize];
+        }
+        let mut other = World::<f32>::new();
+        other.add(&filled, &rows).unwrap();
+        let mut edit = other.edit(body).unwrap();
+        let gone = (0..).zip(&live).filter(|it| !it.1).map(|it| it.0);
+        edit.remove_triangles(&gone.collect::<Vec<u32>>());
+        for vertex in empty {
+            edit.merge_vertices(some[0], vertex);
+        }
+        other.apply(&edit).unwrap();
+
+        // Others are refused, and so are numbers for edges that have some.
+        let first = numbers.iter().position(|it| *it != [u32::MAX; 2]).unwrap();
+        let mut another = numbers.clone();
+        another[first] = [0, 0];
+        let mut missing = numbers.clone();
+        missing[first] = [u32::MAX; 2];
+        let twice = [&numbers[..], &[numbers[first]]].concat();
+        for bad in [another, missing, twice, vec![]] {
+            assert_eq!(other.clone().number_edges(body, &bad), Ok(false));
+        }
+        assert_eq!(other.number_edges(body, &numbers), Ok(true));
+        assert_eq!(other.number_edges(body, &numbers), Ok(false));
+        other.validate().unwrap();
+        for _ in 0..6 {
+            let seed = u64::from(random.below(u32::MAX));
+            for world in [&mut world, &mut other] {
+                some_edit(world, body, &mut Lcg(seed));
+            }
+            assert_eq!(world.edges(body), other.edges(body));
+            let of = Selection::Within(body);
+            assert_eq!(
+                world.edge_edge_candidates(of, 0.1).all(),
+                other.edge_edge_candidates(of, 0.1).all()
+            );
+            other.validate().unwrap();
+        }
+    }
+}

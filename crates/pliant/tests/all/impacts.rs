@@ -9,6 +9,7 @@ use pliant::{
 };
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// What a test knows of a body.
 #[derive(Clone, Debug)]
@@ -605,4 +606,38 @@ fn refusals() {
     assert_eq!(refused.kind, expected);
     let first = world.first_impact(Selection::Everything, 1e-6).unwrap();
     assert_eq!(first.map(|impact: Impact| impact.low()), None);
+}
+
+/// Single pairs are ended early between any two that take long, and now and then among those that do not.
+#[test]
+fn single_pairs_are_interrupted_between_pairs() {
+    let triangle = [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+    let pair = |z: f64| {
+        let [a, b, c] = triangle;
+        [[1.0, 1.0, z], a, b, c]
+    };
+    // Every third meets: those are decided one by one.
+    let heights = (0..60).map(|at| if at % 3 == 0 { -1.0 } else { 1.0 });
+    let start = [pair(1.0); 60];
+    let end: Vec<_> = heights.map(pair).collect();
+    let asked = AtomicU32::new(0);
+    let ask = |until: u32, start: &[[[f64; 3]; 4]], end: &[[[f64; 3]; 4]]| {
+        asked.store(0, Ordering::Relaxed);
+        let question = || asked.fetch_add(1, Ordering::Relaxed) >= until;
+        let answer = pliant::pair_impacts(false, start, end, 1e-6, Some(&question));
+        (answer, asked.load(Ordering::Relaxed))
+    };
+    let all = pliant::vertex_triangle_impacts(&start, &end, 1e-6);
+    assert_eq!(ask(u32::MAX, &start, &end), (all, 21));
+    for until in 0..21 {
+        let (answer, asked) = ask(until, &start, &end);
+        assert_eq!(
+            (answer.unwrap_err().kind, asked),
+            (ErrorKind::Interrupted, until + 1)
+        );
+    }
+    // None of a hundred thousand meets.
+    let far = vec![pair(1.0); 100_000];
+    let (answer, asked) = ask(u32::MAX, &far, &far);
+    assert!(answer.unwrap().iter().all(Option::is_none) && asked > 10);
 }

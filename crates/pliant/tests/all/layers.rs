@@ -117,12 +117,15 @@ const LAYERS: [(&str, &[&str]); 25] = [
             "world",
         ],
     ),
-    ("pair_impacts", &["error", "kernels", "predicates", "world"]),
+    (
+        "pair_impacts",
+        &["error", "kernels", "predicates", "threads", "world"],
+    ),
     ("lib", &[]),
 ];
 
 /// What the root exports under a name of its own, and where it is from.
-const EXPORTED: [(&str, &str); 33] = [
+const EXPORTED: [(&str, &str); 32] = [
     ("BodyId", "ids"),
     ("BroadPhase", "options"),
     ("CloseEdgeEdge", "close_pairs"),
@@ -147,7 +150,6 @@ const EXPORTED: [(&str, &str); 33] = [
     ("Scalar", "world"),
     ("Selection", "world"),
     ("Statistics", "statistics"),
-    ("Timed", "world"),
     ("TreeShape", "world"),
     ("Update", "options"),
     ("VertexTriangle", "hits"),

@@ -20,6 +20,7 @@ mod edits_refused;
 mod figure_2;
 mod first_impact;
 mod flush_to_zero;
+mod free_step;
 mod hashes;
 mod impacts;
 mod layers;

@@ -1,4 +1,5 @@
-//! The README of the repository shows the example of the package's, which is compiled and run as documentation.
+//! What people read first: the README of the repository shows the example of the package's, which is compiled and run as documentation;
+//! whoever begins is told how debug builds are quick; and methods of `World` come in the order in which they are met.
 
 /// The blocks of Rust in a text.
 fn blocks(text: &str) -> Vec<&str> {
@@ -13,4 +14,55 @@ fn both_readmes_show_the_same_code() {
     let package = blocks(include_str!("../../README.md"));
     assert_eq!(package.len(), 1);
     assert_eq!(blocks(include_str!("../../../../README.md")), package);
+}
+
+/// Of the first page of the guide, and of the crate's documentation.
+#[test]
+fn whoever_begins_is_told_of_debug_builds() {
+    let first_screens = [
+        include_str!("../../README.md"),
+        include_str!("../../guide.md"),
+    ];
+    for text in first_screens {
+        let screen: Vec<&str> = text.lines().take(48).collect();
+        assert!(screen.contains(&"opt-level = 3"), "{screen:?}");
+    }
+}
+
+/// As rustdoc lists them: first what modules beside `World` add, so these add nothing, then these.
+#[test]
+fn worlds_are_documented_in_the_order_in_which_they_are_met() {
+    let world = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/world");
+    let begins = "impl<S: Scalar> World<S> {";
+    let methods = |text: &str| -> Vec<String> {
+        let lines = text.lines().map_while(|line| (line != "}").then_some(line));
+        let names = lines.filter_map(|line| line.strip_prefix("    pub fn "));
+        names
+            .map(|name| name.split(['(', '<']).next().unwrap().to_owned())
+            .collect()
+    };
+    let mut documented = Vec::new();
+    for entry in std::fs::read_dir(world).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let all: Vec<String> = text.split(begins).skip(1).flat_map(methods).collect();
+        if path.file_name().unwrap() == "mod.rs" {
+            documented = all;
+        } else {
+            assert!(all.is_empty(), "{}: {all:?}", path.display());
+        }
+    }
+    assert_eq!(documented[..3], ["new", "add", "set_positions"]);
+    let place = |name: &str| documented.iter().position(|it| it == name).unwrap();
+    let met = [
+        "set_positions",
+        "intersections",
+        "distance",
+        "free_step",
+        "set_filter",
+        "edit",
+        "components",
+        "validate",
+    ];
+    assert!(met.map(place).is_sorted(), "{documented:?}");
 }

@@ -70,10 +70,13 @@ fn shapes_that_are_not_taken_over() {
     assert_eq!(
         world.set_positions(body, &positions[..15]),
         refused(ErrorKind::WrongLength {
+            what: "positions",
             expected: 16,
             found: 15
         })
     );
+    let error = world.set_vertex_groups(body, &[1; 15]).unwrap_err();
+    assert_eq!(error.to_string(), "body 0: 15 groups for 16 vertices");
     let mut bad = positions.clone();
     (bad[9][2], bad[11][0]) = (f32::NEG_INFINITY, f32::INFINITY);
     let error = world.set_positions(body, &bad).unwrap_err();

@@ -94,6 +94,41 @@ impl Elements {
             .get_or_insert_with(|| Box::new(EdgeIndex::new(callers, numbers, topology)));
     }
 
+    /// Numbers the edges, which are sorted, as these are: the same ones, with numbers that are empty among them. Returns false, and
+    /// changes nothing, if they are not.
+    pub(crate) fn renumber(&mut self, edges: &[[u32; 2]], topology: &Topology) -> bool {
+        let is_edge = |&(_, ends): &(u32, &[u32; 2])| *ends != NO_EDGE;
+        let mut named: Vec<(u32, &[u32; 2])> = (0..).zip(edges).filter(is_edge).collect();
+        named.sort_unstable_by_key(|&(_, ends)| ends);
+        if self.follows() || !named.iter().map(|(_, ends)| *ends).eq(&self.callers) {
+            return false;
+        }
+        if edges == self.callers {
+            return true;
+        }
+        self.begin_to_follow(topology);
+        let Some(index) = &mut self.index else {
+            return false;
+        };
+        let sorted_edges = std::mem::replace(&mut index.tree_edges, vec![UNSEEN; edges.len()]);
+        for (&(number, _), tree_edge) in named.iter().zip(sorted_edges) {
+            index.tree_edges[number as usize] = tree_edge;
+        }
+        let of_triangles = index.of_triangles.as_flattened_mut().iter_mut();
+        for number in of_triangles.chain(&mut self.numbers) {
+            if *number != UNSEEN {
+                *number = named[*number as usize].0;
+            }
+        }
+        index.free = (0..)
+            .zip(edges)
+            .filter(|it| !is_edge(it))
+            .map(|(number, _)| number)
+            .collect();
+        self.callers = edges.to_vec();
+        true
+    }
+
     /// Triangles were changed; the mesh is as it is now. In tree order nothing has moved.
     pub(crate) fn follow(&mut self, changed: &[Changed], topology: &Topology, at: &TrianglesAt) {
         let Some(index) = &mut self.index else {

@@ -12,9 +12,10 @@ use numpy::{
 };
 use pliant_check::double;
 use pliant_io::Positions;
+use pyo3::basic::CompareOp;
 use pyo3::intern;
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyTuple};
+use pyo3::types::{PyEllipsis, PyList, PySlice, PyTuple};
 
 /// Positions of a caller's, which anybody may write to: to be copied.
 pub(crate) enum Coordinates<'py> {
@@ -150,10 +151,7 @@ pub(crate) fn numbers(
 ) -> Result<Vec<u32>, Refused> {
     let py = given.py();
     refuse_masks(given, name)?;
-    let array = py
-        .import(intern!(py, "numpy"))?
-        .call_method1(intern!(py, "asarray"), (given,))?;
-    let array = array.cast_into::<PyUntypedArray>().map_err(PyErr::from)?;
+    let array = as_numpy(given, name)?;
     let dtype = array.dtype();
     let bad = |have: String| {
         Refused::new(
@@ -180,9 +178,7 @@ pub(crate) fn numbers(
 pub(crate) fn pairs_of_elements(given: &Bound<'_, PyAny>) -> Result<Vec<[[f64; 3]; 4]>, Refused> {
     let py = given.py();
     refuse_masks(given, "corners")?;
-    let array = py
-        .import(intern!(py, "numpy"))?
-        .call_method1(intern!(py, "asarray"), (given,))?;
+    let array = as_numpy(given, "corners")?;
     let shape = array.getattr(intern!(py, "shape"))?;
     if !matches!(shape.extract::<Vec<usize>>()?[..], [_, 4, 3]) {
         return Err(Refused::new(
@@ -235,29 +231,89 @@ fn as_array<'py>(
     rows: &str,
 ) -> Result<Bound<'py, PyUntypedArray>, Refused> {
     refuse_masks(given, what)?;
-    let array = match given.cast::<PyUntypedArray>() {
-        Ok(array) => array.clone(),
-        Err(_) => given
-            .py()
-            .import("numpy")?
-            .call_method1("asarray", (given,))?
-            .cast_into()
-            .map_err(PyErr::from)?,
-    };
+    let array = as_numpy(given, what)?;
     if array.ndim() == 2 && array.shape()[1] == 3 {
         return Ok(array);
     }
     let shape = array.getattr("shape")?;
-    let hint = match array.shape() {
-        [_, _, 3] => ": give one frame at a time",
-        [3, _] => ": transposed?",
-        [_, 4] if rows == "m" => ": cut each quad into two triangles",
-        _ => "",
+    let hint = if rows == "m" {
+        about_faces(&array)?
+    } else {
+        match array.shape() {
+            [_, 2] => ": two coordinates; pliant needs three",
+            [count] if count % 3 == 0 => ": flat; give positions.reshape(-1, 3)",
+            _ => about_rows(&array),
+        }
     };
     Err(Refused::new(
         "BadArray",
         format!("{what} have shape {shape}; it must be ({rows}, 3){hint}"),
     ))
+}
+
+/// What an array of a wrong shape may be, whatever its rows are.
+fn about_rows(array: &Bound<'_, PyUntypedArray>) -> &'static str {
+    match array.shape() {
+        [_, _, 3] => ": give one frame at a time",
+        [3, _] => ": transposed?",
+        _ => "",
+    }
+}
+
+/// What an array that is not one of triangles may be.
+fn about_faces(array: &Bound<'_, PyUntypedArray>) -> PyResult<&'static str> {
+    let py = array.py();
+    // In VTK, and so in PyVista, a cell begins with how many corners it has.
+    let are_all_three = |counts: Bound<'_, PyAny>| {
+        let are_three = counts.rich_compare(3, CompareOp::Eq)?;
+        are_three.call_method0("all")?.is_truthy()
+    };
+    Ok(match *array.shape() {
+        [rows, 4] if rows > 0 && are_all_three(array.get_item((PyEllipsis::get(py), 0))?)? => {
+            ": these are cells of VTK, [3, a, b, c]; give faces[:, 1:]"
+        }
+        [3, _] => about_rows(array),
+        [_, 4] => {
+            ": cut quads into two triangles each; of tetrahedra give the surface, the triangles that only one of them has"
+        }
+        [_, 2] => ": of edges give each as the triangle [i, j, j]",
+        [count]
+            if count > 0
+                && count % 4 == 0
+                && are_all_three(array.get_item(PySlice::new(py, 0, count as isize, 4))?)? =>
+        {
+            ": these are cells of VTK, [3, a, b, c, 3, ...]; give faces.reshape(-1, 4)[:, 1:]"
+        }
+        [count] if count % 3 == 0 => ": flat; give faces.reshape(-1, 3)",
+        _ => about_rows(array),
+    })
+}
+
+/// What numpy makes an array of, and what has nothing but `__dlpack__`.
+fn as_numpy<'py>(
+    given: &Bound<'py, PyAny>,
+    what: &str,
+) -> Result<Bound<'py, PyUntypedArray>, Refused> {
+    let py = given.py();
+    if let Ok(array) = given.cast::<PyUntypedArray>() {
+        return Ok(array.clone());
+    }
+    let numpy = py.import(intern!(py, "numpy"))?;
+    let array = numpy.call_method1(intern!(py, "asarray"), (given,))?;
+    let array = array.cast_into::<PyUntypedArray>().map_err(PyErr::from)?;
+    // What numpy cannot look into is an array of the one object.
+    let is_one_object = array.ndim() == 0 && array.dtype().kind() == b'O';
+    if !is_one_object || !given.hasattr(intern!(py, "__dlpack__"))? {
+        return Ok(array);
+    }
+    let array = numpy.call_method1(intern!(py, "from_dlpack"), (given,));
+    let array = array.map_err(|error| {
+        let message = format!(
+            "{what} cannot be read by numpy.from_dlpack ({error}); give them in the memory of the processor"
+        );
+        Refused::new("BadArray", message)
+    })?;
+    Ok(array.cast_into().map_err(PyErr::from)?)
 }
 
 /// Refuses a masked array that hides any number, and a list of such: what is hidden is there all the same, and would be read.

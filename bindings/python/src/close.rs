@@ -2,7 +2,7 @@
 
 use crate::arrays;
 use crate::error::Refused;
-use crate::query::{First, Prepare, Selection, SomeAtATime, Want, go_on, stopped};
+use crate::query::{First, Prepare, Selection, SomeAtATime, Want, go_on, no_list, stopped};
 use crate::signals::interruptible;
 use crate::world::World;
 use numpy::IntoPyArray;
@@ -221,6 +221,14 @@ fn class(py: Python<'_>, place: usize) -> PyResult<&Bound<'_, PyType>> {
 
 #[pymethods]
 impl CloseQuery {
+    fn __iter__(slf: &Bound<'_, Self>) -> PyResult<()> {
+        Err(no_list(slf)?)
+    }
+
+    fn __len__(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Err(no_list(slf)?)
+    }
+
     /// All close pairs, sorted, as a ClosePairs of arrays; the same for every option, history and number of threads.
     ///
     /// at_most refuses more than this with pliant.Error, kind "TooManyHits", instead of making arrays that may fill the memory.

@@ -2,7 +2,7 @@
 
 use crate::arrays;
 use crate::error::Refused;
-use crate::query::{All, First, Prepare, Selection, SomeAtATime, Want, go_on, stopped};
+use crate::query::{All, First, Prepare, Selection, SomeAtATime, Want, go_on, no_list, stopped};
 use crate::signals::interruptible;
 use crate::world::World;
 use numpy::IntoPyArray;
@@ -94,6 +94,14 @@ impl ContactQuery {
 
 #[pymethods]
 impl ContactQuery {
+    fn __iter__(slf: &Bound<'_, Self>) -> PyResult<()> {
+        Err(no_list(slf)?)
+    }
+
+    fn __len__(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Err(no_list(slf)?)
+    }
+
     /// All contacts, sorted, as a Contacts of arrays; the same for every option, history and number of threads.
     ///
     /// at_most refuses more than this with pliant.Error, kind "TooManyHits", instead of making arrays that may fill the memory.

@@ -294,8 +294,8 @@ pub(crate) fn alone<S>(mutex: &Mutex<S>) -> Result<MutexGuard<'_, S>, Refused> {
     mutex.try_lock().map_err(|taken| match taken {
         TryLockError::WouldBlock => Refused::new(
             "Busy",
-            "in use by another thread, or by the visitor that asks; one call at a time: give each thread its own, and let a \
-             visitor keep what it is shown until the visit has ended",
+            "in use by another thread, or by the visitor or the write_positions that asks; one call at a time: give each \
+             thread its own, and let a visitor keep what it is shown until the visit has ended",
         ),
         TryLockError::Poisoned(_) => Refused::new(
             "Broken",

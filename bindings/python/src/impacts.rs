@@ -2,9 +2,9 @@
 //! single pairs, for who has a search of their own.
 
 use crate::arrays;
-use crate::error::Refused;
-use crate::query::{First, Prepare, Selection, SomeAtATime, Want, go_on, stopped};
-use crate::signals::interruptible;
+use crate::error::{Refused, caught};
+use crate::query::{First, Prepare, Selection, SomeAtATime, Want, go_on, no_list, stopped};
+use crate::signals::{interruptible, interruptible_after};
 use crate::world::World;
 use numpy::{IntoPyArray, PyArray1};
 use pliant::{EdgeEdgeImpact, VertexTriangleImpact};
@@ -134,6 +134,14 @@ impl ImpactQuery {
 
 #[pymethods]
 impl ImpactQuery {
+    fn __iter__(slf: &Bound<'_, Self>) -> PyResult<()> {
+        Err(no_list(slf)?)
+    }
+
+    fn __len__(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Err(no_list(slf)?)
+    }
+
     /// All impacts, sorted, as an Impacts of arrays; the same for every option, history and number of threads.
     ///
     /// at_most refuses more than this with pliant.Error, kind "TooManyHits", instead of making arrays that may fill the memory.
@@ -195,7 +203,7 @@ type Answer<'py> = (
 ///
 /// Returns (hit, low, high): bool (k,), float64 (k,), float64 (k,). Whether a pair meets, as closed sets, is decided exactly; they are
 /// apart from time 0 to low, both included, and meet after that and not after high; both are 0 if they meet at the start, and NaN where
-/// there is no hit. high - low is at most width; with 0 they are neighbouring numbers.
+/// there is no hit. high - low is at most width; with 0 they are neighbouring numbers. Ctrl-C is looked for between pairs.
 #[pyfunction]
 #[pyo3(signature = (start, end, width=1e-6))]
 pub(crate) fn vertex_triangle_impacts<'py>(
@@ -204,9 +212,7 @@ pub(crate) fn vertex_triangle_impacts<'py>(
     end: &Bound<'py, PyAny>,
     width: f64,
 ) -> Result<Answer<'py>, Refused> {
-    answer(py, start, end, |start, end| {
-        pliant::vertex_triangle_impacts(start, end, width)
-    })
+    answer(py, false, [start, end], width)
 }
 
 /// When edges first meet edges that move: start and end (k, 4, 3) float64, of each pair both ends of the one edge and both of the other, at
@@ -219,23 +225,22 @@ pub(crate) fn edge_edge_impacts<'py>(
     end: &Bound<'py, PyAny>,
     width: f64,
 ) -> Result<Answer<'py>, Refused> {
-    answer(py, start, end, |start, end| {
-        pliant::edge_edge_impacts(start, end, width)
-    })
+    answer(py, true, [start, end], width)
 }
-
-/// Four corners.
-type Pair = [[f64; 3]; 4];
 
 fn answer<'py>(
     py: Python<'py>,
-    start: &Bound<'py, PyAny>,
-    end: &Bound<'py, PyAny>,
-    ask: impl Fn(&[Pair], &[Pair]) -> Result<Vec<Option<[f64; 2]>>, pliant::Error> + Sync,
+    are_edges: bool,
+    [start, end]: [&Bound<'py, PyAny>; 2],
+    width: f64,
 ) -> Result<Answer<'py>, Refused> {
     let start = arrays::pairs_of_elements(start).map_err(|refused| refused.about("start"))?;
     let end = arrays::pairs_of_elements(end).map_err(|refused| refused.about("end"))?;
-    let found = py.detach(|| ask(&start, &end))?;
+    // A single pair may take long, so that it is looked for signals before each that does.
+    let ask = |question: &(dyn Fn() -> bool + Sync)| {
+        pliant::pair_impacts(are_edges, &start, &end, width, Some(question))
+    };
+    let found = py.detach(|| caught(|| interruptible_after(1, ask)))?;
     let side = |side: usize| -> Vec<f64> {
         let cells = found.iter();
         cells

@@ -5,7 +5,7 @@
 //! | `arrays.rs` | numpy arrays of callers, and arrays made for them |
 //! | `copies.rs` | copies of them, to which nobody else can write: what is checked is what is kept |
 //! | `state.rs` | a world whose precision the first body fixes |
-//! | `world.rs`, `query.rs` | `World`, `Selection` and `Query`, as Python sees them |
+//! | `world.rs`, `query.rs` | `World`, `Selection` and `Query` (intersections, candidates), as Python sees them |
 //! | `close.rs` | `CloseQuery`: close pairs, with distance, direction and closest points |
 //! | `contacts.rs` | `ContactQuery`: which triangles intersect, and how |
 //! | `edit.rs` | `Edit`: changes of a mesh, made all at once |

@@ -1,13 +1,15 @@
 //! A world as Python's pickle writes it down, and what is read back: bodies with their numbers, in their shapes of now, with their motions,
 //! filters, groups of vertices, ignored pairs and loose boxes. Options are arguments of what makes the new world.
 //!
-//! Trees are not written: they are built anew, on the shapes of now, which changes no answer. Nor are numbers of edges: those of a mesh
-//! that was edited are numbered anew. What is read is checked as if it was given to a world by calls, which it is.
+//! Trees are not written: they are built anew, on the shapes of now, which changes no answer. Numbers of edges are, where somebody has
+//! asked for them: they stay. What is read is checked as if it was given to a world by calls, which it is. What was written before there
+//! were numbers of edges is read, and its edges are numbered anew.
 
 use crate::arrays::{CopiedCoordinates, CopiedFaces, rows_of};
 use crate::error::{Refused, caught};
 use crate::state::State;
 use crate::world::Owned;
+use numpy::{PyArray2, PyArrayMethods};
 use pliant::{BodyId, Error};
 use pliant_check::{AnyWorld, with_world};
 use pliant_io::Precision;
@@ -23,6 +25,7 @@ struct Body {
     positions: Owned,
     end: Option<Owned>,
     groups: Vec<u32>,
+    edges: Option<Vec<[u32; 2]>>,
     filter: (u32, u32),
     loose: Option<Corners>,
 }
@@ -53,6 +56,8 @@ struct WrittenBody<'py> {
     positions: Bound<'py, PyAny>,
     end: Option<Bound<'py, PyAny>>,
     groups: Vec<u32>,
+    #[pyo3(default)]
+    edges: Option<Bound<'py, PyArray2<u32>>>,
     filter: (u32, u32),
     loose_box: Option<Corners>,
 }
@@ -67,6 +72,7 @@ impl Copied {
                     positions: Owned::from(world.positions(id)?),
                     end: world.end_positions(id)?.map(Owned::from),
                     groups: world.vertex_groups(id)?,
+                    edges: world.numbered_edges(id)?.map(<[_]>::to_vec),
                     filter: world.filter(id)?,
                     loose: loose_box(&state.world, id)?,
                 })
@@ -95,6 +101,8 @@ impl Copied {
             let groups = body.groups;
             let are_any = groups.iter().any(|&group| group != 0);
             dict.set_item("groups", if are_any { groups } else { Vec::new() })?;
+            let edges = body.edges.map(|edges| rows_of(py, edges)).transpose()?;
+            dict.set_item("edges", edges)?;
             dict.set_item("filter", body.filter)?;
             dict.set_item("loose_box", body.loose)?;
             bodies.append(dict)?;
@@ -135,6 +143,17 @@ impl Written<'_> {
             if body.0 != number {
                 let what = format!("body {number} does not come after those before it");
                 return Err(bad(what));
+            }
+            if let Some(edges) = &written.edges {
+                let numbers = edges.to_vec().map_err(PyErr::from)?;
+                let (edges, _) = numbers.as_chunks();
+                let numbered =
+                    with_world!(&mut state.world, world => world.number_edges(body, edges)?);
+                if !numbered {
+                    return Err(bad(format!(
+                        "the edges of body {number} are not those of its faces"
+                    )));
+                }
             }
             let (membership, mask) = written.filter;
             with_world!(&mut state.world, world => world.set_filter(body, membership, mask)?);

@@ -7,6 +7,7 @@ use crate::world::{Body, World};
 use numpy::PyArray2;
 use pliant::Error;
 use pliant_check::with_world;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
@@ -19,9 +20,24 @@ use std::ops::ControlFlow;
 ///                             own membership and mask have no bit in common, or it is ignored with itself
 ///   Selection.between(a, b)   two different bodies, whatever filters say; the first is the first of every hit
 ///   Selection.within(a)       one body with itself, whatever filters say
-#[pyclass(frozen, eq, hash, from_py_object, module = "pliant")]
+#[pyclass(frozen, eq, hash, module = "pliant")]
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Selection(pub(crate) pliant::Selection);
+
+impl<'py> FromPyObject<'_, 'py> for Selection {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(selection) = given.cast::<Self>() {
+            return Ok(*selection.get());
+        }
+        let given = given.repr()?;
+        Err(PyTypeError::new_err(format!(
+            "who is asked about is a pliant.Selection: Selection.EVERYTHING, Selection.WORLD, Selection.between(a, b) or \
+             Selection.within(a); not {given}"
+        )))
+    }
+}
 
 #[pymethods]
 impl Selection {
@@ -210,6 +226,14 @@ impl Query {
     }
 }
 
+/// Why nobody goes through a question, or counts it.
+pub(crate) fn no_list(question: &Bound<'_, PyAny>) -> PyResult<PyErr> {
+    let class = question.get_type().fully_qualified_name()?;
+    Ok(PyTypeError::new_err(format!(
+        "a {class} is a question that was not answered yet: ask it for all(), first() or visit_some(...)"
+    )))
+}
+
 /// Whether a visitor stopped, or what it raised.
 pub(crate) fn stopped(visited: Stopped) -> PyResult<bool> {
     match visited {
@@ -229,6 +253,14 @@ pub(crate) fn go_on(answer: PyResult<bool>) -> Stopped {
 
 #[pymethods]
 impl Query {
+    fn __iter__(slf: &Bound<'_, Self>) -> PyResult<()> {
+        Err(no_list(slf)?)
+    }
+
+    fn __len__(slf: &Bound<'_, Self>) -> PyResult<usize> {
+        Err(no_list(slf)?)
+    }
+
     /// All hits, sorted: (k, 4) uint32; the same for every option, history and number of threads. A row is body, triangle, body, triangle;
     /// of candidates body, vertex, body, triangle, or body, edge, body, edge.
     ///

@@ -32,6 +32,8 @@ struct Signals {
     asker: ThreadId,
     /// In milliseconds since the beginning.
     next_look: AtomicU64,
+    /// So many questions to a look at the clock.
+    per_look: u32,
     raised: OnceLock<PyErr>,
 }
 
@@ -40,10 +42,19 @@ struct Signals {
 pub(crate) fn interruptible<T, E: Into<Refused>>(
     ask: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, E>,
 ) -> Result<T, Refused> {
+    interruptible_after(ASKED_PER_LOOK_AT_CLOCK, ask)
+}
+
+/// The same of what may compute for long between any two of so many questions.
+pub(crate) fn interruptible_after<T, E: Into<Refused>>(
+    per_look: u32,
+    ask: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, E>,
+) -> Result<T, Refused> {
     let signals = Signals {
         began: Instant::now(),
         asker: thread::current().id(),
         next_look: AtomicU64::new(BETWEEN_LOOKS),
+        per_look,
         raised: OnceLock::new(),
     };
     let answer = ask(&|| signals.have_raised());
@@ -59,7 +70,7 @@ impl Signals {
     fn have_raised(&self) -> bool {
         let asked = ASKED.get().wrapping_add(1);
         ASKED.set(asked);
-        if asked.is_multiple_of(ASKED_PER_LOOK_AT_CLOCK) && self.is_due() {
+        if asked.is_multiple_of(self.per_look) && self.is_due() {
             let next = if self.look() {
                 self.elapsed() + BETWEEN_LOOKS
             } else {

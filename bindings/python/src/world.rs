@@ -12,7 +12,7 @@ use crate::query::{Kind, Query, Selection};
 use crate::signals::interruptible;
 use crate::state::State;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
-use pliant::{BodyId, ErrorKind};
+use pliant::{BodyId, ErrorKind, InContact};
 use pliant_check::with_world;
 use pliant_io::Precision;
 use pyo3::exceptions::PyOverflowError;
@@ -408,7 +408,7 @@ impl World {
     }
 
     /// Like set_positions, but write(positions) fills an array (n, 3) of the world's type, which comes filled with NaN: every
-    /// vertex must be written, or the shape is refused. Where speed matters, reuse an array of your own and set_positions:
+    /// vertex must be written, or the shape is refused. Until write returns the world is in use. Where speed matters, reuse an array of your own and set_positions:
     /// unlike in Rust, this form costs copies more.
     fn write_positions(
         &self,
@@ -417,15 +417,21 @@ impl World {
         write: &Bound<'_, PyAny>,
     ) -> Result<(), Refused> {
         let body = body.0;
-        let (vertices, dtype) = (self.vertex_count(py, Body(body))?, self.dtype(py)?);
+        // Until it is written, so that what is written is for the body that was asked about.
+        let mut state = alone(&self.state)?;
+        let vertices = with_world!(&state.world, world => world.vertex_count(body))?;
+        let dtype = match state.world.precision() {
+            Precision::F32 => numpy::dtype::<f32>(py),
+            Precision::F64 => numpy::dtype::<f64>(py),
+        };
         let array = py
             .import("numpy")?
             .call_method1("full", ((vertices, 3), f64::NAN, dtype))?;
         write.call1((&array,))?;
         // Whoever wrote may have kept the array, and write again.
         let written = CopiedCoordinates::of(&array)?;
-        let written = written.get()?;
-        self.with(py, |state| state.write_positions(body, written))
+        let (state, written) = (&mut *state, written.get()?);
+        py.detach(|| state.write_positions(body, written))
     }
 
     /// Begins a motion: says where the vertices of a body will be at the end of the step, (n, 3). On the way they move on straight lines,
@@ -852,9 +858,49 @@ impl World {
         Ok(found.map(|it| Impact::of(py, it)).transpose()?)
     }
 
+    /// How far everything may go on its way to the end of a motion and stay further apart than min_distance, and what that number alone
+    /// does not say: a FreeStep(t, begins_in_contact, moves).
+    ///
+    /// t is the time of collision_free_step, to call advance_motion with. It promises nothing for what is in contact at the start.
+    /// begins_in_contact is the first such pair, in the shape of now: a Pair of triangles that intersect, as intersections looks at them,
+    /// unless all six vertices are of one group; else a VertexTriangle or an EdgeEdge that are at most min_distance apart, as impacts look
+    /// at them; None if everything begins apart. Surfaces that are through each other meet on every way out, so t may be small for no
+    /// other reason; elements that touch may go through each other, and those nearer than min_distance may come nearer. A mesh with edges
+    /// shorter than min_distance is always that near to itself. Triangles that share a vertex and are through each other beyond it are
+    /// not found.
+    ///
+    /// moves is False if no body that is asked about has a motion; then t is 1.
+    #[pyo3(signature = (of, min_distance=0.0))]
+    fn free_step<'py>(
+        &self,
+        py: Python<'py>,
+        of: Selection,
+        min_distance: f64,
+    ) -> Result<Bound<'py, PyAny>, Refused> {
+        let step = self.with(py, |state| {
+            interruptible(|question| {
+                with_world!(&mut state.world, world => {
+                    world.interruptible(question).free_step(of.0, min_distance)
+                })
+            })
+        })?;
+        let pair = step.begins_in_contact.map(|pair| match pair {
+            InContact::Triangles(pair) => ("Pair", <[u32; 4]>::from(pair)),
+            InContact::VertexTriangle(pair) => ("VertexTriangle", pair.into()),
+            InContact::EdgeEdge(pair) => ("EdgeEdge", pair.into()),
+        });
+        let classes = py.import("pliant._types")?;
+        let pair = pair.map(|(class, [body_a, a, body_b, b])| {
+            classes.getattr(class)?.call1((body_a, a, body_b, b))
+        });
+        let step = (step.t, pair.transpose()?, step.moves);
+        Ok(classes.getattr("FreeStep")?.call1(step)?)
+    }
+
     /// How far everything may go on its way to the end of a motion and stay further apart than min_distance: a time from 0 to 1 to call
     /// advance_motion with. It is proven that on straight ways to the shape that this makes, rounded as it is, no vertex meets a triangle
-    /// and no edge another, nor comes as near as min_distance. 1 if that is so of the whole motion.
+    /// and no edge another, nor comes as near as min_distance. 1 if that is so of the whole motion. 1 also if nothing moves, and less
+    /// without a word if the start intersects: free_step says so.
     ///
     /// It is at least 0.9 of the largest such time where rounding leaves room for that. What touches at the start already does not count;
     /// what is within min_distance at the start is kept from contact alone.

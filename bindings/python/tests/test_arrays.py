@@ -188,10 +188,20 @@ def test_float32_in_a_float64_world_changes_no_coordinate() -> None:
 @pytest.mark.parametrize(
     ("faces", "positions", "message"),
     [
-        (FACES, FLAT[:, :2], r"positions have shape \(169, 2\); it must be \(n, 3\)"),
-        (FACES, FLAT.ravel(), r"positions have shape \(507,\)"),
+        (FACES, FLAT[:, :2], r"positions have shape \(169, 2\); it must be \(n, 3\): two coordinates; pliant needs three"),
+        (FACES, FLAT.ravel(), r"positions have shape \(507,\).*: flat; give positions.reshape\(-1, 3\)"),
         (FACES, FLAT[None], r"positions have shape \(1, 169, 3\).*: give one frame at a time"),
-        (FACES[:, [0, 1, 2, 2]], FLAT, r"faces have shape \(288, 4\); it must be \(m, 3\): cut each quad into two triangles"),
+        (FACES[:, [0, 1, 2, 2]], FLAT, r"faces have shape \(288, 4\); it must be \(m, 3\): cut quads into two.*tetrahedra give the surface"),
+        (np.insert(FACES, 0, 3, axis=1), FLAT, r"\(288, 4\).*cells of VTK, \[3, a, b, c\]; give faces\[:, 1:\]"),
+        (np.insert(FACES, 0, 3, axis=1)[:3].tolist(), FLAT, r"\(3, 4\).*cells of VTK, \[3, a, b, c\]; give faces\[:, 1:\]"),
+        (np.insert(FACES, 0, 3, axis=1).ravel(), FLAT, r"\(1152,\).*cells of VTK.*give faces.reshape\(-1, 4\)\[:, 1:\]"),
+        (FACES[:, [0, 1, 2, 0, 1]], FLAT, r"\(288, 5\); it must be \(m, 3\)$"),
+        (FACES.ravel(), FLAT, r"\(864,\); it must be \(m, 3\): flat; give faces.reshape\(-1, 3\)"),
+        (FACES[:, :2], FLAT, r"\(288, 2\).*of edges give each as the triangle \[i, j, j\]"),
+        (FACES.T, FLAT, r"\(3, 288\).*transposed\?"),
+        (FACES[None], FLAT, r"\(1, 288, 3\).*one frame at a time"),
+        (FACES[:0, [0, 0, 0, 0]], FLAT, r"\(0, 4\).*cut quads"),
+        (FACES.ravel()[:0], FLAT, r"\(0,\); it must be"),
         (FACES, FLAT.T, r"positions have shape \(3, 169\); it must be \(n, 3\): transposed\?"),
         (FACES.astype(float), FLAT, "faces are of type float64; they must be integers"),
         (FLAT, FACES, "positions are of type uint32.*exchanged"),
@@ -203,7 +213,7 @@ def test_float32_in_a_float64_world_changes_no_coordinate() -> None:
         (FACES, None, "has no .faces"),
         (FACES, "positions", r"positions have shape \(\)"),
     ],
-    ids=range(14),
+    ids=range(24),
 )
 def test_what_is_no_mesh_is_refused(faces: Any, positions: Any, message: str) -> None:
     world = pliant.World()
@@ -296,3 +306,73 @@ def test_the_one_liners_say_which_mesh_is_wrong() -> None:
         pliant.self_intersection_pairs(bad, FACES)
     with pytest.raises(pliant.Error, match="^new body: vertex 3 is at"):
         pliant.World().add(FACES, bad)
+
+
+def test_the_cures_that_are_named_are_cures() -> None:
+    """Of cells of VTK, of flat arrays and of edges."""
+    cells = np.insert(FACES, 0, 3, axis=1)
+    world = pliant.World()
+    for faces in (cells[:, 1:], cells.ravel().reshape(-1, 4)[:, 1:], FACES.ravel().reshape(-1, 3)):
+        body = world.add(faces, SHAPE.ravel().reshape(-1, 3))
+        assert pairs_within(world, body).tolist() == EXPECTED["f8"]
+    edges = FACES[:, :2]
+    assert world.triangle_count(world.add(np.stack([edges[:, 0], edges[:, 1], edges[:, 1]], axis=1), SHAPE)) == len(edges)
+
+
+class OnlyDlpack:
+    """What has nothing but this, as arrays of some libraries."""
+
+    def __init__(self, array: Any) -> None:
+        self.array = array
+
+    def __dlpack__(self, **keywords: Any) -> Any:
+        return self.array.__dlpack__(**keywords)
+
+    def __dlpack_device__(self) -> Any:
+        return self.array.__dlpack_device__()
+
+
+class Elsewhere:
+    """What is in the memory of another device."""
+
+    def __dlpack__(self, **_: Any) -> Any:
+        raise BufferError("on a GPU")
+
+    def __dlpack_device__(self) -> tuple[int, int]:
+        return (2, 0)
+
+
+def test_what_has_nothing_but_dlpack_is_an_array() -> None:
+    world = pliant.World()
+    body = world.add(OnlyDlpack(FACES.astype(np.int64)), OnlyDlpack(FLAT))
+    shape = SHAPE.copy()
+    world.set_positions(body, OnlyDlpack(shape))
+    shape[:] = 9  # the world keeps a copy of its own
+    assert pairs_within(world, body).tolist() == EXPECTED["f8"]
+    world.set_vertex_groups(body, OnlyDlpack(np.arange(len(FLAT), dtype=np.uint32)))
+    assert world.vertex_groups(body).tolist() == list(range(len(FLAT)))
+    pair = np.array([[[1, 1, 1], [0, 0, 0], [4, 0, 0], [0, 4, 0]]], dtype=np.float64)
+    assert pliant.vertex_triangle_impacts(OnlyDlpack(pair), OnlyDlpack(pair * [1, 1, -1]))[0].tolist() == [True]
+    with pytest.raises(pliant.Error, match=r"positions have shape \(288, 4\)"):
+        world.set_positions(body, OnlyDlpack(np.zeros((288, 4))))
+    calls: list[tuple[str, Callable[[], object]]] = [
+        ("positions", lambda: world.set_positions(body, Elsewhere())),
+        ("faces", lambda: world.add(Elsewhere(), FLAT)),
+        ("groups", lambda: world.set_vertex_groups(body, Elsewhere())),
+        ("corners", lambda: pliant.edge_edge_impacts(Elsewhere(), pair)),
+    ]
+    for what, call in calls:
+        with pytest.raises(pliant.Error, match=rf"{what} cannot be read by numpy.from_dlpack \(.*\); give them in the memory") as refused:
+            call()
+        assert refused.value.kind == "BadArray"
+
+
+def test_groups_of_a_wrong_length_are_called_groups() -> None:
+    world = pliant.World()
+    body = world.add(FACES, FLAT)
+    with pytest.raises(pliant.Error, match="^body 0: 168 groups for 169 vertices$") as refused:
+        world.set_vertex_groups(body, np.ones(168, np.uint32))
+    facts = refused.value
+    assert (facts.kind, facts.what, facts.expected, facts.found) == ("WrongLength", "groups", 169, 168)
+    with pytest.raises(pliant.Error, match="^body 0: 168 positions for 169 vertices$"):
+        world.set_positions(body, FLAT[1:])

@@ -271,3 +271,78 @@ def test_many_vertices_in_one_place_are_welded() -> None:
     body = world.add(np.arange(60_000).reshape(-1, 3), np.zeros((60_000, 3)))
     assert len(world.weld(body, 0.0).removed_vertices) == 59_997
     assert (np.sort(world.triangles(body), axis=1) == [0, 1, 2]).all()
+
+
+def some_edit(worlds: list[pliant.World], rng: np.random.Generator) -> None:
+    """The same one of all."""
+    live = np.flatnonzero(worlds[0].live_triangles(0))
+    triangle, kind = int(rng.choice(live)), rng.integers(3)
+    a, b, _ = worlds[0].triangles(0)[triangle].tolist()
+    for world in worlds:
+        edit = world.edit(0)
+        if kind == 0:
+            edit.remove_triangles([triangle])
+        elif kind == 1:
+            edit.split_vertex(a, [triangle])
+        else:
+            new = edit.add_vertices(np.array([[0.1 * (triangle % 10), 0.5, 0.3]]))
+            edit.set_triangle(triangle, [a, b, int(new[0])])
+        world.apply(edit)
+
+
+@pytest.mark.parametrize("asked", ["before", "amid", "after"])
+def test_pickled_and_copied_worlds_keep_the_numbers_of_edges(asked: str) -> None:
+    """Whenever edges were asked for first, and whatever is edited afterwards."""
+    rng = np.random.default_rng(6)
+    for _ in range(15):
+        faces, flat = grid(5)
+        world = pliant.World()
+        world.add(faces, fold(flat, 0.4))
+        if asked == "before":
+            world.edges(0)
+        for step in range(int(rng.integers(1, 9))):
+            some_edit([world], rng)
+            if asked == "amid" and step == 1:
+                world.edges(0)
+        worlds = [world, copy.copy(world), copy.deepcopy(world), pickle.loads(pickle.dumps(world))]
+        worlds.append(pickle.loads(pickle.dumps(worlds[-1])))
+        for _ in range(3):
+            if asked != "after":
+                some_edit(worlds, rng)
+            edges = [world.edges(0) for world in worlds]
+            of = Selection.within(0)
+            near = [world.edge_edge_candidates(of, 0.2).all() for world in worlds]
+            close = [world.close_edge_edge_pairs(of, 0.3).all().pairs for world in worlds]
+            for answers in (edges, near, close):
+                assert len(answers[0]) > 0 and all(np.array_equal(answer, answers[0]) for answer in answers)
+            some_edit(worlds, rng)
+        for again in worlds:
+            again.validate()
+
+
+def test_pickles_without_numbers_of_edges_are_read_and_wrong_ones_refused() -> None:
+    world, body, faces, _ = folded(4)
+    world.edges(body)
+    edit = world.edit(body)
+    edit.remove_triangles([0, 1])
+    world.apply(edit)
+    make, _, written = world.__reduce__()
+    edges = written["bodies"][0]["edges"]
+    assert edges.dtype == np.uint32 and (edges == world.edges(body)).all()
+
+    def read(**changed: Any) -> pliant.World:
+        again = make()
+        again.__setstate__(written | {"bodies": [written["bodies"][0] | changed]})
+        return again
+
+    assert (read().edges(body) == edges).all()
+    # Written by the version before: its edges are numbered anew.
+    del written["bodies"][0]["edges"]
+    live = edges[(edges != EMPTY).any(axis=1)]
+    assert (read().edges(body) == np.unique(live, axis=0)).all()
+    for bad in (edges[1:], np.concatenate([edges, edges[:1]]), edges[:, ::-1].copy(), edges[:0]):
+        with pytest.raises(pliant.Error, match="not a world that pickle wrote down: the edges of body 0") as refused:
+            read(edges=bad)
+        assert refused.value.kind == "BadOption"
+    with pytest.raises(TypeError):
+        read(edges=edges.astype(np.int64))

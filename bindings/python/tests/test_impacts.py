@@ -106,3 +106,40 @@ def test_worlds_say_what_single_pairs_say(dtype: Any) -> None:
         world.vertex_triangle_impacts(Selection.WORLD, width=-1.0).all()
     assert refused.value.kind == "BadWidth"
     assert repr(world.edge_edge_impacts(Selection.WORLD)) == "<pliant.ImpactQuery of Selection.WORLD, edges and edges, width 0.000001>"
+
+
+def test_steps_say_how_they_begin_and_whether_anything_moves() -> None:
+    world = pliant.World()
+    floor = world.add([[0, 1, 2]], np.array([[-9, -9, 0], [9, -9, 0], [0, 9, 0]], np.float64))
+    through = np.array([[0, 0, -1], [1, 0, 2], [-1, 0, 2]], np.float64)
+    leaf = world.add([[0, 1, 2]], through)
+    of = Selection.EVERYTHING
+    assert world.free_step(of) == pliant.FreeStep(1.0, pliant.Pair(floor, 0, leaf, 0), False)
+    # Each way out is a contact.
+    world.set_motion(leaf, through + [0, 0, 4])
+    step = world.free_step(of)
+    assert 0.2 < step.t == world.collision_free_step(of) < 0.25
+    assert step.moves and step.begins_in_contact == pliant.Pair(floor, 0, leaf, 0)
+    # What is glued together is no contact.
+    for body in (floor, leaf):
+        world.set_vertex_groups(body, [7, 7, 7])
+    assert world.free_step(of).begins_in_contact is None
+    for body in (floor, leaf):
+        world.set_vertex_groups(body, [0, 0, 0])
+    above = through + [0, 0, 1.25]
+    world.set_positions(leaf, above)
+    assert world.free_step(of) == (1.0, None, False)
+    world.set_motion(leaf, above - [0, 0, 4])
+    assert world.free_step(of).begins_in_contact is None
+    near = world.free_step(of, min_distance=0.25)
+    assert near.begins_in_contact == pliant.VertexTriangle(leaf, 0, floor, 0) and type(near.begins_in_contact) is pliant.VertexTriangle
+    assert world.free_step(of, np.nextafter(0.25, 0)).begins_in_contact is None
+    # Of the others nobody is asked.
+    assert not world.free_step(Selection.within(floor)).moves and world.free_step(Selection.between(floor, leaf)).moves
+    blade = world.add([[0, 1, 2]], np.array([[-1, 5, 3], [1, 5, 3], [0, 5, 9]], np.float64))
+    other = world.add([[0, 1, 2]], np.array([[0, 4, 2.9], [0, 6, 2.9], [0, 5, 1]], np.float64))
+    edges = world.free_step(Selection.between(blade, other), 0.11)
+    assert type(edges.begins_in_contact) is pliant.EdgeEdge and edges == (1.0, (blade, 0, other, 0), False)
+    with pytest.raises(pliant.Error) as refused:
+        world.free_step(of, -1.0)
+    assert refused.value.kind == "BadDistance"

@@ -242,3 +242,37 @@ def test_questions_to_a_world_without_bodies() -> None:
         assert query.first() is None and not query.visit(lambda pair: True)
         assert query.all().shape == (0, 4) and query.all(at_most=0).dtype == np.uint32
     assert sum(world.statistics()) == 0
+
+
+@pytest.mark.parametrize("given", ["EVERYTHING", "world", 0, None, (0, 1), pliant.Selection], ids=repr)
+def test_what_is_no_selection_is_told_what_is(given: Any) -> None:
+    world = two_sheets()
+    calls: list[Callable[[], Any]] = [
+        lambda: world.intersections(given),
+        lambda: world.contacts(given),
+        lambda: world.vertex_triangle_candidates(given, 0.1),
+        lambda: world.close_triangle_pairs(given, 0.1),
+        lambda: world.edge_edge_impacts(given),
+        lambda: world.first_impact(given),
+        lambda: world.free_step(given),
+        lambda: world.clearance(given, 1.0),
+    ]
+    for call in calls:
+        with pytest.raises(TypeError, match=r"pliant.Selection: Selection.EVERYTHING, .*Selection.within\(a\); not .*") as refused:
+            call()
+        assert repr(given) in str(refused.value)
+
+
+def test_who_goes_through_a_question_is_told_to_ask_it() -> None:
+    world, of = two_sheets(), pliant.Selection.WORLD
+    queries: list[Any] = [
+        world.intersections(of),
+        world.edge_edge_candidates(of, 0.1),
+        world.contacts(of),
+        world.close_vertex_triangle_pairs(of, 0.1),
+        world.vertex_triangle_impacts(of),
+    ]
+    for query in queries:
+        for call in (lambda: list(query), lambda: len(query), lambda: [hit for hit in query], lambda: 0 in query):
+            with pytest.raises(TypeError, match=r"a question that was not answered yet: ask it for all\(\), first\(\) or visit"):
+                call()

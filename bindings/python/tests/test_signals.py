@@ -233,6 +233,31 @@ def test_weld() -> None:
     world.validate()
 
 
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="signals that come again and again are not there")
+@pytest.mark.parametrize("ask", [pliant.vertex_triangle_impacts, pliant.edge_edge_impacts])
+def test_single_pairs(ask: Callable[..., object]) -> None:
+    """Handled in the middle of the call: at its end all that have come are handled as one."""
+    corners = np.random.default_rng(0).integers(-3, 4, (2, 200_000, 4, 3)) * [1.0, 1.0, 0.0]
+    handled = 0
+
+    def handle(*_: object) -> None:
+        nonlocal handled
+        handled += 1
+        if handled == 3:
+            raise Stop
+
+    before = signal.signal(signal.SIGALRM, handle)
+    signal.setitimer(signal.ITIMER_REAL, 0.01, 0.01)
+    try:
+        with pytest.raises(Stop):
+            try:
+                ask(*corners)
+            finally:
+                signal.setitimer(signal.ITIMER_REAL, 0.0)
+    finally:
+        signal.signal(signal.SIGALRM, before)
+
+
 def test_a_handler_that_returns_lets_a_query_go_on() -> None:
     world = world_of(coplanar(1500), coplanar(1500))
     in_use = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import sys
 import threading
 import time
@@ -115,6 +116,51 @@ def test_a_visitor_may_not_ask_its_world() -> None:
     assert world.intersections(pliant.Selection.within(body)).visit(visit)
     assert errors == ["Busy"] * 3
     assert len(pairs_within(world, body)) > 0
+
+
+def test_a_writer_of_positions_may_not_ask_its_world() -> None:
+    """Nor another thread: what is written is for the body that was asked about."""
+    world = pliant.World()
+    body = world.add(FACES, FLAT)
+    edit = world.edit(body)
+    edit.remove_triangles([0])
+    calls: list[Callable[[], object]] = [
+        world.bodies,
+        lambda: world.remove(body),
+        lambda: world.apply(edit),
+        lambda: world.set_mesh(body, FACES[1:], FLAT),
+        lambda: world.set_positions(body, FLAT),
+        lambda: world.write_positions(body, lambda out: None),
+        lambda: copy.copy(world),
+        world.intersections().all,
+    ]
+    errors = []
+
+    def write(out: Any) -> None:
+        def ask() -> None:
+            for call in calls:
+                with pytest.raises(pliant.Error, match="one call at a time") as refused:
+                    call()
+                errors.append(refused.value.kind)
+
+        ask()
+        thread = threading.Thread(target=ask)
+        thread.start()
+        thread.join()
+        out[:] = SHAPE
+
+    world.write_positions(body, write)
+    assert errors == ["Busy"] * 2 * len(calls)
+    assert (world.positions(body) == SHAPE).all()
+    assert len(pairs_within(world, body)) > 0
+
+    def raises(out: Any) -> None:
+        raise ZeroDivisionError
+
+    # Whatever becomes of it, the world is free again.
+    with pytest.raises(ZeroDivisionError):
+        world.write_positions(body, raises)
+    assert (world.positions(body) == SHAPE).all()
 
 
 def test_a_second_thread_is_refused_not_left_waiting() -> None:

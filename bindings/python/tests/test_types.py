@@ -133,6 +133,8 @@ def test_tests_and_examples_have_the_right_types() -> None:
         ("world.intersections(pliant.Selection.EVERYTHING).all(at_most=3)[0]", None),
         ("{pliant.Selection.within(0): pliant.Selection.between(0, np.uint32(1)) == pliant.Selection.WORLD}", None),
         ("world.intersections(0)", "Selection"),
+        ("for pair in world.intersections(): print(pair)", "__iter__"),
+        ("len(world.intersections())", "len"),
         ("world.intersections(pliant.Selection.between(0))", "between"),
         ("world.intersections(pliant.Selection.EVERY)", "EVERY"),
         ("world.intersections(pliant.Selection.within(0)).first().body_a", "None"),

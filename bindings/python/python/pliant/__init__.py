@@ -30,7 +30,7 @@ from ._pliant import (
     self_intersection_pairs,
     vertex_triangle_impacts,
 )
-from ._types import Body, BodyThere, ClosePair, ClosePairs, Contact, ContactKind, Contacts, EdgeEdge, Edited, Error, FirstImpact, Frame, Fused, Impact, Impacts, Interval, Kinds, Life, Mesh, OpenMesh, Pair, Piece, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
+from ._types import Body, BodyThere, ClosePair, ClosePairs, Contact, ContactKind, Contacts, EdgeEdge, Edited, Error, FirstImpact, Frame, FreeStep, Fused, Impact, Impacts, Interval, Kinds, Life, Mesh, OpenMesh, Pair, Piece, Place, Statistics, TreeBoxes, TreeShape, VertexTriangle
 
 __all__ = [
     "Body",
@@ -49,6 +49,7 @@ __all__ = [
     "Error",
     "FirstImpact",
     "Frame",
+    "FreeStep",
     "Fused",
     "Impact",
     "ImpactQuery",

@@ -39,10 +39,11 @@ class Error(ValueError):
     triangles: int | None = None
     #: Where the vertex is.
     position: tuple[float, float, float] | None = None
-    #: Vertices of the body, and positions given.
+    #: Vertices of the body, and positions or groups given.
     expected: int | None = None
     found: int | None = None
-    #: "triangles", "vertices" or "pairs", how many there were, and how many there may be; of hits, how many were allowed.
+    #: "triangles", "vertices" or "pairs", how many there were, and how many there may be; of hits, how many were allowed. Of a wrong
+    #: length, "positions" or "groups".
     what: str | None = None
     count: int | None = None
     limit: int | None = None
@@ -201,6 +202,18 @@ class Impact(NamedTuple):
     pair: VertexTriangle | EdgeEdge
     low: float
     high: float
+
+
+class FreeStep(NamedTuple):
+    """How far everything may go, and how that begins: see World.free_step."""
+
+    t: float
+    """A time from 0 to 1, to call World.advance_motion with."""
+    begins_in_contact: Pair | VertexTriangle | EdgeEdge | None
+    """The first that are in contact at the start already: triangles that intersect; else elements at most min_distance apart. None if
+    everything begins apart."""
+    moves: bool
+    """Whether a body that was asked about has a motion, be it nowhere. If none has, t is 1."""
 
 
 class TreeShape(NamedTuple):
@@ -408,5 +421,5 @@ class OpenMesh(Protocol):
     def triangles(self) -> Any: ...
 
 
-for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts, Edited, Fused, Piece, Impact, Impacts, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Frame, Mesh, OpenMesh):
+for _public in (Error, Pair, VertexTriangle, EdgeEdge, ClosePair, ClosePairs, Contact, ContactKind, Contacts, Edited, Fused, Piece, Impact, Impacts, FreeStep, TreeBoxes, TreeShape, Statistics, Body, BodyThere, Place, Life, FirstImpact, Interval, Kinds, Frame, Mesh, OpenMesh):
     _public.__module__ = "pliant"

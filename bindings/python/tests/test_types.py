@@ -40,7 +40,9 @@ def test_stub_and_module_have_the_same_names() -> None:
     assert {name for name in names(stub) if not name.startswith("_")} == public
     classes = {member.name: member.body for member in stub if isinstance(member, ast.ClassDef)}
     for name in ("World", "Query", "Selection", "Check"):
-        members = {member for member in vars(getattr(pliant, name)) if member in ("__iter__", "__next__") or member[0] != "_"}
+        # That a question cannot be gone through is said when somebody tries, not here.
+        special = ("__iter__", "__next__") if name == "Check" else ()
+        members = {member for member in vars(getattr(pliant, name)) if member in special or member[0] != "_"}
         assert {member for member in names(classes[name]) | constants(classes[name]) if member in members or member[:2] != "__"} == members
 
 
@@ -134,7 +136,7 @@ def test_tests_and_examples_have_the_right_types() -> None:
         ("{pliant.Selection.within(0): pliant.Selection.between(0, np.uint32(1)) == pliant.Selection.WORLD}", None),
         ("world.intersections(0)", "Selection"),
         ("for pair in world.intersections(): print(pair)", "__iter__"),
-        ("len(world.intersections())", "len"),
+        ("len(world.intersections())", "Sized"),
         ("world.intersections(pliant.Selection.between(0))", "between"),
         ("world.intersections(pliant.Selection.EVERY)", "EVERY"),
         ("world.intersections(pliant.Selection.within(0)).first().body_a", "None"),

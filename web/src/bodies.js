@@ -1,5 +1,6 @@
-// The bodies by name, each with an eye; and which of them are hidden from the beginning.
+// The bodies by name, or the parts that they are split into, each with an eye; and which are hidden from the beginning.
 
+import { partOf } from './data.js';
 import { element, grouped } from './dom.js';
 
 /** More are found by typing. */
@@ -19,23 +20,23 @@ export class BodyList {
     this.box = element('section', { className: 'panel', 'aria-label': 'Bodies' }, element('div', { className: 'head' }, this.title, this.everybody), this.said, this.search, this.list);
   }
 
-  /** A body whose mesh changes is one in this list. */
+  /** A body whose mesh changes is one in this list, one that is split as many as it has parts. */
   load(motion) {
-    this.all = [...new Map(motion.bodies.map((body) => [body.number, body])).values()].sort((a, b) => a.number - b.number);
+    this.all = motion.parts;
     const hit = new Set();
     for (const frame of motion.frames) {
       let at = 0;
       for (const body of motion.bodies) {
-        const from = at;
-        while (at < frame.red.length && frame.red[at] < body.first + body.triangles) at++;
-        if (at > from) hit.add(body.number);
+        for (; at < frame.red.length && frame.red[at] < body.first + body.triangles; at++) hit.add(partOf(body, frame.red[at] - body.first).number);
       }
+      // Of each contact the two bodies.
+      for (const row of frame.moment?.contacts ?? []) hit.add(row[1]).add(row[row.length === 5 ? 3 : 4]);
     }
     this.isHit = hit;
     this.search.value = '';
     this.search.hidden = this.all.length < 9;
     this.title.textContent = this.all.length === 1 ? 'Body' : `${grouped(this.all.length)} bodies`;
-    const round = this.all.filter(({ number }) => hidesAll(motion, number, hit));
+    const round = this.all.filter(hidesAll(motion, hit));
     this.said.replaceChildren(...round.flatMap(({ name }, i) => [i ? ', ' : 'Hidden, for it holds no hit and hides what does: ', element('bdi', {}, short(name))]));
     this.said.hidden = round.length === 0;
     this.set(new Set(round.map(({ number }) => number)));
@@ -95,25 +96,33 @@ function short(name) {
   return name.split('/').pop() || name;
 }
 
-/** Whether a body has no hit in any frame, and goes round all places of some frame and beyond: a sky, a room. */
-function hidesAll(motion, number, hit) {
-  if (hit.has(number)) return false;
-  const frame = motion.frames.find(({ places }) => places.length > 0);
-  const record = frame && motion.bodies.findIndex((body, i) => body.number === number && frame.shapes[i]);
-  if (!frame || record < 0) return false;
-  const box = boxOf(motion.bodies[record], frame.shapes[record]);
-  const others = motion.bodies.map((body, i) => [body, frame.shapes[i]]).filter(([body, shape]) => shape && hit.has(body.number)).map(([body, shape]) => boxOf(body, shape));
-  return others.length > 0 && others.every((other) => [0, 1, 2].every((axis) => box[0][axis] <= other[0][axis] && other[1][axis] <= box[1][axis]))
-    && others.every((other) => Math.max(...size(box)) > 1.2 * Math.max(...size(other)));
+/** Which parts have no hit in any frame, and go round all that have one and beyond: a sky, a room. */
+function hidesAll({ bodies, frames }, hit) {
+  const frame = frames.find(({ places }) => places.length > 0);
+  if (!frame) return () => false;
+  const boxes = new Map();
+  bodies.forEach((body, i) => frame.shapes[i] && addBoxes(boxes, body, frame.shapes[i]));
+  const others = [...boxes].filter(([number]) => hit.has(number)).map(([, box]) => box);
+  const largest = Math.max(...others.map(size));
+  const isRound = (box) => others.every((other) => [0, 1, 2].every((axis) => box[0][axis] <= other[0][axis] && other[1][axis] <= box[1][axis]));
+  return ({ number }) => !hit.has(number) && others.length > 0 && boxes.has(number)
+    && size(boxes.get(number)) > 1.2 * largest && isRound(boxes.get(number));
 }
 
-const size = ([lower, upper]) => upper.map((x, axis) => x - lower[axis]);
+const size = ([lower, upper]) => Math.max(...upper.map((x, axis) => x - lower[axis]));
 
-function boxOf({ vertices, step }, { lower, steps }) {
-  const upper = [0, 1, 2].map((axis) => {
-    let most = 0;
-    for (let i = axis * vertices; i < (axis + 1) * vertices; i++) most = Math.max(most, steps[i]);
-    return lower[axis] + most * step;
-  });
-  return [lower, upper];
+/** The boxes of the parts of a body. */
+function addBoxes(boxes, body, { lower, steps }) {
+  for (let triangle = 0; triangle < body.triangles; triangle++) {
+    const { number } = partOf(body, triangle);
+    if (!boxes.has(number)) boxes.set(number, [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]]);
+    const [least, most] = boxes.get(number);
+    for (const vertex of body.corners.subarray(3 * triangle, 3 * triangle + 3)) {
+      for (let axis = 0; axis < 3; axis++) {
+        const x = lower[axis] + steps[axis * body.vertices + vertex] * body.step;
+        if (x < least[axis]) least[axis] = x;
+        if (x > most[axis]) most[axis] = x;
+      }
+    }
+  }
 }

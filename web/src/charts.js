@@ -8,6 +8,8 @@ import { explained } from './words.js';
 const HEIGHT = 260;
 /** Lines whose figures differ by so much are offered on a logarithmic axis. */
 const DECADES = 100;
+/** Steps between the numbers of an axis of what has no halves: frames, pairs. */
+const WHOLE = Array.from({ length: 16 }, (_, power) => [1, 2, 5].map((digit) => digit * 10 ** power)).flat();
 const HEIGHTS = { cut: 'Clipped', all: 'Linear', logarithmic: 'Logarithmic' };
 
 /** A figure with its chart; `chosen` is told the number of a step that is clicked or dragged to. */
@@ -50,11 +52,15 @@ export class Chart {
     const top = (most) => 1.05 * (this.height === 'cut' ? ceiling : most > 0 ? most : 1);
     const axis = { stroke: colour('muted'), grid: { stroke: colour('line'), width: 1 }, ticks: { stroke: colour('line'), width: 1 }, font: '12px system-ui, sans-serif' };
     const single = lines.length === 1;
+    const counts = lines.every(({ values }) => values.every((value) => value === null || Number.isInteger(value)));
+    const xAxis = { ...axis, incrs: WHOLE };
+    const yAxis = { ...axis, ...(counts && !logarithmic && { incrs: WHOLE }), size: 64, label: unit, labelSize: 18, labelFont: axis.font };
     const options = {
       width: this.box.clientWidth,
       height: HEIGHT,
-      scales: { x: { time: false }, y: logarithmic ? { distr: 3 } : { range: (_, __, most) => [0, top(most)] } },
-      axes: [axis, { ...axis, size: 64, label: unit, labelSize: 18, labelFont: axis.font }],
+      // One step alone is in the middle.
+      scales: { x: { time: false, ...(x.length === 1 && { range: [x[0] - 1, x[0] + 1] }) }, y: logarithmic ? { distr: 3 } : { range: (_, __, most) => [0, top(most)] } },
+      axes: [xAxis, yAxis],
       // Dragging moves the picture; it does not zoom.
       cursor: { drag: { x: false, y: false }, points: { size: 6 } },
       // The legend has colour and dash of each line.

@@ -1,8 +1,5 @@
 // What pliant packed, unpacked: the counterpart of crates/pliant-report/src/pack.rs.
 
-/** The number of the place where something meets on the way between two frames: places of frames count from 0. */
-export const CONTACT = -1;
-
 /** Reads numbers one after the other. */
 class Reader {
   constructor(bytes) {
@@ -72,11 +69,12 @@ async function inflate(base64) {
 }
 
 /**
- * Bodies and frames of a motion: `facts` is what the page says of it, `base64` the rest.
+ * Bodies and frames of a motion: `facts` is what the page says of it, `base64` the rest, `colours` those of bodies.
  *
- * Triangles of all bodies are numbered in one row; `first` of a body is where its own begin.
+ * Triangles of all bodies are numbered in one row; `first` of a body is where its own begin. A body that is split has several
+ * `parts`, and `partOf` its triangles; any other is one part. Parts have numbers, all in one row, names and colours.
  */
-export async function unpack(facts, base64) {
+export async function unpack(facts, base64, colours) {
   const reader = new Reader(await inflate(base64));
   let first = 0;
   const bodies = facts.bodies.map((body) => {
@@ -87,7 +85,9 @@ export async function unpack(facts, base64) {
       order: reader.words(body.triangles),
       starts: body.levels.map((count) => reader.words(count)),
       fileFaces: body.faces ? reader.words(body.triangles) : null,
+      partOf: body.parts ? reader.words(body.triangles) : null,
     };
+    unpacked.parts = partsOf(unpacked, colours);
     first += body.triangles;
     return unpacked;
   });
@@ -110,13 +110,12 @@ export async function unpack(facts, base64) {
     const near = reader.words(reader.word());
     const gaps = reader.gaps(reader.word());
     const made = reader.slice(Math.ceil(bits / 8));
-    // The first contact on the way to the next frame: what was found in the frame is not said of it.
     const moment = facts.moments[at];
     const number = facts.numbers[place];
     return {
       place,
       moment,
-      number: moment ? number + moment.time * (moment.until - number) : number,
+      number,
       from: number,
       pairs: moment ? 0 : facts.pairs[place],
       shapes,
@@ -126,16 +125,118 @@ export async function unpack(facts, base64) {
       near,
       gaps,
       made,
-      places: facts.places[at].map(([number, count, lower, upper, label]) => ({ number: moment ? CONTACT : number, count, lower, upper, label })),
+      places: facts.places[at].map(([number, count, lower, upper, label]) => ({ number, count, lower, upper, label })),
       placeCount: facts.placeCounts[at],
     };
   });
-  return { bodies, frames, numbers: facts.numbers, pairs: facts.pairs };
+  // What meets on the way to the next frame, behind the frame that it begins in.
+  frames.forEach((frame, at) => frame.moment && (frame.before = frames[at - 1]));
+  return { bodies, parts: allParts(bodies), frames, numbers: facts.numbers, pairs: facts.pairs };
 }
 
 /** Whether anything intersects in a frame, or meets in a moment between two. */
 export function isHit({ pairs, moment }) {
   return pairs > 0 || moment !== null;
+}
+
+/** What a body is split into, or itself; behind the parts that have names one of all triangles that are of none. */
+function partsOf({ number, name, parts, partOf }, colours) {
+  const part = (number, name) => ({ number, name, colour: colours[Math.abs(number) % colours.length] });
+  if (!parts) return [part(number, name)];
+  const named = parts.map((each, i) => part(number + i, `${name}#${each}`));
+  // A number that no other has: no body of answers is below zero.
+  return partOf.includes(parts.length) ? [...named, part(-1 - number, `${name}, the rest`)] : named;
+}
+
+/** The part of a body that a triangle of it is of. */
+export function partOf({ parts, partOf }, triangle) {
+  return parts[partOf ? partOf[triangle] : 0];
+}
+
+/** The parts of all bodies; a body whose mesh changes is there several times, its part once. */
+function allParts(bodies) {
+  const all = [...new Map(bodies.flatMap(({ parts }) => parts.map((part) => [part.number, part]))).values()];
+  // Those that were not asked for are the last.
+  return all.sort((a, b) => (a.number < 0) - (b.number < 0) || a.number - b.number);
+}
+
+const inWords = ({ kind, numbers, name }) => `${kind} ${numbers.join(' to ')}${name === null ? '' : ` of ${name}`}`;
+
+/** The elements of a contact: where they are, and what they are called. */
+function elementsOf(bodies, frame, [, ...row]) {
+  const isAlone = bodies.every(({ number, parts }) => number === 0 && parts.length === 1);
+  const one = (kind, number, ...numbers) => {
+    const body = bodies.findIndex((body, i) => frame.shapes[i] && number >= body.number && number - body.number < body.parts.length);
+    const { corners, parts, number: first } = bodies[body];
+    const vertices = kind === 'triangle' ? [...corners.subarray(3 * numbers[0], 3 * numbers[0] + 3)] : numbers;
+    return { kind, numbers, body, vertices, name: isAlone ? null : parts[number - first].name };
+  };
+  const [a, b, c, d, e, f] = row;
+  return row.length === 4 ? [one('vertex', a, b), one('triangle', c, d)] : [one('edge', a, b, c), one('edge', d, e, f)];
+}
+
+/** What a contact is called. */
+export function contactLabel(bodies, frame, contact) {
+  return elementsOf(bodies, frame, contact).map(inWords).join(', ');
+}
+
+/**
+ * A moment as a frame: the bodies where they are at a contact, on straight lines from the frame before to the next. The triangles
+ * that have the one element are red, with those that have the other; lines are drawn round both, of a vertex a cross.
+ */
+export function contactShown(bodies, frame, nth) {
+  const { moment, before, from } = frame;
+  const contact = moment.contacts[nth];
+  const [time] = contact;
+  const shapes = frame.shapes.map((end, i) => end && between(before.shapes[i], end, time));
+  const elements = elementsOf(bodies, frame, contact);
+  const position = (body, vertex) => {
+    const [{ lower, steps }, { vertices, step }] = [shapes[body], bodies[body]];
+    return lower.map((x, axis) => x + steps[axis * vertices + vertex] * step);
+  };
+  const corners = elements.map(({ body, vertices }) => vertices.map((vertex) => position(body, vertex)));
+  const [lower, upper] = [Math.min, Math.max].map((of) => [0, 1, 2].map((axis) => of(...corners.flat().map((at) => at[axis]))));
+  const size = Math.max(...upper.map((x, axis) => x - lower[axis]));
+  const having = elements.map(({ kind, numbers, body, vertices }) => {
+    const { first, corners } = bodies[body];
+    if (kind === 'triangle') return [first + numbers[0]];
+    const found = [];
+    for (let i = 0; i < corners.length; i += 3) {
+      if (vertices.every((vertex) => vertex === corners[i] || vertex === corners[i + 1] || vertex === corners[i + 2])) found.push(first + i / 3);
+    }
+    return found;
+  });
+  const pairs = having[0].flatMap((a) => having[1].map((b) => [a, b]));
+  const [a, b] = [0, 1].map((end) => Uint32Array.from(pairs, (pair) => pair[end]));
+  const lines = corners.flatMap((of) => outline(of, size / 8));
+  const label = elements.map(inWords).join(', ');
+  return {
+    ...frame,
+    moment: { ...moment, nth, time, label },
+    number: from + time * (moment.until - from),
+    shapes,
+    partners: { a, b },
+    red: distinct(a, b),
+    gaps: pairs.length > 0 ? lines.map((points) => ({ triangles: pairs[0], points: points.flat() })) : [],
+    // Places of frames count from 0.
+    places: [{ number: -1 - nth, count: 1, lower, upper, label }],
+    placeCount: moment.count ?? 1,
+  };
+}
+
+/** A shape on the way from one to another. */
+function between(start, end, time) {
+  if (!start) return end;
+  return {
+    lower: end.lower.map((x, axis) => start.lower[axis] + time * (x - start.lower[axis])),
+    steps: Float32Array.from(end.steps, (x, i) => start.steps[i] + time * (x - start.steps[i])),
+  };
+}
+
+/** Lines round an element: a cross of this size of a vertex, an edge, the sides of a triangle. */
+function outline(corners, size) {
+  if (corners.length > 1) return corners.map((at, i) => [at, corners[(i + 1) % corners.length]]);
+  return [0, 1, 2].map((axis) => [-size, size].map((by) => corners[0].map((x, of) => (of === axis ? x + by : x))));
 }
 
 /** The numbers in both lists, each once, ascending. */

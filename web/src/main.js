@@ -54,14 +54,14 @@ function asked() {
   return box;
 }
 
-const player = new Player('step', shown);
+const player = new Player('step', shown, lookAtLargest);
 const selection = new Selection((triangles) => stage?.mark(triangles));
 const canvas = element('canvas', { tabIndex: 0, 'aria-label': 'The bodies. Drag to turn, click a triangle; then scroll to come nearer.' });
 const levels = element('select', { id: 'levels', onchange: showBoxes });
 const boxesSaid = element('span', { className: 'hint' });
 const seeThrough = element('button', { type: 'button', 'aria-pressed': 'false', onclick: () => stage?.toggleSeeThrough() }, 'See through');
 const wireframe = element('button', { type: 'button', 'aria-pressed': 'false', onclick: toggleWireframe }, 'Wireframe');
-const places = new PlaceList((number) => stage?.flyTo(number));
+const places = new PlaceList(lookAt);
 const bodies = new BodyList(report, (hidden) => stage?.hide(hidden));
 const stageBox = element('section', { className: 'stage', 'aria-label': 'The bodies in motion' },
   element('div', { className: 'shown' },
@@ -146,10 +146,8 @@ async function choose(place) {
     current = motion;
     player.load(motion);
     // Opens on the largest place, or on everything.
-    const [largest] = player.frame.places;
     stage.resize();
-    if (largest) stage.flyTo(largest.number, false);
-    else stage.look();
+    lookAtLargest(false);
   }
   ready();
 }
@@ -173,7 +171,7 @@ function openStage() {
 async function motionAt(place) {
   if (!motions.has(place)) {
     const text = packed[place].textContent;
-    motions.set(place, text ? await unpack(report.motions[place], text) : null);
+    motions.set(place, text ? await unpack(report.motions[place], text, report.colours) : null);
     packed[place].remove();
   }
   return motions.get(place);
@@ -196,6 +194,23 @@ function lookedAt() {
   seeThrough.setAttribute('aria-pressed', String(stage.seeThrough));
   places.show(stage.frame, player.along, stage.focus);
   Object.assign(stageBox.dataset, { places: stage.frame.placeCount, focus: stage.focus ?? '', glass: stage.seeThrough ? 'yes' : 'no', flies: stage.flight ? 'yes' : 'no', hidden: stage.hidden.size });
+}
+
+/** Goes to the largest place of the frame, or looks at everything. */
+function lookAtLargest(animated = true) {
+  const [largest] = player.frame.places;
+  if (largest) stage.flyTo(largest.number, animated);
+  else stage.look();
+}
+
+/** Goes to a place of the frame, or to a contact on the way to the next: their numbers are below zero. */
+function lookAt(number) {
+  if (!stage) return;
+  if (number < 0) {
+    player.pause();
+    player.go(player.place, -1 - number);
+  }
+  stage.flyTo(number);
 }
 
 function offerLevels(motion) {
@@ -221,12 +236,12 @@ function toggleWireframe() {
   wireframe.setAttribute('aria-pressed', String(stage.toggleWireframe()));
 }
 
-/** The place after the one that is looked at, the largest after the last. */
+/** The place, or the contact, after the one that is looked at; the first after the last. */
 function nextPlace() {
-  const all = stage.frame.places;
-  const now = all.findIndex(({ number }) => number === stage.focus);
-  const next = all[(now + 1) % Math.max(1, all.length)];
-  if (next) stage.flyTo(next.number);
+  const { places, moment } = stage.frame;
+  const all = moment ? moment.contacts.map((_, nth) => -1 - nth) : places.map(({ number }) => number);
+  const next = all[(all.indexOf(stage.focus) + 1) % Math.max(1, all.length)];
+  if (next !== undefined) lookAt(next);
 }
 
 function guarded(promise) {

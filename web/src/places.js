@@ -1,12 +1,13 @@
-// The places of the frame, most pairs first: a click goes there.
+// The places of the frame, most pairs first, or what meets on the way to the next, the earliest first: a click goes there.
 
+import { contactLabel } from './data.js';
 import { counted, element, grouped } from './dom.js';
 
 /** More are counted, not listed. */
 const LISTED = 40;
 
 export class PlaceList {
-  /** `chosen` is told the number of a place that is clicked. */
+  /** `chosen` is told the number of a place that is clicked; of contacts the first is -1, the second -2. */
   constructor(chosen) {
     this.chosen = chosen;
     this.title = element('h2', {}, 'Places');
@@ -16,6 +17,8 @@ export class PlaceList {
 
   /** Which frames that are shown have each place. */
   load(motion) {
+    this.bodies = motion.bodies;
+    this.listed = null;
     this.lives = new Map();
     for (const { number: frame, places } of motion.frames.filter(({ moment }) => !moment)) {
       for (const { number } of places) {
@@ -28,20 +31,49 @@ export class PlaceList {
   /** Another frame, or another place that is looked at. */
   show(frame, along, focus) {
     const { places, placeCount, moment } = frame;
-    this.title.textContent = moment ? 'First contact' : placeCount === 0 ? 'No place' : counted(placeCount, 'place');
-    const had = this.list.contains(document.activeElement) ? document.activeElement.dataset.number : null;
-    this.list.replaceChildren(...places.slice(0, LISTED).map(({ number, count, label }) => {
-      const [first, last] = moment ? [frame.from, moment.until] : this.lives.get(number);
-      const lives = moment ? `${along} ${first} to ${last}` : first === last ? `${along} ${first}` : `${along}s ${first} to ${last}`;
-      const [title, size] = moment ? [`After ${+moment.time.toPrecision(4)}`, counted(count, 'contact')] : [`Place ${number}`, counted(count, 'pair')];
-      return element('li', {}, element('button', {
-        type: 'button', 'aria-pressed': String(number === focus), 'data-number': number, onclick: () => this.chosen(number),
-      }, element('b', {}, title), element('span', {}, size), element('small', { title: label }, element('bdi', {}, moment ? label : short(label))), element('small', {}, lives)));
-    }));
-    if (placeCount > places.length) this.list.append(element('li', { className: 'hint' }, `and ${grouped(placeCount - places.length)} more`));
-    if (had !== null) this.list.querySelector(`[data-number="${+had}"]`)?.focus();
+    const listed = moment ? moment.contacts : places;
+    // Of the same places only another is looked at: the list stays where it was scrolled to.
+    if (listed !== this.listed) {
+      const had = this.list.contains(document.activeElement) ? document.activeElement.dataset.number : null;
+      this.listed = listed;
+      this.title.textContent = moment ? this.contacts(frame, along) : placeCount === 0 ? 'No place' : counted(placeCount, 'place');
+      this.list.replaceChildren(...(moment ? this.ofMoment(frame) : this.ofFrame(frame, along)));
+      if (had !== null) this.list.querySelector(`[data-number="${+had}"]`)?.focus();
+    }
+    for (const button of this.list.querySelectorAll('button')) {
+      const isLookedAt = button.dataset.number === String(focus);
+      button.setAttribute('aria-pressed', String(isLookedAt));
+      if (isLookedAt && moment) button.scrollIntoView({ block: 'nearest' });
+    }
+  }
+
+  contacts({ from, moment: { count, until } }, along) {
+    return `${count === null ? 'First contact' : counted(count, 'contact')}, ${along} ${from} to ${until}`;
+  }
+
+  ofFrame({ places, placeCount }, along) {
+    const items = places.slice(0, LISTED).map(({ number, count, label }) => {
+      const [first, last] = this.lives.get(number);
+      return this.item(number, `Place ${number}`, counted(count, 'pair'), short(label), first === last ? `${along} ${first}` : `${along}s ${first} to ${last}`);
+    });
+    return [...items, ...more(placeCount - items.length)];
+  }
+
+  ofMoment(frame) {
+    const { contacts, count } = frame.moment;
+    const items = contacts.map((contact, nth) => this.item(-1 - nth, `After ${+contact[0].toPrecision(4)}`, '', contactLabel(this.bodies, frame, contact)));
+    return [...items, ...more((count ?? 0) - items.length)];
+  }
+
+  item(number, title, size, label, lives) {
+    // Without a life beside it the label has all the room that it needs.
+    const below = lives === undefined ? [] : [element('small', {}, lives)];
+    return element('li', {}, element('button', { type: 'button', 'data-number': number, onclick: () => this.chosen(number) },
+      element('b', {}, title), element('span', {}, size), element('small', { title: label, className: below.length ? '' : 'whole' }, element('bdi', {}, label)), ...below));
   }
 }
+
+const more = (count) => (count > 0 ? [element('li', { className: 'hint' }, `and ${grouped(count)} more`)] : []);
 
 /** Names of files without their folders. */
 function short(label) {

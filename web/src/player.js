@@ -1,13 +1,14 @@
 // Which frame is shown: play, pause, scrub, jump; and the strip that says where something intersects.
 
-import { isHit } from './data.js';
+import { contactShown, isHit } from './data.js';
 import { counted, element, grouped } from './dom.js';
 
 export class Player {
-  /** `shown` is told of every change: the frame, and whether it is one of many while playing. */
-  constructor(along, shown) {
+  /** `shown` is told of every change: the frame; `jumped` that it was gone to for what is hit there. */
+  constructor(along, shown, jumped) {
     this.along = along;
     this.shown = shown;
+    this.jumped = jumped;
     /** How close pairs are, if they are not those that intersect. */
     this.within = null;
     const button = (text, title, act) => element('button', { type: 'button', title, onclick: act }, text);
@@ -35,9 +36,12 @@ export class Player {
   load(motion) {
     this.pause();
     this.frames = motion.frames;
+    this.bodies = motion.bodies;
     this.slider.max = this.frames.length - 1;
     this.slider.disabled = this.frames.length < 2;
     this.playButton.disabled = this.frames.length < 2;
+    // One frame cannot be played, nor is there another to go to.
+    this.bar.hidden = this.frames.length < 2;
     const none = !this.frames.some(isHit);
     for (const jump of Object.values(this.jumps)) jump.disabled = none;
     this.jumps.most.disabled = !this.frames.some((frame) => frame.pairs > 0);
@@ -53,19 +57,17 @@ export class Player {
     this.strip.lastChild.setAttribute('d', moments.join(' '));
     this.place = undefined;
     if (none) this.go(0);
-    else if (this.jumps.most.disabled) this.firstContact();
-    else this.most();
+    else this.go(this.jumps.most.disabled ? this.firstHit() : this.worst());
   }
 
-  get frame() {
-    return this.frames[this.place];
-  }
-
-  go(place) {
+  /** The frame that is shown; of what meets on the way to the next, at the contact that was chosen. */
+  go(place, contact = 0) {
     const now = Math.max(0, Math.min(this.frames.length - 1, place));
-    if (now === this.place) return;
-    this.place = now;
+    if (now === this.place && contact === this.contact) return;
+    [this.place, this.contact] = [now, contact];
     this.slider.value = now;
+    const frame = this.frames[now];
+    this.frame = frame.moment ? contactShown(this.bodies, frame, contact) : frame;
     const { number, pairs, moment } = this.frame;
     const red = this.shown(this.frame);
     const text = moment ? this.way(this.frame) : `${this.along} ${number}: ${this.found(pairs, red, this.frame.near.length)}`;
@@ -83,9 +85,10 @@ export class Player {
   }
 
   /** What meets on the way from a frame to the next, in words. */
-  way({ from, moment: { until, time, count, label } }) {
-    const others = count === 1 ? 'the one contact' : `the first of ${grouped(count)} contacts`;
-    return `between ${this.along}s ${from} and ${until}, after ${+time.toPrecision(4)} of the way: ${others}, ${label}`;
+  way({ from, moment: { until, time, count, nth, label } }) {
+    const which = count === null ? 'the first contact' : count === 1 ? 'the one contact'
+      : nth === 0 ? `the first of ${grouped(count)} contacts` : `contact ${grouped(nth + 1)} of ${grouped(count)}`;
+    return `between ${this.along}s ${from} and ${until}, after ${+time.toPrecision(4)} of the way: ${which}, ${label}`;
   }
 
   /** To a frame by its number, or to the one before it that is shown. */
@@ -96,23 +99,35 @@ export class Player {
     this.go(place - 1);
   }
 
-  firstContact() {
+  firstHit() {
+    return this.frames.findIndex(isHit);
+  }
+
+  worst() {
+    const most = Math.max(...this.frames.map((frame) => frame.pairs));
+    return this.frames.findIndex((frame) => frame.pairs === most);
+  }
+
+  /** To a frame in which something is hit, and to that. */
+  jump(place) {
     this.pause();
-    this.go(this.frames.findIndex(isHit));
+    this.go(place);
+    this.jumped();
+  }
+
+  firstContact() {
+    this.jump(this.firstHit());
   }
 
   most() {
-    this.pause();
-    const most = Math.max(...this.frames.map((frame) => frame.pairs));
-    this.go(this.frames.findIndex((frame) => frame.pairs === most));
+    this.jump(this.worst());
   }
 
   /** To the next frame with hits, or the one before. */
   hit(direction) {
-    this.pause();
-    for (let place = this.place + direction; place in this.frames; place += direction) {
-      if (isHit(this.frames[place])) return this.go(place);
-    }
+    let place = this.place + direction;
+    while (place in this.frames && !isHit(this.frames[place])) place += direction;
+    this.jump(place in this.frames ? place : this.place);
   }
 
   step(by) {

@@ -1,6 +1,6 @@
 // The triangle that was clicked: which it is in its file, and whom it meets.
 
-import { bodyOf } from './data.js';
+import { bodyOf, partOf } from './data.js';
 import { counted, element, grouped } from './dom.js';
 
 /** More partners than these are counted, not listed. */
@@ -78,7 +78,8 @@ export class Selection {
 
   /** As the file numbers it. */
   named({ body, triangle }) {
-    const { name, colour, fileFaces } = this.motion.bodies[body];
+    const { fileFaces } = this.motion.bodies[body];
+    const { name, colour } = partOf(this.motion.bodies[body], triangle);
     const chip = element('span', { className: 'chip' });
     chip.style.background = colour;
     // Numbers to type elsewhere: without separators.

@@ -1,11 +1,11 @@
 // The bodies in space. Draws only when something has changed.
 
 import {
-  AmbientLight, Box3, BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, DynamicDrawUsage, LineBasicMaterial,
+  AmbientLight, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, DynamicDrawUsage, LineBasicMaterial,
   LineSegments, Mesh, MeshLambertMaterial, PerspectiveCamera, Plane, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { bodyOf, boxAround } from './data.js';
+import { bodyOf, boxAround, partOf } from './data.js';
 import { colour, element } from './dom.js';
 import { SIZE, areHidden, directions, fit } from './views.js';
 
@@ -25,7 +25,7 @@ export class Stage {
     this.overview = element('div', { className: 'overview', hidden: true, 'aria-hidden': 'true' }, this.spot);
     canvas.after(this.markers, this.ring, this.overview);
     this.far = new PerspectiveCamera(28, 1, 0.01, 100);
-    /** Numbers of bodies that are not shown. */
+    /** Numbers of parts of bodies that are not shown. */
     this.hidden = new Set();
     this.focus = null;
     this.chosenGlass = null;
@@ -85,32 +85,51 @@ export class Stage {
     return this.chosenGlass ?? this.autoGlass;
   }
 
+  /** Whether any part of a body is. */
   isShown(number) {
-    return Boolean(this.frame?.shapes[number]) && !this.hidden.has(this.bodies[number].body.number);
+    return Boolean(this.frame?.shapes[number]) && this.bodies[number].body.parts.some((part) => !this.hidden.has(part.number));
   }
 
-  /** Shows these bodies and no others. */
+  /** Whether a triangle of a body is, if the body is. */
+  isTriangleShown(body, triangle) {
+    return this.hidden.size === 0 || !this.hidden.has(partOf(body, triangle).number);
+  }
+
+  /** Shows these parts of bodies and no others. */
   hide(numbers) {
     this.hidden = numbers;
-    this.bodies.forEach(({ mesh, hits }, number) => {
-      mesh.visible = this.isShown(number);
-      hits.visible = mesh.visible && hits.geometry.drawRange.count > 0;
-    });
+    this.bodies.forEach((each) => this.drawShown(each));
+    if (this.frame) this.drawHits();
     this.boxesOf(this.level);
     this.showGaps();
     this.seeWhatHides();
     this.draw();
   }
 
+  /** Takes the triangles that are shown of a body. */
+  drawShown({ body, mesh, drawn }) {
+    const all = [...Array(body.triangles).keys()];
+    const shown = all.filter((triangle) => this.isTriangleShown(body, triangle));
+    mesh.userData.triangles = shown;
+    const { index } = mesh.geometry;
+    shown.forEach((triangle, i) => index.array.set(drawn.subarray(3 * triangle, 3 * triangle + 3), 3 * i));
+    index.needsUpdate = true;
+    mesh.geometry.setDrawRange(0, 3 * shown.length);
+  }
+
   /** Lines between bodies that are shown. */
   showGaps() {
     const { bodies } = this.motion;
-    const isShown = ({ triangles }) => triangles.every((triangle) => this.isShown(bodyOf(bodies, triangle).body));
+    const isShown = ({ triangles }) => triangles.every((row) => {
+      const { body, triangle } = bodyOf(bodies, row);
+      return this.isShown(body) && this.isTriangleShown(bodies[body], triangle);
+    });
     setLines(this.gaps, new Float32Array((this.frame?.gaps ?? []).filter(isShown).flatMap(({ points }) => points)));
   }
 
   body(body) {
-    const position = new BufferAttribute(new Float32Array(3 * body.vertices), 3).setUsage(DynamicDrawUsage);
+    const { drawn, copies, colours } = apart(body);
+    const position = new BufferAttribute(new Float32Array(3 * (body.vertices + copies.length)), 3).setUsage(DynamicDrawUsage);
     const make = (corners, ...properties) => {
       const geometry = new BufferGeometry();
       geometry.setAttribute('position', position);
@@ -121,7 +140,8 @@ export class Stage {
       this.scene.add(mesh);
       return mesh;
     };
-    const mesh = make(body.corners, { color: body.colour });
+    const mesh = make(drawn.slice(), colours ? { vertexColors: true } : { color: body.parts[0].colour });
+    if (colours) mesh.geometry.setAttribute('color', new BufferAttribute(colours, 3));
     // Red triangles are the same triangles once more, in front of themselves.
     // Those that are close and intersect none have a colour of their own.
     const inFront = (hue) => ({
@@ -130,57 +150,41 @@ export class Stage {
     });
     const hits = make(new Uint32Array(body.corners.length), inFront(this.red), inFront(this.near));
     hits.renderOrder = 1;
-    return { body, mesh, hits, position };
+    const made = { body, mesh, hits, position, drawn, copies };
+    this.drawShown(made);
+    return made;
   }
 
   /** Brings a frame on stage. */
   set(frame) {
     const before = this.place(this.focus);
+    const isSameMoment = frame.moment && frame.moment.contacts === this.frame?.moment?.contacts;
     this.frame = frame;
-    let [at, red] = [0, 0];
-    const near = new Set(frame.near);
-    this.bodies.forEach(({ body, mesh, hits, position }, number) => {
-      mesh.visible = this.isShown(number);
-      if (!frame.shapes[number]) {
-        hits.visible = false;
-        hits.geometry.setDrawRange(0, 0);
-        return;
-      }
+    this.bodies.forEach(({ body, mesh, position, copies }, number) => {
+      if (!frame.shapes[number]) return;
       const { lower, steps } = frame.shapes[number];
       const [out, n] = [position.array, body.vertices];
       for (let i = 0; i < n; i++) {
         for (let axis = 0; axis < 3; axis++) out[3 * i + axis] = lower[axis] + steps[axis * n + i] * body.step;
       }
+      copies.forEach((vertex, i) => out.copyWithin(3 * (n + i), 3 * vertex, 3 * vertex + 3));
       position.needsUpdate = true;
       mesh.geometry.boundingSphere = null;
-      const index = hits.geometry.index;
-      let length = 0;
-      const own = [];
-      for (; at < frame.red.length && frame.red[at] < body.first + body.triangles; at++) own.push(frame.red[at]);
-      const ownRed = own.filter((triangle) => !near.has(triangle));
-      hits.userData.triangles = [...ownRed, ...own.filter((triangle) => near.has(triangle))];
-      for (const row of hits.userData.triangles) {
-        const triangle = row - body.first;
-        for (let corner = 0; corner < 3; corner++) index.array[length++] = body.corners[3 * triangle + corner];
-      }
-      index.needsUpdate = true;
-      hits.geometry.setDrawRange(0, length);
-      hits.visible = mesh.visible && length > 0;
-      const redLength = 3 * ownRed.length;
-      hits.geometry.clearGroups();
-      if (redLength > 0) hits.geometry.addGroup(0, redLength, 0);
-      if (redLength < length) hits.geometry.addGroup(redLength, length - redLength, 1);
-      red += ownRed.length;
     });
+    const red = this.drawHits();
     this.showMarkers();
     this.showGaps();
     const now = this.place(this.focus);
-    if (before && now && this.follows) {
+    if (before && now) {
       // The place stays where it is in the picture, wherever its body goes.
       const moved = middle(now).sub(middle(before));
       this.controls.target.add(moved);
       this.camera.position.add(moved);
+      this.reach(this.camera, this.controls.target);
       this.controls.update();
+    } else if (this.focus !== null && !isSameMoment) {
+      // Nothing is left of it, and what was round it may be anywhere.
+      this.look();
     } else if (this.focus === null) this.keepInView();
     clearTimeout(this.soon);
     this.soon = setTimeout(() => this.seeWhatHides(), 150);
@@ -189,17 +193,51 @@ export class Stage {
     return red;
   }
 
-  /** The box of all bodies that are shown. */
+  /** Takes what is red in this frame, and close; says how many triangles are red, shown or not. */
+  drawHits() {
+    const { frame } = this;
+    let [at, red] = [0, 0];
+    const near = new Set(frame.near);
+    this.bodies.forEach(({ body, mesh, hits }, number) => {
+      mesh.visible = this.isShown(number);
+      const own = [];
+      for (; at < frame.red.length && frame.red[at] < body.first + body.triangles; at++) own.push(frame.red[at]);
+      const ownRed = own.filter((row) => !near.has(row));
+      red += ownRed.length;
+      const shown = (rows) => rows.filter((row) => this.isTriangleShown(body, row - body.first));
+      const [drawnRed, drawnNear] = [shown(ownRed), shown(own.filter((row) => near.has(row)))];
+      hits.userData.triangles = [...drawnRed, ...drawnNear].map((row) => row - body.first);
+      const { index } = hits.geometry;
+      hits.userData.triangles.forEach((triangle, i) => index.array.set(body.corners.subarray(3 * triangle, 3 * triangle + 3), 3 * i));
+      index.needsUpdate = true;
+      const [redLength, length] = [3 * drawnRed.length, 3 * hits.userData.triangles.length];
+      hits.geometry.setDrawRange(0, length);
+      hits.visible = mesh.visible && length > 0;
+      hits.geometry.clearGroups();
+      if (redLength > 0) hits.geometry.addGroup(0, redLength, 0);
+      if (redLength < length) hits.geometry.addGroup(redLength, length - redLength, 1);
+    });
+    return red;
+  }
+
+  /** The box of all that is shown. */
   bounds() {
     const box = new Box3();
-    this.bodies.forEach(({ position }, number) => this.isShown(number) && box.union(new Box3().setFromBufferAttribute(position)));
+    const one = new Box3();
+    this.shownPositions().forEach((positions) => positions.length > 0 && box.union(one.setFromArray(positions)));
     if (box.isEmpty()) box.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
     return box;
   }
 
-  /** The positions of all bodies that are shown. */
+  /** The positions of all that is shown. */
   shownPositions() {
-    return this.bodies.filter((_, number) => this.isShown(number)).map(({ position }) => position.array);
+    const shown = this.bodies.filter((_, number) => this.isShown(number));
+    return shown.map(({ body, mesh, position }) => {
+      const { triangles } = mesh.userData;
+      if (triangles.length === body.triangles) return position.array;
+      const own = triangles.flatMap((triangle) => [...body.corners.subarray(3 * triangle, 3 * triangle + 3)]);
+      return own.flatMap((vertex) => [...position.array.subarray(3 * vertex, 3 * vertex + 3)]);
+    });
   }
 
   /** A place of this frame, by its number. */
@@ -232,7 +270,8 @@ export class Stage {
     this.follows = true;
     const whole = this.bounds().getSize(new Vector3()).length() / 2;
     const at = middle(place);
-    const radius = Math.max(1.7 * (new Vector3(...place.upper).distanceTo(at)), 0.03 * whole, 1e-6);
+    // A place as large as everything needs no more room than that.
+    const radius = Math.max(Math.min(1.7 * new Vector3(...place.upper).distanceTo(at), whole), 0.03 * whole, 1e-6);
     const distance = radius / Math.sin(((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
     const towards = this.bestDirection(place, at, distance);
     this.moveTo({ target: at, position: towards.clone().multiplyScalar(distance).add(at) }, animated);
@@ -577,9 +616,35 @@ export class Stage {
     const nearest = this.nearest(point);
     if (!nearest) return null;
     const body = this.bodies.findIndex(({ mesh, hits }) => nearest.object === mesh || nearest.object === hits);
-    if (!this.seeThrough) return { body, triangle: nearest.faceIndex };
-    return { body, triangle: this.bodies[body].hits.userData.triangles[nearest.faceIndex] - this.bodies[body].body.first };
+    return { body, triangle: nearest.object.userData.triangles[nearest.faceIndex] };
   }
+}
+
+/**
+ * Corners as they are drawn, and the colours of vertices, of a body in several parts. A vertex of several parts is there once for
+ * each: behind all vertices are `copies` of some.
+ */
+function apart(body) {
+  if (body.parts.length === 1) return { drawn: body.corners, copies: [], colours: null };
+  const [drawn, copies, copyOf] = [body.corners.slice(), [], new Map()];
+  const own = new Int32Array(body.vertices).fill(-1);
+  const parts = [];
+  drawn.forEach((vertex, corner) => {
+    const part = body.partOf[Math.floor(corner / 3)];
+    if (own[vertex] < 0) own[vertex] = part;
+    if (own[vertex] === part) return;
+    const key = part * body.vertices + vertex;
+    if (!copyOf.has(key)) {
+      copyOf.set(key, body.vertices + copies.length);
+      copies.push(vertex);
+      parts.push(part);
+    }
+    drawn[corner] = copyOf.get(key);
+  });
+  const colours = new Float32Array(3 * (body.vertices + copies.length));
+  const hues = body.parts.map(({ colour }) => new Color(colour));
+  [...own, ...parts].forEach((part, vertex) => part >= 0 && hues[part].toArray(colours, 3 * vertex));
+  return { drawn, copies, colours };
 }
 
 function middle({ lower, upper }) {

@@ -223,9 +223,13 @@ impl Check {
         let all = Frames {
             start: 0,
             step: 1,
-            count: sequence.frame_count,
+            count: usize::MAX,
         };
-        let frames = settings.frames.unwrap_or(all);
+        let mut frames = settings.frames.unwrap_or(all);
+        if frames.count == usize::MAX {
+            there("the first to be checked", frames.start)?;
+            frames.count = (last - frames.start) / frames.step.max(1) + 1;
+        }
         if let Some(more) = frames.count.checked_sub(1) {
             let to_last = frames.step.saturating_mul(more);
             there(
@@ -288,6 +292,12 @@ impl Check {
         self.sequence.frame_count
     }
 
+    /// The numbers of the frames that are still to be checked.
+    pub fn frames(&self) -> impl Iterator<Item = usize> + Clone + use<> {
+        let Frames { start, step, count } = self.frames;
+        (0..count).map(move |frame| start + frame * step)
+    }
+
     /// How many bodies there are in answers: the sources, or what they are split into.
     pub fn body_count(&self) -> usize {
         self.bodies.count() as usize
@@ -311,6 +321,13 @@ impl Check {
     /// The number of the source that a body is of; `None` if there are not so many bodies.
     pub fn source_of(&self, body: u32) -> Option<usize> {
         (body < self.bodies.count()).then(|| self.bodies.source_of(body))
+    }
+
+    /// The number of the body that a triangle of a source is of; `None` where its group was not asked for, or if there is none.
+    pub fn body_of(&self, source: usize, triangle: usize) -> Option<u32> {
+        let triangles = self.sequence.sources.get(source)?.triangles().len();
+        let is_there = triangle < triangles;
+        is_there.then(|| self.bodies.of_triangle(source as u32, triangle as u32))?
     }
 
     /// The numbers of the bodies of a source; none if there are not so many sources.

@@ -94,7 +94,7 @@ pub struct Frames {
     pub start: usize,
     /// From one to the next.
     pub step: usize,
-    /// How many.
+    /// How many; `usize::MAX` for all that there are from there on.
     pub count: usize,
 }
 

@@ -12,6 +12,7 @@ mod edge;
 #[cfg(test)]
 mod examples;
 mod formats;
+mod frames;
 mod man;
 mod output;
 mod report;

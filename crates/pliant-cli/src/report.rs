@@ -193,7 +193,7 @@ impl Watcher {
         self.also = Some(sentence);
     }
 
-    /// Takes the first contact on the way from the frame taken last, of a world in that frame with a motion to the next.
+    /// Takes what meets on the way from the frame taken last, of a world in that frame with a motion to the next.
     pub(crate) fn moment<S: Scalar>(&mut self, world: &World<S>, moment: &Moment) {
         if let Some(recorder) = &mut self.recorder {
             recorder.moment(world, moment);

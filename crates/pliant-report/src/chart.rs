@@ -6,10 +6,12 @@ use crate::page::escape;
 use serde::Serialize;
 use std::fmt::Write;
 
-/// A step is far above all others if it is so many times as high as nineteen of twenty are.
+/// A step is far above all others if it is so many times as high as nine of ten are.
 const FAR: f64 = 3.0;
 /// Of fewer steps none is usual.
-const FEWEST: usize = 5;
+const FEWEST: usize = 3;
+/// The unit of times. Of other figures those far above all others are what was found, not what a machine was busy with.
+const TIME: &str = "ms";
 
 /// Some figures at each step.
 #[derive(Clone, Debug, Serialize)]
@@ -69,15 +71,18 @@ impl Chart {
         medians.iter().any(|&median| median > 50.0 * least)
     }
 
-    /// Where the chart ends if it leaves out the steps that are far above all others, so that these are seen: the highest of the
-    /// others. `None` where no step is, or leaving it out would gain little.
+    /// Where a chart of times ends if it leaves out the steps that are far above all others, so that these are seen: the highest of
+    /// the others. `None` where no step is, or leaving it out would gain little.
     pub fn ceiling(&self) -> Option<f64> {
+        if self.unit != TIME {
+            return None;
+        }
         let steps = 0..self.x.len();
         let heights = steps.map(|step| self.highest(step).map_or(0.0, |(_, y)| y));
         let mut heights: Vec<f64> = heights.filter(|&height| height > 0.0).collect();
         heights.sort_by(f64::total_cmp);
         let most = *heights.last()?;
-        let usual = heights[(heights.len() - 1) * 19 / 20];
+        let usual = heights[(heights.len() - 1) * 9 / 10];
         let within = heights.partition_point(|&height| height <= FAR * usual);
         let ceiling = heights[within - 1];
         (heights.len() >= FEWEST && most > 1.5 * ceiling).then_some(ceiling)
@@ -158,6 +163,8 @@ struct Axes {
     x: [f64; 2],
     y: [f64; 2],
     logarithmic: bool,
+    /// Between two lines across.
+    tick: f64,
     /// Whether some steps are above the picture.
     is_cut: bool,
 }
@@ -175,15 +182,22 @@ impl Axes {
         let (least, most) = values.fold((f64::INFINITY, 0.0), |(least, most), y| {
             (f64::min(least, y), f64::max(most, y))
         });
+        let most_shown = ceiling.unwrap_or(if most > 0.0 { most } else { 1.0 });
+        let mut all = chart.series.iter().flat_map(|series| &series.values);
+        // What is counted has no halves.
+        let least_tick = if all.all(|y| y.fract() == 0.0) {
+            1.0
+        } else {
+            0.0
+        };
+        let tick = tick_size(most_shown).max(least_tick);
         let y = if logarithmic {
             [
                 10_f64.powf(least.log10().floor()),
                 10_f64.powf(most.log10().ceil()),
             ]
         } else {
-            let most = ceiling.unwrap_or(if most > 0.0 { most } else { 1.0 });
-            let tick = tick_size(most);
-            [0.0, (most / tick).ceil() * tick]
+            [0.0, (most_shown / tick).ceil() * tick]
         };
         let first = chart.x.iter().copied().min().unwrap_or(0);
         let last = chart.x.iter().copied().max().unwrap_or(1);
@@ -194,6 +208,7 @@ impl Axes {
             ],
             y,
             logarithmic,
+            tick,
             is_cut: ceiling.is_some(),
         }
     }
@@ -288,9 +303,8 @@ impl Axes {
                 .map(|decade| low * 10_f64.powi(decade))
                 .collect();
         }
-        let tick = tick_size(high);
-        (0..=(high / tick).round() as u32)
-            .map(|i| f64::from(i) * tick)
+        (0..=(high / self.tick).round() as u32)
+            .map(|i| f64::from(i) * self.tick)
             .collect()
     }
 }
@@ -416,9 +430,47 @@ mod tests {
     }
 
     #[test]
+    fn one_slow_step_flattens_no_chart_of_times() {
+        // Of three steps or more, wherever it is; beside two that are slow, too.
+        let ceiling = |steps: &[f64]| {
+            let mut times = chart(&[("a", steps)]);
+            times.x = (0..).take(steps.len()).collect();
+            times.ceiling()
+        };
+        for count in 3..30 {
+            for slow in 0..count {
+                let mut steps = vec![1.0; count];
+                steps[slow] = 40.0;
+                assert_eq!(ceiling(&steps), Some(1.0), "{slow} of {count}");
+            }
+        }
+        // As `run tear --stride 10` was.
+        let mut torn = [1.1; 25];
+        (torn[0], torn[3], torn[15], torn[24]) = (11.9, 5.2, 5.3, 2.9);
+        assert_eq!(ceiling(&torn), Some(5.3));
+    }
+
+    #[test]
+    fn ticks_of_counts_are_whole() {
+        for most in 1..30 {
+            let mut few = chart(&[("a", &[0.0, f64::from(most)])]);
+            assert!(
+                Axes::of(&few).ticks_up().iter().all(|y| y.fract() == 0.0),
+                "{most}"
+            );
+            few.series[0].values[0] = 0.5;
+            assert_eq!(
+                Axes::of(&few).ticks_up()[1].fract() != 0.0,
+                most < 4,
+                "{most}"
+            );
+        }
+    }
+
+    #[test]
     fn what_is_usual_is_not_cut_off() {
-        // Nothing far above; two of twenty, which are not few.
-        for usual in [&[1.0, 2.9][..], &[2.5, 7.4], &[9.0, 9.0]] {
+        // Nothing far above; three of twenty, which are not few.
+        for usual in [&[1.0, 2.9][..], &[2.5, 2.5, 7.4], &[9.0, 9.0, 9.0]] {
             let chart = beginning(usual);
             assert_eq!(chart.ceiling(), None, "{usual:?}");
             assert!(!chart.svg().contains("clip"));
@@ -437,9 +489,13 @@ mod tests {
         let mut rare = beginning(&[]);
         rare.series.pop();
         rare.series[0].values = vec![0.0; 20];
-        rare.series[0].values[3..6].copy_from_slice(&[1.0, 1.0, 9.0]);
-        let few = chart(&[("a", &[1.0, 1.0, 9.0])]);
-        assert_eq!([slow, rare, few].map(|chart| chart.ceiling()), [None; 3]);
+        rare.series[0].values[3..5].copy_from_slice(&[1.0, 9.0]);
+        let few = chart(&[("a", &[1.0, 9.0])]);
+        // What grows was found, and is seen.
+        let mut found = beginning(&[9.0]);
+        found.unit = "pairs".to_owned();
+        let charts = [slow, rare, few, found];
+        assert_eq!(charts.map(|chart| chart.ceiling()), [None; 4]);
         // On a logarithmic axis all is seen.
         let mut far = beginning(&[400.0]);
         far.series[1].values = vec![0.01; 20];

@@ -9,7 +9,7 @@ pub(crate) const HIT: Colour = [0xd6, 0x2f, 0x2b];
 /// What is close, and does not intersect.
 pub(crate) const NEAR: Colour = [0xe8, 0x8a, 0x12];
 
-const BODIES: [Colour; 6] = [
+pub(crate) const BODIES: [Colour; 6] = [
     [0x8f, 0xa9, 0xc4], // slate blue
     [0xd3, 0xc0, 0x98], // sand
     [0x9d, 0xb8, 0xa0], // sage

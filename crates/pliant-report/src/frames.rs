@@ -23,6 +23,8 @@ pub struct Motion {
 #[derive(Clone, Debug)]
 pub(crate) struct BodyRecord {
     pub(crate) id: BodyId,
+    /// Of the body on the page, or of the first of its parts.
+    pub(crate) number: u32,
     pub(crate) label: BodyLabel,
     pub(crate) vertices: usize,
     pub(crate) triangles: Vec<[u32; 3]>,
@@ -50,34 +52,37 @@ pub(crate) struct Frame {
     pub(crate) spots: Vec<Spot>,
     /// How many there are.
     pub(crate) all_spots: usize,
-    /// What meets, of a frame that is none, but lies between this one and the next.
-    pub(crate) moment: Option<MomentShown>,
+    /// What meets, of a frame that is none: the bodies are where they are in the next, behind what meets on the way to there.
+    pub(crate) moment: Option<Moment>,
 }
 
-/// The first contact on the way from a frame to the next.
+/// What meets on the way from a frame to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     /// The number of the next frame.
     pub until: u32,
-    /// When it is, from 0, in the frame, to 1, in the next.
-    pub time: f64,
-    /// How many pairs of elements meet on the way.
-    pub count: usize,
-    /// Body and vertex of the corners of the one element, and of the other: one of a vertex, two of an edge, three of a triangle.
-    pub corners: [Vec<[u32; 2]>; 2],
-    /// The triangles that have the one, with those that have the other: body, triangle, body, triangle.
-    pub pairs: Vec<[u32; 4]>,
-    /// Which elements they are. Anything may be in it.
-    pub label: String,
+    /// How many pairs of elements meet on the way; none where only the first was looked for.
+    pub count: Option<usize>,
+    /// The earliest first. Of very many the page keeps the first.
+    pub contacts: Vec<Contact>,
 }
 
-/// What a page says of it.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct MomentShown {
-    pub(crate) until: u32,
-    pub(crate) time: f64,
-    pub(crate) count: usize,
-    pub(crate) label: String,
+/// Two elements that meet on the way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// When they do, from 0, in the frame, to 1, in the next.
+    pub time: f64,
+    /// Which they are.
+    pub elements: Elements,
+}
+
+/// Two elements. Bodies are numbered through, those that are split part by part; vertices and triangles as in the whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Elements {
+    /// Body, vertex, body, triangle.
+    VertexTriangle([u32; 4]),
+    /// Body and two vertices, twice.
+    EdgeEdge([u32; 6]),
 }
 
 /// Where hits hang together.
@@ -153,6 +158,11 @@ impl Motion {
         frames.map(|frame| self.numbers[frame.place])
     }
 
+    /// Whether a frame can be shown, by its number.
+    pub(crate) fn shows(&self, number: u32) -> bool {
+        self.shown().any(|shown| shown == number)
+    }
+
     /// The number of the first frame in which something intersects.
     pub fn first_contact(&self) -> Option<u32> {
         let place = self.pairs.iter().position(|&pairs| pairs > 0)?;
@@ -176,6 +186,7 @@ impl BodyRecord {
     /// `levels`: for each level the part of each triangle.
     pub(crate) fn new(
         id: BodyId,
+        number: u32,
         label: BodyLabel,
         vertices: usize,
         triangles: Vec<[u32; 3]>,
@@ -198,6 +209,7 @@ impl BodyRecord {
             .collect();
         Self {
             id,
+            number,
             label,
             vertices,
             triangles,
@@ -221,7 +233,10 @@ impl Frame {
             Hits::Triangles(triangles) => 4 * triangles.len(),
         };
         let spots = self.spots.iter().map(|spot| 100 + spot.label.len());
-        let moment = self.moment.iter().map(|moment| 100 + moment.label.len());
+        let moment = self
+            .moment
+            .iter()
+            .map(|moment| 100 + 40 * moment.contacts.len());
         let near = 4 * self.near.len() + 56 * self.gaps.len();
         6 * vertices + hits + near + self.made.len() / 8 + spots.chain(moment).sum::<usize>()
     }

@@ -44,6 +44,6 @@ mod recorder;
 mod report;
 
 pub use chart::{Chart, Series};
-pub use frames::{Gap, Moment, Motion, Spot};
-pub use recorder::{BodyLabel, Recorder};
+pub use frames::{Contact, Elements, Gap, Moment, Motion, Spot};
+pub use recorder::{BodyLabel, Parts, Recorder};
 pub use report::{Play, Report};

@@ -150,6 +150,9 @@ impl Packer {
         if let Some(faces) = &body.label.faces {
             self.words(faces.iter().copied());
         }
+        if let Some(parts) = &body.label.parts {
+            self.words(parts.of_triangles.iter().copied());
+        }
     }
 
     /// Each number as its difference to the one before.
@@ -239,7 +242,7 @@ fn zigzag(difference: u16) -> u16 {
 mod tests {
     use super::*;
     use crate::frames::{GapShown, Shape};
-    use crate::recorder::BodyLabel;
+    use crate::recorder::{BodyLabel, Parts};
     use flate2::read::ZlibDecoder;
     use pliant::BodyId;
     use std::io::Read;
@@ -299,9 +302,20 @@ mod tests {
         let label = BodyLabel {
             name: String::new(),
             faces: (number == 0).then(|| (0..triangles.len() as u32).map(|t| t / 2).collect()),
+            parts: (number == 1).then(|| Parts {
+                names: vec!["1".to_owned()],
+                of_triangles: (0..triangles.len() as u32).map(|t| t % 2).collect(),
+            }),
         };
         let levels = [vec![0; triangles.len()], parts.to_vec()];
-        BodyRecord::new(BodyId(number), label, vertices, triangles.to_vec(), &levels)
+        BodyRecord::new(
+            BodyId(number),
+            number,
+            label,
+            vertices,
+            triangles.to_vec(),
+            &levels,
+        )
     }
 
     /// A heap of points that stands, then moves on evenly inside a box that stays, then jumps; beside it something that grows from
@@ -397,6 +411,9 @@ mod tests {
             }
             if let Some(faces) = &body.label.faces {
                 assert_eq!(packed.words(count), *faces);
+            }
+            if let Some(parts) = &body.label.parts {
+                assert_eq!(packed.words(count), parts.of_triangles);
             }
         }
         let mut before = [(); 2].map(|()| [Vec::new(), Vec::new()]);

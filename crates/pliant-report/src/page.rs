@@ -5,8 +5,8 @@
 
 use crate::MARK;
 use crate::chart::Chart;
-use crate::colours::{HIT, NEAR, of_body, of_line};
-use crate::frames::{Frame, Motion};
+use crate::colours::{BODIES, HIT, NEAR, of_line};
+use crate::frames::{Elements, Frame, Motion};
 use crate::pack::{STEPS, View};
 use crate::report::{Play, Report};
 use base64::Engine;
@@ -27,6 +27,7 @@ impl Report {
             "facts": facts(&self.facts),
             "hit": hex(HIT),
             "near": hex(NEAR),
+            "colours": BODIES.map(hex),
             "plays": self.plays.iter().map(|play| self.play(play)).collect::<Value>(),
             "motions": self.motions.iter().map(motion).collect::<Value>(),
         });
@@ -90,8 +91,26 @@ fn thinned(motion: &Motion, along: &str) -> Option<String> {
                 .to_owned(),
         )
     } else if shown < all {
+        let last = motion.numbers.last().copied();
+        let those = [
+            (motion.first_contact(), "the first contact".to_owned()),
+            (
+                motion.worst().map(|(worst, _)| worst),
+                format!("the {along} with the most pairs"),
+            ),
+            (last, "the last".to_owned()),
+        ];
+        // Not where a mesh was too large to be drawn.
+        let there = those
+            .into_iter()
+            .filter_map(|(number, what)| motion.shows(number?).then_some(what));
+        let there = match &there.collect::<Vec<_>>()[..] {
+            [] => String::new(),
+            [one] => format!("; {one} is among them"),
+            [some @ .., last] => format!("; {} and {last} are among them", some.join(", ")),
+        };
         Some(format!(
-            "The picture shows {shown} of {all} {along}s, to keep the page small; the first contact, the {along} with the most pairs and the last are among them. Figures are of all {along}s."
+            "The picture shows {shown} of {all} {along}s, to keep the page small{there}. Figures are of all {along}s."
         ))
     } else {
         None
@@ -103,8 +122,8 @@ fn motion(motion: &Motion) -> Value {
     let bodies = motion.bodies.iter().enumerate().map(|(number, body)| {
         json!({
             "name": body.label.name,
-            "number": body.id.0,
-            "colour": hex(of_body(number)),
+            "number": body.number,
+            "parts": body.label.parts.as_ref().map(|parts| &parts.names),
             "vertices": body.vertices,
             "triangles": body.triangles.len(),
             "levels": body.starts.iter().map(Vec::len).collect::<Value>(),
@@ -123,14 +142,26 @@ fn motion(motion: &Motion) -> Value {
     })
 }
 
-/// What lies between two frames.
+/// What lies between two frames: of each contact its time, and the numbers of its elements.
 fn moment(frame: &Frame) -> Value {
-    match &frame.moment {
-        None => Value::Null,
-        Some(it) => {
-            json!({ "until": it.until, "time": it.time, "count": it.count, "label": it.label })
-        }
-    }
+    let Some(moment) = &frame.moment else {
+        return Value::Null;
+    };
+    let contacts = moment.contacts.iter().map(|contact| {
+        let numbers = match &contact.elements {
+            Elements::VertexTriangle(numbers) => &numbers[..],
+            Elements::EdgeEdge(numbers) => &numbers[..],
+        };
+        let numbers = numbers.iter().map(|&number| json!(number));
+        std::iter::once(json!(contact.time))
+            .chain(numbers)
+            .collect()
+    });
+    json!({
+        "until": moment.until,
+        "count": moment.count,
+        "contacts": contacts.collect::<Vec<Value>>(),
+    })
 }
 
 /// Places of a frame, as the page puts its motion: number, pairs, smallest and largest coordinates, whose.

@@ -2,16 +2,15 @@
 //!
 //! However many frames come, and however many triangles meet, what is kept stays within [`BUDGET`]: when it is full, every
 //! second frame that is kept is let go, again and again. The first frame with a contact, the one with the most pairs and the
-//! last are kept whatever happens. Moments between frames are kept with the frame before them, and the first, where there is room. Numbers (pairs in each frame) are kept for all frames.
+//! last are kept whatever happens. Moments between frames are kept with the frame before them, and the first with its own, where
+//! there is room. Numbers (pairs in each frame) are kept for all frames.
 //!
-//! A body that gets another mesh has a record more from that frame on, and each frame says which record it shows. Once the meshes
-//! alone take half of what a page can hold, frames with further ones are counted and not drawn.
+//! A body that gets another mesh has a record more from that frame on. A record goes when the last frame that shows it goes.
 
-use crate::frames::{
-    BodyRecord, Frame, Gap, GapShown, Hits, Moment, MomentShown, Motion, Shape, Spot,
-};
+use crate::frames::{BodyRecord, Frame, Gap, GapShown, Hits, Moment, Motion, Shape, Spot};
 use pliant::{BodyId, Scalar, World};
 use std::borrow::Cow;
+use std::sync::{Arc, Weak};
 
 /// The most bytes of frames that go into a page, before they are compressed: positions rounded to two bytes, pairs as eight.
 /// In memory a frame takes twice as much.
@@ -26,6 +25,9 @@ const MOST_GAPS: usize = 5_000;
 /// Places of a frame that are kept.
 const MOST_SPOTS: usize = 40;
 
+/// Contacts on the way between two frames that are kept: the earliest.
+const MOST_CONTACTS: usize = 1_000;
+
 /// Levels of a tree that can be shown.
 const MOST_LEVELS: u32 = 16;
 
@@ -36,30 +38,48 @@ pub struct BodyLabel {
     pub name: String,
     /// For each triangle the polygon of the file that it is a part of, where they differ.
     pub faces: Option<Vec<u32>>,
+    /// What it is split into, if each part is a body to those who read the page.
+    pub parts: Option<Parts>,
+}
+
+/// What a body is split into.
+#[derive(Clone, Debug, Default)]
+pub struct Parts {
+    /// What each is called, behind the name of the whole and a `#`. Anything may be in it.
+    pub names: Vec<String>,
+    /// The part of each triangle; one that is of none has the number behind the last.
+    pub of_triangles: Vec<u32>,
+}
+
+/// A frame, and the meshes that its bodies have in it: its triangles are numbered in a row through these.
+#[derive(Clone)]
+struct Kept {
+    frame: Frame,
+    meshes: Vec<Arc<BodyRecord>>,
 }
 
 /// Keeps the frames of one motion for a report.
 pub struct Recorder {
     labels: Vec<BodyLabel>,
-    /// The bodies of the first frame, and the record of each that is its mesh now.
-    known: Vec<(BodyId, usize)>,
+    /// The bodies of the first frame, each with the mesh that it has now.
+    known: Vec<(BodyId, Arc<BodyRecord>)>,
     /// Bodies, vertices and triangles in all.
     sizes: [usize; 3],
-    bodies: Vec<BodyRecord>,
-    /// Bytes of a page that the bodies take, whatever the frames are.
-    fixed: usize,
+    /// Meshes in the order in which they came; those that no frame shows any more are gone.
+    meshes: Vec<Weak<BodyRecord>>,
     budget: usize,
     numbers: Vec<u32>,
     pairs: Vec<u64>,
-    kept: Vec<Frame>,
-    /// The sum of the costs of `kept`.
+    kept: Vec<Arc<Kept>>,
+    /// The sum of the costs of `kept`, without meshes.
     cost: usize,
     /// Frames whose place is a multiple of this are kept.
     stride: usize,
-    first_contact: Option<Frame>,
-    worst: Option<Frame>,
-    last: Option<Frame>,
-    first_moment: Option<Frame>,
+    first_contact: Option<Arc<Kept>>,
+    worst: Option<Arc<Kept>>,
+    last: Option<Arc<Kept>>,
+    /// With the frame before it.
+    first_moment: Option<[Arc<Kept>; 2]>,
     too_large: bool,
 }
 
@@ -80,8 +100,7 @@ impl Recorder {
             labels,
             known: Vec::new(),
             sizes: [0; 3],
-            bodies: Vec::new(),
-            fixed: 0,
+            meshes: Vec::new(),
             budget,
             numbers: Vec::new(),
             pairs: Vec::new(),
@@ -124,115 +143,117 @@ impl Recorder {
         let mut frame = self.look(place, world, pairs, gaps);
         frame.spots = spots.iter().take(MOST_SPOTS).cloned().collect();
         frame.all_spots = spots.len();
-        let count = pairs.len();
+        let kept = self.with_meshes(frame);
+        let count = pairs.len() as u64;
         if count > 0 && self.first_contact.is_none() {
-            self.first_contact = Some(frame.clone());
+            self.first_contact = Some(kept.clone());
         }
-        let most = |worst: &Frame| self.pairs[worst.place];
-        if count as u64 > self.worst.as_ref().map_or(0, most) {
-            self.worst = Some(frame.clone());
+        let most = |worst: &Arc<Kept>| self.pairs[worst.frame.place];
+        if count > self.worst.as_ref().map_or(0, most) {
+            self.worst = Some(kept.clone());
         }
-        self.keep(&frame);
-        self.last = Some(frame);
-        self.thin();
+        self.last = Some(kept.clone());
+        self.keep(kept);
     }
 
-    /// Takes the first contact on the way from the frame taken last to another: the world is in that frame, and its bodies have motions to the
-    /// other. The page shows the bodies as they are at that time.
+    /// Takes what meets on the way from the frame taken last to another: the world is in that frame, and its bodies have motions to the
+    /// other. The page shows the bodies as they are when two elements meet.
     pub fn moment<S: Scalar>(&mut self, world: &World<S>, moment: &Moment) {
         // Where the frame is not drawn neither is what follows.
         let Some(place) = self.numbers.len().checked_sub(1) else {
             return;
         };
-        if self.last.as_ref().is_none_or(|last| last.place != place) {
+        let last = self.last.clone();
+        let Some(last) = last.filter(|last| last.frame.place == place) else {
             return;
-        }
-        let mut frame = self.look(place, world, &moment.pairs, &[]);
-        // Boxes are of the shape of the frame.
-        frame.made.fill(false);
-        let mut moved: Vec<(u32, Vec<[f64; 3]>)> = Vec::new();
-        for (body, shape) in self.bodies.iter().zip(&mut frame.shapes) {
-            if shape.is_some()
-                && let Some(positions) = positions_at(world, body.id, moment.time)
-            {
-                *shape = Some(Shape::of(&positions));
-                moved.push((body.id.0, positions));
-            }
-        }
-        let position = |&[body, vertex]: &[u32; 2]| {
-            let (_, positions) = moved.iter().find(|(id, _)| *id == body)?;
-            positions.get(vertex as usize).copied()
         };
-        let corners = moment.corners.each_ref();
-        let corners = corners.map(|of| of.iter().filter_map(position).collect::<Vec<_>>());
-        let all = || corners.iter().flatten();
-        let lower = all().fold([f64::INFINITY; 3], |low, at| least(low, *at, f64::min));
-        let upper = all().fold([f64::NEG_INFINITY; 3], |high, at| {
-            least(high, *at, f64::max)
-        });
-        let size = (0..3)
-            .map(|axis| upper[axis] - lower[axis])
-            .fold(0.0, f64::max);
-        if let Hits::Pairs(pairs) = &frame.hits
-            && let Some(&triangles) = pairs.first()
-        {
-            let lines = corners.iter().flat_map(|of| outline(of, size / 8.0));
-            let lines = lines.map(|points| GapShown { triangles, points });
-            frame.gaps = lines.collect();
-            frame.spots = vec![Spot {
-                number: 0,
-                count: moment.count,
-                lower,
-                upper,
-                label: moment.label.clone(),
-            }];
-            frame.all_spots = 1;
-        }
-        frame.moment = Some(MomentShown {
-            until: moment.until,
-            time: moment.time,
-            count: moment.count,
-            label: moment.label.clone(),
-        });
+        let shape = |mesh: &Arc<BodyRecord>| {
+            let end = world.end_positions(mesh.id).ok().flatten();
+            let end = end.or_else(|| drawn_positions(world, mesh.id))?;
+            Some(Shape::of(&end))
+        };
+        let contacts = moment.contacts.iter().take(MOST_CONTACTS);
+        let frame = Frame {
+            place,
+            shapes: last.meshes.iter().map(shape).collect(),
+            hits: Hits::Pairs(Vec::new()),
+            near: Vec::new(),
+            gaps: Vec::new(),
+            // Boxes are of the shape of the frame.
+            made: vec![false; last.frame.made.len()],
+            spots: Vec::new(),
+            all_spots: 0,
+            moment: Some(Moment {
+                contacts: contacts.copied().collect(),
+                ..*moment
+            }),
+        };
         // Beside the four frames that have room whatever happens.
-        if self.first_moment.is_none() && self.fixed + 5 * frame.cost() <= self.budget {
-            self.first_moment = Some(frame.clone());
+        let has_room = self.cost_of_meshes() + 6 * frame.cost() <= self.budget;
+        let kept = self.with_meshes(frame);
+        if self.first_moment.is_none() && has_room {
+            self.first_moment = Some([last, kept.clone()]);
         }
-        self.keep(&frame);
-        self.thin();
+        self.keep(kept);
     }
 
-    fn keep(&mut self, frame: &Frame) {
-        if frame.place.is_multiple_of(self.stride) {
-            self.cost += frame.cost();
-            self.kept.push(frame.clone());
-        }
+    fn with_meshes(&self, frame: Frame) -> Arc<Kept> {
+        let meshes = self.known.iter().map(|(_, mesh)| mesh.clone());
+        Arc::new(Kept {
+            frame,
+            meshes: meshes.collect(),
+        })
     }
 
-    /// Lets go what does not fit.
-    fn thin(&mut self) {
-        while self.cost + self.fixed > self.budget && self.kept.len() > 1 {
+    /// Bytes of a page that the meshes take.
+    fn cost_of_meshes(&self) -> usize {
+        let meshes = self.meshes.iter().filter_map(Weak::upgrade);
+        meshes.map(|mesh| mesh.cost()).sum()
+    }
+
+    /// Keeps a frame, and lets go what does not fit.
+    fn keep(&mut self, kept: Arc<Kept>) {
+        if kept.frame.place.is_multiple_of(self.stride) {
+            self.cost += kept.frame.cost();
+            self.kept.push(kept);
+        }
+        while self.cost + self.cost_of_meshes() > self.budget && self.kept.len() > 1 {
             self.stride *= 2;
             let stride = self.stride;
-            self.kept.retain(|frame| frame.place.is_multiple_of(stride));
-            self.cost = self.kept.iter().map(Frame::cost).sum();
+            self.kept.retain(|it| it.frame.place.is_multiple_of(stride));
+            self.cost = self.kept.iter().map(|it| it.frame.cost()).sum();
         }
+        self.meshes.retain(|mesh| mesh.strong_count() > 0);
     }
 
     /// What was kept.
     pub fn finish(self) -> Motion {
-        let mut frames = self.kept;
-        frames.extend(
-            [self.first_contact, self.worst, self.last, self.first_moment]
+        let mut kept = self.kept;
+        kept.extend(
+            [self.first_contact, self.worst, self.last]
                 .into_iter()
                 .flatten(),
         );
+        kept.extend(self.first_moment.into_iter().flatten());
         // A moment comes behind its frame.
-        frames.sort_by_key(|frame| (frame.place, frame.moment.is_some()));
-        frames.dedup_by_key(|frame| (frame.place, frame.moment.is_some()));
+        let key = |it: &Arc<Kept>| (it.frame.place, it.frame.moment.is_some());
+        kept.sort_by_key(key);
+        kept.dedup_by_key(|it| key(it));
+        // One row of all triangles; a mesh that a body had in no frame that is shown is not in it.
+        drop(self.known);
+        let meshes: Vec<_> = self.meshes.iter().filter_map(Weak::upgrade).collect();
+        let is_shown = |mesh: &&Arc<BodyRecord>| {
+            kept.iter()
+                .any(|it| it.meshes.iter().any(|own| Arc::ptr_eq(own, mesh)))
+        };
+        let meshes: Vec<_> = meshes.iter().filter(is_shown).cloned().collect();
+        let frames = kept
+            .into_iter()
+            .map(|it| in_row(Arc::unwrap_or_clone(it), &meshes));
+        let frames = frames.collect();
         Motion {
             sizes: self.sizes,
-            bodies: self.bodies,
+            bodies: meshes.into_iter().map(Arc::unwrap_or_clone).collect(),
             numbers: self.numbers,
             pairs: self.pairs,
             frames,
@@ -249,71 +270,81 @@ impl Recorder {
         let (vertices, triangles) =
             sizes.fold((0, 0), |sum, size| (sum.0 + size.0, sum.1 + size.1));
         self.sizes = [ids.len(), vertices, triangles];
-        // Corners and the order of the tree; its levels together are about as long again.
-        self.fixed = triangles * 20;
         // The frames that are kept whatever happens must fit.
-        self.too_large = self.fixed + 4 * 6 * vertices > self.budget;
+        self.too_large = COST_OF_TRIANGLE * triangles + 4 * 6 * vertices > self.budget;
         if self.too_large {
             return;
         }
-        self.fixed = 0;
         let labels = std::mem::take(&mut self.labels).into_iter();
         let unnamed = (0..).map(|number| BodyLabel {
             name: format!("body {number}"),
-            faces: None,
+            ..BodyLabel::default()
         });
         let named = labels.map(Some).chain(std::iter::repeat(None)).zip(unnamed);
+        let mut number = 0;
         for (id, (label, unnamed)) in ids.into_iter().zip(named) {
-            self.known.push((id, self.bodies.len()));
-            self.record(world, id, label.unwrap_or(unnamed));
+            let mut label = label.unwrap_or(unnamed);
+            // Parts of other triangles than there are would be those of nothing.
+            let count = world.triangle_count(id).unwrap_or_default();
+            label.parts = label
+                .parts
+                .filter(|parts| parts.of_triangles.len() == count);
+            let parts = label.parts.as_ref().map_or(1, |parts| parts.names.len());
+            let triangles = drawn_triangles(world, id).unwrap_or_default().into_owned();
+            let record = record(world, id, number, label, triangles);
+            number += parts as u32;
+            self.take_mesh(record);
         }
     }
 
-    /// Another mesh, or the first, of a body.
-    fn record<S: Scalar>(&mut self, world: &World<S>, id: BodyId, label: BodyLabel) {
-        let vertices = world.vertex_count(id).unwrap_or_default();
-        let triangles = drawn_triangles(world, id).unwrap_or_default().into_owned();
-        let depth = world.tree_shape(id).map_or(0, |shape| shape.depth);
-        let levels: Vec<Vec<u32>> = (0..=depth.min(MOST_LEVELS - 1))
-            .map(|level| drawn_parts(world, id, level))
-            .collect();
-        self.fixed += 20 * triangles.len();
-        self.bodies
-            .push(BodyRecord::new(id, label, vertices, triangles, &levels));
+    fn take_mesh(&mut self, mesh: BodyRecord) {
+        let mesh = Arc::new(mesh);
+        self.meshes.push(Arc::downgrade(&mesh));
+        match self.known.iter_mut().find(|(id, _)| *id == mesh.id) {
+            Some((_, now)) => *now = mesh,
+            None => self.known.push((mesh.id, mesh)),
+        }
     }
 
     /// Takes the meshes that bodies have now and had not in the frame before; says whether there is room for them.
     fn meet_meshes<S: Scalar>(&mut self, world: &World<S>) -> bool {
         for place in 0..self.known.len() {
-            let (id, record) = self.known[place];
+            let (id, now) = &self.known[place];
+            let id = *id;
             let triangles = drawn_triangles(world, id);
             let (Some(triangles), Ok(vertices)) = (triangles, world.vertex_count(id)) else {
                 // It was removed.
                 continue;
             };
-            let is_mesh = |record: &BodyRecord| {
-                record.id == id && record.vertices == vertices && record.triangles == *triangles
+            let is_mesh = |mesh: &BodyRecord| {
+                mesh.id == id && mesh.vertices == vertices && mesh.triangles == *triangles
             };
-            if is_mesh(&self.bodies[record]) {
+            if is_mesh(now) {
                 continue;
             }
             // Meshes may come back.
-            if let Some(earlier) = self.bodies.iter().position(is_mesh) {
+            let mut earlier = self.meshes.iter().filter_map(Weak::upgrade);
+            if let Some(earlier) = earlier.find(|mesh| is_mesh(mesh)) {
                 self.known[place].1 = earlier;
                 continue;
             }
-            if self.fixed + 20 * triangles.len() > self.budget / 2 {
-                return false;
-            }
             // What is known of faces is known of the first mesh.
             let label = BodyLabel {
-                name: self.bodies[record].label.name.clone(),
-                faces: None,
+                name: now.label.name.clone(),
+                ..BodyLabel::default()
             };
-            self.known[place].1 = self.bodies.len();
-            self.record(world, id, label);
+            let number = now.number;
+            self.take_mesh(record(world, id, number, label, triangles.into_owned()));
         }
-        true
+        // With other meshes than those of the first frame, four frames must fit.
+        let first = self.kept.first();
+        let is_first = |mesh: &Arc<BodyRecord>| {
+            first.is_none_or(|first| first.meshes.iter().any(|it| Arc::ptr_eq(it, mesh)))
+        };
+        let others = self.known.iter().map(|(_, mesh)| mesh);
+        let others = others.filter(|mesh| !is_first(mesh));
+        let cost = others.map(|mesh| mesh.cost() + 6 * mesh.vertices);
+        4 * cost.sum::<usize>() <= self.budget
     }
 
     fn look<S: Scalar>(
@@ -323,16 +354,16 @@ impl Recorder {
         pairs: &[[u32; 4]],
         gaps: &[Gap],
     ) -> Frame {
-        let mut firsts = Vec::with_capacity(self.bodies.len());
+        let mut firsts = Vec::with_capacity(self.known.len());
         let mut first = 0;
-        for body in &self.bodies {
+        for (_, mesh) in &self.known {
             firsts.push(first);
-            first += body.triangles.len() as u32;
+            first += mesh.triangles.len() as u32;
         }
         let global = |body: u32, triangle: u32| {
-            let known = self.known.binary_search_by_key(&body, |(id, _)| id.0);
-            let (_, place) = self.known[known.ok()?];
-            let is_there = (triangle as usize) < self.bodies[place].triangles.len();
+            let place = self.known.binary_search_by_key(&body, |(id, _)| id.0);
+            let place = place.ok()?;
+            let is_there = (triangle as usize) < self.known[place].1.triangles.len();
             is_there.then(|| firsts[place] + triangle)
         };
         let global_pair =
@@ -378,18 +409,14 @@ impl Recorder {
             })
         });
         let gaps = gaps.collect();
-        let (mut shapes, mut made) = (Vec::with_capacity(self.bodies.len()), Vec::new());
-        for (number, body) in self.bodies.iter().enumerate() {
-            let is_now = self.known.contains(&(body.id, number));
-            let positions = drawn_positions(world, body.id).filter(|_| is_now);
+        let (mut shapes, mut made) = (Vec::with_capacity(self.known.len()), Vec::new());
+        for (id, body) in &self.known {
+            let positions = drawn_positions(world, *id);
             let positions = positions.filter(|positions| positions.len() == body.vertices);
             let is_shown = positions.is_some();
             shapes.push(positions.map(|positions| Shape::of(&positions)));
             if !is_shown {
-                made.resize(
-                    made.len() + body.starts.iter().map(Vec::len).sum::<usize>(),
-                    false,
-                );
+                made.resize(made.len() + body.parts_of_tree(), false);
                 continue;
             }
             for (level, starts) in body.starts.iter().enumerate() {
@@ -411,6 +438,93 @@ impl Recorder {
             moment: None,
         }
     }
+}
+
+/// Corners and the order of the tree; its levels together are about as long again.
+const COST_OF_TRIANGLE: usize = 20;
+
+impl BodyRecord {
+    /// Bytes of a page, before it is compressed.
+    fn cost(&self) -> usize {
+        COST_OF_TRIANGLE * self.triangles.len()
+    }
+
+    /// How many parts all levels of the tree have.
+    fn parts_of_tree(&self) -> usize {
+        self.starts.iter().map(Vec::len).sum()
+    }
+}
+
+/// A body with the mesh that it has now.
+fn record<S: Scalar>(
+    world: &World<S>,
+    id: BodyId,
+    number: u32,
+    label: BodyLabel,
+    triangles: Vec<[u32; 3]>,
+) -> BodyRecord {
+    let vertices = world.vertex_count(id).unwrap_or_default();
+    let depth = world.tree_shape(id).map_or(0, |shape| shape.depth);
+    let levels: Vec<Vec<u32>> = (0..=depth.min(MOST_LEVELS - 1))
+        .map(|level| drawn_parts(world, id, level))
+        .collect();
+    BodyRecord::new(id, number, label, vertices, triangles, &levels)
+}
+
+/// A frame whose triangles are numbered in a row through these meshes, its own among them.
+fn in_row(kept: Kept, meshes: &[Arc<BodyRecord>]) -> Frame {
+    let Kept {
+        mut frame,
+        meshes: own,
+    } = kept;
+    let place = |mesh: &Arc<BodyRecord>| own.iter().position(|it| Arc::ptr_eq(it, mesh));
+    let places: Vec<Option<usize>> = meshes.iter().map(place).collect();
+    // Of each of its own meshes where that begins there, and where in the row; of its boxes there.
+    let (mut starts, mut boxes) = (vec![0], vec![0]);
+    for mesh in &own {
+        starts.push(starts[starts.len() - 1] + mesh.triangles.len() as u32);
+        boxes.push(boxes[boxes.len() - 1] + mesh.parts_of_tree());
+    }
+    let mut starts_in_row = vec![0; own.len()];
+    let mut start = 0;
+    for (mesh, place) in meshes.iter().zip(&places) {
+        if let Some(place) = *place {
+            starts_in_row[place] = start;
+        }
+        start += mesh.triangles.len() as u32;
+    }
+    let in_row = |triangle: &mut u32| {
+        let mesh = starts.partition_point(|start| start <= triangle) - 1;
+        *triangle = starts_in_row[mesh] + (*triangle - starts[mesh]);
+    };
+    match &mut frame.hits {
+        Hits::Pairs(pairs) => {
+            pairs.as_flattened_mut().iter_mut().for_each(in_row);
+            pairs.sort_unstable();
+        }
+        Hits::Triangles(triangles) => {
+            triangles.iter_mut().for_each(in_row);
+            triangles.sort_unstable();
+        }
+    }
+    frame.near.iter_mut().for_each(in_row);
+    frame.near.sort_unstable();
+    for gap in &mut frame.gaps {
+        gap.triangles.iter_mut().for_each(in_row);
+    }
+    let mut shapes = std::mem::take(&mut frame.shapes);
+    let shapes = places.iter().map(|place| shapes[(*place)?].take());
+    frame.shapes = shapes.collect();
+    let made = std::mem::take(&mut frame.made);
+    let made = meshes
+        .iter()
+        .zip(&places)
+        .flat_map(|(mesh, place)| match *place {
+            Some(place) => made[boxes[place]..boxes[place + 1]].to_vec(),
+            None => vec![false; mesh.parts_of_tree()],
+        });
+    frame.made = made.collect();
+    frame
 }
 
 /// A vertex of a body that is there.
@@ -454,45 +568,19 @@ fn drawn_parts<S: Scalar>(world: &World<S>, id: BodyId, level: u32) -> Vec<u32> 
     parts
 }
 
-/// Where the vertices of a body are on their way.
-fn positions_at<S: Scalar>(world: &World<S>, id: BodyId, time: f64) -> Option<Vec<[f64; 3]>> {
-    let start = drawn_positions(world, id)?;
-    let start: Vec<[f64; 3]> = start.iter().map(|at| at.map(S::to_f64)).collect();
-    let Some(end) = world.end_positions(id).ok()? else {
-        return Some(start);
-    };
-    let moved = start.iter().zip(&end).map(|(from, to)| {
-        std::array::from_fn(|axis| from[axis] + time * (to[axis].to_f64() - from[axis]))
-    });
-    Some(moved.collect())
-}
-
-/// The smaller, or the larger, of each coordinate.
-fn least(a: [f64; 3], b: [f64; 3], of: fn(f64, f64) -> f64) -> [f64; 3] {
-    std::array::from_fn(|axis| of(a[axis], b[axis]))
-}
-
-/// Lines round an element: a cross of this size of a vertex, an edge, the sides of a triangle.
-fn outline(corners: &[[f64; 3]], size: f64) -> Vec<[[f64; 3]; 2]> {
-    match *corners {
-        [at] => (0..3)
-            .map(|axis| {
-                let mut ends = [at; 2];
-                ends[0][axis] -= size;
-                ends[1][axis] += size;
-                ends
-            })
-            .collect(),
-        [a, b] => vec![[a, b]],
-        [a, b, c] => vec![[a, b], [b, c], [c, a]],
-        _ => Vec::new(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::frames::{Contact, Elements};
+    use crate::report::{Play, Report};
     use pliant::Options;
+
+    /// Bytes of all that is kept, but for frames that are kept whatever happens.
+    fn cost(recorder: &Recorder) -> usize {
+        let frames: usize = recorder.kept.iter().map(|it| it.frame.cost()).sum();
+        assert_eq!(recorder.cost, frames);
+        frames + recorder.cost_of_meshes()
+    }
 
     /// One triangle that moves, in frames of 18 bytes and 8 for each pair; the body alone takes 20.
     fn record(budget: usize, counts: &[usize]) -> Motion {
@@ -506,9 +594,7 @@ mod tests {
             let shape = [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]];
             world.set_positions(body, &shape).unwrap();
             recorder.frame(number as u32, &world, &vec![[0, 0, 0, 0]; count]);
-            assert!(recorder.cost + recorder.fixed <= budget || recorder.kept.len() == 1);
-            let cost: usize = recorder.kept.iter().map(Frame::cost).sum();
-            assert_eq!(recorder.cost, cost);
+            assert!(cost(&recorder) <= budget || recorder.kept.len() == 1);
         }
         recorder.finish()
     }
@@ -538,18 +624,19 @@ mod tests {
     }
 
     #[test]
-    fn a_moment_has_the_shape_of_its_time_and_comes_behind_its_frame() {
+    fn a_moment_goes_to_the_next_frame_and_comes_behind_its_own() {
         let shape = |z: f32| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
         let mut world = World::<f32>::new();
         let [still, moves] = [0.0, 2.0].map(|z| world.add(&[[0, 1, 2]], &shape(z)).unwrap());
         let mut recorder = Recorder::new(Vec::new());
+        let contact = Contact {
+            time: 0.25,
+            elements: Elements::VertexTriangle([1, 2, 0, 0]),
+        };
         let moment = Moment {
             until: 8,
-            time: 0.25,
-            count: 3,
-            corners: [vec![[1, 2]], vec![[0, 0], [0, 1], [0, 2]]],
-            pairs: vec![[0, 0, 1, 0]],
-            label: "both".to_owned(),
+            count: Some(MOST_CONTACTS + 1),
+            contacts: vec![contact; MOST_CONTACTS + 1],
         };
         // There is no frame yet.
         recorder.moment(&world, &moment);
@@ -571,17 +658,10 @@ mod tests {
             let place = motion.bodies.iter().position(|it| it.id == id).unwrap();
             frame.shapes[place].as_ref().unwrap().lower[2]
         };
-        assert_eq!((heights(still), heights(moves)), (0.0, 0.0));
-        // A cross and a triangle; the box round both.
-        assert_eq!(frame.gaps.len(), 6);
-        let [spot] = &frame.spots[..] else {
-            panic!("{:?}", frame.spots)
-        };
-        assert_eq!(
-            (spot.count, spot.lower, spot.upper),
-            (3, [0.0; 3], [1.0, 1.0, 0.0])
-        );
-        assert!(matches!(&frame.hits, Hits::Pairs(pairs) if *pairs == [[0, 1]]));
+        assert_eq!((heights(still), heights(moves)), (0.0, -6.0));
+        let kept = frame.moment.as_ref().unwrap();
+        assert_eq!(kept.count, Some(MOST_CONTACTS + 1));
+        assert_eq!(kept.contacts, moment.contacts[..MOST_CONTACTS]);
         assert!(!motion.pack().is_empty());
     }
 
@@ -596,25 +676,26 @@ mod tests {
                 recorder.frame(number, &world, &[]);
                 let moment = Moment {
                     until: number + 1,
-                    time: 0.5,
-                    count: 1,
-                    corners: Default::default(),
-                    pairs: Vec::new(),
-                    label: String::new(),
+                    count: Some(1),
+                    contacts: Vec::new(),
                 };
                 if number > 4 {
                     recorder.moment(&world, &moment);
                 }
-                assert!(recorder.cost + recorder.fixed <= budget || recorder.kept.len() == 1);
+                assert!(cost(&recorder) <= budget || recorder.kept.len() == 1);
             }
             let frames = recorder.finish().frames;
+            // Each with its frame before it.
+            for (at, frame) in frames.iter().enumerate() {
+                assert!(frame.moment.is_none() || frames[at - 1].place == frame.place);
+            }
             let moments = frames.iter().filter(|it| it.moment.is_some());
             moments.map(|it| it.place).collect()
         };
         assert_eq!(moments(1 << 20), (5..64).collect::<Vec<_>>());
         // A moment costs 118 bytes.
-        assert_eq!(moments(20 + 5 * 118), [5, 16, 32, 48]);
-        assert_eq!(moments(20 + 5 * 118 - 1), [16, 32, 48]);
+        assert_eq!(moments(20 + 6 * 118), [5, 16, 32, 48]);
+        assert_eq!(moments(20 + 6 * 118 - 1), [16, 32, 48]);
     }
 
     #[test]
@@ -697,9 +778,9 @@ mod tests {
         assert_eq!(
             shown,
             [
-                vec![first, first],
-                vec![first, None, third],
-                vec![first, first, None],
+                vec![first, first, None, None],
+                vec![first, None, third, None],
+                vec![first, first, None, None],
                 vec![first, None, None, fourth]
             ]
         );
@@ -714,20 +795,114 @@ mod tests {
     }
 
     #[test]
-    fn meshes_without_end_find_no_room() {
+    fn of_meshes_without_end_those_of_all_the_way_are_kept() {
         let mut world = World::<f32>::new();
         let flat = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let body = world.add(&[[0, 1, 2]], &flat).unwrap();
-        let mut recorder = Recorder::within(Vec::new(), 4000);
-        for frame in 0..50 {
-            world
-                .set_mesh(body, &vec![[0, 1, 2]; frame + 1], &flat)
-                .unwrap();
-            recorder.frame(frame as u32, &world, &[]);
-            assert!(recorder.fixed <= 2000);
+        let [still, body] = [(); 2].map(|()| world.add(&[[0, 1, 2]], &flat).unwrap());
+        let record = |world: &mut World<f32>, budget: usize, most: usize| {
+            let mut recorder = Recorder::within(Vec::new(), budget);
+            for frame in 0..50 {
+                // Each frame has a mesh of its own, but for two that have that of the frame before.
+                let triangles = most + frame - frame % 25 / 24;
+                world
+                    .set_mesh(body, &vec![[0, 1, 2]; triangles], &flat)
+                    .unwrap();
+                let pairs = match frame {
+                    13 => vec![[0, 0, 1, 11]],
+                    29 => vec![[0, 0, 1, 27], [0, 0, 1, 28]],
+                    _ => Vec::new(),
+                };
+                recorder.frame(frame as u32, world, &pairs);
+                let is_drawn = recorder.last.as_ref().unwrap().frame.place == frame;
+                assert!(!is_drawn || cost(&recorder) <= budget || recorder.kept.len() == 1);
+            }
+            recorder.finish()
+        };
+        let motion = record(&mut world, 8000, 1);
+        // The first contact, the most pairs and the last among those that are spaced evenly.
+        let shown: Vec<u32> = motion.shown().collect();
+        let even = (0..50).step_by(4).collect::<Vec<u32>>();
+        assert!(even.iter().all(|frame| shown.contains(frame)));
+        assert_eq!(shown.len(), even.len() + 3);
+        assert!([13, 29, 49].iter().all(|frame| shown.contains(frame)));
+        // No mesh is there that no frame shows, and every frame shows both bodies.
+        assert_eq!(motion.bodies.iter().filter(|it| it.id == still).count(), 1);
+        for (place, body) in motion.bodies.iter().enumerate() {
+            let is_shown = |frame: &Frame| frame.shapes[place].is_some();
+            assert!(
+                motion.frames.iter().any(is_shown),
+                "{}",
+                body.triangles.len()
+            );
         }
-        let motion = recorder.finish();
-        assert_eq!((motion.pairs().len(), motion.shown().count()), (50, 13));
+        for frame in &motion.frames {
+            let shown = motion.bodies.iter().zip(&frame.shapes);
+            let shown: Vec<_> = shown.filter(|(_, shape)| shape.is_some()).collect();
+            let sizes: Vec<_> = shown.iter().map(|(it, _)| it.triangles.len()).collect();
+            let number = frame.place;
+            assert_eq!(sizes, [1, 1 + number - number % 25 / 24], "frame {number}");
+            let start = |at: &BodyRecord| {
+                let before = motion.bodies.iter().take_while(|it| !std::ptr::eq(*it, at));
+                before.map(|it| it.triangles.len()).sum::<usize>() as u32
+            };
+            let pairs: &[[u32; 2]] = match number {
+                13 => &[[0, start(shown[1].0) + 11]],
+                29 => &[27, 28].map(|it| [0, start(shown[1].0) + it]),
+                _ => &[],
+            };
+            assert!(
+                matches!(&frame.hits, Hits::Pairs(kept) if kept == pairs),
+                "frame {number}"
+            );
+        }
+        let mut report = Report::new("tear");
+        report.add(Play::new("tear", "step"), motion);
+        let note = "The picture shows 16 of 50 steps, to keep the page small; the first contact, the step with the most pairs and the last are among them.";
+        assert!(report.page().contains(note));
+        // Meshes of which no four would find room are counted, not drawn, and nothing else is said.
+        let motion = record(&mut world, 8000, 80);
+        let shown: Vec<u32> = motion.shown().collect();
+        assert!(
+            shown.contains(&13) && shown.last() == Some(&19),
+            "{shown:?}"
+        );
+        assert_eq!(motion.worst(), Some((29, 2)));
+        let mut report = Report::new("tear");
+        report.add(Play::new("tear", "step"), motion);
+        let page = report.page();
+        assert!(page.contains("; the first contact is among them. Figures are of all steps."));
+    }
+
+    #[test]
+    fn parts_have_numbers_of_their_own() {
+        let mut world = World::<f32>::new();
+        let flat = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let [_, _, last] = [1, 3, 1].map(|n| world.add(&vec![[0, 1, 2]; n], &flat).unwrap());
+        let label = |name: &str, parts: &[&str], of_triangles: &[u32]| BodyLabel {
+            name: name.to_owned(),
+            faces: None,
+            parts: Some(Parts {
+                names: parts.iter().map(|&part| part.to_owned()).collect(),
+                of_triangles: of_triangles.to_vec(),
+            }),
+        };
+        // Of the first there are not so many triangles; the second has one of no part.
+        let labels = vec![
+            label("a", &["1", "2"], &[0, 1]),
+            label("b", &["1", "2"], &[1, 0, 2]),
+        ];
+        let mut recorder = Recorder::new(labels);
+        recorder.frame(0, &world, &[]);
+        // Parts are those of the first mesh.
+        world.set_mesh(last, &[[2, 1, 0]], &flat).unwrap();
+        recorder.frame(1, &world, &[]);
+        let bodies = recorder.finish().bodies;
+        let facts: Vec<_> = bodies
+            .iter()
+            .map(|it| (it.label.name.as_str(), it.number, it.label.parts.is_some()))
+            .collect();
+        let third = ("body 2", 3, false);
+        assert_eq!(facts, [("a", 0, false), ("b", 1, true), third, third]);
     }
 
     #[test]

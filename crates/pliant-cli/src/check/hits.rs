@@ -19,6 +19,8 @@ pub(super) struct Hits {
     path: PathBuf,
     kind: Kind,
     over: Overwrite,
+    /// How many the number of a frame has in the name of its file; none where there is one file.
+    digits: Option<usize>,
     /// Of each frame the number and the name of the file, where there are several.
     written: Vec<(usize, String)>,
 }
@@ -51,21 +53,27 @@ struct Mesh {
 }
 
 impl Hits {
-    /// Sees to it that files can be written for so many frames.
-    pub(super) fn new(path: &Path, frames: usize, over: Overwrite) -> anyhow::Result<Self> {
+    /// Sees to it that files can be written for these frames.
+    pub(super) fn new(
+        path: &Path,
+        frames: impl Iterator<Item = usize> + Clone,
+        over: Overwrite,
+    ) -> anyhow::Result<Self> {
         let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
         let kind = match ending.to_str() {
             Some("vtp") => Kind::PolyData,
             Some("vtu") => Kind::UnstructuredGrid,
             _ => bail!("--hits {}: the name must end in .vtp or .vtu", shown(path)),
         };
+        let last = frames.clone().skip(1).last();
         let hits = Self {
             path: path.to_owned(),
             kind,
             over,
+            digits: last.map(|last| last.to_string().len()),
             written: Vec::new(),
         };
-        if frames > 1 {
+        if hits.digits.is_some() {
             let name = path.file_name().unwrap_or_default();
             if !name.to_string_lossy().chars().all(is_xml) {
                 bail!(
@@ -75,18 +83,17 @@ impl Hits {
             }
             output::prepare(&hits.collection(), MARK, over)?;
         }
-        for frame in 0..frames {
-            output::prepare(&hits.of_frame(frame, frames), MARK, over)?;
+        for frame in frames {
+            output::prepare(&hits.of_frame(frame), MARK, over)?;
         }
         Ok(hits)
     }
 
-    /// The file of a frame of so many.
-    fn of_frame(&self, frame: usize, count: usize) -> PathBuf {
-        if count == 1 {
+    /// The file of a frame.
+    fn of_frame(&self, frame: usize) -> PathBuf {
+        let Some(digits) = self.digits else {
             return self.path.clone();
-        }
-        let digits = (count - 1).to_string().len();
+        };
         let [stem, ending] = [self.path.file_stem(), self.path.extension()]
             .map(|part| part.unwrap_or_default().display());
         let name = format!("{stem}_{frame:0digits$}.{ending}");
@@ -100,9 +107,8 @@ impl Hits {
 
     /// Writes the frame that was checked last.
     pub(super) fn frame(&mut self, check: &Check, found: &Found) -> anyhow::Result<()> {
-        let count = check.frame_count();
-        let path = self.of_frame(found.frame, count);
-        if count > 1 {
+        let path = self.of_frame(found.frame);
+        if self.digits.is_some() {
             let name = path.file_name().unwrap_or_default();
             let name = name.to_string_lossy().into_owned();
             self.written.push((found.frame, name));

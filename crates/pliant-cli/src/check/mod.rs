@@ -8,6 +8,7 @@ mod pictures;
 pub(crate) mod size;
 
 use crate::Outcome;
+use crate::frames::Frames;
 use crate::report::PictureOptions;
 use crate::tree_options::at_least_one;
 use anyhow::{anyhow, bail};
@@ -40,7 +41,15 @@ pub(crate) struct Arguments {
     /// Leave out places where surfaces only touch, as along a cut: where no triangles cross and no surface passes through another, not even exactly at edges and vertices. Where it is not clear what a side is, a place stays. Not with --within
     #[arg(long, conflicts_with = "within")]
     crossing: bool,
-    /// Besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line: a vertex and a triangle, or two edges, and when first. Not with --within, --baseline, --hits, --format lines or github
+    /// Only these frames: 100..200 are 100 to 199; 100.. and ..200 are open; 100 is one; 100..200:10 is every tenth, and what meets on the way to the next goes ten frames on
+    #[arg(
+        long,
+        value_name = "A..B:STEP",
+        default_value = "..",
+        allow_negative_numbers = true
+    )]
+    frames: Frames,
+    /// Besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line: a vertex and a triangle, or two edges, and when first. Costs many times what a check of the frames alone does. Not with --within, --baseline, --hits, --format lines or github
     #[arg(long)]
     swept: bool,
     /// Only how many pairs, not which
@@ -118,6 +127,7 @@ Examples:
   pliant check walk.npz --report walk.html           a page: in motion, hits red
   pliant check walk.npz --png worst.png --frame 50   its largest place
   pliant check a.ply --png a.png --view top --size 800x600
+  pliant check walk.npz --frames 100..200:10         every tenth of these
   pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
   pliant check shirt.ply skin.ply --within 0.002     nothing closer than 2 mm?
   pliant check shirt.npz skin.npz --swept            nothing jumps through?
@@ -165,7 +175,7 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     let over = arguments.pictures.over;
     let hits = arguments.hits.as_deref();
-    let hits = hits.map(|path| Hits::new(path, check.frame_count(), over));
+    let hits = hits.map(|path| Hits::new(path, check.frames(), over));
     let mut hits = hits.transpose()?;
     let mut pictures = Pictures::new(arguments, &check)?;
     let mut output = Output::begin(arguments, &check)?;
@@ -226,6 +236,7 @@ fn open(arguments: &Arguments) -> Result<Check, Error> {
         baseline: arguments.baseline.clone(),
         skip_degenerate: arguments.skip_degenerate,
         places: finds_places(arguments),
+        frames: Some(arguments.frames.to_check()),
         options,
         ..Settings::default()
     };
@@ -261,7 +272,9 @@ fn frames(
         ..
     } = *arguments;
     let printed = !quiet && !count && matches!(format, Format::Json | Format::Lines);
-    for frame in 0.. {
+    let mut numbers = check.frames();
+    loop {
+        let frame = numbers.next().unwrap_or_default();
         let kept = hits.is_some() || pictures.looks_at(frame);
         // Where only the exit code is asked for, one pair says as much as all.
         check.ask(first || quiet && !kept, kept || printed);
@@ -273,7 +286,7 @@ fn frames(
             hits.frame(check, &found)?;
         }
         pictures.frame(check, &found)?;
-        let listed = printed && format == Format::Json;
+        let listed = printed && format == Format::Json || pictures.shows_moments();
         check.ask(first || quiet && !pictures.shows_moments(), listed);
         if let Some(interval) = check.next_interval()? {
             output.interval(check, &interval)?;

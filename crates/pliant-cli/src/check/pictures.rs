@@ -1,7 +1,7 @@
 //! `--report` and `--png` of a check: what is left of each frame's pairs, in the world as the check left it.
 //!
-//! A picture has the sources as its bodies, with the triangles' own numbers; pieces and groups of a source are not told apart in it, and groups that
-//! were not asked for are in it too.
+//! A picture has the sources as its bodies, with the triangles' own numbers; a page tells pieces and groups of a source apart. Groups that
+//! were not asked for are in both too.
 
 use super::output::short;
 use super::{Arguments, Split, moments};
@@ -10,7 +10,7 @@ use crate::report::{Watcher, fact};
 use crate::table::grouped;
 use pliant_check::{AnyWorld, Baseline, Check, Found, Interval, Row, with_world};
 use pliant_io::shown;
-use pliant_report::{BodyLabel, Gap};
+use pliant_report::{BodyLabel, Gap, Parts};
 
 /// Looks at the frames of one check.
 pub(super) struct Pictures {
@@ -56,7 +56,7 @@ impl Way {
 
 impl Pictures {
     pub(super) fn new(arguments: &Arguments, check: &Check) -> anyhow::Result<Self> {
-        let numbers = 0..u32::try_from(check.frame_count()).unwrap_or(u32::MAX);
+        let numbers = check.frames().map(|frame| frame as u32);
         Watcher::new(&arguments.pictures, || labels(check), "frame", numbers).map(|watcher| Self {
             watcher: watcher.within(arguments.within),
             way: Way::default(),
@@ -120,7 +120,7 @@ impl Pictures {
             return;
         }
         self.way.take(interval);
-        if let Some(moment) = moments::moment(check, interval) {
+        if let Some(moment) = moments::moment(interval) {
             with_world!(check.world(), world => self.watcher.moment(world, &moment));
         }
     }
@@ -139,7 +139,7 @@ impl Pictures {
         watcher.finish("check", "frame", |_, play| {
             if arguments.swept {
                 play.facts.push(fact("ways with contacts", way.meeting.to_string()));
-                play.notes.push("Between two frames every corner moves on a straight line. Where something meets on the way, and not in the frame already, the picture has a frame more: the bodies at the first contact, with the triangles there in red, and the vertex (as a cross), the edges or the triangle that meet drawn over everything.".to_owned());
+                play.notes.push("Between two frames every corner moves on a straight line. Where something meets on the way, and not in the frame already, the picture has a frame more. It lists what meets, the earliest first, and shows the bodies at the contact that is chosen, with the triangles there in red, and the vertex (as a cross), the edges or the triangle that meet drawn over everything.".to_owned());
                 if way.skipped > 0 {
                     play.notes.push(format!("Where a mesh changes between two frames nothing was looked for: {} of them.", way.skipped));
                 }
@@ -152,10 +152,11 @@ impl Pictures {
                 fact("query", asked(arguments, check)),
                 fact("precision", precision),
             ]);
+            let is_split = (0..check.sources().len()).any(|source| check.is_split(source));
             let bodies = match arguments.split {
-                None => None,
+                None if !is_split => None,
                 Some(Split::Components) => Some("pieces"),
-                Some(Split::Groups) => Some("groups"),
+                None | Some(Split::Groups) => Some("groups"),
             };
             if let Some(bodies) = bodies {
                 play.facts
@@ -194,13 +195,34 @@ impl Pictures {
     }
 }
 
-/// What the page calls the sources.
+/// What the page calls the sources, and the pieces or groups that they are split into.
 fn labels(check: &Check) -> Vec<BodyLabel> {
-    let label = |source: &pliant_io::Body| BodyLabel {
+    let sources = check.sources().iter().enumerate();
+    let label = sources.map(|(number, source)| BodyLabel {
         name: shown(source.name()),
         faces: source.faces().map(<[u32]>::to_vec),
+        parts: check.is_split(number).then(|| parts(check, number)),
+    });
+    label.collect()
+}
+
+fn parts(check: &Check, number: usize) -> Parts {
+    let source = &check.sources()[number];
+    let bodies = check.bodies_of(number);
+    let names = bodies.clone().filter_map(|body| check.body(body));
+    let names = names.map(|body| {
+        let behind = body.name.strip_prefix(source.name()).unwrap_or(&body.name);
+        shown(behind.strip_prefix('#').unwrap_or(behind))
+    });
+    let none = bodies.len() as u32;
+    let part = |triangle| {
+        let body = check.body_of(number, triangle);
+        body.map_or(none, |body| body - bodies.start)
     };
-    check.sources().iter().map(label).collect()
+    Parts {
+        names: names.collect(),
+        of_triangles: (0..source.triangles().len()).map(part).collect(),
+    }
 }
 
 /// A pair of bodies of answers as a pair of sources, the smaller first.

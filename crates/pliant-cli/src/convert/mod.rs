@@ -3,14 +3,12 @@
 //! Streamed like a check: in memory is one frame. Vertices stay as they are in the file, of a group those that it has; an STL file has none of its own, so its
 //! corners are welded and each place is written once.
 
-mod frames;
-
 use crate::Outcome;
 use crate::check::size;
+use crate::frames::Frames;
 use crate::table::grouped;
 use anyhow::{Context, bail};
 use clap::Args;
-use frames::Frames;
 use pliant_io::{Body, OpenOptions, Positions, Shape, WriteOptions, Writer, shown};
 use std::collections::BTreeMap;
 
@@ -23,10 +21,10 @@ pub(crate) struct Arguments {
     /// What to write: a mesh (.obj, .ply, .stl), a sequence (.npz, mesh.obj+walk.pc2, mesh.obj+walk.mdd), or a mesh a frame (cloth_%04d.obj)
     #[arg(value_name = "OUT")]
     to: String,
-    /// Only these frames: 10..20 are 10 to 19; 10.. and ..20 are open; 10 is one
+    /// Only these frames: 10..20 are 10 to 19; 10.. and ..20 are open; 10 is one; 10..20:3 is every third
     #[arg(
         long,
-        value_name = "A..B",
+        value_name = "A..B:STEP",
         default_value = "..",
         allow_negative_numbers = true
     )]
@@ -118,9 +116,11 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         fps: arguments.fps,
     };
     let mut writer = Writer::create(&arguments.to, shape, options)?;
-    body.skip(frames.start);
+    let mut next = 0;
     let mut some = Picked::default();
     for frame in frames {
+        body.skip(frame - next);
+        next = frame + 1;
         let name = shown(body.name());
         let positions = body.next_frame()?;
         let positions = positions.with_context(|| format!("{name}: frame {frame} is missing"))?;

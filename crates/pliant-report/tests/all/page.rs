@@ -25,7 +25,7 @@ fn record(mut recorder: Recorder, counts: &[usize]) -> Motion {
 fn page_of(label: &str, chart: &str) -> String {
     let labels = vec![BodyLabel {
         name: label.to_owned(),
-        faces: None,
+        ..BodyLabel::default()
     }];
     let motion = record(Recorder::new(labels), &[0, 1]);
     let mut report = Report::new(&format!("pliant check '{label}'"));

@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { bodyOf, boxAround, unpack } from './src/data.js';
+import { bodyOf, boxAround, contactShown, partOf, unpack } from './src/data.js';
 
 const program = process.env.PLIANT ?? fileURLToPath(new URL('../target/release/pliant', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'pliant-data-'));
@@ -27,6 +27,60 @@ function sheet(frame, size = 12) {
   };
 }
 
+/** The motion of a page. */
+async function read(name) {
+  const page = readFileSync(join(folder, name), 'utf8');
+  const { motions, colours } = JSON.parse(page.match(/id="report">(.*?)<\/script/s)[1]);
+  return unpack(motions[0], page.match(/class="motion">(.*?)<\/script/s)[1], colours);
+}
+
+test('what meets on the way: all of the JSON, each with the bodies where they are then', async () => {
+  // Tents that fall through a square, the second twice as fast; the second group of the file, and both of it are pieces.
+  const tent = (x, z) => [[x, 0, z], [x - 0.1, 0.3, z + 1], [x + 0.1, -0.3, z + 1.5]];
+  const text = (z) => [...tent(-0.5, z), ...tent(0.5, 2 * z)].map((v) => `v ${v.join(' ')}`).join('\n');
+  [1, -3].forEach((z, frame) => writeFileSync(join(folder, `tents_${frame}.obj`), `${text(z)}\no one\nf 1 2 3\no two\nf 4 5 6\n`));
+  const square = { vertices: [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], faces: [[0, 1, 2], [0, 2, 3]] };
+  writeFileSync(join(folder, 'square.obj'), obj(square));
+  for (const split of [[], ['--split', 'groups']]) {
+    const said = spawnSync(program, ['check', 'tents_*.obj', 'square.obj', '--swept', ...split, '--report', 'b.html', '--format', 'json'], { cwd: folder, encoding: 'utf8' });
+    assert.equal(said.status, 1, said.stderr);
+    const [, interval] = JSON.parse(said.stdout).frames;
+    assert.ok(interval.count >= 6, said.stdout);
+    const { bodies, parts, frames } = await read('b.html');
+    const names = split.length ? ['tents_*.obj#one', 'tents_*.obj#two', 'square.obj'] : ['tents_*.obj', 'square.obj'];
+    assert.deepEqual(parts.map(({ number, name }) => [number, name]), names.map((name, i) => [i, name]));
+    assert.equal(partOf(bodies[0], 1).name, names[split.length ? 1 : 0]);
+    const { moment } = frames[1];
+    const rows = [...interval.vertex_triangle, ...interval.edge_edge];
+    assert.deepEqual(moment.contacts.map(([time, ...row]) => [...row, time].join()).sort(), rows.map((row) => [...row.slice(0, -2), row.at(-1)].join()).sort());
+    assert.deepEqual(moment.contacts.map(([time]) => time), rows.map((row) => row.at(-1)).sort((a, b) => a - b));
+    assert.deepEqual(moment.contacts[0], [interval.first.time, ...interval.first.pair]);
+    const heights = [];
+    moment.contacts.forEach(([time, ...row], nth) => {
+      const shown = contactShown(bodies, frames[1], nth);
+      assert.equal(shown.number, time);
+      const place = (body, vertex, axis) => shown.shapes[body].lower[axis] + shown.shapes[body].steps[axis * bodies[body].vertices + vertex] * bodies[body].step;
+      // The two elements touch: of a vertex and the square it is as high as that.
+      if (row.length === 4 && names[row[2]] === 'square.obj') {
+        heights.push(Math.abs(place(0, row[1], 2) - place(1, 0, 2)));
+        assert.deepEqual([...shown.red], [names[row[0]].endsWith('two') || row[1] > 2 ? 1 : 0, bodies[1].first + row[3]]);
+        assert.equal(shown.places[0].label, `vertex ${row[1]} of ${names[row[0]]}, triangle ${row[3]} of square.obj`);
+      }
+      // Where both are, the box is.
+      for (const axis of [0, 1, 2]) assert.ok(shown.places[0].lower[axis] <= shown.places[0].upper[axis]);
+    });
+    assert.ok(heights.length >= 6 && heights.every((height) => height < 1e-4), String(heights));
+  }
+});
+
+test('a group that was not asked for is the rest', async () => {
+  const one = spawnSync(program, ['check', 'tents_0.obj#two', 'square.obj', '--report', 'c.html'], { cwd: folder, encoding: 'utf8' });
+  assert.equal(one.status, 0, one.stderr);
+  const { bodies, parts } = await read('c.html');
+  assert.deepEqual(parts.map(({ number, name }) => [number, name]), [[0, 'tents_0.obj#two'], [1, 'square.obj'], [-1, 'tents_0.obj, the rest']]);
+  assert.deepEqual([0, 1].map((triangle) => partOf(bodies[0], triangle).number), [-1, 0]);
+});
+
 test('a sequence of polygons and a body that stands still', async () => {
   const frames = [...Array(8).keys()].map((frame) => sheet(frame));
   frames.forEach((mesh, frame) => writeFileSync(join(folder, `sheet_${frame}.obj`), obj(mesh)));
@@ -35,9 +89,7 @@ test('a sequence of polygons and a body that stands still', async () => {
   const said = spawnSync(program, ['check', 'sheet_*.obj', 'needle.obj', '--report', 'a.html', '--format', 'json'], { cwd: folder, encoding: 'utf8' });
   assert.equal(said.status, 1, said.stderr);
   const json = JSON.parse(said.stdout);
-  const page = readFileSync(join(folder, 'a.html'), 'utf8');
-  const { motions } = JSON.parse(page.match(/id="report">(.*?)<\/script/s)[1]);
-  const motion = await unpack(motions[0], page.match(/class="motion">(.*?)<\/script/s)[1]);
+  const motion = await read('a.html');
 
   const [body, still] = motion.bodies;
   assert.equal(body.triangles, 2 * 11 * 11);

@@ -210,6 +210,178 @@ test('opens on the largest place, above the fold; a click flies to another, wher
   await close();
 });
 
+test('every button goes to something red, and playback follows a place or shows everything', { skip: skip || (existsSync(morph) ? false : 'there is no shared/data beside the checkout') }, async () => {
+  const { frames } = JSON.parse(pliant('check', morph, '--report', 'buttons.html', '--format', 'json'));
+  const { page, state, arrived, pixels, close } = await open('buttons.html', { viewport: { width: 1366, height: 768 } });
+  const seesRed = async (why) => {
+    const { number } = await state();
+    await arrived(frames[number].places[0].number);
+    const { count } = await pixels();
+    assert.ok(count.red > 200 && count.plain > 1000, `${why}, frame ${number}: ${JSON.stringify(count)}`);
+  };
+  const button = (name) => page.getByRole('button', { name, exact: true }).click();
+  await button('First contact');
+  assert.equal((await state()).number, 0);
+  await seesRed('First contact');
+  for (let press = 0; press < 4; press++) {
+    await page.keyboard.press('PageDown');
+    await button('Hit ›');
+    await seesRed('Hit ›');
+  }
+  await button('‹ Hit');
+  await seesRed('‹ Hit');
+  await button('Most pairs');
+  await seesRed('Most pairs');
+  for (const key of ['f', 'n', 'n', 'w', 'p', 'p']) {
+    await page.keyboard.press(key);
+    await seesRed(key);
+  }
+  // Frame by frame: the place while it lives, also when somebody has turned the picture; then everything.
+  await page.keyboard.press('w');
+  const { focus } = await state();
+  await arrived(focus);
+  await page.keyboard.press('Shift+ArrowLeft');
+  const { number: worst } = await state();
+  const end = frames.findIndex(({ places }, frame) => frame > worst && places.every(({ number }) => number !== focus));
+  for (let frame = worst + 1; frame <= end; frame++) {
+    await page.keyboard.press('ArrowRight');
+    assert.equal((await state()).focus, frame < end ? focus : null);
+    const { count } = await pixels();
+    assert.ok(frame < end ? count.red > 100 : count.plain > 1000, `frame ${frame}: ${JSON.stringify(count)}`);
+  }
+  // All at once, from any place to any frame: never nothing.
+  for (const place of [0, 59, 3, 50, 30]) {
+    await scrub(page, place);
+    assert.ok((await pixels()).count.plain > 1000, `frame ${place}`);
+    await page.locator('.places button').first().click();
+    await arrived(frames[place].places[0]?.number);
+    await seesRed('the first place');
+  }
+  await close();
+});
+
+test('two tiny triangles are gone to and pointed at', { skip }, async () => {
+  // Two triangles that meet in the second frame, in a world a thousand times as large.
+  const tip = (z) => `v 0.5 0.2 ${z}\nv 0.4 0.3 ${z + 1}\nv 0.6 0.1 ${z + 1}\nf 1 2 3\n`;
+  [1, -0.5].forEach((z, frame) => writeFileSync(join(folder, `tip_${frame}.obj`), tip(z)));
+  writeFileSync(join(folder, 'wide.obj'), 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 -1000\nv 900 0 -1000\nv 0 900 -1000\nf 1 2 3\nf 4 5 6\n');
+  pliant('check', 'tip_*.obj', 'wide.obj', '--report', 'tiny.html');
+  const { page, state, arrived, drawn, pixels, close } = await open('tiny.html');
+  await page.keyboard.press('Home');
+  await page.keyboard.press('r');
+  await page.getByRole('button', { name: 'First contact' }).click();
+  await arrived(0);
+  assert.equal((await state()).red, 2);
+  assert.ok((await pixels()).count.red > 20);
+  const box = await page.locator('canvas').first().boundingBox();
+  // A ring round it here, and one in the picture of everything.
+  const ring = await page.locator('.markers i.focus').boundingBox();
+  assert.ok(Math.hypot(ring.x + 9 - box.x - box.width / 2, ring.y + 9 - box.y - box.height / 2) < 12, JSON.stringify(ring));
+  assert.equal(await page.locator('.overview').isVisible(), true);
+  await page.keyboard.press('r');
+  await drawn();
+  assert.equal(await page.locator('.markers i:not([hidden])').count(), 1);
+  await page.screenshot({ path: join(shots, 'tiny.png') });
+  await close();
+});
+
+test('pieces and groups have each a colour, an eye and a line', { skip }, async () => {
+  // Two tetrahedra that meet, one far away; the first is two groups that share vertices.
+  const solid = (x) => [[x, 0, 0], [x + 1, 0, 0], [x, 1, 0], [x, 0, 1]].map((v) => `v ${v.join(' ')}`).join('\n');
+  writeFileSync(join(folder, 'parts.obj'), `${[0, 0.3, 3].map(solid).join('\n')}
+g a\nf 1 3 2\nf 1 2 4\ng b\nf 1 4 3\nf 2 3 4\no c\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\no d\nf 9 11 10\nf 9 10 12\nf 9 12 11\nf 10 11 12\n`);
+  for (const [split, names, hits] of [['components', ['#1', '#2', '#3'], 2], ['groups', ['#a', '#b', '#c', '#d'], 3]]) {
+    const { frames: [{ pairs }] } = JSON.parse(pliant('check', 'parts.obj', '--split', split, '--report', 'parts.html', '--format', 'json'));
+    const { page, state, pixels, drawn, close } = await open('parts.html');
+    const lines = page.locator('.legend li:has(.eye)');
+    const listed = (await lines.locator('bdi').allTextContents()).sort();
+    assert.deepEqual(listed, names.map((name) => `parts.obj${name}`));
+    assert.equal(await lines.filter({ hasText: 'no hit' }).count(), names.length - hits);
+    const colours = await lines.locator('.chip').evaluateAll((chips) => chips.map((chip) => chip.style.background));
+    assert.equal(new Set(colours).size, names.length);
+    assert.equal(await page.locator('.player').isVisible(), false, 'one frame is not played');
+    assert.equal((await state()).red, redOf(pairs));
+    // Alone it has its colour, and its red with it.
+    await page.keyboard.press('r');
+    const before = (await pixels()).count;
+    const alone = [];
+    for (const name of names) {
+      await page.getByLabel(`Show parts.obj${name}`, { exact: true }).locator('xpath=following-sibling::button').click();
+      assert.equal((await state()).hidden, names.length - 1);
+      const { count } = await pixels();
+      assert.ok(count.plain < before.plain, name);
+      alone.push(count);
+      const { red } = await state();
+      assert.equal(red, redOf(pairs), 'what is hidden is counted');
+    }
+    assert.equal(alone.filter(({ red }) => red === 0).length, names.length - hits);
+    // What is hidden is not met by a click.
+    await page.keyboard.press('r');
+    const { plain, red } = await pixels();
+    await page.locator('canvas').first().click({ position: plain ?? red });
+    assert.ok((await page.locator('.selection').innerText()).includes(`parts.obj${names.at(-1)}, triangle`));
+    await page.getByText('Show all', { exact: true }).click();
+    await page.keyboard.press('r');
+    await drawn();
+    await page.screenshot({ path: join(shots, `parts-${split}.png`) });
+    await close();
+  }
+});
+
+test('of meshes that change the first contact, the worst and the last are shown, and frames of all the way', { skip }, async () => {
+  const { step, pairs } = JSON.parse(pliant('run', 'tear', '--triangles', '20000', '--report', 'tear.html', '--format', 'json'));
+  const { page, state, pixels, close } = await open('tear.html');
+  assert.match(await page.locator('.notes').innerText(), /^The picture shows \d+ of 250 steps, .*the first contact, the step with the most pairs and the last are among them/);
+  await page.keyboard.press('End');
+  assert.equal((await state()).number, step.at(-1));
+  await page.keyboard.press('w');
+  assert.equal((await state()).number, step[pairs.indexOf(Math.max(...pairs))]);
+  await page.waitForFunction(() => document.querySelector('.stage').dataset.flies === 'no');
+  assert.ok((await pixels()).count.red > 500);
+  await page.screenshot({ path: join(shots, 'tear.png') });
+  await page.keyboard.press('f');
+  assert.equal((await state()).number, step[pairs.findIndex((count) => count > 0)]);
+  // From one to the next it is never far.
+  const shown = [];
+  const last = +(await page.locator('.track input').getAttribute('max'));
+  for (let place = 0; place <= last; place++) {
+    await scrub(page, place);
+    shown.push((await state()).number);
+    assert.equal((await state()).pairs, pairs[step.indexOf(shown.at(-1))]);
+  }
+  const gaps = shown.slice(1).map((number, i) => number - shown[i]);
+  assert.ok(Math.max(...gaps) <= 16, String(shown));
+  assert.equal(await page.locator('.eye').count(), 1);
+  await close();
+});
+
+test('axes of frames and pairs have whole numbers', { skip }, async () => {
+  const tip = (z) => `v 0.5 0 ${z}\nv 0.4 0.3 ${z + 1}\nv 0.6 -0.3 ${z + 1}\nf 1 2 3\n`;
+  writeFileSync(join(folder, 'ground.obj'), 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n');
+  for (const count of [1, 2, 3]) {
+    const names = [0.5, -0.5, -0.4].slice(0, count).map((z, frame) => {
+      writeFileSync(join(folder, `few${count}_${frame}.obj`), tip(z));
+      return `few${count}_${frame}.obj`;
+    });
+    pliant('check', count > 1 ? `few${count}_*.obj` : names[0], 'ground.obj', '--report', 'few.html', '--force');
+    const page = await browser.newPage({ viewport: { width: 1366, height: 768 } });
+    // What is written in the chart.
+    await page.addInitScript(() => {
+      window.written = [];
+      const { fillText } = CanvasRenderingContext2D.prototype;
+      CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+        window.written.push(text);
+        return fillText.call(this, text, ...rest);
+      };
+    });
+    await page.goto(pathToFileURL(join(folder, 'few.html')).href);
+    await page.waitForSelector('body[data-ready]');
+    const numbers = (await page.evaluate(() => window.written)).filter((text) => /[0-9]/.test(text));
+    assert.ok(numbers.length >= 2 && numbers.every((text) => /^[0-9]+$/.test(text)), String(numbers));
+    await page.close();
+  }
+});
+
 test('a body round everything that holds no hit starts hidden, and is found by typing', { skip }, async () => {
   const cube = (half) => [...Array(8).keys()].map((corner) => `v ${[0, 1, 2].map((axis) => ((corner >> axis) & 1 ? half : -half)).join(' ')}`).join('\n')
     + '\nf 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n';
@@ -603,13 +775,24 @@ test('what jumps through between two frames is shown at the moment of contact', 
   assert.equal(await page.locator('h1').textContent(), 'Nothing intersects in any of 4 frames. On the way from a frame to the next something meets in 2 of 3, first after 0.1429 of the way from frame 0 to 1.');
   // Opens on the first contact: the tip's corner, as a cross, in a triangle.
   await arrived(-1);
-  const first = { number: 0.1429, pairs: 0, red: 2, gaps: 6, places: 1 };
+  const first = { number: 0.1429, pairs: 0, red: 2, gaps: 6, places: 3 };
   assert.deepEqual(await found(), first);
   assert.equal(await status(), 'between frames 0 and 1, after 0.1429 of the way: the first of 3 contacts, vertex 0 of jump_*.obj, triangle 0 of square.obj');
-  assert.equal(await page.locator('.aside h2').first().textContent(), 'First contact');
-  assert.equal(await page.locator('.places button b').textContent(), 'After 0.1429');
-  assert.match(await page.locator('.places button').textContent(), /3 contacts.*frame 0 to 1/);
+  assert.equal(await page.locator('.aside h2').first().textContent(), '3 contacts, frame 0 to 1');
+  assert.deepEqual(await page.locator('.places button b').allTextContents(), ['After 0.1429', 'After 0.4286', 'After 0.4286']);
   assert.ok((await pixels()).count.red > 1000);
+  // Each of them can be gone to, by a click and by keys; the bodies are where they are then.
+  for (const go of [() => page.locator('.places button').nth(1).click(), () => page.keyboard.press('l')]) {
+    await go();
+    const nth = await page.locator('.places button[aria-pressed=true]').evaluate((button) => -1 - button.dataset.number);
+    await arrived(-1 - nth);
+    assert.equal((await state()).number.toFixed(4), '0.4286');
+    assert.match(await status(), new RegExp(`^between frames 0 and 1, after 0.4286 of the way: contact ${nth + 1} of 3, `));
+    assert.ok((await pixels()).count.red > 500);
+  }
+  await page.keyboard.press('l');
+  await arrived(-1);
+  assert.deepEqual(await found(), first);
   await page.screenshot({ path: join(shots, 'moment.png') });
   assert.equal(await page.locator('.strip .moments').getAttribute('d'), 'M200,0 V100 M600,0 V100');
   // Frames are what they are, and hits lead from moment to moment.

@@ -53,7 +53,7 @@ export class Chart {
     const axis = { stroke: colour('muted'), grid: { stroke: colour('line'), width: 1 }, ticks: { stroke: colour('line'), width: 1 }, font: '12px system-ui, sans-serif' };
     const single = lines.length === 1;
     const counts = lines.every(({ values }) => values.every((value) => value === null || Number.isInteger(value)));
-    const xAxis = { ...axis, incrs: WHOLE };
+    const xAxis = { ...axis, incrs: WHOLE, ...(x.length === 1 && { splits: [x[0]] }) };
     const yAxis = { ...axis, ...(counts && !logarithmic && { incrs: WHOLE }), size: 64, label: unit, labelSize: 18, labelFont: axis.font };
     const options = {
       width: this.box.clientWidth,

@@ -270,11 +270,13 @@ export class Stage {
     this.follows = true;
     const whole = this.bounds().getSize(new Vector3()).length() / 2;
     const at = middle(place);
-    // A place as large as everything needs no more room than that.
-    const radius = Math.max(Math.min(1.7 * new Vector3(...place.upper).distanceTo(at), whole), 0.03 * whole, 1e-6);
+    const radius = Math.max(1.7 * new Vector3(...place.upper).distanceTo(at), 0.03 * whole, 1e-6);
     const distance = radius / Math.sin(((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
     const towards = this.bestDirection(place, at, distance);
-    this.moveTo({ target: at, position: towards.clone().multiplyScalar(distance).add(at) }, animated);
+    // A place as large as everything needs no more room than that.
+    const all = fit(this.shownPositions(), towards, this.camera);
+    const isNearer = all.position.clone().sub(at).dot(towards) < distance;
+    this.moveTo(isNearer ? all : { target: at, position: towards.clone().multiplyScalar(distance).add(at) }, animated);
     if (!animated) this.seeWhatHides();
     this.told();
   }

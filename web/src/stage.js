@@ -247,7 +247,7 @@ export class Stage {
 
   /** Somebody takes the view into their own hands. */
   takenOver() {
-    this.follows = false;
+    this.follows = this.isWhole = false;
     cancelAnimationFrame(this.flight);
     this.flight = null;
   }
@@ -276,6 +276,7 @@ export class Stage {
     // A place as large as everything needs no more room than that.
     const all = fit(this.shownPositions(), towards, this.camera);
     const isNearer = all.position.clone().sub(at).dot(towards) < distance;
+    this.isWhole = isNearer;
     this.moveTo(isNearer ? all : { target: at, position: towards.clone().multiplyScalar(distance).add(at) }, animated);
     if (!animated) this.seeWhatHides();
     this.told();
@@ -522,8 +523,8 @@ export class Stage {
   /** Everything, small in a corner, with the place that is looked at; nothing where everything is in the picture anyway. */
   renderOverview() {
     const place = this.place(this.focus);
-    this.overview.hidden = !place;
-    if (!place) return;
+    this.overview.hidden = !place || this.isWhole;
+    if (this.overview.hidden) return;
     const { offsetLeft: left, clientWidth: width, clientHeight: height } = this.overview;
     const bottom = this.canvas.clientHeight - this.overview.offsetTop - height - 1;
     // From the side that the place is seen from, a little from above.

@@ -50,6 +50,16 @@ fn frames_are_those_of_the_range_whatever_the_baseline() {
             };
             let some: Vec<_> = frames.iter().map(|&frame| all[frame]).collect();
             assert_eq!(counts(&arguments, &settings(None)).unwrap(), some);
+            // All from there on, however many there are.
+            let mut open_end = settings(None);
+            let range = open_end.frames.as_mut().unwrap();
+            range.count = usize::MAX;
+            assert_eq!(counts(&arguments, &open_end).unwrap(), some);
+            let reading = OpenOptions::default();
+            let mut check = Check::open(&arguments, &reading, &open_end).unwrap();
+            assert!(check.frames().eq(frames.iter().copied()));
+            check.next_frame().unwrap();
+            assert!(check.frames().eq(frames.iter().copied().skip(1)));
             // In frame 1 all pairs are in which `c` is.
             for baseline in [1, 5] {
                 let some = some.iter().map(|&(frame, count)| match baseline {
@@ -62,6 +72,24 @@ fn frames_are_those_of_the_range_whatever_the_baseline() {
             }
         }
     }
+    let behind = Frames {
+        start: 6,
+        step: 1,
+        count: usize::MAX,
+    };
+    let settings = Settings {
+        frames: Some(behind),
+        ..Settings::default()
+    };
+    let refused = counts(&arguments, &settings).unwrap_err();
+    assert!(matches!(
+        refused,
+        Error::NoSuchFrame {
+            frame: 6,
+            last: 5,
+            ..
+        }
+    ));
     let none = Frames {
         start: 9,
         step: 1,

@@ -436,3 +436,97 @@ fn pairs_are_counted_by_how_they_intersect() {
         assert_eq!(of(files), serde_json::Value::Null, "{files:?}");
     }
 }
+
+#[test]
+fn frames_are_chosen() {
+    // Two triangles that cross in the frames 0, 3, 6, ... of ten.
+    let names: Vec<String> = (0..10).map(|frame| format!("a_{frame}.obj")).collect();
+    let files = names.iter().enumerate();
+    let files: Vec<(&str, String)> = files
+        .map(|(frame, name)| (name.as_str(), pair(frame % 3 == 0)))
+        .collect();
+    let folder = folder(&files);
+    let chosen = |more: &[&str]| {
+        let said = check(
+            folder.path(),
+            &[&["a_*.obj", "--format", "json"], more].concat(),
+        );
+        assert!(said.code < 2, "{}", said.err);
+        let json = said.json();
+        let frames = json["frames"].as_array().unwrap().iter();
+        let numbers: Vec<u64> = frames.map(|it| it["frame"].as_u64().unwrap()).collect();
+        let hit = numbers.iter().map(|frame| u64::from(frame % 3 == 0));
+        assert!(said.counts().into_iter().eq(hit), "{more:?}");
+        numbers
+    };
+    for (frames, expected) in [
+        ("..", (0..10).collect::<Vec<_>>()),
+        ("3..6", vec![3, 4, 5]),
+        ("7..", vec![7, 8, 9]),
+        ("..2", vec![0, 1]),
+        ("4", vec![4]),
+        ("1..9:3", vec![1, 4, 7]),
+        ("2..:4", vec![2, 6]),
+        ("..11:4", vec![0, 4, 8]),
+    ] {
+        assert_eq!(chosen(&["--frames", frames]), expected, "{frames}");
+    }
+    // A baseline may be another frame, and the exit code is that of these frames.
+    let said = check(
+        folder.path(),
+        &["a_*.obj", "--frames", "3..:3", "--baseline", "0"],
+    );
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    assert!(said.out.contains("0 of 3 frames intersect"), "{}", said.out);
+    assert_eq!(
+        check(folder.path(), &["a_*.obj", "--frames", "1..3"]).code,
+        0
+    );
+    // Pages, pictures and files for ParaView are of these frames, too.
+    let files = [
+        "--hits", "hits.vtp", "--report", "a.html", "--png", "a.png", "--frame", "7",
+    ];
+    assert_eq!(
+        chosen(&[&["--frames", "1..9:3"], &files[..]].concat()),
+        [1, 4, 7]
+    );
+    let mut written: Vec<_> = fs::read_dir(folder.path())
+        .unwrap()
+        .collect::<Result<_, _>>()
+        .unwrap();
+    written.retain(|it| it.file_name().to_string_lossy().starts_with("hits"));
+    let mut written: Vec<_> = written.iter().map(fs::DirEntry::file_name).collect();
+    written.sort();
+    assert_eq!(
+        written,
+        ["hits.pvd", "hits_1.vtp", "hits_4.vtp", "hits_7.vtp"]
+    );
+    let page = fs::read_to_string(folder.path().join("a.html")).unwrap();
+    assert!(page.contains(r#""numbers":[1,4,7]"#));
+    let one = ["--frames", "3", "--hits", "one.vtp", "--png", "one.png"];
+    assert_eq!(chosen(&one), [3]);
+    assert!(
+        ["one.vtp", "one.png"]
+            .iter()
+            .all(|name| folder.path().join(name).exists())
+    );
+    // What meets on the way goes from one of these to the next.
+    let said = check(folder.path(), &["a_*.obj", "--swept", "--frames", "1..9:3"]);
+    assert!(
+        said.out.contains("to 4") && !said.out.contains("to 5"),
+        "{}",
+        said.out
+    );
+
+    let refused = |more: &[&str], words: &[&str]| {
+        check(folder.path(), &[&["a_*.obj"], more].concat()).assert_refused(words);
+    };
+    refused(&["--frames", "8..11"], &["frame 10", "0 to 9"]);
+    refused(&["--frames", "10.."], &["frame 10", "0 to 9"]);
+    refused(&["--frames", "5..5"], &["no frame is from 5"]);
+    refused(&["--frames", "1..5:0"], &["10..20:3"]);
+    refused(&["--frames", "1-5"], &["10..20:3"]);
+    refused(&["--frames", "3", "--swept"], &["--swept"]);
+    let picture = ["--frames", "1..9:3", "--png", "a.png", "--frame", "2"];
+    refused(&picture, &["--frame 2", "the first is 1, the last 7"]);
+}

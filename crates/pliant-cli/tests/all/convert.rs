@@ -93,6 +93,9 @@ fn frames_are_chosen() {
         convert(path, &["s?.obj", "some.npz", "--frames", frames, "--force"]);
         assert_eq!(counts(path, "some.npz"), all[chosen], "{frames}");
     }
+    // Every second one: the frames between are passed over.
+    convert(path, &["s?.obj", "some.npz", "--frames", "..:2", "--force"]);
+    assert_eq!(counts(path, "some.npz"), [all[0], all[2]]);
     convert(path, &["s?.obj", "one.ply", "--frames", "1"]);
     assert_eq!(counts(path, "one.ply"), all[1..2]);
     let said = pliant(path, &["convert", "s?.obj", "x.npz", "--frames", "1..4"]);

@@ -1,7 +1,7 @@
 //! Pages and pictures of the program, from end to end. What a browser makes of a page is tested in `web/`.
 
 use crate::common::{Said, pliant};
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -363,10 +363,16 @@ fn pages_and_pictures_have_what_is_left_of_the_pairs() {
         );
         // Pieces have the same red triangles; what is left out is not red.
         assert_eq!(picture != of_plain.2, differs, "{json:?}");
-        assert_eq!(
-            page["motions"][0]["bodies"], of_plain.1["motions"][0]["bodies"],
-            "{json:?}"
-        );
+        // All but what pieces are called is as without.
+        let unsplit = |page: &Value| {
+            let mut bodies = page["motions"][0]["bodies"].clone();
+            for body in bodies.as_array_mut().unwrap() {
+                body["parts"].take();
+                body["number"].take();
+            }
+            bodies
+        };
+        assert_eq!(unsplit(&page), unsplit(&of_plain.1), "{json:?}");
         // Nothing printed: still all pairs.
         let quiet = [bodies, clip, rules, &["--quiet"]].concat();
         let (said, page, same) = looked_at(&quiet);
@@ -376,4 +382,133 @@ fn pages_and_pictures_have_what_is_left_of_the_pairs() {
         );
         assert!(same == picture, "{quiet:?}");
     }
+}
+
+#[test]
+fn pieces_and_groups_are_bodies_of_the_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -1\nv 0.2 0.2 1\nv 0.3 0.4 1\n";
+    let text = format!("{corners}o a\nf 1 2 3\no <b\nf 4 5 6\n");
+    fs::write(folder.join("two.obj"), &text).unwrap();
+    fs::write(
+        folder.join("one.obj"),
+        "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\n",
+    )
+    .unwrap();
+    let bodies = |arguments: &[&str]| {
+        let said = pliant(
+            folder,
+            &[&["check"], arguments, &["--report", "a.html"]].concat(),
+        );
+        assert!(said.code < 2, "{}", said.err);
+        let head = head(folder, "a.html");
+        let facts = head["plays"][0]["facts"].clone();
+        let bodies = head["motions"][0]["bodies"].as_array().unwrap().clone();
+        let bodies = bodies
+            .into_iter()
+            .map(|body| (body["number"].clone(), body["parts"].clone()));
+        (bodies.collect::<Vec<_>>(), facts)
+    };
+    let none = Value::Null;
+    let (pieces, facts) = bodies(&["two.obj", "one.obj", "--split", "components"]);
+    assert_eq!(
+        pieces,
+        [(0.into(), json!(["1", "2"])), (2.into(), json!(["1"]))]
+    );
+    assert!(facts.as_array().unwrap().contains(&json!(["pieces", "3"])));
+    let (groups, _) = bodies(&["two.obj", "one.obj", "--split", "groups"]);
+    assert_eq!(
+        groups,
+        [(0.into(), json!(["a", "<b"])), (2.into(), none.clone())]
+    );
+    // Of the other group there is a part without a name.
+    let (some, facts) = bodies(&["one.obj", "two.obj#<b"]);
+    assert_eq!(some, [(0.into(), none.clone()), (1.into(), json!(["<b"]))]);
+    assert!(facts.as_array().unwrap().contains(&json!(["groups", "2"])));
+    let (whole, _) = bodies(&["two.obj", "one.obj"]);
+    assert_eq!(whole, [(0.into(), none.clone()), (1.into(), none)]);
+}
+
+#[test]
+fn all_that_meets_on_the_way_is_on_the_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // A leaf falls through a floor on which it does not lie in any frame, whatever is printed.
+    fs::write(
+        folder.join("floor.obj"),
+        "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n",
+    )
+    .unwrap();
+    for (frame, z) in [3.0, -7.0, -7.0].into_iter().enumerate() {
+        let text = format!("v 0 0 {z}\nv 1 0 {z}\nv 0 1 {}\nf 1 2 3\n", z + 5.0);
+        fs::write(folder.join(format!("leaf_{frame}.obj")), text).unwrap();
+    }
+    let swept = ["check", "leaf_*.obj", "floor.obj", "--swept"];
+    let moments = |more: &[&str]| {
+        let report = ["--report", "a.html"];
+        let alone = pliant(folder, &[&swept[..], more].concat());
+        let said = pliant(folder, &[&swept[..], more, &report].concat());
+        assert_eq!((said.code, &said.out), (alone.code, &alone.out), "{more:?}");
+        head(folder, "a.html")["motions"][0]["moments"].clone()
+    };
+    let json = pliant(folder, &[&swept[..], &["--format", "json"]].concat()).json();
+    let impacts = json["frames"][1]["vertex_triangle"].as_array().unwrap();
+    assert_eq!(impacts.len(), 3);
+    // Time, and the numbers of the elements.
+    let contact = |row: &Value| json!([row[5], row[0], row[1], row[2], row[3]]);
+    let mut contacts: Vec<Value> = impacts.iter().map(contact).collect();
+    contacts.sort_by(|a, b| a[0].as_f64().unwrap().total_cmp(&b[0].as_f64().unwrap()));
+    for more in [
+        &[][..],
+        &["--count"],
+        &["--quiet"],
+        &["--format", "json"],
+        &["--format", "json", "--count"],
+    ] {
+        let moment = json!({"until": 1, "count": 3, "contacts": contacts});
+        assert_eq!(moments(more), json!([null, moment, null, null]), "{more:?}");
+    }
+    // Of the first alone nobody knows how many others there are.
+    let first = json!({"until": 1, "count": null, "contacts": [contacts[0]]});
+    assert_eq!(moments(&["--first"]), json!([null, first, null, null]));
+}
+
+#[test]
+fn of_meshes_that_change_frames_of_all_the_way_are_shown() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let run = ["run", "tear", "--triangles", "20000", "--format", "json"];
+    let said = pliant(folder, &[&run[..], &["--report", "a.html"]].concat());
+    assert_eq!(said.code, 0, "{}", said.err);
+    let head = head(folder, "a.html");
+    let motion = &head["motions"][0];
+    let (pairs, places) = (&motion["pairs"], motion["frames"].as_array().unwrap());
+    let pairs: Vec<u64> = pairs
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|n| n.as_u64().unwrap())
+        .collect();
+    let places: Vec<usize> = places
+        .iter()
+        .map(|n| n.as_u64().unwrap() as usize)
+        .collect();
+    assert!(places.len() < 200 && pairs.len() == 250);
+    let first = pairs.iter().position(|&count| count > 0).unwrap();
+    let most = *pairs.iter().max().unwrap();
+    let worst = pairs.iter().position(|&count| count == most).unwrap();
+    assert!(
+        [0, first, worst, 249]
+            .iter()
+            .all(|place| places.contains(place)),
+        "{places:?}"
+    );
+    let widest = places.windows(2).map(|two| two[1] - two[0]).max();
+    assert!(widest <= Some(16), "{places:?}");
+    let note = format!(
+        "The picture shows {} of 250 steps, to keep the page small; the first contact, the step with the most pairs and the last are among them. Figures are of all steps.",
+        places.len()
+    );
+    assert_eq!(head["plays"][0]["notes"], json!([note]));
 }

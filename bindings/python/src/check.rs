@@ -35,6 +35,7 @@ pub(crate) struct Check {
     frame_count: usize,
     is_warned: AtomicBool,
     raised: Raised,
+    weld_tolerance: f64,
 }
 
 /// A body or a group, as it is named: by its name, or a body by its number.
@@ -111,7 +112,7 @@ impl Name {
 ///   swept     besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line:
 ///             Frame.interval; not with baseline. A frame is then handed out when the next has been read
 ///   first     stop at the first pair of each frame; of what meets on the way to the next, the first
-///   weld      weld vertices where boundary edges coincide in frame 0; else seams are intersections
+///   weld      weld vertices where boundary edges coincide, in each frame; else seams are intersections
 ///   split     "components": each connected piece of a file is a body, "cloth.ply#1", "cloth.ply#2", ... in the order of their
 ///             lowest triangle; "groups": each group of an OBJ file, by o and g, is one, "scan.obj#arm", and what has none one body;
 ///             triangles keep the numbers that they have in the file, and those that share a vertex of it are left out
@@ -119,7 +120,7 @@ impl Name {
 ///             ("scene.glb#arm"; "scene.glb" stands for all bodies of it, "scan.obj#arm" for "scan.obj#arm/hand" too), or its number
 ///   ignore    pairs of bodies or groups that do not meet, [("soft", "hair.ply")]; twice the same: none of these bodies meets
 ///             another of them, or itself
-///   weld_tolerance  join boundary edges besides that are no further apart than this times the diagonal of their body, in frame 0
+///   weld_tolerance  join boundary edges besides that are no further apart than this times the diagonal of their body, in each frame
 ///   baseline  a frame, or a file that `pliant check --format json` wrote: the pairs that intersect in it are left out in all
 ///   skip_degenerate  leave out pairs with a triangle that has no area
 ///   places    join the pairs of each frame into places, whose numbers are the same from frame to frame: Frame.places, and of all
@@ -229,6 +230,7 @@ pub(crate) fn check(
         running: Mutex::new(running),
         waiting: Mutex::new(None),
         raised,
+        weld_tolerance,
     })
 }
 
@@ -343,14 +345,24 @@ fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
 }
 
 impl Check {
-    /// After the last frame says, once, where pairs lie at seams that are not quite closed.
+    /// After the last frame says, once, where pairs lie at seams that are not quite closed, and which seams part.
     fn warn_of_seams(&self, py: Python<'_>) -> Result<(), Refused> {
         if self.is_warned.swap(true, Ordering::Relaxed) {
             return Ok(());
         }
         let said = alone_with(py, &self.running, |running| {
             let sources = running.sources().iter().enumerate();
-            let said = sources.filter_map(|(number, source)| {
+            let parted = sources.clone().filter_map(|(number, source)| {
+                let parted = running.parted(number)?;
+                let advice = match parted.tolerance() {
+                    better if better > self.weld_tolerance => {
+                        format!("; weld_tolerance={better:e} keeps together what parts by rounding")
+                    }
+                    _ => String::new(),
+                };
+                Some(format!("{}: {parted}{advice}", shown(source.name())))
+            });
+            let at_seams = sources.filter_map(|(number, source)| {
                 let at_seams = running.at_seams(number)?;
                 Some(format!(
                     "{}: {} of its {} pairs with itself in frame {} lie where boundary edges nearly coincide, up to {:.1e} of its size apart; if those are seams, weld_tolerance={:e} joins them",
@@ -362,7 +374,7 @@ impl Check {
                     at_seams.tolerance()
                 ))
             });
-            Ok(said.collect::<Vec<_>>())
+            Ok(at_seams.chain(parted).collect::<Vec<_>>())
         })?;
         for text in said {
             warn(py, &text)?;

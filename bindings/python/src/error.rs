@@ -158,10 +158,7 @@ fn after_reading(reason: &Reason) -> Option<&'static str> {
         // Python has no say in how much memory a frame may take.
         Reason::TooLarge { .. } => Some("split the mesh"),
         Reason::SeamsTooLarge { .. } => Some("split the mesh, or give weld=False"),
-        Reason::SeamOpened { .. } => Some("give weld=False"),
-        Reason::NearSeamOpened { .. } | Reason::SeamsTooDense | Reason::BadTolerance { .. } => {
-            Some("give another weld_tolerance=")
-        }
+        Reason::SeamsTooDense | Reason::BadTolerance { .. } => Some("give another weld_tolerance="),
         Reason::BadRate { .. } => Some("give another fps="),
         Reason::ClipTooLong { .. } => Some("ask for fewer with fps="),
         Reason::MeshMoves { .. } => Some("write one frame of it to a file, and name that"),

@@ -13,14 +13,13 @@ use crate::lives::{Life, Lives};
 use crate::one_point;
 use crate::opened::Opened;
 use crate::places::Places;
-use crate::remarks::{AtSeams, Remarks, has_degenerate};
+use crate::remarks::{AtSeams, Parted, Remarks, has_degenerate};
 use crate::sequence::{FIRST, MeshNumber, Sequence};
 use crate::settings::{self, Frames, Settings};
 use crate::touching::{BYTES_OF_TOUCHING, only_touch};
 use crate::with_world;
 use pliant::{ContactKind, ErrorKind, Query, Selection};
 use pliant_io::{Body as Source, OpenOptions};
-use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 
 /// The caller's "stop now?".
@@ -42,8 +41,9 @@ pub struct Check {
     lives: Lives,
     /// The meshes of the sources in the frame found last.
     told: Vec<MeshNumber>,
-    /// Of each source whose its elements are, where it is not one body, once that is known.
+    /// Of each source whose its elements are, where it is not one body, once that is known; and of which triangles in the world.
     owners: Vec<Option<Owners>>,
+    owners_of: usize,
     /// The frame found last, if it was not yet said what meets on the way from there.
     from: Option<usize>,
     failed: bool,
@@ -103,21 +103,18 @@ struct Baseline {
     frame: usize,
     /// Sorted; none before the frame was checked.
     pairs: Option<Vec<Row>>,
-    /// The meshes of sources in that frame that had not their first.
-    meshes: BTreeMap<usize, Mesh>,
+    /// The meshes of sources in that frame.
+    meshes: Vec<MeshNumber>,
     /// For each source whether it has now the mesh that it has there.
     comparable: Vec<bool>,
 }
-
-/// The triangles, and how many vertices.
-type Mesh = (Vec<[u32; 3]>, usize);
 
 impl Baseline {
     fn of(frame: usize, pairs: Option<Vec<Row>>, sources: usize) -> Self {
         Self {
             frame,
             pairs,
-            meshes: BTreeMap::new(),
+            meshes: vec![FIRST; sources],
             comparable: vec![true; sources],
         }
     }
@@ -125,26 +122,13 @@ impl Baseline {
     /// Takes the pairs of its frame, which the sources are in.
     fn take(&mut self, pairs: Vec<Row>, sequence: &Sequence) {
         self.pairs = Some(pairs);
-        let own = sequence.sources.iter().zip(&sequence.meshes).enumerate();
-        let own = own.filter(|&(_, (_, &mesh))| mesh != FIRST);
-        self.meshes = own
-            .map(|(place, (source, _))| {
-                let mesh = (source.triangles().to_vec(), source.vertex_count());
-                (place, mesh)
-            })
-            .collect();
+        self.meshes.clone_from(&sequence.meshes);
     }
 
     /// Compares the meshes of a frame that the sources are in with its own.
     fn compare(&mut self, sequence: &Sequence) {
-        for (place, source) in sequence.sources.iter().enumerate() {
-            self.comparable[place] = match self.meshes.get(&place) {
-                None => sequence.meshes[place] == FIRST,
-                Some((triangles, vertices)) => {
-                    (source.triangles(), source.vertex_count()) == (triangles, *vertices)
-                }
-            };
-        }
+        let meshes = self.meshes.iter().zip(&sequence.meshes);
+        self.comparable = meshes.map(|(own, other)| own == other).collect();
     }
 }
 
@@ -270,6 +254,7 @@ impl Check {
             of: Selection::World,
             told: sequence.meshes.clone(),
             owners: Vec::new(),
+            owners_of: 0,
             from: None,
             sequence,
             bodies,
@@ -342,6 +327,11 @@ impl Check {
     /// What the frames so far say of a source whose seams are not quite closed: its pairs with itself there; `None` where they are.
     pub fn at_seams(&self, source: usize) -> Option<AtSeams> {
         self.remarks.at_seams(source)
+    }
+
+    /// The frames so far in which vertices of a source are apart that are one in its first; `None` where there is no such frame.
+    pub fn parted(&self, source: usize) -> Option<Parted> {
+        self.remarks.parted(source)
     }
 
     /// The places of the frames so far, if [`Settings::places`] are asked for: how many there were, and those with the most pairs in a
@@ -430,6 +420,7 @@ impl Check {
         let changed = changed.into_iter();
         found.changed = changed.map(|it| self.bodies.of_source(it).start).collect();
         self.told.clone_from(meshes);
+        self.remarks.end(frame, &self.sequence.sources);
         self.frames.start = frame.saturating_add(self.frames.step);
         self.frames.count -= 1;
         self.from = Some(frame);
@@ -469,7 +460,7 @@ impl Check {
     /// ```
     ///
     /// The sources then have the positions of the next frame; the world is in the frame found last, with a motion to the next, unless a mesh is
-    /// another there.
+    /// another there. Its seams are those that are closed in both.
     ///
     /// # Errors
     ///
@@ -675,8 +666,10 @@ impl Check {
                 Some(_) => {}
             }
         }
-        if self.owners.is_empty() || self.asked.skip_degenerate {
+        let given = self.sequence.given;
+        if self.owners.is_empty() || self.owners_of != given || self.asked.skip_degenerate {
             self.owners = self.owners_now()?;
+            self.owners_of = given;
         }
         let Self {
             sequence,
@@ -742,9 +735,9 @@ impl Check {
             if !skip && !self.bodies.is_split(number) {
                 return Ok(None);
             }
-            let triangles = source.triangles();
             let body = |triangle| self.bodies.of_triangle(number as u32, triangle);
             with_world!(world, world => {
+                let triangles = world.triangles(id)?;
                 let start = if skip { world.positions(id)? } else { Vec::new() };
                 let end = source.positions();
                 let counts = |&triangle: &u32| {

@@ -86,5 +86,5 @@ pub use interval::{FirstImpact, Impact, Interval};
 pub use joined::Meshes;
 pub use lives::{Life, Lives};
 pub use places::{BodyThere, Place, Places};
-pub use remarks::AtSeams;
+pub use remarks::{AtSeams, Parted};
 pub use settings::{Baseline, Frames, Group, Settings, Split};

@@ -1,7 +1,9 @@
 //! Sources read side by side, and the world brought to a frame of theirs. In memory are the reader's frame and the world's (its
 //! shape and the one before it, whose memory the next is written into); where a source is widened to f64, that too.
 //!
-//! The mesh of a source may change from file to file. The world is then given the mesh, unless it is the one that it has.
+//! The mesh of a source may change from file to file, and its seams from frame to frame: the world is then given the mesh, unless it is
+//! the one that it has. Where only seams are others, triangles have the same numbers. On the way between two frames those seams are
+//! closed that are in both.
 //!
 //! Where it is asked what meets between two frames, the world is given the later one as the end of a motion, and finishes that when the frame
 //! itself is asked for: each frame is read once.
@@ -11,8 +13,9 @@ use crate::error::Error;
 use crate::{one_point, with_world};
 use pliant::{BodyId, Options};
 use pliant_io::{Body as Source, Precision};
+use std::collections::HashMap;
 
-/// Tells meshes of a source apart. Equal numbers are equal meshes; of others, only [`FIRST`] is known to differ.
+/// Tells meshes of a source apart, whatever seams are closed: [`Source::mesh_number`].
 pub(crate) type MeshNumber = u64;
 
 /// The mesh of a source's first frame.
@@ -27,9 +30,10 @@ pub(crate) struct Sequence {
     widened: Vec<[f64; 3]>,
     /// The body of the world that each source is; empty before the first frame.
     pub(crate) ids: Vec<BodyId>,
-    /// The mesh of each source in the world: [`FIRST`], or a number that no earlier one had.
+    /// The mesh of each source in the world.
     pub(crate) meshes: Vec<MeshNumber>,
-    changes: MeshNumber,
+    /// How often the world was given triangles, of other meshes or with other seams.
+    pub(crate) given: usize,
     /// The frame behind the one read last, which the sources are in.
     next: usize,
     /// The frame that the world is in.
@@ -59,7 +63,7 @@ impl Sequence {
         sources.iter_mut().for_each(Source::let_mesh_change);
         Ok(Self {
             meshes: vec![FIRST; sources.len()],
-            changes: FIRST,
+            given: 0,
             sources,
             frame_count,
             world: AnyWorld::new(precision.unwrap_or(Precision::F64), options),
@@ -79,6 +83,8 @@ impl Sequence {
         self.shown = None;
         if self.moves_to.take() == Some(frame) {
             with_world!(&mut self.world, world => world.finish_motion());
+            // The seams of the way may be others.
+            self.give(frame)?;
         } else {
             self.read_to(frame)?;
             self.give(frame)?;
@@ -94,14 +100,8 @@ impl Sequence {
             return Ok(Vec::new());
         }
         self.read_to(frame)?;
-        let keeps_mesh = |&place: &usize| {
-            let (source, mesh) = (&self.sources[place], self.meshes[place]);
-            if source.has_first_mesh() {
-                return mesh == FIRST;
-            }
-            mesh != FIRST && is_mesh_of(&self.world, self.ids[place], source)
-        };
-        let changed = (0..self.sources.len()).filter(|place| !keeps_mesh(place));
+        let changes = |&place: &usize| self.sources[place].mesh_number() != self.meshes[place];
+        let changed = (0..self.sources.len()).filter(changes);
         let changed: Vec<usize> = changed.collect();
         if !changed.is_empty() {
             return Ok(changed);
@@ -109,6 +109,13 @@ impl Sequence {
         for (place, source) in self.sources.iter().enumerate() {
             if source.frame_count() == 1 {
                 continue;
+            }
+            if !is_mesh_of(&self.world, self.ids[place], source) {
+                let given = with_common_seams(&mut self.world, self.ids[place], source);
+                given.map_err(|error| not_taken(error.into(), source, frame))?;
+                self.given += 1;
+                // Not as in the frame any more.
+                self.shown = None;
             }
             let taken =
                 self.world
@@ -158,21 +165,19 @@ impl Sequence {
                 continue;
             }
             let frame = if stands { 0 } else { frame };
-            let had_first_mesh = self.meshes[place] == FIRST;
-            if source.has_first_mesh() {
-                self.meshes[place] = FIRST;
-            } else if makes || !is_mesh_of(&self.world, self.ids[place], source) {
+            let mesh = source.mesh_number();
+            if mesh != FIRST && (makes || mesh != self.meshes[place]) {
                 one_point::check(source)?;
-                self.changes += 1;
-                self.meshes[place] = self.changes;
             }
-            let keeps_first_mesh = had_first_mesh && source.has_first_mesh();
+            self.meshes[place] = mesh;
+            let keeps_mesh = !makes && is_mesh_of(&self.world, self.ids[place], source);
+            self.given += usize::from(!keeps_mesh);
             let (triangles, positions) = (source.triangles(), source.positions());
             let Self { world, widened, .. } = self;
             let taken = if makes {
                 let added = world.add(triangles, positions, widened);
                 added.map(|id| self.ids.push(id))
-            } else if keeps_first_mesh {
+            } else if keeps_mesh {
                 world.set_positions(self.ids[place], positions, widened)
             } else {
                 world.set_mesh(self.ids[place], triangles, positions, widened)
@@ -197,7 +202,30 @@ fn not_taken(why: NotTaken, source: &Source, frame: usize) -> Error {
     }
 }
 
-/// Whether a body of the world has the mesh that a source has now.
+/// Gives a body of the world, which stays where it is, the seams that are closed both in it and in the frame that its source is in.
+fn with_common_seams(
+    world: &mut AnyWorld,
+    id: BodyId,
+    source: &Source,
+) -> Result<(), pliant::Error> {
+    let all = source.unwelded();
+    with_world!(world, world => {
+        // Of each vertex those that stand for it in the one and in the other; of vertices with the same two the smallest stands for all.
+        let both = world.triangles(id)?.iter().zip(source.triangles());
+        let both = both.flat_map(|(a, b)| std::array::from_fn::<_, 3, _>(|at| [a[at], b[at]]));
+        let mut smallest: HashMap<[u32; 2], u32> = HashMap::new();
+        for (leaders, &vertex) in both.clone().zip(all.as_flattened()) {
+            let known = smallest.entry(leaders).or_insert(vertex);
+            *known = vertex.min(*known);
+        }
+        let corners: Vec<u32> = both.map(|leaders| smallest[&leaders]).collect();
+        let positions = world.positions(id)?;
+        let (triangles, _) = corners.as_chunks();
+        world.set_mesh(id, triangles, &positions)
+    })
+}
+
+/// Whether a body of the world has the mesh, and the seams, that a source has now.
 fn is_mesh_of(world: &AnyWorld, id: BodyId, source: &Source) -> bool {
     with_world!(world, world => {
         world.vertex_count(id) == Ok(source.vertex_count())

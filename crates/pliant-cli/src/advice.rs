@@ -49,8 +49,6 @@ fn reading(error: &pliant_io::Error) -> Option<&'static str> {
         Reason::TooMany { .. } => "split the mesh",
         Reason::TooLarge { .. } => "allow more with `--max-memory`, or split the mesh",
         Reason::SeamsTooLarge { .. } => "allow more with `--max-memory`, or use `--no-weld`",
-        Reason::SeamOpened { .. } => "use `--no-weld`",
-        Reason::NearSeamOpened { .. } => "join less, or further apart, with another `--weld`",
         Reason::SeamsTooDense => "use a smaller `--weld`",
         Reason::BadTolerance { .. } => "choose another with `--weld`",
         Reason::ManyCorners { .. } => "triangulate the mesh first",

@@ -1,12 +1,15 @@
 //! Files in a row are one body: the first frame fixes what holds for all, the others follow one by
 //! one.
 //!
+//! Which seams are closed each frame says for itself; of the mesh, the first frame's are kept, with which they are compared.
+//!
 //! Where that is allowed ([`Body::let_mesh_change`]) a file may have another mesh than the first. It then stands for itself: its seams
 //! and polygons are those of its own first frame. So what a frame is depends on its file and on the first of all, whichever were read
 //! before it. Held are the mesh of the first file, with which every other is compared, and that of the present one.
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::io::BufReader;
 use std::path::Path;
 use std::sync::Arc;
@@ -21,7 +24,7 @@ use crate::memory::bytes_of;
 use crate::near::{self, NearSeams};
 use crate::note::Note;
 use crate::positions::{Positions, Precision};
-use crate::weld::Welding;
+use crate::weld::{PartedSeams, Seams, Welding};
 use crate::{cache, gltf, obj};
 
 /// How to read a body.
@@ -32,10 +35,10 @@ use crate::{cache, gltf, obj};
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpenOptions {
-    /// Weld vertices where boundary edges coincide bit for bit in the first frame. Default: true;
+    /// Weld vertices where boundary edges coincide bit for bit, in each frame those that do there. Default: true;
     /// without, every seam of a file that splits vertices is a hit.
     pub weld: bool,
-    /// Join boundary edges besides whose ends are no further apart in the first frame than this times the diagonal of the body's box
+    /// Join boundary edges besides whose ends are no further apart in a frame than this times the diagonal of the body's box
     /// there, the nearest first; never single points, and never two corners of one triangle. Joined vertices have one position, that
     /// of the smallest. 0, or from 1e-15 to 0.1. Default: 0; not used where [`weld`](Self::weld) is off.
     pub weld_tolerance: f64,
@@ -43,7 +46,7 @@ pub struct OpenOptions {
     ///
     /// Counted is all that is held at once: 12 or 24 per vertex, 12 per triangle, 4 more where there
     /// are polygons of more corners, and, unless [`weld`](Self::weld) is off, 24 per triangle and 8 per
-    /// vertex while seams are found, of which at most 12 and 8 stay. A frame that announces more is
+    /// vertex while seams are found, of which at most 12 and 12 stay, twice where a later frame has others. A frame that announces more is
     /// refused before it is read; an OBJ file announces nothing, and is refused when so much of it has
     /// been read. Not counted: buffers, and the one line or polygon in hand (many MB only where a file
     /// has a line or polygon so long).
@@ -104,7 +107,10 @@ struct Part {
 /// A frame, and the mesh that it fixed.
 struct Mesh {
     frame: Frame,
-    welding: Option<Welding>,
+    /// Those of its first frame.
+    seams: Seams,
+    /// Those of the frame read last, where they are others.
+    now: Option<Seams>,
     notes: Vec<Note>,
 }
 
@@ -119,13 +125,14 @@ impl Mesh {
         let _complete = source.read(&mut frame)?;
         let mut notes = frame.shape_polygons()?;
         frame.becomes_first(file);
-        let mut welding = frame.weld(tolerance, || source.alike())?;
-        let loose = frame.loosen(welding.as_mut(), |a, b| source.moves_alike(a, b))?;
+        let seams = frame.seams(tolerance, || source.alike())?;
+        let welding = seams.welding.as_ref();
+        let loose = welding.map_or(0, |it| it.loose(|a, b| source.moves_alike(a, b)));
         if loose > 0 {
             notes.push(Note::SeamsByWeights { count: loose });
         }
         notes.extend(source.notes());
-        if let Some(near) = welding.as_ref().and_then(|it| it.near.as_ref()) {
+        if let Some(near) = welding.and_then(|it| it.near.as_ref()) {
             notes.push(Note::NearSeams {
                 count: near.count(),
                 farthest: near.farthest(),
@@ -133,9 +140,27 @@ impl Mesh {
         }
         Ok(Self {
             frame,
-            welding,
+            seams,
+            now: None,
             notes,
         })
+    }
+
+    /// Finds the seams of a later frame, which was just read.
+    fn find_seams(&mut self, tolerance: f64) -> Result<(), Reason> {
+        if let Some(before) = self.now.take() {
+            self.frame.forget(&before);
+        }
+        self.now = self.frame.other_seams(&self.seams, tolerance)?;
+        Ok(())
+    }
+
+    fn seams(&self) -> &Seams {
+        self.now.as_ref().unwrap_or(&self.seams)
+    }
+
+    fn triangles(&self) -> &[[u32; 3]] {
+        self.seams().triangles(self.frame.polygons().triangles())
     }
 }
 
@@ -390,7 +415,7 @@ impl Body {
     /// All that is said of the mesh is then of the frame that was handed out last: its triangles, faces and outlines, how many vertices
     /// there are and how many were welded. Notes are those of the first frame.
     ///
-    /// A file that has another mesh is read a second time when that is found out, and the mesh of the first is held beside its own.
+    /// [`mesh_number`](Self::mesh_number) tells meshes apart. A file that has another mesh is read a second time when that is found out, and the mesh of the first is held beside its own.
     ///
     /// The mesh of a group ([`is_part`](Self::is_part)) does not change: a file that has another one stays an error.
     pub fn let_mesh_change(&mut self) {
@@ -461,26 +486,47 @@ impl Body {
         Ok(self)
     }
 
-    /// Whether the frame that was handed out last has the mesh of the first.
-    pub fn has_first_mesh(&self) -> bool {
-        self.other.is_none()
-    }
-
     fn mesh(&self) -> &Mesh {
         self.other.as_ref().unwrap_or(&self.first)
     }
 
     /// The triangles, in file order, polygons as fans; of welded vertices the smallest stands for
-    /// all.
+    /// all. The same triangles in all frames of a mesh, with the seams of the frame handed out last.
     pub fn triangles(&self) -> &[[u32; 3]] {
-        if let Some(part) = &self.part {
-            return &part.triangles;
+        match &self.part {
+            Some(part) => &part.triangles,
+            None => self.mesh().triangles(),
         }
-        let Mesh { frame, welding, .. } = self.mesh();
-        match welding {
-            Some(welding) => &welding.triangles,
-            None => frame.polygons().triangles(),
+    }
+
+    /// The same with no vertex welded: as the file has them, whatever the frame.
+    pub fn unwelded(&self) -> Vec<[u32; 3]> {
+        let all = self.mesh().frame.polygons().triangles();
+        match &self.part {
+            Some(part) => part.numbers.iter().map(|&it| all[it as usize]).collect(),
+            None => all.to_vec(),
         }
+    }
+
+    /// A number for the mesh of the frame that was handed out last, whatever its seams: equal for equal triangles and as many
+    /// vertices, 0 for the first.
+    pub fn mesh_number(&self) -> u64 {
+        self.other.as_ref().map_or(0, |other| {
+            let mut number = DefaultHasher::new();
+            other.frame.vertex_count().hash(&mut number);
+            other.frame.polygons().triangles().hash(&mut number);
+            number.finish().max(1)
+        })
+    }
+
+    /// Which vertices are apart in the frame that was handed out last, and one in the first frame of its mesh. None where none are;
+    /// which are one there besides is not said.
+    pub fn parted_seams(&self) -> Option<PartedSeams> {
+        let Mesh {
+            frame, seams, now, ..
+        } = self.mesh();
+        let all = frame.polygons().triangles();
+        seams.parted(now.as_ref()?, all, frame.positions())
     }
 
     /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
@@ -494,7 +540,8 @@ impl Body {
     /// Of polygons that did not become fans, by their number in [`faces`](Self::faces), the corners in their order; of welded vertices
     /// the smallest stands for all.
     pub fn outlines(&self) -> BTreeMap<u32, Vec<u32>> {
-        let Mesh { frame, welding, .. } = self.mesh();
+        let mesh = self.mesh();
+        let frame = &mesh.frame;
         let mut outlines = frame.polygons().outlines().clone();
         if let Some(part) = &self.part
             && let (Some(all), Some(own)) = (frame.polygons().faces(), &part.faces)
@@ -504,10 +551,8 @@ impl Body {
             let kept = faces.filter_map(|(face, own)| Some((own, outlines.remove(&face)?)));
             outlines = kept.collect();
         }
-        if let Some(welding) = welding {
-            for corner in outlines.values_mut().flatten() {
-                *corner = welding.leader(*corner);
-            }
+        for corner in outlines.values_mut().flatten() {
+            *corner = mesh.seams().leader(*corner);
         }
         outlines
     }
@@ -517,9 +562,10 @@ impl Body {
         self.mesh().frame.vertex_count()
     }
 
-    /// How many vertices were welded away: no triangle uses them any more.
+    /// How many vertices were welded away: no triangle uses them, in the frame handed out last.
     pub fn welded(&self) -> usize {
-        self.mesh().welding.as_ref().map_or(0, Welding::count)
+        let welding = self.mesh().seams().welding.as_ref();
+        welding.map_or(0, Welding::count)
     }
 
     /// Which vertices would be joined besides, in the frame that was read last, if boundary edges that are no further apart than
@@ -530,8 +576,10 @@ impl Body {
     ///
     /// [`Reason::SeamsTooLarge`] or [`Reason::SeamsTooDense`]; the body is as before.
     pub fn near_seams(&mut self, tolerance: f64) -> Result<Option<NearSeams>, Error> {
-        let Mesh { frame, welding, .. } = self.other.as_mut().unwrap_or(&mut self.first);
-        let found = frame.near_seams(welding.as_ref(), tolerance);
+        let Mesh {
+            frame, seams, now, ..
+        } = self.other.as_mut().unwrap_or(&mut self.first);
+        let found = frame.near_seams(now.as_ref().unwrap_or(seams), tolerance);
         found.map_err(|reason| Error::new(self.files[self.file].path(), reason))
     }
 
@@ -577,7 +625,7 @@ impl Body {
     ///
     /// # Errors
     ///
-    /// The frame cannot be read, does not agree with the first, or moves welded vertices apart. No
+    /// The frame cannot be read, or does not agree with the first. No
     /// frame follows: every later call is an error too.
     pub fn next_frame(&mut self) -> Result<Option<Positions<'_>>, Error> {
         if self.failed {
@@ -655,7 +703,7 @@ impl Body {
         } = self.other.as_mut().unwrap_or(&mut self.first);
         let _complete = self.source.read(positions).map_err(in_file)?;
         self.read = frame;
-        self.check_seams()?;
+        self.find_seams()?;
         self.read += 1;
         Ok(())
     }
@@ -664,7 +712,7 @@ impl Body {
     fn read_mesh(&mut self) -> Result<(), Error> {
         self.other = None;
         match self.source.read(&mut self.first.frame) {
-            Ok(_complete) => self.check_seams()?,
+            Ok(_complete) => self.find_seams()?,
             Err(fault) if fault.reason.is_of_another_mesh() => {
                 self.open_file(self.file)?;
                 let own = self.first.frame.for_another_mesh();
@@ -679,14 +727,19 @@ impl Body {
         Ok(())
     }
 
-    /// Holds the frame just read to what was welded.
-    fn check_seams(&self) -> Result<(), Error> {
-        let Mesh { frame, welding, .. } = self.mesh();
-        let Some(welding) = welding else {
-            return Ok(());
-        };
-        let apart = welding.check(frame.positions());
-        apart.map_err(|reason| {
+    /// Finds the seams of the frame just read.
+    fn find_seams(&mut self) -> Result<(), Error> {
+        let mesh = self.other.as_mut().unwrap_or(&mut self.first);
+        let had_others = mesh.now.is_some();
+        let found = mesh.find_seams(self.options.weld_tolerance);
+        if (had_others || mesh.now.is_some())
+            && let Some(part) = &mut self.part
+        {
+            let all = mesh.triangles();
+            let own = part.triangles.iter_mut().zip(&part.numbers);
+            own.for_each(|(triangle, &number)| *triangle = all[number as usize]);
+        }
+        found.map_err(|reason| {
             let path = self.files[self.file].path();
             Error::new(path, reason.at(self.place()))
         })

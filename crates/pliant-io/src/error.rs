@@ -161,19 +161,6 @@ pub enum Reason {
         shown(than)
     )]
     Precision { than: PathBuf },
-    #[error(
-        "vertices {a} and {b} were welded, since edges of theirs coincide in the first frame, but are apart here"
-    )]
-    SeamOpened { a: u32, b: u32 },
-    #[error(
-        "vertices {a} and {b} were joined, being near each other in the first frame, but are {apart:e} apart here, more than {distance:e}"
-    )]
-    NearSeamOpened {
-        a: u32,
-        b: u32,
-        apart: f64,
-        distance: f64,
-    },
     #[error("too many boundary edges are too close to each other to be joined at this tolerance")]
     SeamsTooDense,
     #[error("edges cannot be joined at a tolerance of {tolerance}; it is 0, or from 1e-15 to 0.1")]

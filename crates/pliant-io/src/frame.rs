@@ -7,12 +7,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::error::{Fault, Place, Reason};
-use crate::memory::{Account, Excess, bytes_of};
+use crate::memory::{Account, Excess};
 use crate::near::NearSeams;
 use crate::note::Note;
 use crate::polygons::Polygons;
 use crate::positions::{Positions, Precision, Vertices};
-use crate::weld::{self, Welding};
+use crate::weld::{self, Seams};
 
 /// One frame, reused for all frames of a body.
 #[derive(Debug)]
@@ -22,13 +22,11 @@ pub(crate) struct Frame {
     account: Account,
     /// Of it, what the source of the frames holds.
     source: u64,
-    /// Whether seams will be looked for in the first frame.
+    /// Whether seams will be looked for.
     weld: bool,
     /// The file that fixed the precision, once one has.
     precision_of: Option<Arc<Path>>,
     first: Option<First>,
-    /// The boundary edges that welding left, if there are not very many and it was asked for.
-    open_edges: Option<Vec<[u32; 2]>>,
 }
 
 /// How much a file says that it holds; 0 where it does not say.
@@ -62,7 +60,6 @@ impl Frame {
             weld,
             precision_of: None,
             first: None,
-            open_edges: None,
         }
     }
 
@@ -249,66 +246,97 @@ impl Frame {
         self.polygons.compare_from_now_on();
     }
 
-    /// Welds the first frame, if it is to be welded; None where there is nothing to weld. `alike`: see
+    /// The seams of the first frame, if it is to be welded. `alike`: see
     /// [`FrameSource::alike`](crate::format::FrameSource::alike).
-    pub(crate) fn weld(
+    pub(crate) fn seams(
         &mut self,
         tolerance: f64,
         alike: impl FnOnce() -> Option<Vec<u64>>,
-    ) -> Result<Option<Welding>, Reason> {
+    ) -> Result<Seams, Reason> {
+        if !self.weld {
+            return Ok(Seams::default());
+        }
+        let alike = alike();
+        let mut seams = self.welded(alike.as_deref());
+        if alike.is_some() {
+            seams.are_a_rule();
+        }
+        self.join_near(&mut seams, tolerance)?;
+        // Less than finding took, which was allowed.
+        self.account.enter_allowed(seams.bytes());
+        Ok(seams)
+    }
+
+    /// The seams of a later frame, where they are not those of the first.
+    pub(crate) fn other_seams(
+        &mut self,
+        first: &Seams,
+        tolerance: f64,
+    ) -> Result<Option<Seams>, Reason> {
         if !self.weld {
             return Ok(None);
         }
-        let positions = self.vertices.positions();
-        let triangles = self.polygons.triangles();
-        let (mut welding, mut open) = match alike() {
+        let holds = first.hold(self.vertices.positions());
+        if holds && tolerance == 0.0 {
+            return Ok(None);
+        }
+        let all = self.polygons.triangles();
+        self.check_seams(all.len() as u64, self.vertices.len() as u64, 0)?;
+        let mut seams = if holds {
+            first.exactly(all)
+        } else {
+            self.welded(None)
+        };
+        self.join_near(&mut seams, tolerance)?;
+        let all = self.polygons.triangles();
+        if seams.triangles(all) == first.triangles(all) {
+            return Ok(None);
+        }
+        self.account.enter_allowed(seams.bytes());
+        Ok(Some(seams))
+    }
+
+    /// Takes off what seams of a frame took.
+    pub(crate) fn forget(&mut self, seams: &Seams) {
+        self.account.take_off(seams.bytes());
+    }
+
+    /// The vertices that coincide, welded.
+    fn welded(&self, alike: Option<&[u64]>) -> Seams {
+        let (triangles, positions) = (self.polygons.triangles(), self.vertices.positions());
+        match alike {
             Some(alike) => weld::weld(triangles, positions.len(), |vertex| alike[vertex as usize]),
             None => weld::weld(triangles, positions.len(), |vertex| {
                 weld::position_bits(positions, vertex)
             }),
-        };
-        if tolerance > 0.0 {
-            let so_far = welding.as_ref().map_or(triangles, |it| &it.triangles);
-            let near = NearSeams::find(so_far, positions, tolerance, &mut self.account)?;
-            if let Some(near) = near {
-                let welding = welding.get_or_insert_with(|| Welding {
-                    triangles: triangles.to_vec(),
-                    welded: Vec::new(),
-                    loose: Vec::new(),
-                    near: None,
-                });
-                near.rewrite(&mut welding.triangles);
-                open = open.map(|open| near.still_open(open));
-                welding.near = Some(near);
-            }
         }
-        // Less than finding took, which was allowed.
-        let held = welding.as_ref().map_or(0, Welding::bytes);
-        let open_too = open.as_deref().map_or(0, bytes_of);
-        self.account.enter_allowed(held + open_too);
-        self.open_edges = open;
-        Ok(welding)
     }
 
-    /// Lets go of vertices welded that do not move alike to the bit, as `moves_alike` says; returns how many.
-    pub(crate) fn loosen(
-        &mut self,
-        welding: Option<&mut Welding>,
-        moves_alike: impl Fn(u32, u32) -> bool,
-    ) -> Result<usize, Reason> {
-        welding.map_or(Ok(0), |it| it.loosen(moves_alike, &mut self.account))
+    /// Joins what is near besides, where that is asked for.
+    fn join_near(&mut self, seams: &mut Seams, tolerance: f64) -> Result<(), Reason> {
+        if tolerance == 0.0 {
+            return Ok(());
+        }
+        let all = self.polygons.triangles();
+        let positions = self.vertices.positions();
+        let triangles = seams.triangles(all);
+        let near = NearSeams::find(triangles, positions, tolerance, &mut self.account)?;
+        if let Some(near) = near {
+            seams.join(near, all);
+        }
+        Ok(())
     }
 
-    /// The near seams of the frame read last; of the triangles of `welding`, where there is one.
+    /// The near seams of the frame read last, which has these others.
     pub(crate) fn near_seams(
         &mut self,
-        welding: Option<&Welding>,
+        seams: &Seams,
         tolerance: f64,
     ) -> Result<Option<NearSeams>, Reason> {
-        let Some(open) = self.open_edges.clone().filter(|open| !open.is_empty()) else {
+        let Some(open) = seams.open.clone().filter(|open| !open.is_empty()) else {
             return Ok(None);
         };
-        let triangles = welding.map_or(self.polygons.triangles(), |it| &it.triangles);
+        let triangles = seams.triangles(self.polygons.triangles());
         let positions = self.vertices.positions();
         NearSeams::among(open, triangles, positions, tolerance, &mut self.account)
     }

@@ -57,8 +57,8 @@
 //!   that bend inward, they become as many other triangles between the same corners ([`Body::outlines`]). Polygons that cross
 //!   themselves stay fans, and [`Body::notes`] says so, as of those that are far from flat.
 //! - **Seams are welded**: files split a vertex where texture coordinates or normals differ, STL
-//!   splits all. Vertices at the two ends of boundary edges that coincide bit for bit in the first
-//!   frame become one; [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off. In
+//!   splits all. Vertices at the two ends of boundary edges that coincide bit for bit in a
+//!   frame become one there; [`Body::parted_seams`] says which of the first are apart in a later one, [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off. In
 //!   glTF they must coincide at rest, morph targets move them alike to the bit, and each joint hold them alike but for 1e-5 of
 //!   the whole; the smallest vertex then stands for all, and [`Body::notes`] says how many were not alike to the bit.
 //! - **Groups** of an OBJ file have the name of their object (`o`), of their group (`g`), or `object/group`; a name is the rest of
@@ -138,4 +138,5 @@ pub use note::Note;
 pub use positions::{Positions, Precision};
 pub use series::looks_like_a_series;
 pub use shown::{shown, shown_within};
+pub use weld::PartedSeams;
 pub use write::{Shape, StagedFile, WriteOptions, Writer, remove_staged_files};

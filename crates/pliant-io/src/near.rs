@@ -14,7 +14,7 @@
 //! the distance, however long a chain of near vertices is; single points are never joined. A pair of edges that would break one of
 //! these is passed over. The result depends on nothing but the mesh and the distance.
 //!
-//! In a later frame the joined vertices may be apart, but no further than the same distance: [`NearSeams::check`].
+//! It is asked of every frame anew.
 //!
 //! Time is that of sorting, unless very many edges are crowded into the reach of one: then it is refused, not waited for.
 
@@ -28,8 +28,6 @@ use crate::weld::{Classes, boundary_edges};
 pub struct NearSeams {
     /// Each vertex joined away, with the smaller vertex that takes its place; ascending.
     joined: Vec<(u32, u32)>,
-    /// How far apart they may be.
-    distance: f64,
     farthest: f64,
 }
 
@@ -140,20 +138,9 @@ impl NearSeams {
         size_of_val(&self.joined[..]) as u64
     }
 
-    /// Refuses a later frame in which joined vertices are further apart than those that were joined.
-    pub(crate) fn check(&self, positions: Positions<'_>) -> Result<(), Reason> {
-        for &(vertex, leader) in &self.joined {
-            let apart = length(positions.get(vertex), positions.get(leader));
-            if apart > self.distance {
-                return Err(Reason::NearSeamOpened {
-                    a: leader,
-                    b: vertex,
-                    apart,
-                    distance: self.distance,
-                });
-            }
-        }
-        Ok(())
+    /// Each vertex joined away, with the one that stands for it; ascending.
+    pub(crate) fn joined(&self) -> &[(u32, u32)] {
+        &self.joined
     }
 }
 
@@ -166,13 +153,13 @@ fn too_large(reason: impl Into<Reason>) -> Reason {
 }
 
 /// The distance of two points, without overflow or underflow on the way.
-fn length(a: Point, b: Point) -> f64 {
+pub(crate) fn length(a: Point, b: Point) -> f64 {
     let [x, y, z] = std::array::from_fn(|axis| a[axis] - b[axis]);
     f64::hypot(f64::hypot(x, y), z)
 }
 
 /// The lowest corner and the diagonal of the box of all triangles; None where that is a point.
-fn extent(triangles: &[[u32; 3]], positions: Positions<'_>) -> Option<(Point, f64)> {
+pub(crate) fn extent(triangles: &[[u32; 3]], positions: Positions<'_>) -> Option<(Point, f64)> {
     let mut corners = triangles.as_flattened().iter().map(|&v| positions.get(v));
     let first = corners.next()?;
     let (low, high) = corners.fold((first, first), |(low, high), point| {
@@ -284,7 +271,6 @@ impl Search<'_> {
         }
         (!joined.is_empty()).then_some(NearSeams {
             joined,
-            distance: self.distance,
             farthest: farthest / diagonal,
         })
     }
@@ -492,6 +478,7 @@ mod tests {
                 let Some(near) = find(&triangles, &positions, tolerance) else {
                     continue;
                 };
+                let (_, diagonal) = extent(&triangles, Positions::F64(&positions)).unwrap();
                 joined += near.count();
                 let mut rewritten = triangles.clone();
                 near.rewrite(&mut rewritten);
@@ -502,9 +489,8 @@ mod tests {
                     let leader = near.leader(vertex);
                     assert!(leader <= vertex && near.leader(leader) == leader);
                     let apart = length(positions[vertex as usize], positions[leader as usize]);
-                    assert!(apart <= near.distance);
+                    assert!(apart <= tolerance * diagonal);
                 }
-                near.check(Positions::F64(&positions)).unwrap();
             }
         }
         assert!(joined > 1000, "{joined}");
@@ -589,20 +575,5 @@ mod tests {
         let mut account = Account::new(1 << 18);
         let found = NearSeams::find(&triangles, Positions::F64(&positions), 1e-4, &mut account);
         assert!(matches!(found, Err(Reason::SeamsTooLarge { .. })));
-    }
-
-    #[test]
-    fn sides_that_part_further_are_refused() {
-        let (triangles, mut positions) = soup(&cone(12), 1e-8, 5);
-        let near = find(&triangles, &positions, 1e-6).unwrap();
-        let (vertex, leader) = near.joined[3];
-        positions[vertex as usize] = positions[leader as usize];
-        positions[vertex as usize][2] += 0.99 * near.distance;
-        near.check(Positions::F64(&positions)).unwrap();
-        positions[vertex as usize][2] += 0.02 * near.distance;
-        let parted = near.check(Positions::F64(&positions));
-        assert!(
-            matches!(parted, Err(Reason::NearSeamOpened { a, b, .. }) if (a, b) == (leader, vertex))
-        );
     }
 }

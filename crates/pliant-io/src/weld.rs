@@ -12,15 +12,28 @@
 //! ```
 //!
 //! Coincidence of single points never welds: two bodies that touch in a point are two bodies. An
-//! edge whose two ends are at one place is a point in this sense. In later frames the two sides
-//! must stay together, or the mesh welded is not the mesh that moves: [`Welding::check`]. Vertices that a format moves by a rule
-//! which is not the same to the bit on both sides are exempt ([`Welding::loose`]): that they are one was decided by the rule, not by
-//! a frame. All triangles use the one that leads them, so how far rounding parts the others is nowhere seen.
+//! edge whose two ends are at one place is a point in this sense.
+//!
+//! Every frame has the seams that hold in it, as if it were alone. Which those are depends on nothing but which ends of boundary
+//! edges are at one place. So a later frame is searched only if that is not as it was in the first: [`Seams::hold`].
+//! Where a format moves vertices by a rule, the rule decides, in all frames alike. All triangles use the vertex that leads, so how
+//! far rounding parts the others is nowhere seen.
 
-use crate::error::Reason;
-use crate::memory::{Account, bytes_of};
-use crate::near::NearSeams;
+use crate::memory::bytes_of;
+use crate::near::{self, NearSeams};
 use crate::positions::Positions;
+
+/// What boundary edges of a frame say.
+#[derive(Debug, Default)]
+pub(crate) struct Seams {
+    /// None where nothing is welded.
+    pub(crate) welding: Option<Welding>,
+    /// The boundary edges that welding left, by the vertices that stand for their ends, ascending; None where there are very many.
+    pub(crate) open: Option<Vec<Edge>>,
+    /// For each end of a boundary edge one vertex that stands for all at its place, and [`UNUSED`] for other vertices. Empty where no
+    /// frame decides what is welded, and where there is no boundary.
+    places: Vec<u32>,
+}
 
 /// The triangles after welding, and what was welded.
 #[derive(Debug)]
@@ -28,14 +41,28 @@ pub(crate) struct Welding {
     pub(crate) triangles: Vec<[u32; 3]>,
     /// Each vertex welded away, with the smaller vertex that takes its place; ascending.
     pub(crate) welded: Vec<(u32, u32)>,
-    /// Those of the vertices welded away that need not stay where their leaders are, ascending.
-    pub(crate) loose: Vec<u32>,
     /// What was joined besides, where that was asked for.
     pub(crate) near: Option<NearSeams>,
 }
 
+/// Vertices that are one in the first frame of a mesh, and apart in a later one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartedSeams {
+    /// How many vertices more there are than if they were one still.
+    pub count: usize,
+    /// The two that are furthest apart; the first stands for the second in the first frame.
+    pub vertices: [u32; 2],
+    /// Where these are.
+    pub positions: [[f64; 3]; 2],
+    /// How far apart they are, in diagonals of the body's box.
+    pub farthest: f64,
+}
+
 /// An edge: its end points, the smaller first.
 type Edge = [u32; 2];
+
+/// The number of no vertex.
+const UNUSED: u32 = u32::MAX;
 
 /// The most bytes that [`weld`] takes, beside its arguments, and that its result takes: three edges a triangle, two numbers a
 /// vertex.
@@ -47,8 +74,7 @@ pub(crate) fn memory(triangles: u64, vertices: u64) -> u64 {
 /// Boundary edges that coincide with no other are kept to be looked at later, but no more than so many: 512 KB of them.
 const MOST_OPEN: usize = 1 << 16;
 
-/// Welds `triangles`; None where nothing is to be welded. And the boundary edges that are left, by the vertices that stand for their
-/// ends, ascending; None where there are very many. `same(v)` is what must be equal for `v`
+/// Welds `triangles`. `same(v)` is what must be equal for `v`
 /// to be welded to another vertex: its position, and whatever else moves it in a format that moves
 /// vertices by rule. Every index must be below `vertices`.
 ///
@@ -57,9 +83,12 @@ pub(crate) fn weld<K: Ord>(
     triangles: &[[u32; 3]],
     vertices: usize,
     same: impl Fn(u32) -> K,
-) -> (Option<Welding>, Option<Vec<Edge>>) {
+) -> Seams {
     let mut edges = boundary_edges(triangles);
-    let place = places(&edges, vertices, same);
+    let mut place = places(&edges, vertices, same);
+    if edges.is_empty() {
+        place = Vec::new();
+    }
     // The places of the two ends, the smaller first, and the ends in that order.
     let placed = |&[a, b]: &Edge| {
         let [from, to] = [place[a as usize], place[b as usize]];
@@ -88,7 +117,7 @@ pub(crate) fn weld<K: Ord>(
             classes.join(first[1], other[1]);
         }
     }
-    drop((edges, place));
+    drop(edges);
     for edge in &mut open {
         *edge = edge.map(|vertex| classes.leader(vertex));
         edge.sort_unstable();
@@ -99,8 +128,13 @@ pub(crate) fn weld<K: Ord>(
     let count = numbers()
         .filter(|&vertex| classes.leader(vertex) != vertex)
         .count();
+    let unwelded = Seams {
+        welding: None,
+        open,
+        places: place,
+    };
     if count == 0 {
-        return (None, open);
+        return unwelded;
     }
     let mut welded = Vec::with_capacity(count);
     for vertex in numbers() {
@@ -109,17 +143,16 @@ pub(crate) fn weld<K: Ord>(
             welded.push((vertex, leader));
         }
     }
-    let triangles = triangles
-        .iter()
-        .map(|corners| corners.map(|corner| classes.leader(corner)))
-        .collect();
-    let welding = Welding {
+    let triangles = rewritten(triangles, |corner| classes.leader(corner));
+    let welding = Some(Welding {
         triangles,
         welded,
-        loose: Vec::new(),
         near: None,
-    };
-    (Some(welding), open)
+    });
+    Seams {
+        welding,
+        ..unwelded
+    }
 }
 
 /// The edges used by exactly one triangle. A degenerate triangle uses an edge once, however often
@@ -152,10 +185,8 @@ pub(crate) fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
     edges
 }
 
-/// For each end of an edge one vertex that stands for all at its place, no matter which; vertices that
-/// no edge has keep their own number.
+/// For each end of an edge one vertex that stands for all at its place, no matter which.
 fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> Vec<u32> {
-    const UNUSED: u32 = u32::MAX; // the number of no vertex
     let mut place = vec![UNUSED; vertices];
     let mut count = 0;
     for &end in edges.as_flattened() {
@@ -163,11 +194,10 @@ fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> V
         place[end as usize] = end;
     }
     let mut ends = Vec::with_capacity(count);
-    for (place, vertex) in place.iter_mut().zip(0..) {
-        if *place == vertex {
+    for (&place, vertex) in place.iter().zip(0..) {
+        if place == vertex {
             ends.push(vertex);
         }
-        *place = vertex;
     }
     ends.sort_unstable_by_key(|&vertex| same(vertex));
     for together in ends.chunk_by(|&a, &b| same(a) == same(b)) {
@@ -207,49 +237,145 @@ pub(crate) fn position_bits(positions: Positions<'_>, vertex: u32) -> [u64; 3] {
     positions.get(vertex).map(|value| (value + 0.0).to_bits())
 }
 
-impl Welding {
+/// A position as one number; two may have the same, which costs a search and changes nothing.
+fn hash(bits: [u64; 3]) -> u64 {
+    bits.into_iter().fold(0, |hash: u64, bits| {
+        let mixed = (hash ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        mixed ^ (mixed >> 29)
+    })
+}
+
+impl Seams {
+    /// Whether ends of boundary edges are at one place in another frame where they are in this, and nowhere else: then bit for bit
+    /// the same is welded. Takes eight bytes a vertex for a while.
+    pub(crate) fn hold(&self, positions: Positions<'_>) -> bool {
+        let mut different = Vec::new();
+        for (&place, vertex) in self.places.iter().zip(0..) {
+            let bits = |vertex| position_bits(positions, vertex);
+            if place == vertex {
+                different.push(hash(bits(vertex)));
+            } else if place != UNUSED && bits(vertex) != bits(place) {
+                return false;
+            }
+        }
+        different.sort_unstable();
+        different.is_sorted_by(|a, b| a < b)
+    }
+
+    /// From now on no frame decides: the same is welded in all.
+    pub(crate) fn are_a_rule(&mut self) {
+        self.places = Vec::new();
+    }
+
+    /// The triangles; `all` are those of the file.
+    pub(crate) fn triangles<'a>(&'a self, all: &'a [[u32; 3]]) -> &'a [[u32; 3]] {
+        self.welding.as_ref().map_or(all, |it| &it.triangles)
+    }
+
+    /// The same, if nothing were joined besides what coincides; `all` are the triangles of the file.
+    pub(crate) fn exactly(&self, all: &[[u32; 3]]) -> Self {
+        let welding = self.welding.as_ref().map(|it| Welding {
+            triangles: rewritten(all, |vertex| leader(&it.welded, vertex)),
+            welded: it.welded.clone(),
+            near: None,
+        });
+        let joined = self.welding.as_ref().and_then(|it| it.near.as_ref());
+        let open = self.open.as_ref().filter(|_| joined.is_none());
+        Self {
+            welding,
+            open: open.cloned(),
+            places: self.places.clone(),
+        }
+    }
+
+    /// Joins what is near besides; `all` are the triangles of the file.
+    pub(crate) fn join(&mut self, near: NearSeams, all: &[[u32; 3]]) {
+        let welding = self.welding.get_or_insert_with(|| Welding {
+            triangles: all.to_vec(),
+            welded: Vec::new(),
+            near: None,
+        });
+        near.rewrite(&mut welding.triangles);
+        self.open = self.open.take().map(|open| near.still_open(open));
+        welding.near = Some(near);
+    }
+
     /// What it takes.
     pub(crate) fn bytes(&self) -> u64 {
-        let near = self.near.as_ref().map_or(0, NearSeams::bytes);
-        bytes_of(&self.triangles) + bytes_of(&self.welded) + bytes_of(&self.loose) + near
-    }
-
-    /// Refuses a later frame in which vertices that were welded are apart.
-    pub(crate) fn check(&self, positions: Positions<'_>) -> Result<(), Reason> {
-        for &(vertex, leader) in &self.welded {
-            if self.loose.binary_search(&vertex).is_ok() {
-                continue;
-            }
-            if position_bits(positions, vertex) != position_bits(positions, leader) {
-                return Err(Reason::SeamOpened {
-                    a: leader,
-                    b: vertex,
-                });
-            }
-        }
-        self.near
-            .as_ref()
-            .map_or(Ok(()), |near| near.check(positions))
-    }
-
-    /// Lets go of vertices that do not move with their leaders to the bit; returns how many those are.
-    pub(crate) fn loosen(
-        &mut self,
-        moves_alike: impl Fn(u32, u32) -> bool,
-        account: &mut Account,
-    ) -> Result<usize, Reason> {
-        for &(vertex, leader) in &self.welded {
-            if !moves_alike(vertex, leader) {
-                account.push(&mut self.loose, vertex, 0)?;
-            }
-        }
-        Ok(self.loose.len())
+        let welding = self.welding.as_ref().map_or(0, Welding::bytes);
+        welding + self.open.as_deref().map_or(0, bytes_of) + bytes_of(&self.places)
     }
 
     /// The vertex that stands for this one.
     pub(crate) fn leader(&self, vertex: u32) -> u32 {
-        let at = self.welded.binary_search_by_key(&vertex, |&(its, _)| its);
-        let vertex = at.map_or(vertex, |at| self.welded[at].1);
+        let welding = self.welding.as_ref();
+        welding.map_or(vertex, |it| it.leader(vertex))
+    }
+
+    /// Which vertices are one here and apart in a later frame, whose seams are `now`; `all` are the triangles of the file.
+    pub(crate) fn parted(
+        &self,
+        now: &Self,
+        all: &[[u32; 3]],
+        positions: Positions<'_>,
+    ) -> Option<PartedSeams> {
+        let welding = self.welding.as_ref()?;
+        let joined = welding.near.as_ref().map_or(&[][..], NearSeams::joined);
+        let led = welding.welded.iter().chain(joined);
+        let pairs = led.map(|&(vertex, _)| [self.leader(vertex), vertex]);
+        let parted = pairs.filter(|pair| {
+            let [a, b] = pair.map(|vertex| now.leader(vertex));
+            a != b
+        });
+        let apart = |pair: [u32; 2]| {
+            let [a, b] = pair.map(|vertex| positions.get(vertex));
+            near::length(a, b)
+        };
+        let (mut now_lead, mut farthest, mut vertices) = (Vec::new(), -1.0, [0; 2]);
+        for pair in parted {
+            now_lead.push((pair[0], now.leader(pair[1])));
+            if apart(pair) > farthest {
+                (farthest, vertices) = (apart(pair), pair);
+            }
+        }
+        now_lead.sort_unstable();
+        now_lead.dedup();
+        let count = now_lead.len();
+        let diagonal = near::extent(all, positions).map_or(1.0, |(_, diagonal)| diagonal);
+        (count > 0).then(|| PartedSeams {
+            count,
+            vertices,
+            positions: vertices.map(|vertex| positions.get(vertex)),
+            farthest: farthest / diagonal,
+        })
+    }
+}
+
+fn rewritten(triangles: &[[u32; 3]], mut leader: impl FnMut(u32) -> u32) -> Vec<[u32; 3]> {
+    let triangles = triangles.iter();
+    triangles.map(|corners| corners.map(&mut leader)).collect()
+}
+
+/// The vertex that stands for this one, if these were welded away.
+fn leader(welded: &[(u32, u32)], vertex: u32) -> u32 {
+    let at = welded.binary_search_by_key(&vertex, |&(its, _)| its);
+    at.map_or(vertex, |at| welded[at].1)
+}
+
+impl Welding {
+    fn bytes(&self) -> u64 {
+        let near = self.near.as_ref().map_or(0, NearSeams::bytes);
+        bytes_of(&self.triangles) + bytes_of(&self.welded) + near
+    }
+
+    /// How many vertices do not move with their leaders to the bit.
+    pub(crate) fn loose(&self, moves_alike: impl Fn(u32, u32) -> bool) -> usize {
+        let alike = |&&(vertex, leader): &&(u32, u32)| !moves_alike(vertex, leader);
+        self.welded.iter().filter(alike).count()
+    }
+
+    fn leader(&self, vertex: u32) -> u32 {
+        let vertex = leader(&self.welded, vertex);
         self.near
             .as_ref()
             .map_or(vertex, |near| near.leader(vertex))
@@ -265,10 +391,14 @@ impl Welding {
 mod tests {
     use super::*;
 
-    fn welded(triangles: &[[u32; 3]], positions: &[[f64; 3]]) -> Option<Welding> {
-        let (welding, open) = weld(triangles, positions.len(), |vertex| {
+    fn seams(triangles: &[[u32; 3]], positions: &[[f64; 3]]) -> Seams {
+        weld(triangles, positions.len(), |vertex| {
             position_bits(Positions::F64(positions), vertex)
-        });
+        })
+    }
+
+    fn welded(triangles: &[[u32; 3]], positions: &[[f64; 3]]) -> Option<Welding> {
+        let Seams { welding, open, .. } = seams(triangles, positions);
         // What is left open is boundary of what was welded; edges of triangles that became needles are, too, but coincided.
         let triangles = welding.as_ref().map_or(triangles, |it| &it.triangles);
         let boundary = boundary_edges(triangles);
@@ -420,17 +550,30 @@ mod tests {
     }
 
     #[test]
-    fn a_seam_that_opens_is_refused() {
+    fn seams_hold_while_the_same_ends_are_together() {
         let (triangles, mut positions) = split_cube();
-        let welding = welded(&triangles, &positions).unwrap();
+        let first = seams(&triangles, &positions);
         for position in &mut positions {
             *position = position.map(|value| value * 3.0 - 1.0);
         }
-        welding.check(Positions::F64(&positions)).unwrap();
-        let (vertex, leader) = welding.welded[5];
+        assert!(first.hold(Positions::F64(&positions)));
+        let (vertex, leader) = first.welding.as_ref().unwrap().welded[5];
+        let before = positions.clone();
         positions[vertex as usize][1] = positions[vertex as usize][1].next_up();
-        let opened = welding.check(Positions::F64(&positions));
-        assert!(matches!(opened, Err(Reason::SeamOpened { a, b }) if (a, b) == (leader, vertex)));
+        assert!(!first.hold(Positions::F64(&positions)), "one is apart");
+        let now = seams(&triangles, &positions);
+        let all = Positions::F64(&positions);
+        let parted = first.parted(&now, &triangles, all).unwrap();
+        assert_eq!((parted.count, parted.vertices), (1, [leader, vertex]));
+        assert!(parted.farthest > 0.0 && parted.farthest < 1e-15);
+        assert!(now.parted(&first, &triangles, all).is_none());
+        // Two places become one.
+        positions = before;
+        let place = positions[0];
+        for position in positions.iter_mut().filter(|it| it[1] == place[1]) {
+            position[0] = place[0];
+        }
+        assert!(!first.hold(Positions::F64(&positions)));
     }
 
     #[test]

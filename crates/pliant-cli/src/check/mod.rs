@@ -76,7 +76,7 @@ pub(crate) struct Arguments {
     /// Keep vertices apart where boundary edges coincide; seams are then intersections
     #[arg(long)]
     no_weld: bool,
-    /// Join boundary edges besides that are no further apart than TOL times the diagonal of their body, in the first frame read: 1e-6
+    /// Join boundary edges besides that are no further apart than TOL times the diagonal of their body, in each frame: 1e-6
     #[arg(
         long,
         value_name = "TOL",
@@ -192,6 +192,7 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     drawn?;
     if !arguments.quiet {
         at_seams(&check);
+        parted_seams(&check, arguments.weld);
     }
     Ok(outcome)
 }
@@ -309,6 +310,22 @@ fn at_seams(check: &Check) {
                 at_seams.farthest,
                 at_seams.tolerance()
             ));
+        }
+    }
+}
+
+/// Says where seams part from frame to frame.
+fn parted_seams(check: &Check, tolerance: f64) {
+    for (number, source) in check.sources().iter().enumerate() {
+        if let Some(parted) = check.parted(number) {
+            let advice = match parted.tolerance() {
+                better if better > tolerance => {
+                    format!("; `--weld {better:e}` keeps together what parts by rounding")
+                }
+                _ => String::new(),
+            };
+            let name = shown(source.name());
+            crate::complain(&format!("note: {name}: {parted}{advice}"));
         }
     }
 }

@@ -44,7 +44,7 @@ pub(crate) struct Arguments {
     /// Keep the corners of an STL file apart
     #[arg(long)]
     no_weld: bool,
-    /// Join boundary edges that are no further apart than TOL times the diagonal of the body, in the first frame, and write each place once
+    /// Join boundary edges that are no further apart than TOL times the diagonal of the body, and write each place once
     #[arg(
         long,
         value_name = "TOL",
@@ -128,6 +128,13 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
             None => positions,
             Some(vertices) => some.pick(positions, vertices),
         })?;
+        if let Some(parted) = body.parted_seams() {
+            let [a, b] = parted.vertices;
+            bail!(
+                "{name}: vertices {a} and {b} are one in frame 0 and {:.1e} of the body's size apart in frame {frame}; what is written has one mesh: use `--no-weld`, or `--weld` with more than that",
+                parted.farthest
+            );
+        }
     }
     if writer.rounded() {
         let [to, from] = [&arguments.to, body.name()].map(shown);

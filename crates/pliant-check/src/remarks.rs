@@ -181,7 +181,7 @@ impl fmt::Display for Parted {
             1 => "1 vertex that a seam joins".to_owned(),
             count => format!("{count} vertices that seams join"),
         };
-        write!(f, "{vertices} in frame 0 ")?;
+        write!(f, "{vertices} in the first frame ")?;
         match (frames, seams.count) {
             (1, 1) => write!(f, "is apart in frame {first}")?,
             (1, _) => write!(f, "are apart in frame {first}")?,

@@ -149,7 +149,7 @@ impl Mesh {
     /// Finds the seams of a later frame, which was just read.
     fn find_seams(&mut self, tolerance: f64) -> Result<(), Reason> {
         if let Some(before) = self.now.take() {
-            self.frame.forget(&before);
+            self.frame.take_off(before.bytes());
         }
         self.now = self.frame.other_seams(&self.seams, tolerance)?;
         Ok(())
@@ -269,7 +269,7 @@ pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Erro
                 format,
                 end,
             }];
-            let mut body = Body::begin(asked, argument.to_owned(), files, Box::new(source), 0)?;
+            let mut body = Body::begin(asked, argument.to_owned(), files, source, 0)?;
             body.mesh_file = Some(Box::new(mesh));
             Ok(vec![body])
         }

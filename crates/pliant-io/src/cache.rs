@@ -1,4 +1,4 @@
-//! PC2 and MDD: positions alone, frame after frame; the faces come from a mesh.
+//! PC2 and MDD, and NPY, which `npz` reads: positions alone, frame after frame; the faces come from a mesh.
 //!
 //! ```text
 //! PC2, little-endian    "POINTCACHE2\0", version 1, vertices n, first frame, frames a sample, samples T; then T x n x (x, y, z)
@@ -16,6 +16,7 @@ use crate::error::{Fault, Place, Reason};
 use crate::file::{Found, Opened};
 use crate::format::{Format, FrameSource};
 use crate::frame::{Announced, Complete, Frame};
+use crate::npz::Npz;
 use crate::positions::Precision;
 use crate::shown::shown;
 
@@ -56,7 +57,7 @@ pub(crate) fn open(
     positions: &Found,
     format: Format,
     options: &OpenOptions,
-) -> Result<Cache, Fault> {
+) -> Result<Box<dyn FrameSource>, Fault> {
     let in_mesh = |fault: Fault| fault.or_in(mesh.path());
     let source = Format::of(mesh.path())
         .map_err(|reason| in_mesh(reason.into()))?
@@ -65,6 +66,11 @@ pub(crate) fn open(
     let frames = source.frame_count();
     if frames != 1 {
         return Err(in_mesh(Reason::MeshMoves { frames }.into()));
+    }
+    if format == Format::Npy {
+        let mesh = (mesh.clone(), source);
+        let npy = Npz::beside(mesh, positions, options.max_memory)?;
+        return Ok(Box::new(npy));
     }
     let mut input = BufReader::with_capacity(1 << 16, positions.open()?);
     let length = input.get_ref().length();
@@ -103,7 +109,7 @@ pub(crate) fn open(
         .into());
     }
     input.seek(SeekFrom::Start(head))?;
-    Ok(Cache {
+    Ok(Box::new(Cache {
         mesh: Some((mesh.clone(), source)),
         input,
         big_endian,
@@ -112,7 +118,7 @@ pub(crate) fn open(
         frames,
         next: 0,
         chunk: Vec::new(),
-    })
+    }))
 }
 
 /// The next whole numbers, none of them negative.

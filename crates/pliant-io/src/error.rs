@@ -58,8 +58,12 @@ pub enum Reason {
     Directory,
     #[error("is not a regular file; copy it to one, for it may be read more than once")]
     NotAFile,
-    #[error("this kind of file cannot be read; what can: {readable}")]
-    UnknownFormat { readable: &'static str },
+    #[error("this kind of file cannot be read; {instead}")]
+    UnknownFormat { instead: &'static str },
+    #[error(
+        "is a Git LFS pointer, not the file that it stands for; fetch that with `git lfs pull`"
+    )]
+    LfsPointer,
     #[error("cannot be read: {0}")]
     Io(#[from] io::Error),
     #[error("{}", sentence(.0))]

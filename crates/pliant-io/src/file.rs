@@ -15,6 +15,9 @@ use std::time::SystemTime;
 
 use crate::error::Reason;
 
+/// How a file begins that Git LFS left in the place of another.
+const LFS_POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
+
 /// A regular file as it was found; not open.
 #[derive(Debug, Clone)]
 pub(crate) struct Found {
@@ -100,8 +103,9 @@ impl Found {
         }
         let file = options.open(&self.path)?;
         let state = self.state;
-        let opened = Opened { file, state };
+        let mut opened = Opened { file, state };
         opened.unchanged()?;
+        opened.check_content()?;
         Ok(opened)
     }
 }
@@ -110,6 +114,18 @@ impl Opened {
     /// In bytes.
     pub(crate) fn length(&self) -> u64 {
         self.state.length
+    }
+
+    /// Refuses what stands for a file whose content was not fetched.
+    fn check_content(&mut self) -> Result<(), Reason> {
+        let mut begin = Vec::with_capacity(LFS_POINTER.len());
+        let begins = self.by_ref().take(LFS_POINTER.len() as u64);
+        { begins }.read_to_end(&mut begin)?;
+        if begin == LFS_POINTER {
+            return Err(Reason::LfsPointer);
+        }
+        self.file.rewind()?;
+        Ok(())
     }
 
     /// Refuses a file that is not as it was found.

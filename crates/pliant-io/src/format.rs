@@ -16,8 +16,10 @@ use crate::frame::{Complete, Frame};
 use crate::note::Note;
 use crate::{cache, gltf, npz, obj, ply, stl};
 
-/// For messages.
-const READABLE: &str = "a frame a file: .obj, .ply, .stl; a sequence a file: .npz, .glb, .gltf; positions beside a mesh: 'mesh.obj+positions.pc2', .mdd";
+/// What to do about a file that cannot be read, as the end of a message.
+const READABLE: &str = "what can: a frame a file: .obj, .ply, .stl; a sequence a file: .npz, .glb, .gltf, .vrm; positions beside a mesh: 'mesh.obj+positions.pc2', .mdd, .npy";
+const EXPORT: &str = "export glTF (.glb) with its animation; or a mesh and its point cache (.obj and .pc2 or .mdd); or a file a frame";
+const USD: &str = "the Python package reads it (pip install 'pliant[usd]'); or export glTF (.glb) with its animation; or a mesh and its point cache (.obj and .pc2 or .mdd); or a file a frame";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Format {
@@ -28,6 +30,7 @@ pub(crate) enum Format {
     Gltf,
     Pc2,
     Mdd,
+    Npy,
     /// What a program evaluates by itself; no ending is of it.
     Evaluated,
 }
@@ -87,10 +90,16 @@ impl Format {
             Some("ply") => Ok(Self::Ply),
             Some("stl") => Ok(Self::Stl),
             Some("npz") => Ok(Self::Npz),
-            Some("gltf" | "glb") => Ok(Self::Gltf),
+            Some("gltf" | "glb" | "vrm") => Ok(Self::Gltf),
             Some("pc2") => Ok(Self::Pc2),
             Some("mdd") => Ok(Self::Mdd),
-            _ => Err(Reason::UnknownFormat { readable: READABLE }),
+            Some("npy") => Ok(Self::Npy),
+            Some("usd" | "usda" | "usdc" | "usdz") => Err(Reason::UnknownFormat { instead: USD }),
+            Some(
+                "fbx" | "abc" | "blend" | "ma" | "mb" | "max" | "dae" | "3ds" | "c4d" | "hip"
+                | "step" | "stp" | "iges" | "igs",
+            ) => Err(Reason::UnknownFormat { instead: EXPORT }),
+            _ => Err(Reason::UnknownFormat { instead: READABLE }),
         }
     }
 
@@ -106,14 +115,14 @@ impl Format {
 
     /// Whether a file holds positions alone.
     pub(crate) fn is_cache(self) -> bool {
-        matches!(self, Self::Pc2 | Self::Mdd)
+        matches!(self, Self::Pc2 | Self::Mdd | Self::Npy)
     }
 
     /// How many frames `file` has, with as little reading as the format allows.
     pub(crate) fn frame_count(self, file: &Found, options: &OpenOptions) -> Result<usize, Fault> {
         match self {
             Self::Obj | Self::Ply | Self::Stl => Ok(1),
-            Self::Npz | Self::Gltf | Self::Pc2 | Self::Mdd | Self::Evaluated => {
+            Self::Npz | Self::Gltf | Self::Pc2 | Self::Mdd | Self::Npy | Self::Evaluated => {
                 Ok(self.open(file, options)?.frame_count())
             }
         }
@@ -135,11 +144,11 @@ impl Format {
                 let length = input.get_ref().length();
                 stl::read(input, length, frame)
             }),
-            Self::Npz => Ok(Box::new(npz::Npz::open(file)?)),
+            Self::Npz => Ok(Box::new(npz::Npz::open(file, options.max_memory)?)),
             Self::Gltf => Ok(Box::new(gltf::open_one(file, options)?)),
-            Self::Pc2 | Self::Mdd => Err(cache::alone(file.path()).into()),
+            Self::Pc2 | Self::Mdd | Self::Npy => Err(cache::alone(file.path()).into()),
             // Not called: it begins again without being opened.
-            Self::Evaluated => Err(Reason::UnknownFormat { readable: READABLE }.into()),
+            Self::Evaluated => Err(Reason::UnknownFormat { instead: READABLE }.into()),
         }
     }
 }
@@ -175,7 +184,10 @@ mod tests {
     fn endings_decide_in_either_case() {
         assert_eq!(Format::of(Path::new("a/b.OBJ")).ok(), Some(Format::Obj));
         assert_eq!(Format::of(Path::new("b.obj.Ply")).ok(), Some(Format::Ply));
-        for unknown in ["a.npy", "a.fbx", "a", ".obj", "obj", "a.obj."] {
+        for gltf in ["a.glb", "a.gltf", "a.VRM"] {
+            assert_eq!(Format::of(Path::new(gltf)).ok(), Some(Format::Gltf));
+        }
+        for unknown in ["a.npt", "a.fbx", "a", ".obj", "obj", "a.obj."] {
             assert!(Format::of(Path::new(unknown)).is_err(), "{unknown}");
         }
     }

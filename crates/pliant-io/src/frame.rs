@@ -27,6 +27,8 @@ pub(crate) struct Frame {
     /// The file that fixed the precision, once one has.
     precision_of: Option<Arc<Path>>,
     first: Option<First>,
+    /// What readers that are functions have to say of the first frame.
+    notes: Vec<Note>,
 }
 
 /// How much a file says that it holds; 0 where it does not say.
@@ -60,6 +62,7 @@ impl Frame {
             weld,
             precision_of: None,
             first: None,
+            notes: Vec::new(),
         }
     }
 
@@ -232,10 +235,19 @@ impl Frame {
         Ok(Complete(()))
     }
 
+    /// Takes what is to be said of the frame, if it is the first.
+    pub(crate) fn note(&mut self, note: Note) {
+        if self.first.is_none() {
+            self.notes.push(note);
+        }
+    }
+
     /// Gives the polygons of the first frame, which is complete, their triangles; returns what is to be said of them.
     pub(crate) fn shape_polygons(&mut self) -> Result<Vec<Note>, Reason> {
-        self.polygons
-            .shape(self.vertices.positions(), &mut self.account)
+        let mut notes = std::mem::take(&mut self.notes);
+        let positions = self.vertices.positions();
+        notes.extend(self.polygons.shape(positions, &mut self.account)?);
+        Ok(notes)
     }
 
     /// Holds all later frames to this one, which came from `file`.
@@ -296,9 +308,9 @@ impl Frame {
         Ok(Some(seams))
     }
 
-    /// Takes off what seams of a frame took.
-    pub(crate) fn forget(&mut self, seams: &Seams) {
-        self.account.take_off(seams.bytes());
+    /// Takes off what is not held any more.
+    pub(crate) fn take_off(&mut self, less: u64) {
+        self.account.take_off(less);
     }
 
     /// The vertices that coincide, welded.

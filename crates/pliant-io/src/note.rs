@@ -34,6 +34,27 @@ pub enum Note {
         /// The first, counted from 0.
         first: usize,
     },
+    /// Faces have two corners, and are read as the segments that they are.
+    Segments {
+        /// How many.
+        count: usize,
+        /// The first, counted from 0.
+        first: usize,
+    },
+    /// A text ends behind a triangle, without what should end it.
+    NoEnd {
+        /// What that is, or stands in its place.
+        end: &'static str,
+    },
+    /// A glTF file has no scene: all its nodes are shown.
+    NoScene,
+    /// An array of an NPZ or NPY file is not what it is mostly, and was read all the same.
+    Array {
+        /// What it holds: `vertices` or `faces`.
+        holds: &'static str,
+        /// What it is, as the end of a sentence that begins with it.
+        is: String,
+    },
     /// Polygons cross themselves, or have two corners in one place: as triangles they are fans, which meet what the polygon does not.
     CrossedPolygons {
         /// How many.
@@ -63,6 +84,15 @@ impl fmt::Display for Note {
                 f,
                 "{count} polygons are far from flat (the first is face {first}); as which triangles these are meant, the file does not say"
             ),
+            Self::Segments { count, first } => write!(
+                f,
+                "{count} faces have two corners (the first is face {first}) and are read as segments"
+            ),
+            Self::NoEnd { end } => write!(f, "ends {end}; what stands before it is read"),
+            Self::NoScene => write!(f, "has no scene; all its nodes are read"),
+            Self::Array { holds, is } => {
+                write!(f, "the array of {holds} {}", shown_within(is, 100))
+            }
             Self::CrossedPolygons { count, first } => write!(
                 f,
                 "{count} polygons cross themselves (the first is face {first}) and are made into fans; mend them or triangulate the mesh"

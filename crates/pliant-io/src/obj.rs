@@ -17,7 +17,7 @@ use crate::error::{Fault, Place, Reason};
 use crate::frame::{Announced, Complete, Frame};
 use crate::groups::Naming;
 use crate::positions::Precision;
-use crate::text::{LONGEST_LINE, Lines, expected, number, quoted, words};
+use crate::text::{LONGEST_LINE, Lines, expected, number, quoted, two_coordinates, words};
 
 /// Reads one file, one frame.
 pub(crate) fn read(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> {
@@ -75,8 +75,11 @@ fn name<'a>(words: impl Iterator<Item = &'a [u8]>) -> String {
 /// The first three of `words`.
 fn position<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<[f64; 3], Reason> {
     let mut position = [0.0; 3];
-    for value in &mut position {
+    for (axis, value) in position.iter_mut().enumerate() {
         let word = words.next();
+        if word.is_none() && axis == 2 {
+            return Err(two_coordinates());
+        }
         *value = word
             .and_then(number)
             .ok_or_else(|| expected("a coordinate", word))?;
@@ -258,8 +261,8 @@ mod tests {
     fn errors_name_the_line() {
         let with = |line: &str| message(&format!("{CORNERS}{line}\nf 1 2 3\n"));
         assert_eq!(
-            with("f 1 2"),
-            ", line 5: face 0 has 2 corners; a face needs at least 3"
+            with("f 2/1"),
+            ", line 5: face 0 has 1 corners; a face needs at least 3"
         );
         assert_eq!(
             with("f"),
@@ -294,13 +297,15 @@ mod tests {
             ", line 5: face 0 uses vertex 4294967296, but no vertex can have that number"
         );
         assert_eq!(
-            with("v 1 2"),
+            with("v 1"),
             ", line 5: expected a coordinate, found the end of the line"
         );
-        assert_eq!(
-            with("v 1 2 # 3"),
-            ", line 5: expected a coordinate, found the end of the line"
-        );
+        for two in ["v 1 2", "v 1 2 # 3"] {
+            assert_eq!(
+                with(two),
+                ", line 5: a vertex has two coordinates; pliant needs three"
+            );
+        }
         assert_eq!(
             with("v 1 2,5 3"),
             ", line 5: expected a coordinate, found \"2,5\""

@@ -29,6 +29,8 @@ pub(crate) struct Polygons {
     largest: Option<Largest>,
     /// Reused: the corners of a large polygon.
     sorted: Vec<u32>,
+    /// How many polygons of the first frame have two corners, and the first of them.
+    segments: (usize, usize),
 }
 
 /// Up to so many corners a polygon may have whichever it likes.
@@ -59,6 +61,7 @@ impl Polygons {
             met_triangles: 0,
             largest: None,
             sorted: Vec::new(),
+            segments: (0, 0),
         }
     }
 
@@ -90,11 +93,24 @@ impl Polygons {
         place: impl FnOnce() -> Place,
         account: &mut Account,
     ) -> Result<bool, Reason> {
+        // A segment is a triangle two of whose corners are one.
+        let segment;
+        let corners = if let &[a, b] = corners {
+            if !self.comparing {
+                let (count, first) = self.segments;
+                let first = if count == 0 { self.met as usize } else { first };
+                self.segments = (count + 1, first);
+            }
+            segment = [a, b, b];
+            &segment
+        } else {
+            corners
+        };
         let &[apex, ref rim @ ..] = corners else {
             return Err(self.too_few(0));
         };
-        if rim.len() < 2 {
-            return Err(self.too_few(corners.len()));
+        if rim.is_empty() {
+            return Err(self.too_few(1));
         }
         if corners.len() > MOST_UNCOUNTED {
             self.check_corners(corners)?;
@@ -204,8 +220,10 @@ impl Polygons {
         positions: Positions<'_>,
         account: &mut Account,
     ) -> Result<Vec<Note>, Reason> {
+        let (count, first) = self.segments;
+        let segments = (count > 0).then_some(Note::Segments { count, first });
         let Some(faces) = &self.faces else {
-            return Ok(Vec::new());
+            return Ok(segments.into_iter().collect());
         };
         let (mut bent, mut crossed) = (Vec::new(), Vec::new());
         let (mut corners, mut points) = (Vec::new(), Vec::new());
@@ -246,7 +264,7 @@ impl Polygons {
             count: crossed.len(),
             first,
         });
-        Ok(bent.into_iter().chain(crossed).collect())
+        Ok(segments.into_iter().chain(bent).chain(crossed).collect())
     }
 
     /// The corners of polygons that are no fans.
@@ -348,14 +366,27 @@ mod tests {
     }
 
     #[test]
-    fn fewer_than_three_corners_are_refused() {
+    fn fewer_than_two_corners_are_refused() {
         let mut polygons = recorded(&[&[0, 1, 2]]);
-        for corners in [&[][..], &[1], &[1, 2]] {
+        for corners in [&[][..], &[1]] {
             let refused = polygons.push(corners, || Place::File, &mut account());
             assert!(
                 matches!(refused, Err(Reason::FewCorners { face: 1, corners: n }) if n == corners.len())
             );
         }
+    }
+
+    #[test]
+    fn two_corners_are_a_segment() {
+        let polygons = recorded(&[&[0, 1, 2], &[3, 1], &[0, 1, 2, 3], &[2, 2]]);
+        let triangles = [[0, 1, 2], [3, 1, 1], [0, 1, 2], [0, 2, 3], [2, 2, 2]];
+        assert_eq!(polygons.triangles(), triangles);
+        assert_eq!(polygons.faces(), Some(&[0, 1, 2, 2, 3][..]));
+        assert_eq!(polygons.segments, (2, 1));
+        assert_eq!(
+            compared(&[&[0, 1, 2], &[3, 1]], &[&[0, 1, 2], &[1, 3]]),
+            [true, false]
+        );
     }
 
     #[test]

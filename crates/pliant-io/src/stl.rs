@@ -12,8 +12,9 @@ use std::io::{self, BufRead, Read as _};
 
 use crate::error::{Fault, Place, Reason};
 use crate::frame::{Announced, Complete, Frame};
+use crate::note::Note;
 use crate::positions::Precision;
-use crate::text::{Lines, expected, number, words};
+use crate::text::{Lines, expected, number, two_coordinates, words};
 
 /// Before the triangles: a comment of 80 bytes and their number.
 const HEAD: usize = 84;
@@ -117,12 +118,13 @@ fn read_binary(mut input: impl BufRead, count: u32, frame: &mut Frame) -> Result
 }
 
 /// `facet`, `outer loop`, three times `vertex x y z`, `endloop`, `endfacet`; between `solid` and `endsolid`, whose names are
-/// free. Several solids are one body.
+/// free. Several solids are one body. The last may end with `end solid`, or not at all, which is noted.
 fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> {
     frame.begin(Precision::F32, Announced::default())?;
     let mut lines = Lines::new(input);
     // The words that end what is open, and how many corners the open triangle has.
     let (mut open, mut corners): (Vec<&[u8]>, u32) = (Vec::new(), 0);
+    let mut is_noted = false;
     while lines.advance()? {
         let at = |reason: Reason| reason.at(lines.place());
         let mut words = words(lines.line());
@@ -136,8 +138,11 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
             (b"endfacet", b"outer") if corners == 0 => open.push(b"endloop"),
             (b"endloop", b"vertex") if corners < 3 => {
                 let mut position = [0.0; 3];
-                for value in &mut position {
+                for (axis, value) in position.iter_mut().enumerate() {
                     let word = words.next();
+                    if word.is_none() && axis == 2 {
+                        return Err(at(two_coordinates()));
+                    }
                     *value = word
                         .and_then(number::<f32>)
                         .map(f64::from)
@@ -148,6 +153,18 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
                 }
                 frame.vertex(position).map_err(at)?;
                 corners += 1;
+            }
+            (b"endsolid", b"end")
+                if words
+                    .next()
+                    .is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) =>
+            {
+                let end = "with \"end solid\", in place of \"endsolid\"";
+                if !is_noted {
+                    frame.note(Note::NoEnd { end });
+                }
+                is_noted = true;
+                open.pop();
             }
             (end, word) if !end.is_empty() && word == end => {
                 if end == b"endfacet" {
@@ -173,6 +190,13 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
                 return Err(at(expected(wanted, Some(word))));
             }
         }
+    }
+    if let [b"endsolid"] = open[..]
+        && frame.next_face() > 0
+    {
+        let end = "behind a triangle, without \"endsolid\"";
+        frame.note(Note::NoEnd { end });
+        open.clear();
     }
     if let Some(end) = open.last() {
         let end = String::from_utf8_lossy(end);
@@ -256,7 +280,7 @@ mod tests {
         assert_eq!(with("1e0", "one"), wanted(5, "a coordinate", "\"one\""));
         assert_eq!(
             with("1e0 0 0", "1e0 0"),
-            wanted(5, "a coordinate", "the end of the line")
+            ", line 5: a vertex has two coordinates; pliant needs three"
         );
         assert_eq!(
             with("1e0 0 0", "1e0 0 0 0"),
@@ -295,15 +319,38 @@ mod tests {
             with("1e0", "1e39"),
             format!(", line 5: x of vertex 1 is inf; {range}")
         );
-        let cut = TEXT.rsplit_once("endsolid").unwrap().0;
+        let cut = TEXT.rsplit_once("endloop").unwrap().0;
         assert_eq!(
             read_bytes(cut.as_bytes()).unwrap_err(),
-            ", line 19: ends too early: \"endsolid\" is missing"
+            ", line 17: ends too early: \"endloop\" is missing"
         );
         assert_eq!(
             read_bytes(b"solid\nendsolid\n").unwrap_err(),
             ": holds no vertices"
         );
+    }
+
+    #[test]
+    fn the_last_solid_may_end_otherwise() {
+        let whole = read_bytes(TEXT.as_bytes()).unwrap();
+        let (start, _) = TEXT.rsplit_once("endsolid").unwrap();
+        for (text, is_noted) in [
+            (TEXT.to_owned(), false),
+            (TEXT.replace("endsolid", "end solid"), true),
+            (format!("{start}END Solid two words"), true),
+            (start.to_owned(), true),
+        ] {
+            let mut frame = read_bytes(text.as_bytes()).unwrap();
+            assert_eq!(frame.positions(), whole.positions());
+            let notes = frame.shape_polygons().unwrap();
+            assert_eq!(notes.len(), usize::from(is_noted), "{text}");
+        }
+        for wrong in ["end", "end loop", "ending solid"] {
+            let refused = read_bytes(format!("{start}{wrong}\n").as_bytes()).unwrap_err();
+            assert!(refused.starts_with(", line 19: expected"), "{refused}");
+        }
+        let nothing = read_bytes(b"solid\n").unwrap_err();
+        assert!(nothing.contains("\"endsolid\" is missing"), "{nothing}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Lines, words and numbers of text formats.
 
-use std::io::{BufRead, Read as _};
+use std::io::{self, BufRead, Read as _};
 use std::str::FromStr;
 
 use crate::error::{Fault, Place, Reason};
@@ -10,12 +10,15 @@ use crate::shown::shown_within;
 /// not swallowed whole.
 pub(crate) const LONGEST_LINE: u64 = 16 << 20;
 
-/// The lines of a text, without their ends (`\n` or `\r\n`), counted from 1.
+/// The lines of a text, without their ends (`\n` or `\r\n`), counted from 1. Where the first line ends with `\r` alone, as those of
+/// old Macs do, so may the others.
 #[derive(Debug)]
 pub(crate) struct Lines<R> {
     input: R,
     line: Vec<u8>,
     number: u64,
+    /// Whether a line may end with `\r` alone.
+    returns: bool,
 }
 
 impl<R: BufRead> Lines<R> {
@@ -24,18 +27,22 @@ impl<R: BufRead> Lines<R> {
             input,
             line: Vec::new(),
             number: 0,
+            returns: false,
         }
     }
 
     /// Moves to the next line; false at the end of the text.
     pub(crate) fn advance(&mut self) -> Result<bool, Fault> {
         self.line.clear();
-        let read = self
-            .input
-            .by_ref()
-            .take(LONGEST_LINE + 1)
-            .read_until(b'\n', &mut self.line);
         self.number += 1;
+        let read = if self.number == 1 {
+            self.read_first()
+        } else if self.returns {
+            self.read_until_any().map(|_| self.line.len())
+        } else {
+            let mut input = self.input.by_ref().take(LONGEST_LINE + 1);
+            input.read_until(b'\n', &mut self.line)
+        };
         if read.map_err(|error| Reason::Io(error).at(self.place()))? == 0 {
             return Ok(false);
         }
@@ -50,6 +57,40 @@ impl<R: BufRead> Lines<R> {
             self.line.pop();
         }
         Ok(true)
+    }
+
+    /// Reads the first line, and finds out how lines end.
+    fn read_first(&mut self) -> io::Result<usize> {
+        if self.read_until_any()? == Some(b'\r') {
+            if self.input.fill_buf()?.first() == Some(&b'\n') {
+                self.input.consume(1);
+                self.line.push(b'\n');
+            } else {
+                self.returns = true;
+            }
+        }
+        Ok(self.line.len())
+    }
+
+    /// Reads up to and with the next `\n` or `\r`, and says which it is; none at the end and behind the longest line.
+    fn read_until_any(&mut self) -> io::Result<Option<u8>> {
+        while self.line.len() as u64 <= LONGEST_LINE {
+            let some = match self.input.fill_buf() {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                some => some?,
+            };
+            if some.is_empty() {
+                break;
+            }
+            let end = some.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+            let read = end.map_or(some.len(), |end| end + 1);
+            self.line.extend_from_slice(&some[..read]);
+            self.input.consume(read);
+            if end.is_some() {
+                return Ok(self.line.last().copied());
+            }
+        }
+        Ok(None)
     }
 
     /// The line moved to; empty at the end of the text.
@@ -82,6 +123,11 @@ pub(crate) fn expected(wanted: &str, found: Option<&[u8]>) -> Reason {
     })
 }
 
+/// Of a vertex that ends behind its second coordinate.
+pub(crate) fn two_coordinates() -> Reason {
+    Reason::Malformed("a vertex has two coordinates; pliant needs three".into())
+}
+
 /// A word of a file in quotes, shortened where it is long.
 pub(crate) fn quoted(word: impl AsRef<[u8]>) -> String {
     let text = String::from_utf8_lossy(word.as_ref());
@@ -107,9 +153,39 @@ mod tests {
     }
 
     #[test]
+    fn lines_may_end_as_those_of_old_macs() {
+        for (text, lines) in [
+            (
+                &b"one\rtwo\r\rfour"[..],
+                &[&b"one"[..], b"two", b"", b"four"][..],
+            ),
+            (b"\rtwo\nthree\r", &[b"", b"two", b"three"]),
+            (b"one\r", &[b"one"]),
+            // Where the first line does not end so, it is no end.
+            (b"one\ntw\ro\r\n", &[b"one", b"tw\ro"]),
+            (b"one\r\ntw\ro\r\n", &[b"one", b"tw\ro"]),
+        ] {
+            // Whatever is read at once.
+            for capacity in [1, 2, 64] {
+                let input = io::BufReader::with_capacity(capacity, text);
+                let mut read = Lines::new(input);
+                let mut seen = Vec::new();
+                while read.advance().unwrap() {
+                    seen.push(read.line().to_vec());
+                }
+                assert_eq!(seen, lines);
+            }
+        }
+    }
+
+    #[test]
     fn endless_lines_end() {
-        let mut lines = Lines::new(std::io::BufReader::new(std::io::repeat(b'x')));
-        assert!(lines.advance().is_err());
+        let endless = || io::BufReader::new(io::repeat(b'x'));
+        assert!(Lines::new(endless()).advance().is_err());
+        for first in [&b"1\n"[..], b"1\r"] {
+            let mut lines = Lines::new(io::Read::chain(first, endless()));
+            assert!(lines.advance().unwrap() && lines.advance().is_err());
+        }
     }
 
     #[test]

@@ -182,6 +182,9 @@ fn read(
     }
     if let Some((_, first)) = bodies.first_mut() {
         first.notes.extend(scene.clip.as_ref().and_then(Clip::note));
+        first
+            .notes
+            .extend(has_no_scene(reader).then_some(Note::NoScene));
     }
     if bodies.is_empty() {
         return Err(match name {
@@ -228,16 +231,15 @@ fn read_clip(reader: &mut Reader, name: Option<&str>) -> Result<Option<Clip>, Fa
     .map(Some)
 }
 
-/// Of each node whether it is in the default scene.
+/// Of each node whether it is in the default scene; of a file without scenes all are, which hang on those that are no children.
 fn shown(reader: &Reader) -> Result<Vec<bool>, Fault> {
     let document = &reader.document;
+    if has_no_scene(reader) {
+        return Ok(vec![true; document.nodes.len()]);
+    }
     let number = document.scene.unwrap_or(0);
     let Some(scene) = document.scenes.get(number) else {
-        let reason = if document.scenes.is_empty() {
-            "has no scene, so it does not say where its meshes are".into()
-        } else {
-            format!("scene {number} does not exist")
-        };
+        let reason = format!("scene {number} does not exist");
         return Err(Reason::Malformed(reason).into());
     };
     // A tree, as `Scene::read` has made sure; a root that is listed twice is one.
@@ -253,6 +255,10 @@ fn shown(reader: &Reader) -> Result<Vec<bool>, Fault> {
         }
     }
     Ok(shown)
+}
+
+fn has_no_scene(reader: &Reader) -> bool {
+    reader.document.scenes.is_empty() && reader.document.scene.is_none()
 }
 
 /// The nodes shown that have meshes, in the order of nodes, with their meshes.

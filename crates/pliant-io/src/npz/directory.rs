@@ -11,6 +11,7 @@
 //! length of the file alone: 8 kB on disk (a file of 8 GiB that is a hole but for its ends) asked for 26 GB and ended the
 //! program. Here the records are passed over one by one, and nothing is kept but the one looked for.
 
+use std::collections::BTreeMap;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
 use crate::error::Reason;
@@ -43,15 +44,15 @@ pub(super) enum Method {
     Deflated,
 }
 
-/// Finds the array `name` in an archive.
+/// Finds the array of the first of these names in an archive, or the one that has another of them.
 pub(super) fn find<R: Read + Seek>(
     archive: &mut BufReader<R>,
-    name: &str,
-) -> Result<Record, Reason> {
+    wanted: &[&'static str],
+) -> Result<(&'static str, Record), Reason> {
     let (records, directory) = end(archive)?;
     archive.seek(SeekFrom::Start(directory))?;
-    let wanted = format!("{name}.npy").into_bytes();
-    let (mut found, mut names) = (None, Vec::new());
+    let mut found: BTreeMap<usize, ([u8; 46], Vec<u8>)> = BTreeMap::new();
+    let mut names = Vec::new();
     let mut words = Vec::new();
     for _ in 0..records {
         let fixed: [u8; 46] = bytes(archive)?;
@@ -64,18 +65,24 @@ pub(super) fn find<R: Read + Seek>(
         archive.read_exact(&mut words).map_err(cut)?;
         archive.seek_relative(comment as i64)?;
         let (its_name, extra) = words.split_at(name_length);
-        if its_name == wanted {
-            if found.is_some() {
-                return Err(damaged(&format!("it holds `{name}` twice")));
-            }
-            found = Some((fixed, extra.to_vec()));
-        } else if names.len() < NAMES_LISTED {
-            let array = its_name.strip_suffix(b".npy").unwrap_or(its_name);
+        let array = its_name.strip_suffix(b".npy");
+        let place = wanted.iter().position(|it| array == Some(it.as_bytes()));
+        if let Some(place) = place
+            && found.insert(place, (fixed, extra.to_vec())).is_some()
+        {
+            let name = wanted[place];
+            return Err(damaged(&format!("it holds `{name}` twice")));
+        }
+        if place != Some(0) && names.len() < NAMES_LISTED {
+            let array = array.unwrap_or(its_name);
             names.push(quoted(array).trim_matches('"').to_owned());
         }
     }
-    let (fixed, extra) = found.ok_or_else(|| missing(name, &names))?;
-    record(archive, name, &fixed, &extra)
+    let is_clear = found.contains_key(&0) || found.len() == 1;
+    let first = found.into_iter().next().filter(|_| is_clear);
+    let (place, (fixed, extra)) = first.ok_or_else(|| missing(wanted[0], &names))?;
+    let record = record(archive, wanted[place], &fixed, &extra)?;
+    Ok((wanted[place], record))
 }
 
 /// How many records there are and where they begin.
@@ -218,8 +225,8 @@ mod tests {
 
     const DATA: &[u8] = b"seven words that hardly compress at all";
 
-    fn found(archive: &[u8], name: &str) -> Result<Record, Reason> {
-        find(&mut BufReader::new(Cursor::new(archive)), name)
+    fn found(archive: &[u8], name: &'static str) -> Result<Record, Reason> {
+        find(&mut BufReader::new(Cursor::new(archive)), &[name]).map(|(_, record)| record)
     }
 
     /// `large`: as numpy writes it, with numbers of 64 bits.

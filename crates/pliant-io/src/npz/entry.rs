@@ -1,4 +1,4 @@
-//! One array of an archive as a stream, with its checksum.
+//! One array as a stream: of an archive, with its checksum, or a file of its own.
 //!
 //! A reader keeps its place from frame to frame. The sizes in the directory are claims like any other: what is read ends where
 //! the data ends.
@@ -14,7 +14,7 @@ use crate::file::{Found, Opened};
 
 /// The data of one array, `Read` up to its announced size.
 pub(super) struct Entry {
-    name: &'static str,
+    pub(super) name: &'static str,
     data: Data,
     /// Bytes that the directory still announces.
     left: u64,
@@ -29,11 +29,28 @@ enum Data {
     Deflated(DeflateDecoder<Take<BufReader<Opened>>>),
 }
 
+/// As many bytes does one of a deflated stream stand for, at most.
+const MOST_DEFLATED: u64 = 1032;
+
 impl Entry {
-    /// Opens the array `name` of the archive `file`.
-    pub(super) fn open(file: &Found, name: &'static str) -> Result<Self, Reason> {
+    /// Opens the array of the first of these names of the archive `file`, or the one that has another of them.
+    pub(super) fn open(file: &Found, names: &[&'static str]) -> Result<Self, Reason> {
         let mut input = BufReader::new(file.open()?);
-        let record = directory::find(&mut input, name)?;
+        let (name, record) = directory::find(&mut input, names)?;
+        let length = input.get_ref().length();
+        // What cannot be there is not looked for to the end.
+        let end = record.start.saturating_add(record.compressed);
+        let most = match record.method {
+            Method::Stored => record.compressed,
+            Method::Deflated => record.compressed.saturating_mul(MOST_DEFLATED),
+        };
+        if end > length || record.size > most {
+            let there = record.compressed.min(length.saturating_sub(record.start));
+            let size = record.size;
+            return Err(Reason::Truncated(format!(
+                "`{name}` announces {size} bytes, more than {there} bytes of the file can hold"
+            )));
+        }
         input.seek(SeekFrom::Start(record.start))?;
         let input = input.take(record.compressed);
         Ok(Self {
@@ -46,6 +63,21 @@ impl Entry {
             checksum: record.checksum,
             read: Crc::new(),
             skipped: false,
+        })
+    }
+
+    /// Opens a file that is one array.
+    pub(super) fn whole(file: &Found, name: &'static str) -> Result<Self, Reason> {
+        let input = BufReader::with_capacity(1 << 16, file.open()?);
+        let left = input.get_ref().length();
+        Ok(Self {
+            name,
+            data: Data::Stored(input.take(left)),
+            left,
+            checksum: 0,
+            read: Crc::new(),
+            // It has no checksum.
+            skipped: true,
         })
     }
 

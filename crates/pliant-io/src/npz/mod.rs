@@ -1,5 +1,8 @@
 //! NPZ: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3): a whole sequence in one file, or, by
-//! pattern, several files whose frames follow one another.
+//! pattern, several files whose frames follow one another. NPY: `vertices` alone, beside a mesh.
+//!
+//! What is not as it is mostly is read where its meaning is clear, and noted: other names, Fortran order (of which all is held in
+//! memory), half precision, whole numbers.
 //!
 //! Frame by frame from the compressed stream; never more than one frame unpacked. Little and big
 //! endian alike. The end of the data and its checksum are verified before the last frame is handed
@@ -13,11 +16,19 @@ use crate::error::{Fault, Place, Reason};
 use crate::file::Found;
 use crate::format::FrameSource;
 use crate::frame::{Announced, Complete, Frame};
+use crate::memory::Size;
+use crate::note::Note;
 use crate::positions::Precision;
+use crate::text::two_coordinates;
 use entry::Entry;
 use header::{Dtype, Header};
+use std::io::Read as _;
 
-/// A reader of one NPZ file.
+/// What the arrays are called, the first mostly.
+const VERTICES: [&str; 3] = ["vertices", "verts", "v"];
+const FACES: [&str; 2] = ["faces", "f"];
+
+/// A reader of one NPZ file, or of positions in an NPY file beside a mesh.
 pub(crate) struct Npz {
     file: Found,
     vertices: Entry,
@@ -28,43 +39,102 @@ pub(crate) struct Npz {
     next: u64,
     /// Reused: some rows of an array, as they are in the file.
     chunk: Vec<u8>,
+    /// Of an array that is written column by column, all of it, once it was read.
+    columns: Option<Vec<u8>>,
+    is_by_columns: bool,
+    /// The mesh that an NPY file moves, until it is read.
+    mesh: Option<(Found, Box<dyn FrameSource>)>,
+    is_npy: bool,
+    notes: Vec<Note>,
 }
 
 /// Rows read at a time.
 const ROWS: u64 = 4096;
 
 impl Npz {
-    pub(crate) fn open(file: &Found) -> Result<Self, Fault> {
+    /// Opens an archive; an array that must be held whole may take as much memory as is said.
+    pub(crate) fn open(file: &Found, max_memory: u64) -> Result<Self, Fault> {
         let in_array = |reason: Reason| reason.at(Place::Array("vertices"));
-        let mut vertices = Entry::open(file, "vertices")?;
+        let mut vertices = Entry::open(file, &VERTICES).map_err(|reason| match reason {
+            Reason::Truncated(_) => in_array(reason),
+            _ => reason.into(),
+        })?;
         let header = Header::read(&mut vertices).map_err(in_array)?;
+        let begun = Self::begin_array(file, vertices, header, max_memory);
+        begun.map_err(|fault| fault.or_at(Place::Array("vertices")))
+    }
+
+    /// Opens the positions of a mesh, which is one frame.
+    pub(crate) fn beside(
+        mesh: (Found, Box<dyn FrameSource>),
+        file: &Found,
+        max_memory: u64,
+    ) -> Result<Self, Fault> {
+        let mut vertices = Entry::whole(file, VERTICES[0])?;
+        let header = Header::read(&mut vertices)?;
+        let mut npy = Self::begin_array(file, vertices, header, max_memory)?;
+        npy.mesh = Some(mesh);
+        npy.is_npy = true;
+        Ok(npy)
+    }
+
+    fn begin_array(
+        file: &Found,
+        vertices: Entry,
+        header: Header,
+        max_memory: u64,
+    ) -> Result<Self, Fault> {
         let (frames, count) = match header.shape[..] {
             [frames, count, 3] => (frames, count),
             [count, 3] => (1, count),
+            [_, 2] | [_, _, 2] => return Err(two_coordinates().into()),
             _ => {
-                return Err(in_array(wrong_shape(
-                    &header.shape,
-                    "(frames, vertices, 3) or (vertices, 3)",
-                )));
+                let wanted = "(frames, vertices, 3) or (vertices, 3)";
+                return Err(wrong_shape(&header.shape, wanted).into());
             }
         };
-        if !matches!((header.dtype.kind, header.dtype.size), ('f', 4 | 8)) {
-            let written = &header.dtype.written;
-            let advice = format!(
-                "type {written} cannot be read; save vertices.astype(np.float32), or float64"
-            );
-            return Err(in_array(Reason::Unsupported(advice)));
+        let Dtype {
+            kind,
+            size,
+            ref written,
+            ..
+        } = header.dtype;
+        let mut notes = Vec::new();
+        let mut note = |is: String| {
+            let holds = "vertices";
+            notes.push(Note::Array { holds, is });
+        };
+        match (kind, size) {
+            ('f', 4 | 8) => {}
+            ('f', 2) => note(format!("is of type {written} and was read as float32")),
+            ('i' | 'u', 1 | 2) => note(format!("is of type {written} and was read as float32")),
+            ('i' | 'u', 4 | 8) => note(format!("is of type {written} and was read as float64")),
+            _ => {
+                let advice = format!(
+                    "type {written} cannot be read; save vertices.astype(np.float32), or float64"
+                );
+                return Err(Reason::Unsupported(advice).into());
+            }
         }
-        if header.fortran_order {
-            return Err(in_array(column_by_column("vertices")));
+        if vertices.name != VERTICES[0] {
+            note(format!("is the one called `{}`", vertices.name));
         }
         if frames == 0 {
-            return Err(in_array(Reason::NoFrames));
+            return Err(Reason::NoFrames.into());
         }
         if count == 0 {
-            return Err(in_array(Reason::NoVertices));
+            return Err(Reason::NoVertices.into());
         }
-        check_size(frames, count, header.dtype.size as u64, vertices.left())?;
+        check_size(frames, count, size as u64, vertices.left())?;
+        // Of one vertex or one frame it may well be both.
+        let is_by_columns = header.fortran_order;
+        if is_by_columns {
+            let needed = vertices.left();
+            if needed > max_memory {
+                return Err(column_by_column("vertices", needed, max_memory).into());
+            }
+            note("is in Fortran order, so that all of it is held in memory".to_owned());
+        }
         Ok(Self {
             file: file.clone(),
             vertices,
@@ -73,30 +143,50 @@ impl Npz {
             count,
             next: 0,
             chunk: Vec::new(),
+            columns: None,
+            is_by_columns,
+            mesh: None,
+            is_npy: false,
+            notes,
         })
     }
 
     fn read_vertices(&mut self, frame: &mut Frame) -> Result<(), Fault> {
-        let (big_endian, size) = (self.dtype.big_endian, self.dtype.size);
-        let number = move |bytes: &[u8]| real(bytes, big_endian);
         let place = Place::Frame(self.next);
-        rows(
-            &mut self.vertices,
-            &mut self.chunk,
-            self.count,
-            size,
-            |_, row| {
-                let [x, y, z] = [0, 1, 2].map(|axis| number(&row[axis * size..][..size]));
-                frame.vertex([x, y, z])
-            },
-        )
+        let Self {
+            vertices,
+            dtype,
+            count,
+            chunk,
+            ..
+        } = self;
+        if self.is_by_columns {
+            let all = match &self.columns {
+                Some(all) => all,
+                None => self.columns.insert(whole(vertices)?),
+            };
+            // The first index varies fastest.
+            let (frames, count) = (self.frames as usize, *count as usize);
+            let number = |at: usize| real(&all[at * dtype.size..][..dtype.size], dtype);
+            for vertex in 0..count {
+                let at = |axis: usize| self.next as usize + frames * (vertex + count * axis);
+                let position = [number(at(0)), number(at(1)), number(at(2))];
+                take(frame, position, dtype).map_err(|reason| reason.at(place.clone()))?;
+            }
+            return Ok(());
+        }
+        rows(vertices, chunk, *count, dtype.size, |_, row| {
+            let [x, y, z] =
+                [0, 1, 2].map(|axis| real(&row[axis * dtype.size..][..dtype.size], dtype));
+            take(frame, [x, y, z], dtype)
+        })
         .map_err(|reason| reason.at(place))
     }
 
     /// Begins the first frame, once it is known how large it is, and reads its faces.
     fn begin_with_faces(&mut self, frame: &mut Frame) -> Result<(), Fault> {
         let in_array = |reason: Reason| reason.at(Place::Array("faces"));
-        let mut faces = Entry::open(&self.file, "faces").map_err(in_array)?;
+        let mut faces = Entry::open(&self.file, &FACES).map_err(in_array)?;
         let header = Header::read(&mut faces).map_err(in_array)?;
         let &[count, 3] = &header.shape[..] else {
             return Err(in_array(wrong_shape(&header.shape, "(triangles, 3)")));
@@ -108,52 +198,98 @@ impl Npz {
                 "type {written} cannot be read; save faces.astype(np.uint32)"
             ))));
         }
+        let mut note = |is: String| {
+            let holds = "faces";
+            self.notes.push(Note::Array { holds, is });
+        };
+        if faces.name != FACES[0] {
+            note(format!("is the one called `{}`", faces.name));
+        }
         if header.fortran_order {
-            return Err(in_array(column_by_column("faces")));
+            note("is in Fortran order".to_owned());
         }
         self.begin(frame, count)?;
-        let read = rows(
-            &mut faces,
-            &mut self.chunk,
-            count,
-            dtype.size,
-            |face, row| {
-                let mut corners = [0; 3];
-                for (corner, bytes) in corners.iter_mut().zip(row.chunks_exact(dtype.size)) {
-                    let index = integer(bytes, &dtype);
-                    let (first, last) = (0, i64::from(u32::MAX) - 1);
-                    let in_range = u32::try_from(index).ok().filter(|&index| index < u32::MAX);
-                    *corner = in_range.ok_or(Reason::VertexIndex {
-                        face,
-                        index,
-                        first,
-                        last,
-                    })?;
-                }
-                frame.face(&corners, || Place::Array("faces"))
-            },
-        );
+        let size = dtype.size;
+        let held = if header.fortran_order {
+            faces.left()
+        } else {
+            0
+        };
+        frame.enter(held).map_err(in_array)?;
+        let vertices = self.count;
+        let mut each = |face: u64, bytes: [&[u8]; 3]| {
+            let mut corners = [0; 3];
+            for (corner, bytes) in corners.iter_mut().zip(bytes) {
+                let index = integer(bytes, &dtype);
+                let (first, last) = (0, vertices as i64 - 1);
+                let in_range = u32::try_from(index).ok();
+                let in_range = in_range.filter(|&index| u64::from(index) < vertices);
+                *corner = in_range.ok_or(Reason::VertexIndex {
+                    face,
+                    index,
+                    first,
+                    last,
+                })?;
+            }
+            frame.face(&corners, || Place::Array("faces"))
+        };
+        let read = if header.fortran_order {
+            let all = checked_faces(count, size, held).and_then(|()| whole(&mut faces));
+            all.and_then(|all| {
+                let of = |at: u64| &all[at as usize * size..][..size];
+                (0..count).try_for_each(|face| each(face, [0, 1, 2].map(|c| of(face + c * count))))
+            })
+        } else {
+            rows(&mut faces, &mut self.chunk, count, size, |face, row| {
+                each(face, [0, 1, 2].map(|corner| &row[corner * size..][..size]))
+            })
+        };
+        frame.take_off(held);
         read.and_then(|()| faces.finish()).map_err(in_array)
+    }
+
+    /// Begins the first frame with the faces of the mesh.
+    fn begin_with_mesh(
+        &self,
+        (mesh, mut source): (Found, Box<dyn FrameSource>),
+        frame: &mut Frame,
+    ) -> Result<(), Fault> {
+        let in_mesh = |fault: Fault| fault.or_in(mesh.path());
+        let _complete = source.read(frame).map_err(in_mesh)?;
+        let expected = frame.vertex_count() as u64;
+        if expected != self.count {
+            return Err(Reason::VertexCount {
+                vertices: self.count,
+                expected,
+                than: mesh.path().to_owned(),
+            }
+            .into());
+        }
+        Ok(frame.replace_vertices(self.precision(), self.count)?)
+    }
+
+    fn precision(&self) -> Precision {
+        match (self.dtype.kind, self.dtype.size) {
+            ('f', 8) | ('i' | 'u', 4 | 8) => Precision::F64,
+            _ => Precision::F32,
+        }
     }
 
     /// Begins the next frame; `faces` is how many the first announces.
     fn begin(&self, frame: &mut Frame, faces: u64) -> Result<(), Fault> {
-        let precision = if self.dtype.size == 4 {
-            Precision::F32
-        } else {
-            Precision::F64
-        };
         let announced = Announced {
             vertices: self.count,
             faces,
         };
-        let begun = frame.begin(precision, announced);
+        let begun = frame.begin(self.precision(), announced);
         begun.map_err(|reason| reason.at(Place::Frame(self.next)))
     }
 
     fn read_frame(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
         let place = Place::Frame(self.next);
-        if self.next == 0 {
+        if let Some(mesh) = self.mesh.take() {
+            self.begin_with_mesh(mesh, frame)?;
+        } else if self.next == 0 && !self.is_npy {
             self.begin_with_faces(frame)?;
         } else {
             self.begin(frame, 0)?;
@@ -182,6 +318,10 @@ impl FrameSource for Npz {
 
     fn skip(&mut self, frames: usize) -> Result<(), Fault> {
         let frames = frames as u64;
+        if self.is_by_columns {
+            self.next += frames;
+            return Ok(());
+        }
         let bytes = frames.saturating_mul(self.count.saturating_mul(3 * self.dtype.size as u64));
         let skipped = self.vertices.skip(bytes);
         // First: what looks wrong may be half of a change.
@@ -190,6 +330,71 @@ impl FrameSource for Npz {
         self.next += frames;
         Ok(())
     }
+
+    fn rewind(&mut self) -> Result<bool, Fault> {
+        if self.columns.is_some() {
+            self.vertices.unchanged()?;
+            self.next = 0;
+            return Ok(true);
+        }
+        if self.is_npy {
+            // Its faces are not read again.
+            self.vertices = Entry::whole(&self.file, VERTICES[0])?;
+            Header::read(&mut self.vertices)?;
+            self.next = 0;
+        }
+        Ok(self.is_npy)
+    }
+
+    fn held(&self) -> u64 {
+        let mesh = self.mesh.as_ref().map_or(0, |(_, source)| source.held());
+        let all = self
+            .count
+            .saturating_mul(self.frames.saturating_mul(3 * self.dtype.size as u64));
+        mesh + if self.is_by_columns { all } else { 0 }
+    }
+
+    fn notes(&self) -> Vec<Note> {
+        self.notes.clone()
+    }
+}
+
+/// All that an array still holds, which grows as it comes.
+fn whole(entry: &mut Entry) -> Result<Vec<u8>, Reason> {
+    let announced = entry.left();
+    let mut all = Vec::new();
+    entry.read_to_end(&mut all)?;
+    if (all.len() as u64) < announced {
+        let read = all.len();
+        return Err(Reason::Truncated(format!(
+            "the data ends after {read} of {announced} bytes"
+        )));
+    }
+    Ok(all)
+}
+
+/// Holds the shape of faces that are in memory as a whole against their size.
+fn checked_faces(count: u64, size: usize, held: u64) -> Result<(), Reason> {
+    let needed = u128::from(count) * 3 * size as u128;
+    if needed != u128::from(held) {
+        return Err(Reason::Truncated(format!(
+            "the shape needs {needed} bytes, the file announces {held}"
+        )));
+    }
+    Ok(())
+}
+
+/// Takes a vertex, whose numbers were whole where the type says so.
+fn take(frame: &mut Frame, position: [f64; 3], dtype: &Dtype) -> Result<(), Reason> {
+    // Those that are larger were rounded.
+    let most = 9_007_199_254_740_992.0;
+    if dtype.kind != 'f' && position.iter().any(|x| x.abs() >= most) {
+        let vertex = frame.vertex_count();
+        return Err(Reason::Unsupported(format!(
+            "a coordinate of vertex {vertex} is 2^53 or more, and float64 does not hold all such numbers; save vertices.astype(np.float64)"
+        )));
+    }
+    frame.vertex(position)
 }
 
 /// Holds the shape against the size in the directory, so that a file cut short is refused before
@@ -236,15 +441,32 @@ fn rows(
     Ok(())
 }
 
-/// The float that 4 or 8 bytes write.
-fn real(bytes: &[u8], big_endian: bool) -> f64 {
-    match (bytes, big_endian) {
+/// The number that the bytes write.
+fn real(bytes: &[u8], dtype: &Dtype) -> f64 {
+    if dtype.kind != 'f' {
+        return integer(bytes, dtype) as f64;
+    }
+    match (bytes, dtype.big_endian) {
+        (&[a, b], false) => half(u16::from_le_bytes([a, b])),
+        (&[a, b], true) => half(u16::from_be_bytes([a, b])),
         (&[a, b, c, d], false) => f32::from_le_bytes([a, b, c, d]).into(),
         (&[a, b, c, d], true) => f32::from_be_bytes([a, b, c, d]).into(),
         (&[a, b, c, d, e, f, g, h], false) => f64::from_le_bytes([a, b, c, d, e, f, g, h]),
         (&[a, b, c, d, e, f, g, h], true) => f64::from_be_bytes([a, b, c, d, e, f, g, h]),
         _ => f64::NAN, // no float has another size; refused like any other number that is none
     }
+}
+
+/// The number of a sign, five bits of exponent and ten of fraction.
+fn half(bits: u16) -> f64 {
+    let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023));
+    let size = match exponent {
+        0 => fraction * 0.5_f64.powi(24),
+        31 if fraction == 0.0 => f64::INFINITY,
+        31 => f64::NAN,
+        _ => (1024.0 + fraction) * 2.0_f64.powi(exponent - 25),
+    };
+    if bits >> 15 == 1 { -size } else { size }
 }
 
 /// The whole number that up to 8 bytes write; unsigned ones beyond `i64::MAX` become `i64::MAX`,
@@ -281,8 +503,9 @@ fn wrong_shape(shape: &[u64], wanted: &str) -> Reason {
     Reason::Unsupported(format!("has shape {written}; it must be {wanted}"))
 }
 
-fn column_by_column(array: &str) -> Reason {
+fn column_by_column(array: &str, needed: u64, limit: u64) -> Reason {
+    let [needed, limit] = [needed, limit].map(Size);
     Reason::Unsupported(format!(
-        "is in Fortran order; save np.ascontiguousarray({array})"
+        "is in Fortran order, so that {needed} would be held in memory, {limit} are allowed; save np.ascontiguousarray({array})"
     ))
 }

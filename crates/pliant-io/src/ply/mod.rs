@@ -21,7 +21,7 @@ use std::io::BufRead;
 use crate::error::{Fault, Reason};
 use crate::frame::{Announced, Complete, Frame};
 use crate::positions::Precision;
-use crate::text::Lines;
+use crate::text::{Lines, two_coordinates};
 use header::{Element, Encoding, Header, Kind, Scalar};
 use values::{Ascii, BigEndian, Binary, LittleEndian, Values};
 
@@ -109,8 +109,10 @@ fn axes(vertex: &Element) -> Result<[usize; 3], Reason> {
             .properties
             .iter()
             .position(|property| property.name == name.as_bytes());
-        *axis = property
-            .ok_or_else(|| Reason::Malformed(format!("element vertex has no property {name}")))?;
+        *axis = property.ok_or_else(|| match name {
+            "z" => two_coordinates(),
+            _ => Reason::Malformed(format!("element vertex has no property {name}")),
+        })?;
         if let Kind::List { .. } = vertex.properties[*axis].kind {
             return Err(Reason::Malformed(format!(
                 "property {name} of element vertex is a list, not a number"

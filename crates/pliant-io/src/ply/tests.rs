@@ -177,8 +177,8 @@ fn ascii_errors_name_the_line() {
         ", line 14: expected a whole number, found the end of the line"
     );
     assert_eq!(
-        with("3 0 1 2", "2 0 1"),
-        ", line 14: face 0 has 2 corners; a face needs at least 3"
+        with("3 0 1 2", "1 0"),
+        ", line 14: face 0 has 1 corners; a face needs at least 3"
     );
     assert_eq!(with("3 0 1 2", "-1"), ", line 14: a list of -1 values");
     assert_eq!(

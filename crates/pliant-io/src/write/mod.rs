@@ -131,7 +131,12 @@ impl Writer {
             for path in [&mesh, &positions] {
                 staged::check(path, options.force)?;
             }
-            let big_endian = Format::of(&positions).map_err(error)? == Format::Mdd;
+            let as_positions = Format::of(&positions).map_err(error)?;
+            if as_positions == Format::Npy {
+                let reason = "positions are read from .npy, and not written; write .npz, or positions as .pc2 or .mdd";
+                return Err(error(Reason::Unsupported(reason.into())));
+            }
+            let big_endian = as_positions == Format::Mdd;
             To::Cache(Box::new(Pair {
                 format,
                 mesh,
@@ -177,7 +182,7 @@ impl Writer {
                 staged::check(path, options.force)?;
                 Ok(To::Npz(Box::new(npz::Npz::create(path, shape)?)))
             }
-            Ok(Format::Pc2 | Format::Mdd) => Err(unsupported(format!(
+            Ok(Format::Pc2 | Format::Mdd | Format::Npy) => Err(unsupported(format!(
                 "holds positions but no faces; name a mesh to write beside it: 'mesh.obj+{argument}'"
             ))),
             Ok(Format::Gltf) => Err(unsupported(format!(

@@ -185,7 +185,10 @@ fn what_does_not_agree_is_refused() {
             "s.pc2: has 4 vertices, m2.obj has 5; the frames of a body need the same number",
         ),
         ("m2.obj+s.mdd", "s.mdd: has 4 vertices, m2.obj has 5"),
-        ("bad.obj+s.pc2", "bad.obj, line 1: expected a coordinate"),
+        (
+            "bad.obj+s.pc2",
+            "bad.obj, line 1: a vertex has two coordinates",
+        ),
         ("gone.obj+s.pc2", "gone.obj: no such file"),
         ("m.obj+gone.pc2", "gone.pc2: no such file"),
         ("s.mdd+s.pc2", "s.mdd: holds positions but no faces"),

@@ -89,7 +89,7 @@ fn what_is_wrong_is_said() {
         (|square| square.corners[3] = 4, "4"),
         (|square| square.counts[0] = 5, "fewer corners"),
         (|square| square.counts[0] = 3, "more corners"),
-        (|square| square.counts[0] = 2, "2"),
+        (|square| square.counts[0] = 1, "1 corners"),
         (
             |square| square.frames[1] = Err("the sun is down".into()),
             "the sun is down",

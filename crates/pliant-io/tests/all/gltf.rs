@@ -385,7 +385,7 @@ fn what_is_wrong_is_said_in_a_line() {
         ),
         ("/asset/version", json!("1.0"), "only version 2"),
         ("/scene", json!(1), "scene 1 does not exist"),
-        ("/scenes", json!([]), "has no scene"),
+        ("/scenes", json!([]), "scene 0 does not exist"),
         (
             "/scenes/0/nodes/0",
             json!(9),

@@ -8,6 +8,7 @@ mod evaluated;
 mod gltf;
 mod groups;
 mod hostile;
+mod lenient;
 mod n_of_m;
 mod npz;
 mod real_files;

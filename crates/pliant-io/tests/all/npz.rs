@@ -146,7 +146,7 @@ fn indices_out_of_range_are_quoted_as_they_are() {
     let message = |index: &str, but: &str| {
         format!("a.npz, array `faces`: face 1 uses vertex {index}, but {but}")
     };
-    let impossible = "no vertex can have that number";
+    let impossible = "the vertices are numbered 0 to 3 here";
     assert_eq!(
         with("<u4", &4_u32.to_le_bytes()),
         message("4", "the vertices are numbered 0 to 3 here")
@@ -235,7 +235,7 @@ fn arrays_of_other_kinds_are_refused_with_advice() {
         |array: Vec<u8>| error(npz(STORED, &[("vertices", array), ("faces", faces())]));
     let with_faces =
         |array: Vec<u8>| error(npz(STORED, &[("vertices", vertices(3)), ("faces", array)]));
-    for dtype in ["<f2", "<c8", "|O", "<i4", "|b1", "<f16", "<U3"] {
+    for dtype in ["<c8", "|O", "<i3", "|b1", "<f16", "<U3"] {
         let message = with_vertices(npy(dtype, false, &[4, 3], &data));
         assert_eq!(
             message,
@@ -253,13 +253,14 @@ fn arrays_of_other_kinds_are_refused_with_advice() {
             )
         );
     }
-    assert!(
-        with_vertices(npy("<f4", true, &[4, 3], &data))
-            .contains("save np.ascontiguousarray(vertices)")
-    );
-    assert!(
-        with_faces(npy("<u4", true, &[2, 3], &data)).contains("save np.ascontiguousarray(faces)")
-    );
+    for (shape, data) in [
+        ([2, 3], &data[..20]),
+        ([2, 3], &data[..28]),
+        ([0, 3], &data),
+    ] {
+        let message = with_faces(npy("<u4", true, &shape, data));
+        assert!(message.starts_with("a.npz, array `faces`: ends too early: the shape needs "));
+    }
     for shape in [&[][..], &[12], &[3, 4], &[1, 4, 4], &[1, 1, 4, 3]] {
         assert!(
             with_vertices(npy("<f4", false, shape, &data))
@@ -286,8 +287,8 @@ fn arrays_of_other_kinds_are_refused_with_advice() {
 #[test]
 fn missing_arrays_are_named() {
     assert_eq!(
-        error(npz(STORED, &[("verts", vertices(3)), ("faces", faces())])),
-        "a.npz: has no array `vertices`; save it as numpy.savez(file, vertices=..., faces=...); it holds: verts, faces"
+        error(npz(STORED, &[("points", vertices(3)), ("faces", faces())])),
+        "a.npz: has no array `vertices`; save it as numpy.savez(file, vertices=..., faces=...); it holds: points, faces"
     );
     assert!(
         error(npz(STORED, &[("vertices", vertices(3))]))

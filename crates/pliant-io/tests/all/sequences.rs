@@ -75,13 +75,13 @@ fn frames_may_be_files_of_different_kinds() {
 fn what_names_nothing_readable_is_an_error() {
     let folder = Folder::new();
     folder
-        .write("t.npy", "")
+        .write("t.npt", "")
         .write("t.obj", "")
         .write("t.ply", "")
         .write("t.npz", "")
         .write("cut.obj", "v 0 0");
     std::fs::create_dir(folder.path().join("d.obj")).unwrap();
-    let readable = "a frame a file: .obj, .ply, .stl; a sequence a file: .npz, .glb, .gltf; positions beside a mesh: 'mesh.obj+positions.pc2', .mdd";
+    let readable = "a frame a file: .obj, .ply, .stl; a sequence a file: .npz, .glb, .gltf, .vrm; positions beside a mesh: 'mesh.obj+positions.pc2', .mdd, .npy";
     assert_eq!(folder.error("none.obj"), "none.obj: no such file");
     assert_eq!(
         folder.error("none_*.obj"),
@@ -98,19 +98,19 @@ fn what_names_nothing_readable_is_an_error() {
         "d.obj: is a directory; name a file, or a pattern such as 'frame_*.obj'"
     );
     assert_eq!(
-        folder.error("t.npy"),
-        format!("t.npy: this kind of file cannot be read; what can: {readable}")
+        folder.error("t.npt"),
+        format!("t.npt: this kind of file cannot be read; what can: {readable}")
     );
     assert_eq!(
-        folder.error("t.np*"),
-        format!("t.npy: this kind of file cannot be read; what can: {readable}")
+        folder.error("t.npt*"),
+        format!("t.npt: this kind of file cannot be read; what can: {readable}")
     );
     assert_eq!(folder.error("t.obj"), "t.obj: holds no vertices");
     assert_eq!(folder.error("t.ply"), "t.ply: is empty");
     assert!(folder.error("t.npz").starts_with("t.npz: not an NPZ file"));
     assert_eq!(
         folder.error("cut.obj"),
-        "cut.obj, line 1: expected a coordinate, found the end of the line"
+        "cut.obj, line 1: a vertex has two coordinates; pliant needs three"
     );
     for argument in [
         "",

@@ -103,7 +103,10 @@ fn a_seam_that_opens_later_is_open_there() {
     let parted = body.parted_seams().unwrap();
     // It stands for others in the first frame.
     assert!(parted.vertices[0] == 7 && parted.positions[0] == moved);
-    assert!(parted.farthest > 1e-10 && parted.farthest < 1e-9, "{parted:?}");
+    assert!(
+        parted.farthest > 1e-10 && parted.farthest < 1e-9,
+        "{parted:?}"
+    );
     body.rewind().unwrap();
     body.next_frame().unwrap();
     assert_eq!(body.parted_seams(), None);

@@ -175,6 +175,7 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
             Some("name a file that `pliant check --format json` wrote of these bodies")
         }
         Error::PiecesChanged { .. } => Some("check it as a whole, without split="),
+        Error::NoGroups { .. } => Some("give split=\"components\" for its connected pieces"),
         Error::PiecesOfGroup { .. } => Some("split the whole file"),
         Error::NamedTwice { .. } => Some("name it once"),
         Error::NoClip => Some("leave out clip="),

@@ -151,6 +151,13 @@ impl Bodies {
             starts.push(count);
             parts.extend(into.map(|into| (number, into)));
         }
+        if split == Some(Split::Groups) && parts.is_empty() {
+            // Not where others are split, beside which it is one body.
+            let why = |source: &Source| Some((source.name().to_owned(), source.why_no_groups()?));
+            if let Some((source_name, why)) = sources.iter().find_map(why) {
+                return Err(Error::NoGroups { source_name, why });
+            }
+        }
         Ok(Self { parts, starts })
     }
 

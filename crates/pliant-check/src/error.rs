@@ -85,6 +85,14 @@ pub enum Error {
         /// What was wrong.
         error: pliant::Error,
     },
+    /// Sources are to be split into groups, and none can be.
+    #[error("{}: cannot be split into groups: {why}", shown(source_name))]
+    NoGroups {
+        /// The first that cannot be.
+        source_name: String,
+        /// Why.
+        why: &'static str,
+    },
     /// A list of pairs would take more memory than it may.
     #[error(
         "frame {frame}: more than {most} pairs are found, and their list needs more memory than is allowed"

@@ -161,7 +161,14 @@ impl Parted {
     /// A tolerance that keeps together what is apart by rounding: 1e-6, or more where seams are known to be nearly closed.
     pub fn tolerance(&self) -> f64 {
         let farthest = self.seams.farthest;
-        f64::max(1e-6, if farthest < NEARLY { tolerance(farthest) } else { 0.0 })
+        f64::max(
+            1e-6,
+            if farthest < NEARLY {
+                tolerance(farthest)
+            } else {
+                0.0
+            },
+        )
     }
 }
 

@@ -84,6 +84,9 @@ fn checking(error: &CheckError) -> Option<&'static str> {
             Some("name a file that `pliant check --format json` wrote of these bodies")
         }
         CheckError::PiecesChanged { .. } => Some("check it as a whole, without `--split`"),
+        CheckError::NoGroups { .. } => {
+            Some("split it into its connected pieces with `--split components`")
+        }
         CheckError::PiecesOfGroup { .. } => {
             Some("split the whole file, or write the group to one of its own with `pliant convert`")
         }

@@ -1,4 +1,4 @@
-//! An argument is a file, a pattern whose files are the frames, a body of a glTF file, a group of an OBJ file or of a pattern of them,
+//! An argument is a file, a pattern whose files are the frames, a body of a glTF file, a group of an OBJ or STL file or of a pattern of them,
 //! or a mesh with a cache of its positions.
 //!
 //! ```text
@@ -56,7 +56,8 @@ pub(crate) fn named(argument: &str) -> Result<Named, Error> {
     }
 }
 
-/// The file, or the pattern of files, and the name, of an argument that names a group of an OBJ file, `scan.obj#arm`. Arguments
+/// The file, or the pattern of files, and the name, of an argument that names a group of an OBJ file, `scan.obj#arm`, or a solid of an
+/// STL file. Arguments
 /// that name groups of one file are best opened as one body, the file: triangles that share a vertex are then known to.
 ///
 /// ```

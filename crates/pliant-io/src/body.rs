@@ -25,7 +25,7 @@ use crate::near::{self, NearSeams};
 use crate::note::Note;
 use crate::positions::{Positions, Precision};
 use crate::weld::{PartedSeams, Seams, Welding};
-use crate::{cache, gltf, obj};
+use crate::{cache, gltf, obj, stl};
 
 /// How to read a body.
 ///
@@ -422,7 +422,20 @@ impl Body {
         self.mesh_may_change = self.part.is_none();
     }
 
-    /// The groups of an OBJ file, of the first where there are several, of the mesh where positions stand beside one. The file is read
+    /// Why the file cannot have [`groups`](Self::groups), where it is one whose format names none.
+    pub fn why_no_groups(&self) -> Option<&'static str> {
+        let file = self.mesh_file.as_deref();
+        let file = file.unwrap_or(&self.files[0].found);
+        match Format::of(file.path()) {
+            _ if self.files[0].format == Format::Evaluated => None,
+            Ok(Format::Ply) => Some("a PLY file names no groups of its faces"),
+            Ok(Format::Npz) => Some("an NPZ file names no groups of its faces"),
+            Ok(Format::Stl) => Some("no solid of it has a name, or it is binary and is one solid"),
+            _ => None,
+        }
+    }
+
+    /// The groups of an OBJ file, or of an STL file, of the first where there are several, of the mesh where positions stand beside one. The file is read
     /// once more for them, and is to be as it was. No names where it has none, and in every other format.
     ///
     /// # Errors
@@ -441,7 +454,11 @@ impl Body {
             }
             let mut naming = Naming::new(self.first.frame.account().clone());
             let mut input = BufReader::with_capacity(1 << 16, file.open()?);
-            let named = obj::name_faces(&mut input, &mut naming);
+            let length = input.get_ref().length();
+            let named = match Format::of(file.path())? {
+                Format::Stl => stl::name_faces(&mut input, length, &mut naming),
+                _ => obj::name_faces(&mut input, &mut naming),
+            };
             // First: what looks wrong may be half of a change.
             input.get_ref().unchanged()?;
             named?;

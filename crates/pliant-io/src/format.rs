@@ -110,7 +110,7 @@ impl Format {
 
     /// Whether a file may name groups of its triangles.
     pub(crate) fn holds_groups(self) -> bool {
-        self == Self::Obj
+        matches!(self, Self::Obj | Self::Stl)
     }
 
     /// Whether a file holds positions alone.

@@ -1,4 +1,4 @@
-//! Groups of an OBJ file: which of its triangles `o` and `g` give a name, and which name.
+//! Groups of an OBJ file: which of its triangles `o` and `g` give a name, and which name. And the solids of an STL file of text.
 //!
 //! ```text
 //! f ...           default            nothing was named yet
@@ -13,11 +13,12 @@
 //! it wrote. What has the same name is one group, however often it comes back. A name stands for its group and for what is below it:
 //! `shirt` for `shirt/collar` too. A name that is not UTF-8 is read as Latin-1, so that different names stay different.
 //!
+//! Every solid is a group of its own. One without a name, or with that of an earlier one, has its number in it: `solid 2`, `lid (solid 3)`.
+//!
 //! Groups are found by reading the file once more, when they are asked for: whoever does not ask pays nothing. A name is kept when
 //! the first face has it, so groups without faces are none; what is kept is counted before it is.
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -31,7 +32,7 @@ const DEFAULT: &str = "default";
 /// What a map takes for an entry, roughly, beside the bytes of a name.
 const ENTRY: u64 = 96;
 
-/// The groups of an OBJ file.
+/// The groups of an OBJ file, or of an STL file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Groups {
     file: Arc<Path>,
@@ -99,15 +100,37 @@ pub(crate) fn holds_one_body(name: &str) -> Reason {
 pub(crate) struct Naming {
     account: Account,
     object: Standing,
-    group: Standing,
+    group: String,
     /// The number of what the object and the group together are called; none until a face asks.
     number: Option<u32>,
-    numbers: HashMap<[u32; 2], u32>,
-    /// Numbers of objects and groups, as they were numbered.
-    pairs: Vec<[u32; 2]>,
+    /// Numbers of objects, by their names.
+    objects: HashMap<Arc<str>, u32>,
+    /// Numbers of what faces were called, by the number of the object, as four characters, and the name of the group.
+    numbers: HashMap<Arc<str>, u32>,
+    /// The same, as they were numbered, with the names of the objects.
+    called: Vec<(Arc<str>, Arc<str>)>,
+    /// The names of solids.
+    solids: HashSet<String>,
+    are_named: bool,
+    /// Reused.
+    key: String,
     /// Where it changes: the number of a face, and what it and those behind it are called.
     runs: Vec<(u32, u32)>,
     faces: u32,
+}
+
+/// The name of an object that stands until the next.
+#[derive(Default)]
+struct Standing {
+    name: Arc<str>,
+    /// None until a face asks.
+    number: Option<u32>,
+}
+
+/// A number as characters: as many for each number.
+fn characters(number: u32) -> impl Iterator<Item = char> {
+    let digits = number.to_be_bytes().into_iter();
+    digits.map(char::from)
 }
 
 impl Naming {
@@ -116,10 +139,14 @@ impl Naming {
         Self {
             account,
             object: Standing::default(),
-            group: Standing::default(),
+            group: String::new(),
             number: None,
+            objects: HashMap::new(),
             numbers: HashMap::new(),
-            pairs: Vec::new(),
+            called: Vec::new(),
+            solids: HashSet::new(),
+            are_named: false,
+            key: String::new(),
             runs: Vec::new(),
             faces: 0,
         }
@@ -127,18 +154,39 @@ impl Naming {
 
     /// Begins an object; without a name, ends one.
     pub(crate) fn object(&mut self, name: String) {
-        self.object.set(name);
-        self.group.set(String::new());
+        self.object = Standing {
+            name: name.into(),
+            number: None,
+        };
+        self.group.clear();
         self.number = None;
     }
 
     /// Begins a group of the object; without a name, ends one.
     pub(crate) fn group(&mut self, mut name: String) {
-        if name == DEFAULT || name == self.object.name {
+        if name == DEFAULT || *name == *self.object.name {
             name.clear();
         }
-        self.group.set(name);
+        self.group = name;
         self.number = None;
+    }
+
+    /// Begins the solid of this number, a group that no earlier one is.
+    pub(crate) fn solid(&mut self, name: String, number: u32) -> Result<(), Reason> {
+        let is_named = !name.is_empty();
+        let mut own = if is_named {
+            name
+        } else {
+            format!("solid {number}")
+        };
+        while !self.solids.insert(own.clone()) {
+            own.push_str(&format!(" (solid {number})"));
+        }
+        self.account.enter(own.len() as u64 + ENTRY)?;
+        self.are_named |= is_named;
+        self.group = own;
+        self.number = None;
+        Ok(())
     }
 
     /// Takes a face.
@@ -158,18 +206,42 @@ impl Naming {
 
     /// The number of what is named now.
     fn number(&mut self) -> Result<u32, Reason> {
-        let object = self.object.number(&mut self.account)?;
-        let group = self.group.number(&mut self.account)?;
-        let number = match self.numbers.entry([object, group]) {
-            Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(place) => {
-                self.account.enter(ENTRY)?;
-                let number = self.pairs.len() as u32;
-                self.account.push(&mut self.pairs, [object, group], 0)?;
-                *place.insert(number)
+        let object = match self.object.number {
+            Some(number) => number,
+            None => self.number_of_object()?,
+        };
+        self.key.clear();
+        self.key.extend(characters(object));
+        self.key.push_str(&self.group);
+        let number = match self.numbers.get(&*self.key) {
+            Some(&known) => known,
+            None => {
+                self.account.enter(self.key.len() as u64 + ENTRY)?;
+                let (number, key) = (self.called.len() as u32, Arc::<str>::from(&*self.key));
+                let called = (self.object.name.clone(), key.clone());
+                self.account.push(&mut self.called, called, 0)?;
+                self.numbers.insert(key, number);
+                number
             }
         };
         self.number = Some(number);
+        Ok(number)
+    }
+
+    /// The number of the object; the same name has the same.
+    fn number_of_object(&mut self) -> Result<u32, Reason> {
+        let Self {
+            object, objects, ..
+        } = self;
+        if let Some((name, _)) = objects.get_key_value(&*object.name) {
+            object.name = name.clone();
+        } else {
+            self.account.enter(object.name.len() as u64 + ENTRY)?;
+            let number = objects.len() as u32;
+            objects.insert(object.name.clone(), number);
+        }
+        let number = objects[&*object.name];
+        object.number = Some(number);
         Ok(number)
     }
 
@@ -182,40 +254,45 @@ impl Naming {
     ) -> Result<Groups, Reason> {
         let Self {
             mut account,
-            object,
-            group,
-            pairs,
+            called,
             runs,
             faces,
+            numbers: by_key,
+            objects,
+            solids,
+            are_named,
             ..
         } = self;
+        let solids_are = solids.len();
+        drop((by_key, objects, solids));
         let last = polygons.map_or(triangles.checked_sub(1), |it| {
             it.last().map(|&p| p as usize)
         });
         if last != (faces as usize).checked_sub(1) {
             return Err(Reason::Changed);
         }
-        let (object, group) = (object.in_order(), group.in_order());
         let mut names = Vec::new();
-        let mut known: HashMap<String, u32> = HashMap::new();
+        let mut known: HashMap<Arc<str>, u32> = HashMap::new();
         let mut numbers = Vec::new();
-        for [of_object, of_group] in pairs {
-            let [object, group] = [&object[of_object as usize], &group[of_group as usize]];
+        for (object, key) in called {
+            let behind = key.char_indices().nth(4).map_or(key.len(), |(at, _)| at);
+            let group = &key[behind..];
             // Before the name is made: that of one object may be that of very many groups.
             account.enter(2 * (object.len() + group.len()) as u64 + ENTRY)?;
-            let name = match (&**object, &**group) {
-                ("", "") => DEFAULT.to_owned(),
-                (name, "") | ("", name) => name.to_owned(),
-                (object, group) => format!("{object}/{group}"),
+            let name: Arc<str> = match (&*object, group) {
+                ("", "") => DEFAULT.into(),
+                (name, "") | ("", name) => name.into(),
+                (object, group) => format!("{object}/{group}").into(),
             };
-            let next = names.len() as u32;
+            let next = known.len() as u32;
             let number = *known.entry(name).or_insert_with_key(|name| {
-                names.push(name.clone());
+                names.push(name.to_string());
                 next
             });
             account.push(&mut numbers, number, 0)?;
         }
-        if names == [DEFAULT] {
+        let is_one_solid = solids_are == 1 && !are_named;
+        if names == [DEFAULT] || is_one_solid {
             return Ok(Groups::none(file));
         }
         account.enter(triangles as u64 * size_of::<u32>() as u64)?;
@@ -238,49 +315,11 @@ impl Naming {
     }
 }
 
-/// A name that stands until the next of its kind, and those that faces had.
-#[derive(Default)]
-struct Standing {
-    name: String,
-    /// None until a face asks.
-    number: Option<u32>,
-    numbers: HashMap<Arc<str>, u32>,
-}
-
-impl Standing {
-    fn set(&mut self, name: String) {
-        self.name = name;
-        self.number = None;
-    }
-
-    fn number(&mut self, account: &mut Account) -> Result<u32, Reason> {
-        if let Some(number) = self.number {
-            return Ok(number);
-        }
-        let next = self.numbers.len() as u32;
-        let known = self.numbers.get(&*self.name).copied();
-        if known.is_none() {
-            account.enter(self.name.len() as u64 + ENTRY)?;
-            self.numbers.insert((&*self.name).into(), next);
-        }
-        let number = known.unwrap_or(next);
-        self.number = Some(number);
-        Ok(number)
-    }
-
-    /// The names, by their numbers.
-    fn in_order(self) -> Vec<Arc<str>> {
-        let mut names: Vec<(Arc<str>, u32)> = self.numbers.into_iter().collect();
-        names.sort_unstable_by_key(|&(_, number)| number);
-        names.into_iter().map(|(name, _)| name).collect()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::error::Fault;
-    use crate::obj;
+    use crate::{obj, stl};
 
     fn groups_within(limit: u64, text: impl AsRef<[u8]>) -> Result<Groups, Fault> {
         let mut naming = Naming::new(Account::new(limit));
@@ -371,6 +410,44 @@ mod tests {
         ] {
             assert_eq!(named(text), names, "{text}");
         }
+    }
+
+    #[test]
+    fn solids_are_groups_of_their_own() {
+        let facet =
+            "facet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+        let named = |text: &str| {
+            let mut naming = Naming::new(Account::new(1 << 20));
+            stl::name_faces(text.as_bytes(), text.len() as u64, &mut naming).unwrap();
+            let faces = naming.faces as usize;
+            let groups = naming.end(Path::new("a.stl").into(), None, faces);
+            let Groups {
+                names,
+                of_triangles,
+                ..
+            } = groups.unwrap();
+            let name = |&group: &u32| names[group as usize].clone();
+            of_triangles.iter().map(name).collect::<Vec<_>>()
+        };
+        for (solids, names) in [
+            (&["a", "left  cuff", "b"][..], &["a", "left cuff", "b"][..]),
+            (&["", "", ""], &["solid 1", "solid 2", "solid 3"]),
+            (&["a", "a", ""], &["a", "a (solid 2)", "solid 3"]),
+            (&["solid 2", ""], &["solid 2", "solid 2 (solid 2)"]),
+            (&["default", "a"], &["default", "a"]),
+            (&["a"], &["a"]),
+            (&[""], &[]),
+        ] {
+            for end in ["endsolid", "END SOLID", "end solid x"] {
+                let solid = |name: &&str| format!("SOLID {name}\n{facet}{end}\n");
+                let text: String = solids.iter().map(solid).collect();
+                assert_eq!(named(&text), names, "{text}");
+            }
+        }
+        // Of two triangles each, the first without any.
+        let text =
+            format!("solid x\nendsolid\nsolid a\n{facet}{facet}endsolid\nsolid b\n{facet}{facet}");
+        assert_eq!(named(&text), ["a", "a", "b", "b"]);
     }
 
     #[test]

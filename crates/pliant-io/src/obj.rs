@@ -64,8 +64,14 @@ pub(crate) fn name_faces(input: impl BufRead, naming: &mut Naming) -> Result<(),
 }
 
 /// All `words`, a `#` in them too: `o Cube #2` is not `o Cube #3`.
-fn name<'a>(words: impl Iterator<Item = &'a [u8]>) -> String {
-    let name = words.collect::<Vec<_>>().join(&b' ');
+pub(crate) fn name<'a>(words: impl Iterator<Item = &'a [u8]>) -> String {
+    let mut name = Vec::new();
+    for word in words {
+        if !name.is_empty() {
+            name.push(b' ');
+        }
+        name.extend_from_slice(word);
+    }
     String::from_utf8(name).unwrap_or_else(|no_text| {
         let bytes = no_text.as_bytes().iter();
         bytes.map(|&latin| char::from(latin)).collect()

@@ -12,7 +12,9 @@ use std::io::{self, BufRead, Read as _};
 
 use crate::error::{Fault, Place, Reason};
 use crate::frame::{Announced, Complete, Frame};
+use crate::groups::Naming;
 use crate::note::Note;
+use crate::obj::name;
 use crate::positions::Precision;
 use crate::text::{Lines, expected, number, two_coordinates, words};
 
@@ -203,6 +205,42 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
         return Err(Reason::Truncated(format!("\"{end}\" is missing")).at(lines.place()));
     }
     frame.complete(0)
+}
+
+/// Reads the names of solids, of a file that was read before; those of a binary file, which names none, and of one that names one
+/// without a name, are none. A solid without a name, or with that of an earlier one, is called by its number, from 1.
+pub(crate) fn name_faces(
+    mut input: impl BufRead,
+    length: u64,
+    naming: &mut Naming,
+) -> Result<(), Fault> {
+    let mut head = Vec::with_capacity(HEAD);
+    input.by_ref().take(HEAD as u64).read_to_end(&mut head)?;
+    let count = head
+        .get(80..HEAD)
+        .map_or([0; 4], |count| std::array::from_fn(|at| count[at]));
+    let triangles = u32::from_le_bytes(count);
+    let is_binary = length == HEAD as u64 + TRIANGLE as u64 * u64::from(triangles);
+    if is_binary || !is_text(&head) {
+        for _ in 0..triangles {
+            naming.face()?;
+        }
+        return Ok(());
+    }
+    let mut lines = Lines::new((&head[..]).chain(input));
+    let mut solids = 0_u32;
+    while lines.advance()? {
+        let mut words = words(lines.line());
+        let Some(word) = words.next() else { continue };
+        let at = |reason: Reason| reason.at(lines.place());
+        if word.eq_ignore_ascii_case(b"solid") {
+            solids += 1;
+            naming.solid(name(words), solids).map_err(at)?;
+        } else if word.eq_ignore_ascii_case(b"endfacet") {
+            naming.face().map_err(at)?;
+        }
+    }
+    Ok(())
 }
 
 fn triangle_of_the_last_three(frame: &mut Frame, place: impl Fn() -> Place) -> Result<(), Fault> {

@@ -36,6 +36,9 @@ pub(crate) struct Check {
     is_warned: AtomicBool,
     raised: Raised,
     weld_tolerance: f64,
+    /// What to say at the end, if nothing is found until then.
+    unlike_sizes: Option<String>,
+    has_found: AtomicBool,
 }
 
 /// A body or a group, as it is named: by its name, or a body by its number.
@@ -99,8 +102,8 @@ impl Name {
 }
 
 /// Checks files as the program `pliant check` does: each path is a body, a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with
-/// its positions ("mesh.obj+walk.pc2", .mdd), or a pattern such as "cloth_*.obj" whose files are its frames; of a glTF file (.glb,
-/// .gltf) each body, or one ("scene.glb#arm"); a group of an OBJ file or of a pattern ("scan.obj#arm"); of a USD file (.usd, .usda, .usdc, .usdz; pip install 'pliant[usd]') each mesh that is
+/// its positions ("mesh.obj+walk.pc2", .mdd, .npy), or a pattern such as "cloth_*.obj" whose files are its frames; of a glTF file (.glb,
+/// .gltf, .vrm) each body, or one ("scene.glb#arm"); a group of an OBJ file, a solid of an STL file or of a pattern ("scan.obj#arm"); of a USD file (.usd, .usda, .usdc, .usdz; pip install 'pliant[usd]') each mesh that is
 /// seen, or those at or below a prim ("walk.usdc#/scene/shirt"). Returns an iterator of frames, each read and checked when it is asked for.
 ///
 ///   itself    check each body against itself too; one body alone always is
@@ -114,7 +117,7 @@ impl Name {
 ///   first     stop at the first pair of each frame; of what meets on the way to the next, the first
 ///   weld      weld vertices where boundary edges coincide, in each frame; else seams are intersections
 ///   split     "components": each connected piece of a file is a body, "cloth.ply#1", "cloth.ply#2", ... in the order of their
-///             lowest triangle; "groups": each group of an OBJ file, by o and g, is one, "scan.obj#arm", and what has none one body;
+///             lowest triangle; "groups": each group of an OBJ file, by o and g, is one, "scan.obj#arm", each solid of an STL file too, and what has none one body;
 ///             triangles keep the numbers that they have in the file, and those that share a vertex of it are left out
 ///   groups    names for several bodies, {"soft": ["shirt.ply", 2]}, to be used in ignore; a body has the name of its path
 ///             ("scene.glb#arm"; "scene.glb" stands for all bodies of it, "scan.obj#arm" for "scan.obj#arm/hand" too), or its number
@@ -218,6 +221,13 @@ pub(crate) fn check(
         })
     });
     let running = raised.rather(running)?;
+    let unlike_sizes = running.unlike_sizes().map(|[(large, most), (small, least)]| {
+        format!(
+            "nothing was found, and the longest side of {} is {most:.3e}, that of {} {least:.3e}: are they of one unit?",
+            shown(large),
+            shown(small)
+        )
+    });
     for source in running.sources() {
         for note in source.notes() {
             warn(py, &format!("{}: {note}", shown(source.name())))?;
@@ -231,6 +241,8 @@ pub(crate) fn check(
         waiting: Mutex::new(None),
         raised,
         weld_tolerance,
+        unlike_sizes,
+        has_found: AtomicBool::new(false),
     })
 }
 
@@ -267,6 +279,10 @@ impl Check {
             return Ok(None);
         };
         let ((found, meshes), interval) = found;
+        let has_met = interval.as_ref().is_some_and(|interval| interval.count > 0);
+        if found.count > 0 || has_met {
+            self.has_found.store(true, Ordering::Relaxed);
+        }
         let changed = PyDict::new(py);
         for (
             number,
@@ -374,7 +390,9 @@ impl Check {
                     at_seams.tolerance()
                 ))
             });
-            Ok(at_seams.chain(parted).collect::<Vec<_>>())
+            let sizes = self.unlike_sizes.clone();
+            let sizes = sizes.filter(|_| !self.has_found.load(Ordering::Relaxed));
+            Ok(at_seams.chain(parted).chain(sizes).collect::<Vec<_>>())
         })?;
         for text in said {
             warn(py, &text)?;

@@ -157,16 +157,73 @@ def test_seams_are_welded_unless_told_otherwise(tmp_path: Path) -> None:
     assert apart.bodies[0].welded == 0 and next(apart).count > 0
 
 
-def test_advice_is_in_keywords_of_python(tmp_path: Path) -> None:
-    # Two triangles whose edges coincide in the first frame, and not in the second.
+def test_a_seam_that_parts_is_open_there_and_said_once(tmp_path: Path) -> None:
+    # Two triangles whose edges coincide, then differ by a rounding, then are far apart.
     closed = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 0], [0, -1, 0]], np.float32)
-    opened = closed.copy()
-    opened[4, 0] = 0.25
-    np.savez(tmp_path / "seam.npz", vertices=np.stack([closed, opened]), faces=np.arange(6).reshape(-1, 3))
-    with pytest.raises(pliant.Error, match="vertices 0 and 4 were welded, .* but are apart here; give weld=False$") as refused:
-        list(pliant.check(tmp_path / "seam.npz"))
-    assert (refused.value.kind, refused.value.place) == ("CannotRead", "frame 1")
-    assert len(list(pliant.check(tmp_path / "seam.npz", weld=False))) == 2
+    frames = np.stack([closed] * 4)
+    frames[1, 4, 1] = 1e-7
+    frames[2, 3:, 1] -= 5
+    np.savez(tmp_path / "seam.npz", vertices=frames, faces=np.arange(6).reshape(-1, 3))
+    checked = pliant.check(tmp_path / "seam.npz", swept=True)
+    words = "2 vertices that seams join in the first frame are apart in frame 2, as some are in 2 frames, 1 to 2: .*weld_tolerance=1e-6 keeps"
+    with pytest.warns(UserWarning, match=words) as warned:
+        found = list(checked)
+    assert [frame.count for frame in found] == [0, 1, 0, 0]
+    assert all(frame.changed == {} and (frame.interval is None or frame.interval.changed == ()) for frame in found)
+    assert len([it for it in warned if "seams join" in str(it.message)]) == 1
+    with pytest.warns(UserWarning, match="apart in frame 2: .* the seam is open there$"):
+        assert [frame.count for frame in pliant.check(tmp_path / "seam.npz", weld_tolerance=1e-6)] == [0] * 4
+    frame_alone = tmp_path / "one.npz"
+    np.savez(frame_alone, vertices=frames[1], faces=np.arange(6).reshape(-1, 3))
+    with pytest.warns(UserWarning, match="nearly coincide"):
+        assert [frame.count for frame in pliant.check(frame_alone)] == [1]
+
+
+def test_arrays_and_files_that_people_have_are_read_and_that_is_said(tmp_path: Path) -> None:
+    faces, positions = grid(3)
+    frames = np.stack([positions, positions + 1])
+    for written, words in [
+        ({"verts": frames, "faces": faces}, "the one called `verts`"),
+        ({"v": frames, "f": faces}, "the one called `f`"),
+        ({"vertices": np.asfortranarray(frames), "faces": faces}, "Fortran order"),
+        ({"vertices": frames, "faces": np.asfortranarray(faces)}, "the array of faces is in Fortran order"),
+        ({"vertices": frames.astype(np.float16), "faces": faces}, "float32"),
+        ({"vertices": (frames * 9).astype(np.int64), "faces": faces}, "float64"),
+    ]:
+        np.savez(tmp_path / "a.npz", **written)
+        with pytest.warns(UserWarning, match=words):
+            checked = pliant.check(tmp_path / "a.npz")
+        assert [frame.count for frame in checked] == [0, 0], words
+    obj(tmp_path / "mesh.obj", positions, faces)
+    np.save(tmp_path / "walk.npy", frames)
+    assert [frame.count for frame in pliant.check(f"{tmp_path / 'mesh.obj'}+{tmp_path / 'walk.npy'}")] == [0, 0]
+    (tmp_path / "lfs.ply").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n")
+    with pytest.raises(pliant.Error, match="Git LFS pointer"):
+        pliant.check(tmp_path / "lfs.ply")
+    (tmp_path / "a.fbx").write_text("x")
+    with pytest.raises(pliant.Error, match="export glTF"):
+        pliant.check(tmp_path / "a.fbx")
+    facet = "facet\nouter loop\nvertex {0} 0 0\nvertex 1 0 {0}\nvertex 0 1 0\nendloop\nendfacet\n"
+    (tmp_path / "two.stl").write_text(f"solid a\n{facet.format(0)}end solid\nsolid a\n{facet.format(9)}")
+    with pytest.warns(UserWarning, match="end solid"):
+        checked = pliant.check(tmp_path / "two.stl", split="groups")
+    assert [body.name.split("#")[1] for body in checked.bodies] == ["a", "a (solid 2)"]
+    np.savez(tmp_path / "a.npz", vertices=frames, faces=faces)
+    with pytest.raises(pliant.Error, match='names no groups of its faces; give split="components"'):
+        pliant.check(tmp_path / "a.npz", split="groups")
+
+
+def test_bodies_of_other_units_are_said_if_nothing_is_found(tmp_path: Path) -> None:
+    faces, positions = grid(2)
+    obj(tmp_path / "a.obj", positions, faces)
+    obj(tmp_path / "b.obj", positions * 1000 + [0, 0, 5], faces)
+    with pytest.warns(UserWarning, match="b.obj is .* that of .*a.obj .*: are they of one unit"):
+        assert [frame.count for frame in pliant.check(tmp_path / "a.obj", tmp_path / "b.obj")] == [0]
+
+
+def test_advice_is_in_keywords_of_python(tmp_path: Path) -> None:
+    closed = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [0, 0, 0], [0, -1, 0]], np.float32)
+    np.savez(tmp_path / "seam.npz", vertices=np.stack([closed, closed]), faces=np.arange(6).reshape(-1, 3))
 
     # A mesh of two frames beside positions of one.
     (tmp_path / "one.mdd").write_bytes(struct.pack(">iif", 1, 6, 0) + closed.astype(">f4").tobytes())

@@ -20,6 +20,7 @@ use crate::touching::{BYTES_OF_TOUCHING, only_touch};
 use crate::with_world;
 use pliant::{ContactKind, ErrorKind, Query, Selection};
 use pliant_io::{Body as Source, OpenOptions};
+use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 
 /// The caller's "stop now?".
@@ -63,6 +64,22 @@ fn unless<'q, H: Copy>(stop: Option<Question<'q>>, query: Query<'q, H>) -> Query
         Some(stop) => query.interrupt_if(stop),
         None => query,
     }
+}
+
+/// So many times as large another body may be, before that is remarkable.
+const MOST_UNLIKE: f64 = 100.0;
+
+/// The smallest and the largest coordinates of points; the largest and the smallest there are where there is none.
+fn around(points: impl IntoIterator<Item = [f64; 3]>) -> [[f64; 3]; 2] {
+    let none = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    points.into_iter().fold(none, grown)
+}
+
+fn grown([lower, upper]: [[f64; 3]; 2], point: [f64; 3]) -> [[f64; 3]; 2] {
+    [
+        std::array::from_fn(|axis| lower[axis].min(point[axis])),
+        std::array::from_fn(|axis| upper[axis].max(point[axis])),
+    ]
 }
 
 /// What is asked of one frame.
@@ -349,6 +366,66 @@ impl Check {
     /// [`Settings::first`] and [`Settings::listed`], where frames differ in what is wanted of them.
     pub fn ask(&mut self, first: bool, listed: bool) {
         (self.asked.first, self.asked.listed) = (first, listed);
+    }
+
+    /// Reads the first frame that is to be checked, which is checked when it is asked for: the sources are in it.
+    ///
+    /// # Errors
+    ///
+    /// A file cannot be read. No frame follows.
+    pub fn begin(&mut self) -> Result<(), Error> {
+        self.failed = true;
+        self.sequence.read_to(self.frames.start)?;
+        self.failed = false;
+        Ok(())
+    }
+
+    /// The smallest and the largest coordinates of a source, in the frame that it is in.
+    pub fn box_of(&self, source: usize) -> [[f64; 3]; 2] {
+        let source = &self.sequence.sources[source];
+        let corners = source.triangles().as_flattened().iter();
+        around(corners.map(|&vertex| source.positions().get(vertex)))
+    }
+
+    /// The same of each body, in the order of their numbers.
+    pub fn boxes(&self) -> Vec<[[f64; 3]; 2]> {
+        let mut boxes = Vec::with_capacity(self.body_count());
+        for (number, source) in self.sequence.sources.iter().enumerate() {
+            if !self.bodies.is_split(number) {
+                boxes.push(self.box_of(number));
+                continue;
+            }
+            let bodies = self.bodies.of_source(number);
+            boxes.resize(bodies.end as usize, around([]));
+            for (corners, triangle) in source.triangles().iter().zip(0..) {
+                if let Some(body) = self.bodies.of_triangle(number as u32, triangle) {
+                    let known = &mut boxes[body as usize];
+                    for &vertex in corners {
+                        *known = grown(*known, source.positions().get(vertex));
+                    }
+                }
+            }
+        }
+        boxes
+    }
+
+    /// The arguments whose bodies are the largest and the smallest by their longest side, and these sides, in the frame that the sources
+    /// are in; `None` where these do not differ by a hundred times: they may well be of different units.
+    pub fn unlike_sizes(&self) -> Option<[(&str, f64); 2]> {
+        let mut sides: BTreeMap<&str, f64> = BTreeMap::new();
+        for (number, source) in self.sequence.sources.iter().enumerate() {
+            let [lower, upper] = self.box_of(number);
+            let longest = (0..3).map(|axis| upper[axis] - lower[axis]);
+            let longest = longest.fold(0.0, f64::max);
+            let known = sides.entry(source.argument()).or_default();
+            *known = known.max(longest);
+        }
+        // A point has no size that could be of a unit.
+        let sides = || sides.iter().filter(|&(_, &side)| side > 0.0);
+        let by_side = |a: &(&&str, &f64), b: &(&&str, &f64)| a.1.total_cmp(b.1);
+        let two = [sides().max_by(by_side)?, sides().min_by(by_side)?];
+        let [(large, &most), (small, &least)] = two;
+        (most >= MOST_UNLIKE * least).then_some([(*large, most), (*small, least)])
     }
 
     /// Reads the next frame and checks it; `None` after the last.

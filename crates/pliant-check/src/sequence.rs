@@ -36,6 +36,8 @@ pub(crate) struct Sequence {
     pub(crate) given: usize,
     /// The frame behind the one read last, which the sources are in.
     next: usize,
+    /// Whether sources that stand still were read.
+    has_still: bool,
     /// The frame that the world is in.
     shown: Option<usize>,
     /// The frame that its bodies have a motion to.
@@ -70,6 +72,7 @@ impl Sequence {
             widened: Vec::new(),
             ids: Vec::new(),
             next: 0,
+            has_still: false,
             shown: None,
             moves_to: None,
         })
@@ -127,7 +130,7 @@ impl Sequence {
     }
 
     /// Reads a frame of every source, unless they are in it.
-    fn read_to(&mut self, frame: usize) -> Result<(), Error> {
+    pub(crate) fn read_to(&mut self, frame: usize) -> Result<(), Error> {
         if self.next == frame + 1 {
             return Ok(());
         }
@@ -137,10 +140,9 @@ impl Sequence {
             }
             self.next = 0;
         }
-        let begins = self.ids.is_empty();
         for source in &mut self.sources {
             let stands = source.frame_count() == 1;
-            if stands && !begins {
+            if stands && self.has_still {
                 continue;
             }
             if !stands {
@@ -153,6 +155,7 @@ impl Sequence {
             }
         }
         self.next = frame + 1;
+        self.has_still = true;
         Ok(())
     }
 

@@ -47,10 +47,11 @@
 //! |---|---|---|
 //! | `.obj` | one frame: `v`, and the `v` indices of `f`; groups: `o`, `g` | f64, the nearest to what is written |
 //! | `.ply` | one frame: ASCII, binary of either byte order; polygons, or else `tristrips` | as declared: `float` f32, `double` f64 |
-//! | `.stl` | one frame: text or binary, told apart by the length; what follows the triangles is passed over | f32 |
-//! | `.npz` | all frames: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3) | as the array: float32, float64 |
+//! | `.stl` | one frame: text or binary, told apart by the length; what follows the triangles is passed over; groups: solids of text | f32 |
+//! | `.npz` | all frames: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3) | as the array: float32, float64; of others the one that holds them |
 //! | `.pc2`, `.mdd` | positions of all frames, for a mesh of one frame in any other format | f32 |
-//! | `.glb`, `.gltf` | bodies, and animations of which [`OpenOptions::clip`] is evaluated at [`OpenOptions::fps`] | f32 |
+//! | `.npy` | the same, (T, n, 3) or (n, 3) | as `.npz` |
+//! | `.glb`, `.gltf`, `.vrm` | bodies, and animations of which [`OpenOptions::clip`] is evaluated at [`OpenOptions::fps`] | f32 |
 //!
 //! - **Polygons become fans** around their first corner, triangles numbered in file order;
 //!   [`Body::faces`] then says which polygon each triangle is of. Where a fan would be wrong in the first frame, as of polygons
@@ -58,13 +59,14 @@
 //!   themselves stay fans, and [`Body::notes`] says so, as of those that are far from flat.
 //! - **Seams are welded**: files split a vertex where texture coordinates or normals differ, STL
 //!   splits all. Vertices at the two ends of boundary edges that coincide bit for bit in a
-//!   frame become one there; [`Body::parted_seams`] says which of the first are apart in a later one, [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off. In
+//!   frame become one there; [`Body::parted_seams`] says which of the first are apart in a later one,
+//!   [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off. In
 //!   glTF they must coincide at rest, morph targets move them alike to the bit, and each joint hold them alike but for 1e-5 of
 //!   the whole; the smallest vertex then stands for all, and [`Body::notes`] says how many were not alike to the bit.
-//! - **Groups** of an OBJ file have the name of their object (`o`), of their group (`g`), or `object/group`; a name is the rest of
+//! - **Groups** are the solids of an STL file of text. Those of an OBJ file have the name of their object (`o`), of their group (`g`), or `object/group`; a name is the rest of
 //!   its line. Faces without either are of the group `default`; the same name is the same group. `scan.obj#arm` is that group and
 //!   all below it (`arm/hand`), of every file of a pattern; groups are those of the first file.
-//! - **glTF**: the default scene; a body for each node whose mesh has triangles, strips or fans
+//! - **glTF**: the default scene, or all nodes where there is none; a body for each node whose mesh has triangles, strips or fans
 //!   (points and lines have no surface); nodes in nodes, skins, morph targets, sparse accessors;
 //!   steps, lines and cubic splines. Computed in double precision, rounded to f32. Frames at 0,
 //!   1/fps, 2/fps, ... and the clip's end; without animations one, of the file as it rests. Bytes
@@ -91,7 +93,7 @@
 //! | `file.rs` | a file must stay as it was found |
 //! | `format.rs` | which ending is which reader: the one place to add a format |
 //! | `frame.rs`, `positions.rs`, `polygons.rs` | what readers fill, checked: recorded once, then compared |
-//! | `groups.rs` | which triangles of an OBJ file have which name |
+//! | `groups.rs` | which triangles of an OBJ or STL file have which name |
 //! | `obj.rs`, `ply/`, `stl.rs`, `npz/`, `cache.rs`, `gltf/` | one format each |
 //! | `evaluated.rs` | bodies that a program evaluates by itself |
 //! | `write/` | one format each, and files that appear when they are whole |

@@ -29,7 +29,7 @@ use std::path::PathBuf;
     reason = "each is a flag of the program"
 )]
 pub(crate) struct Arguments {
-    /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with its positions (mesh.obj+walk.pc2, .mdd), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj'); each body of a glTF file (.glb, .gltf), or one of them (scene.glb#arm); a group of an OBJ file, or of a pattern (scan.obj#arm)
+    /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with its positions (mesh.obj+walk.pc2, .mdd, .npy), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj'); each body of a glTF file (.glb, .gltf, .vrm), or one of them (scene.glb#arm); a group of an OBJ file, a solid of an STL file, or of a pattern (scan.obj#arm)
     #[arg(value_name = "BODY", required = true, value_hint = ValueHint::FilePath)]
     bodies: Vec<String>,
     /// Check each body against itself too; one body alone always is
@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
     /// Stop at the first pair of each frame; with --within the nearest pair; with --swept the first to meet on the way to the next, too
     #[arg(long)]
     first: bool,
-    /// Make every connected piece of a file a body: FILE#1, FILE#2, ...; or every group of an OBJ file: FILE#NAME; in the order of their lowest triangle. Triangles keep their numbers, and those that share a vertex of the file are left out
+    /// Make every connected piece of a file a body: FILE#1, FILE#2, ...; or every group of an OBJ file, every solid of an STL file: FILE#NAME; in the order of their lowest triangle. Triangles keep their numbers, and those that share a vertex of the file are left out
     #[arg(long, value_enum, value_name = "INTO")]
     split: Option<Split>,
     /// Give several bodies a name, for --ignore; each by its name, or by its number, from 0; a glTF file stands for all its bodies
@@ -178,23 +178,35 @@ pub(crate) fn check(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let hits = hits.map(|path| Hits::new(path, check.frames(), over));
     let mut hits = hits.transpose()?;
     let mut pictures = Pictures::new(arguments, &check)?;
+    let begun = check.begin();
+    let sizes = unlike_sizes(&check);
     let mut output = Output::begin(arguments, &check)?;
-    let checked = frames(
-        arguments,
-        &mut check,
-        hits.as_mut(),
-        &mut pictures,
-        &mut output,
-    );
+    let checked = begun.map_err(anyhow::Error::from).and_then(|()| {
+        let (hits, pictures) = (hits.as_mut(), &mut pictures);
+        frames(arguments, &mut check, hits, pictures, &mut output)
+    });
     let checked = checked.and_then(|()| hits.map_or(Ok(()), Hits::end));
     let drawn = pictures.end(arguments, &check, &checked);
     let outcome = output.end(&check, checked)?;
     drawn?;
     if !arguments.quiet {
+        if let (Outcome::Clear, Some(sizes)) = (outcome, sizes) {
+            crate::complain(&sizes);
+        }
         at_seams(&check);
         parted_seams(&check, arguments.weld);
     }
     Ok(outcome)
+}
+
+/// What to say of bodies of very different sizes if nothing is found.
+fn unlike_sizes(check: &Check) -> Option<String> {
+    let [(large, most), (small, least)] = check.unlike_sizes()?;
+    let [large, small] = [large, small].map(shown);
+    let [most, least] = [most, least].map(output::short);
+    Some(format!(
+        "note: nothing was found, and the longest side of {large} is {most}, that of {small} {least}: are they of one unit?"
+    ))
 }
 
 /// Refuses what has no form for what meets between two frames.

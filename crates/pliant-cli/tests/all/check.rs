@@ -132,7 +132,7 @@ fn the_table_separates_thousands_in_counts_and_not_in_numbers_of_triangles() {
     let lines: Vec<_> = table.lines().collect();
     assert_eq!(
         lines[0],
-        "body 0: many.obj, 3,150 vertices, 1,050 triangles"
+        "body 0: many.obj, 3,150 vertices, 1,050 triangles, 148 x 100100 x 0 large"
     );
     assert_eq!(
         lines[4],
@@ -187,7 +187,7 @@ fn polygons_are_triangles_that_know_their_face() {
     let said = check(folder.path(), &["quad.obj", "--format", "json"]);
     assert_eq!(
         said.json()["bodies"][0],
-        json!({"name": "quad.obj", "vertices": 7, "triangles": 3, "faces": [0, 0, 1]})
+        json!({"name": "quad.obj", "box": [[0.0, 0.0, -1.0], [4.0, 4.0, 1.0]], "vertices": 7, "triangles": 3, "faces": [0, 0, 1]})
     );
     // The upright triangle touches the diagonal at (0.5, 0.5), and so both halves of the square.
     assert_eq!(

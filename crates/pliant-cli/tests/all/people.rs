@@ -39,7 +39,7 @@ fn in_folder(arguments: &[&str]) -> Said {
         ("still.gltf", None),
         ("moves.gltf", Some(("/scenes/0/nodes", json!([0])))),
         ("old.gltf", Some(("/asset/version", json!("1.0")))),
-        ("nowhere.gltf", Some(("/scenes", json!([])))),
+        ("nowhere.gltf", Some(("/scenes/0/nodes", json!([99])))),
         ("alone.gltf", Some(("/buffers/0/uri", json!("gone.bin")))),
         (
             "web.gltf",
@@ -168,8 +168,8 @@ fn every_error_says_what_to_do_next() {
             "100 bytes are allowed; allow more with `--max-memory`, or use `--no-weld`\n",
         ),
         (
-            "check seam_*.obj",
-            "edges of theirs coincide in the first frame, but are apart here; use `--no-weld`\n",
+            "convert seam_*.obj x.npz --weld 1e-6",
+            "what is written has one mesh: use `--no-weld`, or `--weld` with more than that\n",
         ),
         (
             "check a.obj --baseline x",
@@ -265,7 +265,7 @@ fn every_error_of_a_format_or_a_conversion_says_what_to_do_next() {
         ),
         (
             "check nowhere.gltf",
-            "does not say where its meshes are; mend it, or export it again",
+            "scene 0: node 99 does not exist; mend it, or export it again",
         ),
         (
             "check alone.gltf",

@@ -58,7 +58,7 @@ fn claims_that_nothing_stands_behind() {
     fs::write(path.join("long.glb"), glb("{}", u32::MAX)).unwrap();
     refused(path, "long.glb", &["byte 8", "4294967295 bytes"]);
     fs::write(path.join("none.glb"), glb("{}", 24)).unwrap();
-    refused(path, "none.glb", &["has no scene"]);
+    refused(path, "none.glb", &["holds no faces"]);
     let text = |accessor: &str| {
         format!(
             r#"{{"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],

@@ -84,8 +84,11 @@ fn cut_short_at_any_place() {
             refused(path, &cut, &[]);
         }
     }
-    // An OBJ file announces nothing; what is cut inside a word or before its first face is found.
-    for end in [0, 3, 30, OBJ.len() - 2] {
+    // An OBJ file announces nothing; what is cut inside a word or before its first face is found, and what has two corners is noted.
+    fs::write(path.join("cut.obj"), &OBJ[..OBJ.len() - 2]).unwrap();
+    let said = measured(path, &["check", "cut.obj"]).said;
+    assert!(said.code == 0 && said.err.contains("have two corners"));
+    for end in [0, 3, 30, OBJ.len() - 4] {
         fs::write(path.join("cut.obj"), &OBJ[..end]).unwrap();
         refused(path, "cut.obj", &[]);
     }

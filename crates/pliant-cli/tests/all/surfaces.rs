@@ -89,7 +89,7 @@ fn seams_that_nearly_coincide_are_joined_if_asked_for_and_named_otherwise() {
 }
 
 #[test]
-fn joined_sides_that_part_in_a_later_frame_are_refused() {
+fn joined_sides_that_part_in_a_later_frame_are_apart_there() {
     let triangles = tetrahedron();
     let parted: Vec<_> = triangles
         .iter()
@@ -107,8 +107,11 @@ fn joined_sides_that_part_in_a_later_frame_are_refused() {
     let path = folder.path();
     let near = check(path, &["p_[01].obj", "--weld", "1e-6"]);
     assert_eq!(near.code, 0, "{}", near.err);
-    let said = check(path, &["p_*.obj", "--weld", "1e-6", "--quiet"]);
-    said.assert_refused(&["p_2.obj", "were joined, being near each other", "`--weld`"]);
+    let said = check(path, &["p_*.obj", "--weld", "1e-6"]);
+    let alone = check(path, &["p_2.obj", "--weld", "1e-6"]);
+    assert_eq!(said.code, alone.code, "{}", said.err);
+    let words = "vertices that seams join in the first frame are apart in frame 2";
+    assert!(said.err.contains(words), "{}", said.err);
 }
 
 #[test]
@@ -346,10 +349,142 @@ fn the_program_says_what_it_reads() {
     let said = pliant(folder.path(), &["formats"]);
     assert_eq!((said.code, &said.err[..]), (0, ""));
     for ending in [
-        "obj", "ply", "stl", "npz", "glb", "gltf", "pc2", "mdd", "fbx",
+        "obj", "ply", "stl", "npz", "npy", "glb", "gltf", "vrm", "pc2", "mdd", "fbx", "usd",
     ] {
         assert!(said.out.contains(&format!(".{ending}")), "{ending}");
     }
+}
+
+#[test]
+fn what_is_not_read_says_what_to_do_as_the_formats_do() {
+    let folder = folder(&[]);
+    let path = folder.path();
+    let plain = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let formats = plain(&pliant(path, &["formats"]).out);
+    for ending in [
+        "fbx", "ABC", "blend", "ma", "mb", "max", "dae", "3ds", "c4d", "hip", "step", "iges",
+        "usd", "usda", "usdc", "usdz",
+    ] {
+        let name = format!("a.{ending}");
+        fs::write(path.join(&name), "x").unwrap();
+        let said = check(path, &[&name]);
+        said.assert_refused(&["this kind of file cannot be read; "]);
+        let (_, advice) = said.err.trim_end().split_once("cannot be read; ").unwrap();
+        for part in advice.split("; ") {
+            let part = part.trim_start_matches("or ");
+            assert!(formats.contains(part), "{part}: {formats}");
+        }
+        let is_usd = ending.starts_with("usd");
+        assert_eq!(advice.contains("the Python package reads it"), is_usd);
+    }
+}
+
+/// A triangle as STL text.
+const FACET: &str =
+    "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+
+#[test]
+fn files_that_people_have_are_read_and_what_was_wrong_is_said() {
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let folder = folder(&[
+        ("mac.obj", obj.replace('\n', "\r")),
+        ("line.obj", format!("{obj}f 1 2\n")),
+        ("flat.obj", obj.replace("v 0 1 0", "v 0 1")),
+        ("cut.stl", format!("solid a\n{FACET}")),
+        ("end.stl", format!("solid a\n{FACET}end solid a\n")),
+        (
+            "lfs.obj",
+            "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n".into(),
+        ),
+        ("m.obj", obj.into()),
+    ]);
+    let path = folder.path();
+    let array =
+        |dtype: &str, shape: &str, data: &[u8]| crate::common::npz::array(dtype, shape, data);
+    let numbers = [0_i16, 0, 0, 1, 0, 0, 0, 1, 0].map(i16::to_le_bytes);
+    let positions = array("<i2", "(1, 3, 3)", numbers.as_flattened());
+    fs::write(path.join("walk.npy"), &positions).unwrap();
+    let entry = crate::common::npz::Entry::stored;
+    let faces = entry("f", array("|u1", "(1, 3)", &[0, 1, 2]));
+    let archive = crate::common::npz::archive(&[entry("v", positions), faces]);
+    fs::write(path.join("a.npz"), archive).unwrap();
+    for (name, words) in [
+        ("mac.obj", &[][..]),
+        (
+            "line.obj",
+            &["1 faces have two corners (the first is face 1) and are read as segments"],
+        ),
+        ("cut.stl", &["ends behind a triangle, without \"endsolid\""]),
+        ("end.stl", &["ends with \"end solid\""]),
+        (
+            "m.obj+walk.npy",
+            &["the array of vertices is of type <i2 and was read as float32"],
+        ),
+        (
+            "a.npz",
+            &[
+                "of type <i2",
+                "the array of vertices is the one called `v`",
+                "the array of faces is the one called `f`",
+            ],
+        ),
+    ] {
+        let said = check(path, &[name]);
+        assert_eq!(said.code, 0, "{name}: {}", said.err);
+        assert!(said.out.contains("0 of 1 frames intersect"), "{}", said.out);
+        assert_eq!(said.err.is_empty(), words.is_empty(), "{}", said.err);
+        for word in words {
+            assert!(
+                said.err.contains(&format!("note: {name}: ")) && said.err.contains(word),
+                "{}",
+                said.err
+            );
+        }
+    }
+    check(path, &["flat.obj"])
+        .assert_refused(&["line 3: a vertex has two coordinates; pliant needs three"]);
+    check(path, &["lfs.obj"]).assert_refused(&["Git LFS pointer", "`git lfs pull`"]);
+}
+
+#[test]
+fn solids_are_groups_and_other_formats_say_why_they_have_none() {
+    // The second solid stands across the first.
+    let upright = FACET
+        .replace("vertex 0 0 0", "vertex 0.25 0.25 -1")
+        .replace("vertex 1 0 0", "vertex 0.25 0.25 1");
+    let text = format!("solid flat\n{FACET}endsolid\nsolid\n{upright}endsolid\n");
+    let folder = folder(&[
+        ("two.stl", text),
+        ("one.obj", "v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\n".into()),
+    ]);
+    let path = folder.path();
+    let said = check(path, &["two.stl", "--split", "groups", "--format", "json"]);
+    let bodies = said.json()["bodies"].as_array().unwrap().clone();
+    let names: Vec<_> = bodies.iter().map(|body| body["name"].clone()).collect();
+    assert_eq!(names, ["two.stl#flat", "two.stl#solid 2"]);
+    assert_eq!(said.json()["frames"][0]["pairs"], json!([[0, 0, 1, 1]]));
+    let said = check(path, &["two.stl#flat", "two.stl#solid 2"]);
+    assert_eq!(said.code, 1, "{}", said.err);
+    let ignored = [
+        "two.stl",
+        "--split",
+        "groups",
+        "--ignore",
+        "two.stl#flat,two.stl#solid 2",
+    ];
+    assert_eq!(check(path, &ignored).code, 0);
+
+    for to in ["a.ply", "a.npz", "a.stl"] {
+        assert_eq!(pliant(path, &["convert", "one.obj", to]).code, 0);
+        let advice = "split it into its connected pieces with `--split components`";
+        let said = check(path, &[to, "--split", "groups"]);
+        said.assert_refused(&[to, "cannot be split into groups: ", advice]);
+        // Beside what has groups it is one body.
+        let said = check(path, &[to, "two.stl", "--split", "groups"]);
+        assert_eq!(said.code, 1, "{}", said.err);
+    }
+    let said = check(path, &["a.ply", "--split", "groups"]);
+    said.assert_refused(&["a PLY file names no groups of its faces"]);
 }
 
 #[test]

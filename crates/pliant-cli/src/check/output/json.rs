@@ -1,11 +1,12 @@
 //! One JSON object.
 //!
 //! ```json
-//! {"format":1,"bodies":[{"name":"a.ply","vertices":8,"triangles":12}],
+//! {"format":1,"bodies":[{"name":"a.ply","box":[[0.0,0.0,0.0],[1.0,1.0,1.0]],"vertices":8,"triangles":12}],
 //!  "frames":[{"frame":0,"count":1,"kinds":{"crossing":1,"overlapping":0,"touching":0},"pairs":[[0,3,0,9]]}]}
 //! ```
 //!
-//! All numbers count from 0; a pair is body, triangle, body, triangle, the smaller (body, triangle) first, sorted. `faces` of a
+//! All numbers count from 0; a pair is body, triangle, body, triangle, the smaller (body, triangle) first, sorted. `box` of a body has
+//! its smallest and its largest coordinates in the first frame that is checked. `faces` of a
 //! body (triangle to polygon) stands where its polygons were made into fans, `welded` where vertices were welded away. With
 //! `--count` there are no `pairs`; with `--first`, `count` is 0 or 1 and `"complete": false` says that the list was not meant
 //! to be complete. If a frame cannot be checked, the object ends with `"error"`.
@@ -97,6 +98,8 @@ struct ChangedEntry<'a> {
 
 #[derive(Serialize)]
 struct MeshEntry<'a> {
+    #[serde(rename = "box", skip_serializing_if = "Option::is_none")]
+    around: Option<[[f64; 3]; 2]>,
     vertices: usize,
     triangles: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -109,6 +112,7 @@ impl<'a> MeshEntry<'a> {
     /// The mesh that a source has now.
     fn of(source: &'a Source) -> Self {
         Self {
+            around: None,
             vertices: source.vertex_count(),
             triangles: source.triangles().len(),
             faces: source.faces(),
@@ -120,6 +124,8 @@ impl<'a> MeshEntry<'a> {
 #[derive(Serialize)]
 struct PieceEntry<'a> {
     name: &'a str,
+    #[serde(rename = "box")]
+    around: [[f64; 3]; 2],
     vertices: usize,
     triangles: usize,
     source: usize,
@@ -291,18 +297,23 @@ impl Form for Json {
         let sources: Vec<_> = check
             .sources()
             .iter()
-            .map(|source| Entry {
-                name: source.name(),
-                mesh: MeshEntry::of(source),
+            .enumerate()
+            .map(|(number, source)| {
+                let mut mesh = MeshEntry::of(source);
+                mesh.around = Some(check.box_of(number));
+                let name = source.name();
+                Entry { name, mesh }
             })
             .collect();
         write!(out, r#"{{"format":1,"bodies":"#)?;
         let is_split = |source| check.is_split(source);
         if self.split.is_some() || (0..sources.len()).any(is_split) {
-            for (number, body) in check.bodies().enumerate() {
+            let boxes = check.boxes();
+            for ((number, body), around) in check.bodies().enumerate().zip(boxes) {
                 write!(out, "{}", if number > 0 { "," } else { "[" })?;
                 let entry = PieceEntry {
                     name: &body.name,
+                    around,
                     vertices: body.vertices,
                     triangles: body.triangles,
                     source: body.source,

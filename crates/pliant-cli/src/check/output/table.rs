@@ -88,6 +88,7 @@ impl Table {
 
 impl Form for Table {
     fn head(&mut self, out: &mut dyn Write, check: &Check) -> io::Result<()> {
+        let boxes = check.boxes();
         let mut bodies = check.bodies().enumerate();
         for (place, source) in check.sources().iter().enumerate() {
             let of_source = check.bodies_of(place);
@@ -97,7 +98,8 @@ impl Form for Table {
             let [vertices, triangles] = sizes(source.vertex_count(), source.triangles().len());
             if !check.is_split(place) {
                 each.for_each(drop);
-                write!(out, "body {first}: {name}, {vertices}, {triangles}")?;
+                let size = size(check.box_of(place));
+                write!(out, "body {first}: {name}, {vertices}, {triangles}, {size}")?;
             } else if count > MOST_PIECES {
                 let mut named = each.map(|(_, body)| body.name);
                 let [one, other] = [named.next(), named.last()].map(Option::unwrap_or_default);
@@ -105,17 +107,19 @@ impl Form for Table {
                 let last = first as usize + count - 1;
                 write!(
                     out,
-                    "bodies {first} to {last}: {} to {other}, {vertices}, {triangles}",
-                    shown(one)
+                    "bodies {first} to {last}: {} to {other}, {vertices}, {triangles}, {}",
+                    shown(one),
+                    size(check.box_of(place))
                 )?;
             } else {
                 for (number, body) in each {
                     let BodyFacts { first_triangle, .. } = body;
                     let name = shown(&body.name);
                     let [vertices, triangles] = sizes(body.vertices, body.triangles);
+                    let size = size(boxes[number]);
                     writeln!(
                         out,
-                        "body {number}: {name}, {vertices}, {triangles}, from triangle {first_triangle} on"
+                        "body {number}: {name}, {vertices}, {triangles}, from triangle {first_triangle} on, {size}"
                     )?;
                 }
                 write!(out, "  of {name}, {vertices}, {triangles}")?;
@@ -268,6 +272,12 @@ fn list_places(out: &mut dyn Write, check: &Check) -> io::Result<()> {
         writeln!(out, "  and {} more", grouped((count - MOST_PLACES) as u64))?;
     }
     Ok(())
+}
+
+/// How large a box is.
+fn size([lower, upper]: [[f64; 3]; 2]) -> String {
+    let sides = [0, 1, 2].map(|axis| short(upper[axis] - lower[axis]));
+    format!("{} large", sides.join(" x "))
 }
 
 fn sizes(vertices: usize, triangles: usize) -> [String; 2] {

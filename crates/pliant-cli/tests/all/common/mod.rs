@@ -24,10 +24,16 @@ impl Said {
             .unwrap_or_else(|error| panic!("{error}: {}{}", self.out, self.err))
     }
 
-    /// The same without the places, which have tests of their own.
+    /// The same without the places and the boxes of bodies, which have tests of their own.
     pub(crate) fn json_without_places(&self) -> Value {
         let mut json = self.json();
         let members = json.as_object_mut().unwrap();
+        for bodies in ["bodies", "sources"] {
+            let bodies = members.get_mut(bodies).and_then(Value::as_array_mut);
+            for body in bodies.into_iter().flatten() {
+                assert!(body.as_object_mut().unwrap().remove("box").is_some());
+            }
+        }
         let has_places = members.remove("places").is_some();
         for frame in members["frames"].as_array_mut().unwrap() {
             let places = frame.as_object_mut().unwrap().remove("places");

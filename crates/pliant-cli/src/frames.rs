@@ -61,13 +61,13 @@ impl Frames {
         let end = end.unwrap_or(count);
         let last = end.checked_sub(1).filter(|&last| start <= last);
         let last = last.map(|last| last - (last - start) % step);
-        match last.filter(|&last| last < count) {
-            Some(last) => Ok((start..last + 1).step_by(step)),
-            None => bail!(
+        if last.is_none_or(|last| last >= count) {
+            bail!(
                 "there are frames 0 to {}; choose among these with `--frames`",
                 count - 1
-            ),
+            );
         }
+        Ok((start..end).step_by(step))
     }
 
     /// These, to be checked, however many there are.

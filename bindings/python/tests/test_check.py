@@ -182,14 +182,15 @@ def test_a_seam_that_parts_is_open_there_and_said_once(tmp_path: Path) -> None:
 def test_arrays_and_files_that_people_have_are_read_and_that_is_said(tmp_path: Path) -> None:
     faces, positions = grid(3)
     frames = np.stack([positions, positions + 1])
-    for written, words in [
+    cases: list[tuple[dict[str, Any], str]] = [
         ({"verts": frames, "faces": faces}, "the one called `verts`"),
         ({"v": frames, "f": faces}, "the one called `f`"),
         ({"vertices": np.asfortranarray(frames), "faces": faces}, "Fortran order"),
         ({"vertices": frames, "faces": np.asfortranarray(faces)}, "the array of faces is in Fortran order"),
         ({"vertices": frames.astype(np.float16), "faces": faces}, "float32"),
         ({"vertices": (frames * 9).astype(np.int64), "faces": faces}, "float64"),
-    ]:
+    ]
+    for written, words in cases:
         np.savez(tmp_path / "a.npz", **written)
         with pytest.warns(UserWarning, match=words):
             checked = pliant.check(tmp_path / "a.npz")
@@ -310,6 +311,9 @@ def test_the_program_says_the_same(folder: Path) -> None:
         # The program says where, too.
         there = [frame.pop("places", []) for frame in said["frames"]]
         said.pop("places", None)
+        for body in said["bodies"]:
+            lower, upper = body.pop("box")
+            assert lower <= upper
         assert said == {"format": 1, "bodies": bodies, "frames": frames}
         if "--first" not in flags:
             found = [frame.places or () for frame in pliant.check(*paths, places=True, **options)]  # type: ignore[arg-type]
@@ -446,6 +450,7 @@ def test_the_program_says_the_same_of_pieces(pieces: Path) -> None:
     said = json.loads(subprocess.run([program, "check", "--format", "json", *flags, *paths], capture_output=True).stdout)
     checked = pliant.check(*paths, split="components", baseline=1, groups={"g": [0, 2]}, ignore=[("g", "g")])
     fields = ("name", "vertices", "triangles", "source", "first_triangle")
+    assert all(body.pop("box") for body in said["bodies"])
     assert said["bodies"] == [{field: getattr(body, field) for field in fields} for body in checked.bodies]
     for said_of_frame in said["frames"]:
         said_of_frame.pop("places", None)

@@ -48,7 +48,7 @@ struct Seams {
     of: usize,
     /// Of that frame; none before it was looked for, and none where there is none.
     near: Option<NearSeams>,
-    parted: Option<Parted>,
+    parted: Option<Box<Parted>>,
 }
 
 /// What is known of all sources.
@@ -68,7 +68,7 @@ impl Remarks {
     pub(crate) fn begin(&mut self, frame: usize) {
         for seams in &mut self.seams {
             if seams.frame == Some(frame) {
-                let parted = seams.parted;
+                let parted = seams.parted.take();
                 *seams = Seams {
                     parted,
                     ..Seams::default()
@@ -109,12 +109,14 @@ impl Remarks {
             let Some(seams) = source.parted_seams() else {
                 continue;
             };
-            let parted = known.parted.get_or_insert(Parted {
-                frames: 0,
-                first: frame,
-                last: frame,
-                worst: frame,
-                seams,
+            let parted = known.parted.get_or_insert_with(|| {
+                Box::new(Parted {
+                    frames: 0,
+                    first: frame,
+                    last: frame,
+                    worst: frame,
+                    seams,
+                })
             });
             parted.frames += 1;
             parted.last = frame;
@@ -126,7 +128,7 @@ impl Remarks {
 
     /// The seams of a source that part.
     pub(crate) fn parted(&self, source: usize) -> Option<Parted> {
-        self.seams.get(source)?.parted
+        self.seams.get(source)?.parted.as_deref().copied()
     }
 
     /// What is to be said of a source.

@@ -82,7 +82,7 @@ pub struct Body {
     file: usize,
     first: Mesh,
     /// That of the file that is being read, if it has another mesh than the first.
-    other: Option<Mesh>,
+    other: Option<Box<Mesh>>,
     /// The file that the mesh is from, where frames are from another one.
     mesh_file: Option<Box<Found>>,
     /// What it is of its mesh, if it is a group.
@@ -110,7 +110,7 @@ struct Mesh {
     /// Those of its first frame.
     seams: Seams,
     /// Those of the frame read last, where they are others.
-    now: Option<Seams>,
+    now: Option<Box<Seams>>,
     notes: Vec<Note>,
 }
 
@@ -151,12 +151,15 @@ impl Mesh {
         if let Some(before) = self.now.take() {
             self.frame.take_off(before.bytes());
         }
-        self.now = self.frame.other_seams(&self.seams, tolerance)?;
+        self.now = self
+            .frame
+            .other_seams(&self.seams, tolerance)?
+            .map(Box::new);
         Ok(())
     }
 
     fn seams(&self) -> &Seams {
-        self.now.as_ref().unwrap_or(&self.seams)
+        self.now.as_deref().unwrap_or(&self.seams)
     }
 
     fn triangles(&self) -> &[[u32; 3]] {
@@ -504,7 +507,7 @@ impl Body {
     }
 
     fn mesh(&self) -> &Mesh {
-        self.other.as_ref().unwrap_or(&self.first)
+        self.other.as_deref().unwrap_or(&self.first)
     }
 
     /// The triangles, in file order, polygons as fans; of welded vertices the smallest stands for
@@ -543,7 +546,7 @@ impl Body {
             frame, seams, now, ..
         } = self.mesh();
         let all = frame.polygons().triangles();
-        seams.parted(now.as_ref()?, all, frame.positions())
+        seams.parted(now.as_deref()?, all, frame.positions())
     }
 
     /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
@@ -595,8 +598,8 @@ impl Body {
     pub fn near_seams(&mut self, tolerance: f64) -> Result<Option<NearSeams>, Error> {
         let Mesh {
             frame, seams, now, ..
-        } = self.other.as_mut().unwrap_or(&mut self.first);
-        let found = frame.near_seams(now.as_ref().unwrap_or(seams), tolerance);
+        } = self.other.as_deref_mut().unwrap_or(&mut self.first);
+        let found = frame.near_seams(now.as_deref().unwrap_or(seams), tolerance);
         found.map_err(|reason| Error::new(self.files[self.file].path(), reason))
     }
 
@@ -717,7 +720,7 @@ impl Body {
         }
         let Mesh {
             frame: positions, ..
-        } = self.other.as_mut().unwrap_or(&mut self.first);
+        } = self.other.as_deref_mut().unwrap_or(&mut self.first);
         let _complete = self.source.read(positions).map_err(in_file)?;
         self.read = frame;
         self.find_seams()?;
@@ -736,7 +739,8 @@ impl Body {
                 let found = &self.files[self.file].found;
                 let tolerance = self.options.weld_tolerance;
                 let other = Mesh::read(&mut *self.source, own, found.shared_path(), tolerance);
-                self.other = Some(other.map_err(|fault| Error::new(found.path(), fault))?);
+                let other = other.map_err(|fault| Error::new(found.path(), fault))?;
+                self.other = Some(Box::new(other));
             }
             Err(fault) => return Err(Error::new(self.files[self.file].path(), fault)),
         }
@@ -746,7 +750,7 @@ impl Body {
 
     /// Finds the seams of the frame just read.
     fn find_seams(&mut self) -> Result<(), Error> {
-        let mesh = self.other.as_mut().unwrap_or(&mut self.first);
+        let mesh = self.other.as_deref_mut().unwrap_or(&mut self.first);
         let had_others = mesh.now.is_some();
         let found = mesh.find_seams(self.options.weld_tolerance);
         if (had_others || mesh.now.is_some())

@@ -180,7 +180,7 @@ impl Naming {
             format!("solid {number}")
         };
         while !self.solids.insert(own.clone()) {
-            own.push_str(&format!(" (solid {number})"));
+            own = format!("{own} (solid {number})");
         }
         self.account.enter(own.len() as u64 + ENTRY)?;
         self.are_named |= is_named;
@@ -213,16 +213,15 @@ impl Naming {
         self.key.clear();
         self.key.extend(characters(object));
         self.key.push_str(&self.group);
-        let number = match self.numbers.get(&*self.key) {
-            Some(&known) => known,
-            None => {
-                self.account.enter(self.key.len() as u64 + ENTRY)?;
-                let (number, key) = (self.called.len() as u32, Arc::<str>::from(&*self.key));
-                let called = (self.object.name.clone(), key.clone());
-                self.account.push(&mut self.called, called, 0)?;
-                self.numbers.insert(key, number);
-                number
-            }
+        let number = if let Some(&known) = self.numbers.get(&*self.key) {
+            known
+        } else {
+            self.account.enter(self.key.len() as u64 + ENTRY)?;
+            let (number, key) = (self.called.len() as u32, Arc::<str>::from(&*self.key));
+            let called = (self.object.name.clone(), key.clone());
+            self.account.push(&mut self.called, called, 0)?;
+            self.numbers.insert(key, number);
+            number
         };
         self.number = Some(number);
         Ok(number)

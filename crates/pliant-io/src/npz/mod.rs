@@ -106,8 +106,9 @@ impl Npz {
         };
         match (kind, size) {
             ('f', 4 | 8) => {}
-            ('f', 2) => note(format!("is of type {written} and was read as float32")),
-            ('i' | 'u', 1 | 2) => note(format!("is of type {written} and was read as float32")),
+            ('f', 2) | ('i' | 'u', 1 | 2) => {
+                note(format!("is of type {written} and was read as float32"));
+            }
             ('i' | 'u', 4 | 8) => note(format!("is of type {written} and was read as float64")),
             _ => {
                 let advice = format!(

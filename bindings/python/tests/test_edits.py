@@ -245,14 +245,14 @@ def test_a_vertex_is_placed_after_it_was_merged_away() -> None:
 
 def test_a_loose_box_is_round_what_is_there() -> None:
     world = pliant.World()
-    body = world.add([[0, 1, 2], [0, 1, 3]], [[0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]])
+    body = world.add([[0, 1, 2], [0, 1, 3]], np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [9, 9, 9]]))
     box = ([-1.0, -1.0, -1.0], [2.0, 2.0, 2.0])
     with pytest.raises(pliant.Error, match="vertex 3"):
-        world.set_loose_box(body, *box)
+        world.set_loose_box(body, box)
     edit = world.edit(body)
     edit.remove_triangles([1])
     world.apply(edit)
-    world.set_loose_box(body, *box)
+    world.set_loose_box(body, box)
 
 
 def test_the_tolerance_of_a_weld_is_exact() -> None:

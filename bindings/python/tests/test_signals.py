@@ -99,10 +99,12 @@ def is_in_use(call: Callable[[], object]) -> bool:
 def is_stopped(ask: Callable[[], object], is_asked: Callable[[], bool]) -> None:
     """What a handler raises in the middle of a call, which it can tell, ends it."""
     for stopping, raised in ((stop, Stop), (signal.default_int_handler, KeyboardInterrupt)):
+        # Once: the next signals come when it has been stopped.
+        handlers = [stopping]
 
-        def handle(number: int, frame: FrameType | None, stopping: Callable[..., object] = stopping) -> None:
-            if is_asked():
-                stopping(number, frame)
+        def handle(number: int, frame: FrameType | None, handlers: list[Callable[..., object]] = handlers) -> None:
+            if handlers and is_asked():
+                handlers.pop()(number, frame)
 
         with signals(handle), pytest.raises(raised):
             for _ in range(TRIES):

@@ -261,26 +261,27 @@ struct Asked {
 
 /// What takes long in different ways: a first query of a large body with itself, a query all of whose decisions are exact, long lists, many
 /// bodies; so many times as large as for a test that counts.
-fn what_takes_long(times: usize) -> Vec<Asked> {
-    let side = |of: f64| (of * (times as f64).sqrt()) as u32;
+fn what_takes_long(times: u32) -> Vec<Asked> {
+    // Of something that goes by its square.
+    let side = |of: u32| (of * of * times).isqrt();
     let all = |world: &mut World<f32>, look: &(dyn Fn() -> bool + Sync)| {
         let found = world.intersections(Selection::World).interrupt_if(look);
         found.all().map(<[Pair]>::len)
     };
     let cloth = Asked {
         name: "a cloth",
-        world: cloth(Options::default(), 2 * (side(63.0) as usize).pow(2)).0,
+        world: cloth(Options::default(), 2 * (side(63) as usize).pow(2)).0,
         ask: |world, look| {
             let within = Selection::Within(BodyId(0));
             let found = world.intersections(within).interrupt_if(look);
             found.all().map(<[Pair]>::len)
         },
-        hits: 600 * times,
+        hits: 600 * times as usize,
     };
 
     // Two flat sheets in one plane: signs are exact zeros, and nearly all candidates are hits.
     let mut flat = World::new();
-    let (triangles, corners) = sheet(side(30.0));
+    let (triangles, corners) = sheet(side(30));
     flat.add(&triangles, &corners).unwrap();
     let shifted = corners.iter().map(|[x, y, z]| [x + 0.001, y - 0.002, *z]);
     let shifted: Vec<_> = shifted.collect();
@@ -289,12 +290,12 @@ fn what_takes_long(times: usize) -> Vec<Asked> {
         name: "flat sheets",
         world: flat,
         ask: all,
-        hits: 5_000 * times,
+        hits: 5_000 * times as usize,
     };
 
     let mut in_one_place = World::new();
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let soup: Vec<[u32; 3]> = (0..side(230.0)).map(|_| [0, 1, 2]).collect();
+    let soup: Vec<[u32; 3]> = (0..side(230)).map(|_| [0, 1, 2]).collect();
     let _ = [0, 1].map(|_| in_one_place.add(&soup, &corners).unwrap());
     let in_one_place = Asked {
         name: "one place",
@@ -305,16 +306,16 @@ fn what_takes_long(times: usize) -> Vec<Asked> {
 
     let touching = Asked {
         name: "close pairs that touch",
-        world: sheets_that_touch(side(10.0)),
+        world: sheets_that_touch(side(10)),
         ask: |world, look| {
             let close = world.close_edge_edge_pairs(Selection::World, 1e-6);
             close.interrupt_if(look).all().map(<[_]>::len)
         },
-        hits: 1_000 * times,
+        hits: 1_000 * times as usize,
     };
 
     let mut many_bodies = World::new();
-    for at in 0..side(95.0) {
+    for at in 0..side(95) {
         let x = at as f32 * 0.001;
         let corners = [[x, 0.0, 0.0], [x + 9.0, 0.0, 1.0], [x, 9.0, 0.0]];
         many_bodies.add(&[[0, 1, 2]], &corners).unwrap();

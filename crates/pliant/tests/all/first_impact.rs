@@ -278,9 +278,12 @@ fn what_meets_all_at_once_is_neither_listed_nor_timed() {
         })
         .collect();
     let world_of = |motion: &dyn Fn([f64; 3]) -> [f64; 3], turned: bool| {
-        let placed = |[x, y, z]: [f64; 3]| match turned {
-            true => [0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, z],
-            false => [x, y, z],
+        let placed = |[x, y, z]: [f64; 3]| {
+            if turned {
+                [0.6 * x - 0.8 * y, 0.8 * x + 0.6 * y, z]
+            } else {
+                [x, y, z]
+            }
         };
         let start: Vec<_> = flat.iter().copied().map(placed).collect();
         let end: Vec<_> = flat.iter().map(|&p| placed(motion(p))).collect();

@@ -98,17 +98,23 @@ def is_in_use(call: Callable[[], object]) -> bool:
 
 def is_stopped(ask: Callable[[], object], is_asked: Callable[[], bool]) -> None:
     """What a handler raises in the middle of a call, which it can tell, ends it."""
-    for stopping, raised in ((stop, Stop), (signal.default_int_handler, KeyboardInterrupt)):
-        # Once: the next signals come when it has been stopped.
-        handlers = [stopping]
+    is_stopped_by(stop, Stop, ask, is_asked)
+    is_stopped_by(signal.default_int_handler, KeyboardInterrupt, ask, is_asked)
 
-        def handle(number: int, frame: FrameType | None, handlers: list[Callable[..., object]] = handlers) -> None:
-            if handlers and is_asked():
-                handlers.pop()(number, frame)
 
-        with signals(handle), pytest.raises(raised):
-            for _ in range(TRIES):
-                ask()
+def is_stopped_by(
+    stopping: Callable[..., object], raised: type[BaseException], ask: Callable[[], object], is_asked: Callable[[], bool]
+) -> None:
+    # Once: the next signals come when it has been stopped.
+    handlers = [stopping]
+
+    def handle(number: int, frame: FrameType | None) -> None:
+        if handlers and is_asked():
+            handlers.pop()(number, frame)
+
+    with signals(handle), pytest.raises(raised):
+        for _ in range(TRIES):
+            ask()
 
 
 def world_is_stopped(world: pliant.World, ask: Callable[[], object]) -> None:
@@ -159,8 +165,11 @@ def test_check(tmp_path: Path) -> None:
     (tmp_path / "many.obj").write_text("\n".join(lines))
     # The frame that was interrupted is the next one; and where a frame before it is looked for.
     for baseline in (None, 0):
-        frames = pliant.check(tmp_path / "many.obj", weld=False, baseline=baseline)
-        is_stopped(lambda frames=frames: next(frames), lambda frames=frames: is_in_use(lambda: frames.places))
+        frames_are_stopped(pliant.check(tmp_path / "many.obj", weld=False, baseline=baseline))
+
+
+def frames_are_stopped(frames: pliant.Check) -> None:
+    is_stopped(lambda: next(frames), lambda: is_in_use(lambda: frames.places))
 
 
 def test_check_while_files_are_read(tmp_path: Path) -> None:

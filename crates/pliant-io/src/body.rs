@@ -148,6 +148,11 @@ impl Mesh {
 
     /// Finds the seams of a later frame, which was just read.
     fn find_seams(&mut self, tolerance: f64) -> Result<(), Reason> {
+        // What has parted mostly stays so for a while.
+        let positions = self.frame.positions();
+        if tolerance == 0.0 && self.now.as_ref().is_some_and(|now| now.hold(positions)) {
+            return Ok(());
+        }
         if let Some(before) = self.now.take() {
             self.frame.take_off(before.bytes());
         }

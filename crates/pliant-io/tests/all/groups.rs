@@ -70,7 +70,8 @@ fn other_files_have_none() {
     let folder = Folder::new();
     folder.write("plain.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
     folder.write("two.obj", TEXT);
-    let soup = "solid o\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n";
+    // One solid, without a name.
+    let soup = "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n";
     folder.write("a.stl", soup);
     let options = OpenOptions::default();
     for name in ["plain.obj", "a.stl"] {

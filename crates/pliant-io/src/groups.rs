@@ -270,26 +270,29 @@ impl Naming {
         if last != (faces as usize).checked_sub(1) {
             return Err(Reason::Changed);
         }
-        let mut names = Vec::new();
-        let mut known: HashMap<Arc<str>, u32> = HashMap::new();
-        let mut numbers = Vec::new();
+        let mut names: Vec<String> = Vec::new();
         for (object, key) in called {
             let behind = key.char_indices().nth(4).map_or(key.len(), |(at, _)| at);
             let group = &key[behind..];
             // Before the name is made: that of one object may be that of very many groups.
             account.enter(2 * (object.len() + group.len()) as u64 + ENTRY)?;
-            let name: Arc<str> = match (&*object, group) {
-                ("", "") => DEFAULT.into(),
-                (name, "") | ("", name) => name.into(),
-                (object, group) => format!("{object}/{group}").into(),
-            };
-            let next = known.len() as u32;
-            let number = *known.entry(name).or_insert_with_key(|name| {
-                names.push(name.to_string());
-                next
+            names.push(match (&*object, group) {
+                ("", "") => DEFAULT.to_owned(),
+                (name, "") | ("", name) => name.to_owned(),
+                (object, group) => format!("{object}/{group}"),
             });
-            account.push(&mut numbers, number, 0)?;
         }
+        // Few are the same.
+        let mut known: HashMap<&str, u32> = HashMap::with_capacity(names.len());
+        let (mut numbers, mut is_new) = (Vec::new(), Vec::new());
+        for name in &names {
+            let next = known.len() as u32;
+            let number = *known.entry(name).or_insert(next);
+            account.push(&mut numbers, number, 0)?;
+            account.push(&mut is_new, number == next, 0)?;
+        }
+        let mut is_new = is_new.into_iter();
+        names.retain(|_| is_new.next() == Some(true));
         let is_one_solid = solids_are == 1 && !are_named;
         if names == [DEFAULT] || is_one_solid {
             return Ok(Groups::none(file));

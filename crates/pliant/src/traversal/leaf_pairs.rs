@@ -109,7 +109,7 @@ impl<K: Kind> LeafTests<K> {
             self.test_triangles::<N, P>(context, &leaf_pairs[cursor.pair..end], &leaf_test);
             cursor.pair = end;
         }
-        self.number_new(context);
+        self.number_new(context, &leaf_test);
         cursor
     }
 
@@ -254,21 +254,15 @@ impl<K: Kind> LeafTests<K> {
                 most - tested,
             );
             self.decide(context, &leaf_test);
-            self.number_new(context);
+            self.number_new(context, &leaf_test);
         }
     }
 
     /// Gives what was found the caller's numbers.
-    fn number_new<const N: usize, P>(&mut self, context: &Context<K, P>)
-    where
-        P: TreePair<N>,
-        P::Source: BoxSource<Scalar = K::Scalar>,
-    {
-        let ids = context.pair.caller_ids();
+    fn number_new<P>(&mut self, context: &Context<K, P>, leaves: &LeafTest<K::Scalar>) {
         let new = &self.hits.as_slice()[self.of_caller.len()..];
-        let leaves = leaf_test(context);
         let kind = context.kind;
-        kind.to_callers(&leaves, &ids, new, &mut self.of_caller);
+        kind.to_callers(leaves, &leaves.ids, new, &mut self.of_caller);
         if !self.have_room() {
             self.collect(context);
         }

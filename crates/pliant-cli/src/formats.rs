@@ -35,8 +35,8 @@ As which surface
   seams           files split vertices where texture coordinates or normals differ. Boundary edges that coincide to the bit are one, in
                   each frame those that do there (--no-weld keeps them apart); with --weld TOL those that nearly do. Where a seam
                   of the first frame is open in a later one, a note says so. In glTF joints and morph targets decide for all frames
-  groups          of an STL file of text its solids, each one. Of an OBJ file: what o and g name. After `o shirt`, shirt; after `g collar` in it, shirt/collar; after `g collar` where
-                  no o stands, collar. A name is the rest of its line, g a b one name; without a name, and as g default, the end of the
+  groups          of an STL file of text its solids, each one. Of an OBJ file what o and g name: after `o shirt`, shirt; after
+                  `g collar` in it, shirt/collar; after `g collar` where no o stands, collar. A name is the rest of its line, g a b one name; without a name, and as g default, the end of the
                   last. Faces that nothing names: default. The same name is the same group. scan.obj#shirt means shirt/collar too.
                   Triangles that share a vertex of the file are left out across groups, whether --split groups or arguments name them.
                   With --split components no group can be named: scan.obj#1 is then a piece

@@ -9,7 +9,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::hash::{DefaultHasher, Hash as _, Hasher as _};
+use std::hash::{BuildHasher as _, RandomState};
 use std::io::BufReader;
 use std::path::Path;
 use std::sync::Arc;
@@ -83,6 +83,9 @@ pub struct Body {
     first: Mesh,
     /// That of the file that is being read, if it has another mesh than the first.
     other: Option<Box<Mesh>>,
+    /// Its number, 0 without one, and what makes such numbers: others in every body.
+    mesh_number: u64,
+    numbering: RandomState,
     /// The file that the mesh is from, where frames are from another one.
     mesh_file: Option<Box<Found>>,
     /// What it is of its mesh, if it is a group.
@@ -378,6 +381,8 @@ impl Body {
             file: 0,
             first,
             other: None,
+            mesh_number: 0,
+            numbering: RandomState::new(),
             mesh_file: None,
             part: None,
             mesh_may_change: false,
@@ -533,15 +538,10 @@ impl Body {
         }
     }
 
-    /// A number for the mesh of the frame that was handed out last, whatever its seams: equal for equal triangles and as many
-    /// vertices, 0 for the first.
+    /// A number for the mesh of the frame that was handed out last, whatever its seams: 0 for the first, the same for the same triangles
+    /// and as many vertices, and another for another mesh, but for a chance of 2^-63 that no file can bring about: numbers are random.
     pub fn mesh_number(&self) -> u64 {
-        self.other.as_ref().map_or(0, |other| {
-            let mut number = DefaultHasher::new();
-            other.frame.vertex_count().hash(&mut number);
-            other.frame.polygons().triangles().hash(&mut number);
-            number.finish().max(1)
-        })
+        self.mesh_number
     }
 
     /// Which vertices are apart in the frame that was handed out last, and one in the first frame of its mesh. None where none are;
@@ -716,7 +716,7 @@ impl Body {
                 }
             }
         } else if at == 0 {
-            self.other = None;
+            self.return_to_first_mesh();
         }
         let path = self.files[self.file].path();
         let in_file = |fault: Fault| Error::new(path, fault);
@@ -733,9 +733,14 @@ impl Body {
         Ok(())
     }
 
+    /// Goes back to the mesh of the first file.
+    fn return_to_first_mesh(&mut self) {
+        (self.other, self.mesh_number) = (None, 0);
+    }
+
     /// Reads the first frame of a file, which may have another mesh than the first of all.
     fn read_mesh(&mut self) -> Result<(), Error> {
-        self.other = None;
+        self.return_to_first_mesh();
         match self.source.read(&mut self.first.frame) {
             Ok(_complete) => self.find_seams()?,
             Err(fault) if fault.reason.is_of_another_mesh() => {
@@ -745,6 +750,9 @@ impl Body {
                 let tolerance = self.options.weld_tolerance;
                 let other = Mesh::read(&mut *self.source, own, found.shared_path(), tolerance);
                 let other = other.map_err(|fault| Error::new(found.path(), fault))?;
+                let frame = &other.frame;
+                let mesh = (frame.vertex_count(), frame.polygons().triangles());
+                self.mesh_number = self.numbering.hash_one(mesh).max(1);
                 self.other = Some(Box::new(other));
             }
             Err(fault) => return Err(Error::new(self.files[self.file].path(), fault)),

@@ -136,6 +136,26 @@ fn whole<const N: usize>(
     Ok(numbers)
 }
 
+/// Reads the mesh that a cache moves, which has positions of so many vertices.
+pub(crate) fn read_mesh(
+    (mesh, mut source): (Found, Box<dyn FrameSource>),
+    count: u64,
+    frame: &mut Frame,
+) -> Result<(), Fault> {
+    let in_mesh = |fault: Fault| fault.or_in(mesh.path());
+    let _complete = source.read(frame).map_err(in_mesh)?;
+    let expected = frame.vertex_count() as u64;
+    if expected != count {
+        return Err(Reason::VertexCount {
+            vertices: count,
+            expected,
+            than: mesh.path().to_owned(),
+        }
+        .into());
+    }
+    Ok(())
+}
+
 fn fill(input: &mut impl Read, bytes: &mut [u8], length: u64) -> Result<(), Reason> {
     input.read_exact(bytes).map_err(|error| match error.kind() {
         io::ErrorKind::UnexpectedEof => {
@@ -149,18 +169,8 @@ impl Cache {
     fn read_frame(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
         let place = Place::Frame(self.next);
         let at = |reason: Reason| reason.at(Place::Frame(self.next));
-        if let Some((mesh, mut source)) = self.mesh.take() {
-            let in_mesh = |fault: Fault| fault.or_in(mesh.path());
-            let _complete = source.read(frame).map_err(in_mesh)?;
-            let expected = frame.vertex_count() as u64;
-            if expected != self.count {
-                return Err(Reason::VertexCount {
-                    vertices: self.count,
-                    expected,
-                    than: mesh.path().to_owned(),
-                }
-                .into());
-            }
+        if let Some(mesh) = self.mesh.take() {
+            read_mesh(mesh, self.count, frame)?;
             frame
                 .replace_vertices(Precision::F32, self.count)
                 .map_err(at)?;

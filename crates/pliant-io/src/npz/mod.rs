@@ -12,6 +12,7 @@ mod directory;
 mod entry;
 mod header;
 
+use crate::cache::read_mesh;
 use crate::error::{Fault, Place, Reason};
 use crate::file::Found;
 use crate::format::FrameSource;
@@ -127,7 +128,6 @@ impl Npz {
             return Err(Reason::NoVertices.into());
         }
         check_size(frames, count, size as u64, vertices.left())?;
-        // Of one vertex or one frame it may well be both.
         let is_by_columns = header.fortran_order;
         if is_by_columns {
             let needed = vertices.left();
@@ -249,26 +249,6 @@ impl Npz {
         read.and_then(|()| faces.finish()).map_err(in_array)
     }
 
-    /// Begins the first frame with the faces of the mesh.
-    fn begin_with_mesh(
-        &self,
-        (mesh, mut source): (Found, Box<dyn FrameSource>),
-        frame: &mut Frame,
-    ) -> Result<(), Fault> {
-        let in_mesh = |fault: Fault| fault.or_in(mesh.path());
-        let _complete = source.read(frame).map_err(in_mesh)?;
-        let expected = frame.vertex_count() as u64;
-        if expected != self.count {
-            return Err(Reason::VertexCount {
-                vertices: self.count,
-                expected,
-                than: mesh.path().to_owned(),
-            }
-            .into());
-        }
-        Ok(frame.replace_vertices(self.precision(), self.count)?)
-    }
-
     fn precision(&self) -> Precision {
         match (self.dtype.kind, self.dtype.size) {
             ('f', 8) | ('i' | 'u', 4 | 8) => Precision::F64,
@@ -289,7 +269,8 @@ impl Npz {
     fn read_frame(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
         let place = Place::Frame(self.next);
         if let Some(mesh) = self.mesh.take() {
-            self.begin_with_mesh(mesh, frame)?;
+            read_mesh(mesh, self.count, frame)?;
+            frame.replace_vertices(self.precision(), self.count)?;
         } else if self.next == 0 && !self.is_npy {
             self.begin_with_faces(frame)?;
         } else {

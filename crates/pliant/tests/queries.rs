@@ -9,7 +9,6 @@ use std::num::{NonZeroU32, NonZeroUsize};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
 
 /// A cloth deep in itself, moved there from its first shape.
 fn cloth(options: Options, triangles: usize) -> (World<f32>, BodyId) {
@@ -260,28 +259,26 @@ struct Asked {
 }
 
 /// What takes long in different ways: a first query of a large body with itself, a query all of whose decisions are exact, long lists, many
-/// bodies; so many times as large as for a test that counts.
-fn what_takes_long(times: u32) -> Vec<Asked> {
-    // Of something that goes by its square.
-    let side = |of: u32| (of * of * times).isqrt();
+/// bodies.
+fn what_takes_long() -> Vec<Asked> {
     let all = |world: &mut World<f32>, look: &(dyn Fn() -> bool + Sync)| {
         let found = world.intersections(Selection::World).interrupt_if(look);
         found.all().map(<[Pair]>::len)
     };
     let cloth = Asked {
         name: "a cloth",
-        world: cloth(Options::default(), 2 * (side(63) as usize).pow(2)).0,
+        world: cloth(Options::default(), 47_432).0,
         ask: |world, look| {
             let within = Selection::Within(BodyId(0));
             let found = world.intersections(within).interrupt_if(look);
             found.all().map(<[Pair]>::len)
         },
-        hits: 600 * times as usize,
+        hits: 3_600,
     };
 
     // Two flat sheets in one plane: signs are exact zeros, and nearly all candidates are hits.
     let mut flat = World::new();
-    let (triangles, corners) = sheet(side(30));
+    let (triangles, corners) = sheet(73);
     flat.add(&triangles, &corners).unwrap();
     let shifted = corners.iter().map(|[x, y, z]| [x + 0.001, y - 0.002, *z]);
     let shifted: Vec<_> = shifted.collect();
@@ -290,12 +287,12 @@ fn what_takes_long(times: u32) -> Vec<Asked> {
         name: "flat sheets",
         world: flat,
         ask: all,
-        hits: 5_000 * times as usize,
+        hits: 30_000,
     };
 
     let mut in_one_place = World::new();
     let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let soup: Vec<[u32; 3]> = (0..side(230)).map(|_| [0, 1, 2]).collect();
+    let soup: Vec<[u32; 3]> = (0..563).map(|_| [0, 1, 2]).collect();
     let _ = [0, 1].map(|_| in_one_place.add(&soup, &corners).unwrap());
     let in_one_place = Asked {
         name: "one place",
@@ -306,16 +303,16 @@ fn what_takes_long(times: u32) -> Vec<Asked> {
 
     let touching = Asked {
         name: "close pairs that touch",
-        world: sheets_that_touch(side(10)),
+        world: sheets_that_touch(24),
         ask: |world, look| {
             let close = world.close_edge_edge_pairs(Selection::World, 1e-6);
             close.interrupt_if(look).all().map(<[_]>::len)
         },
-        hits: 1_000 * times as usize,
+        hits: 6_000,
     };
 
     let mut many_bodies = World::new();
-    for at in 0..side(95) {
+    for at in 0..232 {
         let x = at as f32 * 0.001;
         let corners = [[x, 0.0, 0.0], [x + 9.0, 0.0, 1.0], [x, 9.0, 0.0]];
         many_bodies.add(&[[0, 1, 2]], &corners).unwrap();
@@ -406,33 +403,8 @@ const MOST_BETWEEN_LOOKS: u64 = 20_000;
 /// Between two looks a query does no more than some milliseconds take, counted in what it does.
 #[test]
 fn looks_are_never_far_apart() {
-    for asked in what_takes_long(6) {
+    for asked in what_takes_long() {
         asked.assert_between_looks(MOST_BETWEEN_LOOKS);
-    }
-}
-
-/// The longest time between two looks of a query, of the shortest of some tries, because other work on the machine makes any of them long.
-#[test]
-#[ignore = "times: on a quiet machine"]
-fn looks_come_every_ten_milliseconds() {
-    for asked in what_takes_long(10) {
-        let tries = (0..4).map(|_| {
-            let mut world = asked.world.clone();
-            let start = Instant::now();
-            let (last, longest) = (AtomicUsize::new(0), AtomicUsize::new(0));
-            let look = || {
-                let now = start.elapsed().as_micros() as usize;
-                let before = last.swap(now, Ordering::Relaxed);
-                longest.fetch_max(now.saturating_sub(before), Ordering::Relaxed);
-                false
-            };
-            assert!((asked.ask)(&mut world, &look).unwrap() >= asked.hits);
-            look();
-            Duration::from_micros(longest.into_inner() as u64)
-        });
-        let gap = tries.min().unwrap();
-        println!("{}: {gap:?}", asked.name);
-        assert!(gap < Duration::from_millis(10), "{}: {gap:?}", asked.name);
     }
 }
 

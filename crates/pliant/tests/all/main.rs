@@ -1,7 +1,8 @@
 //! The tests of the library, one file a module, in one program: a program each is linked with the whole library each time, and is waited for
 //! while its last test runs alone. One file: `cargo test -p pliant --test all candidates::`.
 //!
-//! Beside it stand those that nothing may disturb: `allocation` and `memory` count what is allocated, `queries` looks at the clock.
+//! Beside it stand those that nothing may disturb: `allocation` and `memory` count what is allocated, `queries` how often a query looks
+//! whether it is interrupted.
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,4 +1,5 @@
-//! Counters: what a query did. They explain its cost on any machine; time is never read inside the library.
+//! Counters: what a query did. They explain its cost on any machine; time is never read inside the library. The same for any number of
+//! threads, but for decisions and pairs on the way to a first impact or a free step: there every thread goes by the earliest so far.
 
 /// The work of one query, together with what [`prepare`](crate::Query::prepare) has done since the query before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -647,7 +647,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
         let first = self
             .impacts
             .first_contact(&mut self.common, &request, OfKind::Both)?;
-        Ok(first.map(|(impact, contact)| impact.with_cell(contact.cell(grid))))
+        Ok(first.map(|first| first.in_cell_of(grid)))
     }
 
     fn collision_free_step(
@@ -828,8 +828,7 @@ macro_rules! ask_impacts {
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
                 let grid = request.grid()?;
                 let first = self.impacts.first_contact(&mut self.common, request, $of)?;
-                let first = first.map(|(impact, contact)| impact.with_cell(contact.cell(grid)));
-                Ok(first.and_then($hit::of))
+                Ok(first.and_then(|first| $hit::of(first.in_cell_of(grid))))
             }
 
             fn visit(&mut self, request: &Request, visitor: Visitor<$hit>) -> Result<(), Error> {

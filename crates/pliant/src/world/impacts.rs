@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::held::Held;
 use crate::impacts::Impact;
 use crate::kernels::Coordinate;
-use crate::predicates::motion::{Contact, Grid};
+use crate::predicates::motion::Grid;
 use crate::queries::{
     Earliest, EdgeEdgeCandidates, First, Impacts, Kind, LIMIT, Margin, Reach,
     VertexTriangleCandidates,
@@ -77,9 +77,8 @@ impl<S: Coordinate> AskedImpacts<S> {
         common: &mut Common<N, S>,
         request: &Request,
         of: OfKind,
-    ) -> Result<Option<(Impact, Contact)>, Error> {
-        let first = self.earliest(common, request, of, false, 0.0)?.first();
-        Ok(first.map(|First { impact, contact }| (impact, contact)))
+    ) -> Result<Option<First>, Error> {
+        Ok(self.earliest(common, request, of, false, 0.0)?.first())
     }
 
     /// The earliest contact, of both kinds or one, after the start or at any time; or the first time at which elements come as near as a

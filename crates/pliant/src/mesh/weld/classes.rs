@@ -9,11 +9,12 @@ pub(super) struct Classes {
     vertices: Vec<u32>,
     /// For each of all vertices its place there, if it has one.
     places: Vec<u32>,
-    /// By place: another of those that are one, or itself if it stands for them.
+    /// By place: another of those that are one, or itself if it stands for them: union-find, with paths halved.
     next: Vec<u32>,
-    /// Of those that stand for others: the lowest of them, and which have a triangle in common with one of them.
+    /// Of those that stand for others: the lowest of them, and which have a triangle in common with one of them, so that they may not
+    /// become one.
     lowest: Vec<u32>,
-    foes: Vec<BTreeSet<u32>>,
+    conflicts: Vec<BTreeSet<u32>>,
 }
 
 impl Classes {
@@ -34,7 +35,7 @@ impl Classes {
             places[vertex as usize] = place;
         }
         let all = 0..vertices.len() as u32;
-        let mut foes = vec![BTreeSet::new(); vertices.len()];
+        let mut conflicts = vec![BTreeSet::new(); vertices.len()];
         for some in triangles.chunks(UNINTERRUPTED) {
             for corners in some {
                 let of = |corner: usize| places.get(corners[corner] as usize).copied();
@@ -44,8 +45,8 @@ impl Classes {
                         && b != u32::MAX
                         && a != b
                     {
-                        foes[a as usize].insert(b);
-                        foes[b as usize].insert(a);
+                        conflicts[a as usize].insert(b);
+                        conflicts[b as usize].insert(a);
                     }
                 }
             }
@@ -58,7 +59,7 @@ impl Classes {
             lowest: all.collect(),
             vertices,
             places,
-            foes,
+            conflicts,
         })
     }
 
@@ -76,7 +77,7 @@ impl Classes {
     /// Whether the ends of two sides, one by one, are not all one and may become it. What they may not, they never may.
     pub(super) fn may_join(&mut self, [a, b]: [u32; 2], [x, y]: [u32; 2]) -> bool {
         let [a, b, x, y] = [a, b, x, y].map(|vertex| self.of(vertex));
-        let may = |one: u32, other: u32| !self.foes[one as usize].contains(&other);
+        let may = |one: u32, other: u32| !self.conflicts[one as usize].contains(&other);
         [a, b] != [x, y] && may(a, x) && may(b, y)
     }
 
@@ -95,13 +96,13 @@ impl Classes {
             return;
         }
         // The fewer are told that they have another name now.
-        let is_more = self.foes[a as usize].len() >= self.foes[b as usize].len();
+        let is_more = self.conflicts[a as usize].len() >= self.conflicts[b as usize].len();
         let (kept, gone) = if is_more { (a, b) } else { (b, a) };
-        for foe in std::mem::take(&mut self.foes[gone as usize]) {
-            let of_foe = &mut self.foes[foe as usize];
-            of_foe.remove(&gone);
-            of_foe.insert(kept);
-            self.foes[kept as usize].insert(foe);
+        for other in std::mem::take(&mut self.conflicts[gone as usize]) {
+            let of_other = &mut self.conflicts[other as usize];
+            of_other.remove(&gone);
+            of_other.insert(kept);
+            self.conflicts[kept as usize].insert(other);
         }
         self.next[gone as usize] = kept;
         let lowest = self.lowest[gone as usize].min(self.lowest[kept as usize]);

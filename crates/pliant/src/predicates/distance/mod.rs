@@ -79,8 +79,9 @@ pub(crate) fn are_within_distance(elements: &Primitives, distance: f64) -> bool 
 
 /// Whether two points are at most so far apart; as [`are_within_distance`], but for most points at once.
 ///
-/// Coordinates and the distance are off by nothing, a difference, a square, two sums by 2^-53 of themselves each, and below the normal
-/// range by 2^-1022: that is nothing beside a limit that is not there.
+/// With u = 2^-53 the square of the distance of the points is off by 5 u of itself (a difference twice, a square, two sums), that of the
+/// given distance by u: 32 u of the latter are allowed for. What is lost below the normal range, at most 2^-1020, is less than the rest of
+/// that where the latter is above 2^-900.
 pub(crate) fn are_points_within(p: &Point, q: &Point, distance: f64) -> bool {
     let [x, y, z] = std::array::from_fn(|axis| p[axis] - q[axis]);
     let square = x * x + y * y + z * z;

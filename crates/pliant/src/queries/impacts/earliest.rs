@@ -32,6 +32,13 @@ pub(crate) struct First {
     pub(crate) contact: Contact,
 }
 
+impl First {
+    /// The impact with the cell of a grid in which it is.
+    pub(crate) fn in_cell_of(self, grid: Grid) -> Impact {
+        self.impact.with_cell(self.contact.cell(grid))
+    }
+}
+
 impl Earliest {
     pub(crate) fn new(after_start: bool, reach: f64) -> Self {
         Self {
@@ -69,8 +76,7 @@ impl Earliest {
     pub(super) fn offer(&self, moving: &Moving, impact: Impact) -> (bool, Decided) {
         let grid = Grid::new(WIDTH);
         let until = self.until();
-        let certain = quick(moving, grid, until);
-        let cell = match certain {
+        let cell = match quick(moving, grid, until) {
             Certain::Never => return (false, Decided::InFloatingPoint),
             Certain::Within(cell) => Some(cell),
             Certain::Nothing => None,

@@ -4,9 +4,8 @@
 //! cargo run --release -p pliant-bench --example pauses    # seconds; a quiet machine
 //! ```
 //!
-//! Of a query each figure is that of the best of some tries, for other work on the machine makes any of them long. Removing twice as many
-//! bodies is to take about twice as long. That queries look often enough is tested by counting work (`looks_are_never_far_apart`); these
-//! are the times of the same.
+//! Of a query each figure is that of the best of some tries, for other work on the machine makes any of them long. That queries look often
+//! enough is tested by counting work (`looks_are_never_far_apart`); these are the times of the same.
 
 use pliant::{Pair, Selection, World};
 use pliant_bench::machine::this_machine;

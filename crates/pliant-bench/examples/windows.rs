@@ -7,8 +7,8 @@
 //! cargo run --release -p pliant-bench --example windows -- [NAME ...] [--rounds R]
 //! ```
 
-use pliant::{BodyId, Selection, World};
-use pliant_bench::motion::{Motion, Placed};
+use pliant::{BodyId, Degree, Scalar, Selection, World};
+use pliant_bench::motion::Motion;
 use pliant_scenes::Scene;
 use std::time::Instant;
 
@@ -24,6 +24,8 @@ type Window = (
 #[derive(Clone, Copy)]
 enum Ask {
     All,
+    /// The same, with how each pair intersects.
+    Contacts,
     First,
     Itself,
     /// What is within so many mean lengths of an edge, by boxes; and what is close, measured.
@@ -36,7 +38,7 @@ enum Ask {
     Earliest,
 }
 
-const WINDOWS: [Window; 21] = [
+const WINDOWS: [Window; 25] = [
     ("easy", "spheres", 20_480, 1..=50, Ask::All),
     ("hard", "spheres", 20_480, 150..=200, Ask::All),
     ("deepest", "spheres", 20_480, 200..=200, Ask::All),
@@ -58,7 +60,20 @@ const WINDOWS: [Window; 21] = [
     ("meeting", "crowd", 5_120, 118..=120, Ask::Meet),
     ("earliest", "cloth", 79_202, 43..=45, Ask::Earliest),
     ("earlier", "spheres", 20_480, 118..=120, Ask::Earliest),
+    ("contacts", "spheres", 20_480, 200..=200, Ask::Contacts),
+    ("double", "cloth", 79_202, 43..=45, Ask::Itself),
+    ("two", "spheres", 20_480, 200..=200, Ask::All),
+    ("four", "spheres", 20_480, 200..=200, Ask::All),
 ];
+
+/// The degree of the trees in a window.
+fn degree(window: &str) -> Degree {
+    match window {
+        "two" => Degree::Two,
+        "four" => Degree::Four,
+        _ => Degree::Eight,
+    }
+}
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -75,14 +90,19 @@ fn main() {
         .collect();
     for window in WINDOWS {
         if named.is_empty() || named.contains(&window.0) {
-            play(window, rounds);
+            if window.0 == "double" {
+                play::<f64>(window, rounds);
+            } else {
+                play::<f32>(window, rounds);
+            }
         }
     }
 }
 
 /// With the environment variables THREADS, and LEVEL of the hybrid update.
-fn options() -> pliant::Options {
+fn options(degree: Degree) -> pliant::Options {
     let mut options = pliant::Options::default();
+    options.degree = degree;
     if let Ok(threads) = std::env::var("THREADS") {
         options.threads = threads.parse().expect("a number of threads");
     }
@@ -96,7 +116,17 @@ fn options() -> pliant::Options {
     options
 }
 
-fn play((name, scene, triangles, steps, ask): Window, rounds: u32) {
+/// Where a body is in a step, and where it is going.
+struct Placed<S> {
+    world: Vec<[S; 3]>,
+    end: Option<Vec<[S; 3]>>,
+}
+
+fn in_scalar<S: From<f32>>(positions: &[[f32; 3]]) -> Vec<[S; 3]> {
+    positions.iter().map(|it| it.map(S::from)).collect()
+}
+
+fn play<S: Scalar + From<f32>>((name, scene, triangles, steps, ask): Window, rounds: u32) {
     let scene = Scene::new(scene, Some(triangles), Scene::DEFAULT_SEED).expect("a scene");
     let mut motion = Motion::of_scene(&scene, steps);
     if matches!(ask, Ask::Meet | Ask::Earliest) {
@@ -108,23 +138,31 @@ fn play((name, scene, triangles, steps, ask): Window, rounds: u32) {
         Ask::Close(lengths) => Ask::Close(lengths * motion.mean_side()),
         other => other,
     };
-    let mut world = World::<f32>::with_options(options());
+    let mut world = World::<S>::with_options(options(degree(name)));
     let bodies: Vec<BodyId> = motion
         .bodies
         .iter()
         .map(|body| {
             world
-                .add(&body.triangles, &body.first.world)
+                .add(&body.triangles, &in_scalar(&body.first.world))
                 .expect("good bodies")
         })
         .collect();
-    let mut least = vec![[f64::INFINITY; 2]; motion.frames.len()];
+    let placed = |body: &pliant_bench::motion::Placed| Placed {
+        world: in_scalar(&body.world),
+        end: body.end.as_deref().map(in_scalar),
+    };
+    let frames = motion.frames.iter();
+    let frames: Vec<Vec<Placed<S>>> = frames
+        .map(|frame| frame.iter().map(placed).collect())
+        .collect();
+    let mut least = vec![[f64::INFINITY; 2]; frames.len()];
     let mut work = pliant::Statistics::default();
     let mut found = 0;
     for _ in 0..rounds {
         work = pliant::Statistics::default();
         found = 0;
-        for (frame, least) in motion.frames.iter().zip(&mut least) {
+        for (frame, least) in frames.iter().zip(&mut least) {
             let (moved, all, pairs) = one_step(&mut world, &bodies, frame, ask);
             *least = [least[0].min(moved), least[1].min(all)];
             found += pairs;
@@ -145,10 +183,10 @@ fn play((name, scene, triangles, steps, ask): Window, rounds: u32) {
 /// Seconds until the positions were taken over, until the answer was there, and how many pairs. A function of its own, so that
 /// instructions can be counted between its beginning and its end.
 #[inline(never)]
-fn one_step(
-    world: &mut World<f32>,
+fn one_step<S: Scalar>(
+    world: &mut World<S>,
     bodies: &[BodyId],
-    frame: &[Placed],
+    frame: &[Placed<S>],
     ask: Ask,
 ) -> (f64, f64, usize) {
     let start = Instant::now();
@@ -163,6 +201,10 @@ fn one_step(
     let moved = start.elapsed().as_secs_f64();
     let found = match ask {
         Ask::All => all(world, Selection::World),
+        Ask::Contacts => {
+            let contacts = world.contacts(Selection::World).all();
+            contacts.expect("the world is there").len()
+        }
         Ask::First => {
             let first = world.intersections(Selection::World).first();
             usize::from(first.expect("the world is there").is_some())
@@ -204,7 +246,7 @@ fn one_step(
     (moved, start.elapsed().as_secs_f64(), found)
 }
 
-fn all(world: &mut World<f32>, of: Selection) -> usize {
+fn all<S: Scalar>(world: &mut World<S>, of: Selection) -> usize {
     world
         .intersections(of)
         .all()

@@ -26,7 +26,7 @@ pub use motion::{
     Elements, FirstContact, MotionClass, Moving, compare_first, first_contact, meet_until,
     motion_fits_f32,
 };
-pub use pairs::{Class, Random, fits_f32};
+pub use pairs::{Class, Random, element_pairs, fits_f32};
 
 use hull::{Vector, cross, determinant, minus, zero_in_hull, zero_inside, zero_inside_of_plane};
 use integers::{Exact, Scaled, scale};

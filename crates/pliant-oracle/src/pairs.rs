@@ -446,6 +446,18 @@ fn below_underflow(random: &mut Random) -> [Triangle; 2] {
     rounded(pair, false)
 }
 
+/// Eight pairs of elements of two triangles, by their corners, and how many of these are of the first element: a corner and the other
+/// triangle, or two edges.
+pub fn element_pairs([a, b]: &[Triangle; 2]) -> Vec<(usize, [[f64; 3]; 4])> {
+    let corners = (0..2).flat_map(|corner| [[a, b], [b, a]].map(|pair| (corner, pair)));
+    let corners = corners.map(|(corner, [a, b])| (1, [a[corner], b[0], b[1], b[2]]));
+    let edges = [(0, 0), (1, 0), (2, 1), (0, 2)].map(|(i, j)| {
+        let corners = [a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]];
+        (2, corners)
+    });
+    corners.chain(edges).collect()
+}
+
 fn any_bits(random: &mut Random, single: bool) -> [Triangle; 2] {
     let mut number = || loop {
         let bits = random.bits();

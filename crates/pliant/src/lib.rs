@@ -67,7 +67,6 @@
 //! broad_phase   brute force; sweep and prune; a tree of bodies
 //! traversal     tree against tree, tree against itself, for any kind of query
 //! queries       one room a kind: intersections and contacts, candidates, close pairs, impacts
-//! predicates    exact: whether and how triangles intersect, how far elements are apart, when they meet
 //! sort          hits in order
 //! kernels       the inner loops, over boxes and points side by side
 //! threads       one or many, private or lent
@@ -88,7 +87,6 @@ mod kernels;
 mod mesh;
 mod options;
 mod pair_impacts;
-mod predicates;
 mod queries;
 pub mod reference;
 mod sort;
@@ -120,7 +118,7 @@ pub use world::{
 
 /// Exact decisions on single points and triangles, for who asks about shapes beside a world.
 pub mod exact {
-    pub use crate::predicates::{is_degenerate, side_of_plane};
+    pub use pliant_exact::{is_degenerate, side_of_plane};
 }
 
 // A module of the documentation alone; its code is compiled and run like that of the README, with which this page begins.

@@ -6,9 +6,9 @@
 use crate::error::{Error, ErrorKind};
 use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
 use crate::kernels::{Instructions, dispatch};
-use crate::predicates::motion::{Grid, Moving, impact};
 use crate::threads::Interrupt;
 use crate::world::Scalar;
+use pliant_exact::motion::{Grid, Moving, impact};
 
 /// When vertices first meet triangles that move: of each pair the vertex and the three corners, at the start and at the end of the motion.
 ///

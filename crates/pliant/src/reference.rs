@@ -7,9 +7,10 @@ use crate::contacts::ContactKind;
 use crate::error::Error;
 use crate::geometry::Bounds;
 use crate::mesh::share_a_vertex;
-use crate::predicates::distance::{Primitives, are_within_distance};
-use crate::predicates::motion::{self, Grid, first_contact};
-use crate::predicates::{Exact, Triangle, are_within, contact_kind, triangles_intersect};
+use pliant_exact::Triangle;
+use pliant_exact::distance::{Primitives, are_within_distance};
+use pliant_exact::motion::{self, Grid, first_contact};
+use pliant_exact::reference::{contact_kind, intersect};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
@@ -36,7 +37,7 @@ fn pairs_of_two(a: &[Triangle], b: &[Triangle]) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for (i, a) in a.iter().enumerate() {
         for (j, b) in b.iter().enumerate() {
-            if triangles_intersect(a, b, &mut Exact) {
+            if intersect(a, b) {
                 pairs.push([i as u32, j as u32]);
             }
         }
@@ -61,8 +62,7 @@ fn pairs_of_one(triangles: &[[u32; 3]], all: &[Triangle]) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for (i, a) in all.iter().enumerate() {
         for (j, b) in all.iter().enumerate().skip(i + 1) {
-            if !share_a_vertex(triangles[i], triangles[j]) && triangles_intersect(a, b, &mut Exact)
-            {
+            if !share_a_vertex(triangles[i], triangles[j]) && intersect(a, b) {
                 pairs.push([i as u32, j as u32]);
             }
         }
@@ -106,7 +106,7 @@ fn with_kinds(
     a: &[Triangle],
     b: &[Triangle],
 ) -> Vec<([u32; 2], ContactKind)> {
-    let kind = |[i, j]: [u32; 2]| contact_kind(&a[i as usize], &b[j as usize], &mut Exact);
+    let kind = |[i, j]: [u32; 2]| contact_kind(&a[i as usize], &b[j as usize]);
     pairs.into_iter().map(|pair| (pair, kind(pair))).collect()
 }
 
@@ -164,8 +164,8 @@ fn are_close(a: &Triangle, b: &Triangle, distance: f64) -> bool {
         corners.iter().for_each(|&corner| bounds.include(corner));
         bounds
     };
-    are_within(&box_of(a), &box_of(b), distance)
-        && (triangles_intersect(a, b, &mut Exact) || {
+    box_of(a).are_within(&box_of(b), distance)
+        && (intersect(a, b) || {
             let corner = |i: usize, [p, q]: [&Triangle; 2]| {
                 Primitives::VertexTriangle([p[i], q[0], q[1], q[2]])
             };
@@ -364,7 +364,7 @@ fn timed<S: Scalar>(
 
 /// Two elements as the exact decision takes them, if their boxes overlap.
 fn elements_in_motion<S: Scalar>((a, of_a): Part<S>, (b, of_b): Part<S>) -> Option<motion::Moving> {
-    if !are_within(&a.box_of(of_a), &b.box_of(of_b), 0.0) {
+    if !a.box_of(of_a).are_within(&b.box_of(of_b), 0.0) {
         return None;
     }
     let both = || {
@@ -388,14 +388,14 @@ type Part<'p, 'm, S> = (&'p Moving<'m, S>, &'p [u32]);
 
 /// Whether the boxes of two elements are near each other, at both ends of their motions.
 fn near<S: Scalar>(radius: f64) -> impl Fn(Part<S>, Part<S>) -> bool {
-    move |(a, of_a), (b, of_b)| are_within(&a.box_of(of_a), &b.box_of(of_b), 2.0 * radius)
+    move |(a, of_a), (b, of_b)| a.box_of(of_a).are_within(&b.box_of(of_b), 2.0 * radius)
 }
 
 /// Whether two elements are at most so far apart, now.
 fn close<S: Scalar>(distance: f64) -> impl Fn(Part<S>, Part<S>) -> bool {
     move |(a, of_a), (b, of_b)| {
         // What is further apart on one axis is further apart.
-        if !are_within(&a.box_now(of_a), &b.box_now(of_b), distance) {
+        if !a.box_now(of_a).are_within(&b.box_now(of_b), distance) {
             return false;
         }
         let corner =

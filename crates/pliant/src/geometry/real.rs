@@ -5,7 +5,7 @@
 //! tightly is a matter of speed. For `f32` it is exact. For `f64` it is relative to one origin of the world (far from zero an `f32`
 //! has no digits left for the shape) and rounded outward.
 
-use std::hint::black_box;
+use pliant_exact::Precision;
 use std::ops::{Add, Mul};
 
 /// A coordinate: `f32` or `f64`. What differs between them, one number at a time; what registers do is `kernels::Coordinate`.
@@ -24,9 +24,8 @@ pub(crate) trait Real:
     const NAN: Self;
     const INFINITY: Self;
     const NEG_INFINITY: Self;
-    /// What a sign's filter allows for results below the normal range: see `predicates::orientation`. Zero if there are none; then no
-    /// coordinate is too small for adaptive expansions either.
-    const UNDERFLOW: f64;
+    /// What exact decisions are told of it.
+    const PRECISION: Precision;
     /// Whether boxes are exact, so that an origin has no use.
     const BOXES_ARE_EXACT: bool;
 
@@ -56,8 +55,7 @@ impl Real for f32 {
     const NAN: Self = f32::NAN;
     const INFINITY: Self = f32::INFINITY;
     const NEG_INFINITY: Self = f32::NEG_INFINITY;
-    // The smallest difference of two f32 is 2^-149; the product of three of them is far inside f64.
-    const UNDERFLOW: f64 = 0.0;
+    const PRECISION: Precision = Precision::Single;
     const BOXES_ARE_EXACT: bool = true;
     // `past` rounds once to f32, after roundings that are 2^29 times smaller: together less than 2^-23. A result below 2^-126 may be taken
     // for zero.
@@ -99,8 +97,7 @@ impl Real for f64 {
     const NAN: Self = f64::NAN;
     const INFINITY: Self = f64::INFINITY;
     const NEG_INFINITY: Self = f64::NEG_INFINITY;
-    // 2^-1018, sixteen times the smallest normal number.
-    const UNDERFLOW: f64 = f64::from_bits(5 << 52);
+    const PRECISION: Precision = Precision::Double;
     const BOXES_ARE_EXACT: bool = false;
     // With L for the larger end: a difference of at most 2 L, a product with it and a sum of at most 3 L, and what is added to it, each rounded
     // to 2^-53 of itself: less than 2^-49 L. Each result below 2^-1022 may be taken for zero.
@@ -171,16 +168,10 @@ pub(crate) fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if b > a { b } else { a }
 }
 
-/// Whether this thread keeps subnormal numbers: neither flushes results to zero nor takes operands for zero.
-pub(crate) fn denormals_are_kept() -> bool {
-    // Made, and read: the first is lost by flush-to-zero, the second by denormals-are-zero. Computed now, not by the compiler.
-    let half = black_box(black_box(f64::MIN_POSITIVE) * 0.5);
-    half * 2.0 == f64::MIN_POSITIVE
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::hint::black_box;
 
     /// Compares `bound` with the exact `x - origin`, in integers: all values are multiples of 2^-40 below 2^60.
     fn exact(x: f64) -> i128 {
@@ -305,16 +296,6 @@ mod tests {
         if let Some(flushed) = pliant_oracle::subnormals_flushed(places) {
             check(flushed);
         }
-    }
-
-    #[test]
-    fn a_thread_that_flushes_is_found_out() {
-        assert!(denormals_are_kept());
-        assert_ne!(
-            pliant_oracle::subnormals_flushed(denormals_are_kept),
-            Some(true)
-        );
-        assert!(denormals_are_kept());
     }
 
     #[test]

@@ -70,6 +70,13 @@ impl<S: Real> Bounds<S> {
     }
 }
 
+impl Bounds<f64> {
+    /// Whether both are at most so far apart on every axis: exactly.
+    pub(crate) fn are_within(&self, other: &Self, distance: f64) -> bool {
+        pliant_exact::are_boxes_within(&[self.lo, self.hi], &[other.lo, other.hi], distance)
+    }
+}
+
 impl<S: Real> Shape<'_, S> {
     /// The box of one triangle: what the kernels must give.
     #[cfg(test)]

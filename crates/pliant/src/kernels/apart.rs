@@ -278,7 +278,7 @@ fn along<I: Simd>(p: Vectors<I>, t: f32x8<I>, e: Vectors<I>) -> Vectors<I> {
 mod tests {
     use super::*;
     use crate::kernels::{Instructions, dispatch};
-    use crate::predicates::distance::{Primitives, are_within_distance};
+    use pliant_exact::distance::{Primitives, are_within_distance};
     use pliant_oracle::{Elements, MotionClass, Moving, Random, first_contact, motion_fits_f32};
     use std::cmp::Ordering;
 

@@ -38,9 +38,10 @@
 //! the sum of the largest such sums of either triangle; it allows 20 u S too.
 
 use super::Coordinate;
-use crate::geometry::{ELEMENT_PAIRS, FIRST_OF_EDGES, Real, four_corners, is_swapped};
+use crate::geometry::Real;
 use fearless_simd::prelude::*;
 use fearless_simd::{Select, Simd, f32x8, f64x4};
+use pliant_exact::{ELEMENT_PAIRS, FIRST_OF_EDGES, four_corners, is_swapped};
 
 /// The four corners of a pair of elements, each with padding.
 pub(crate) type Corners<'q, S> = [&'q [S; 4]; 4];
@@ -48,7 +49,7 @@ pub(crate) type Corners<'q, S> = [&'q [S; 4]; 4];
 /// Where four pairs of elements are closest.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct FourClosest {
-    /// As `predicates::distance::Closest` has it.
+    /// As `pliant_exact::distance::Closest` has it.
     pub(crate) along: [[f64; 4]; 2],
     /// The way from the second to the first.
     pub(crate) way: [[f64; 4]; 3],
@@ -550,12 +551,28 @@ fn square_of<I: Simd, V: SimdFloat<I>>(p: Vector<V>) -> V {
 mod tests {
     use super::*;
     use crate::kernels::{Instructions, dispatch};
-    use crate::predicates::distance::{Primitives, closest, hard_pairs};
+    use pliant_exact::distance::{Primitives, closest};
     use pliant_oracle::{Class, Random, compare_distance, compare_dot, compare_length};
     use std::cmp::Ordering;
 
     /// What is promised of distances.
     const ACCURACY: f64 = f64::from_bits((1023 - 30) << 52);
+
+    /// Eight pairs of elements of a hard pair of triangles, and the corners of either.
+    fn hard_pairs(
+        triangles: &[[[f64; 3]; 3]; 2],
+    ) -> Vec<(Primitives, Vec<[f64; 3]>, Vec<[f64; 3]>)> {
+        let pairs = pliant_oracle::element_pairs(triangles).into_iter();
+        let of = |(first, corners): (usize, [[f64; 3]; 4])| {
+            let elements = match first {
+                1 => Primitives::VertexTriangle(corners),
+                _ => Primitives::EdgeEdge(corners),
+            };
+            let (a, b) = corners.split_at(first);
+            (elements, a.to_vec(), b.to_vec())
+        };
+        pairs.map(of).collect()
+    }
 
     /// A pair in each lane.
     fn four(i: impl Simd, all: [&Primitives; 4]) -> FourClosest {

@@ -3,7 +3,7 @@
 //! Between two boxes the *gap* is the largest of six differences, lower sides less upper ones: at most zero where they overlap. The
 //! boxes here are not rounded outward: in single precision they are exact, and in double precision their sides are relative to the origin
 //! and rounded to the nearest `f32`. So a gap computed in `f32` is off, and [`Limits`] says by how much at most: below the one it
-//! is surely small enough, above the other surely not, and between them exact arithmetic is asked (`predicates::gap`).
+//! is surely small enough, above the other surely not, and between them exact arithmetic is asked (`pliant_exact`).
 //!
 //! With positions of `f32`, a computed gap is the true one, rounded. Rounding is monotonic, so it is below `fl(d)` only if the gap is below
 //! d, and above `fl(d)` only if the gap is above d: both limits are `fl(d)`.
@@ -231,7 +231,6 @@ mod tests {
     use super::*;
     use crate::geometry::Bounds;
     use crate::kernels::{Instructions, dispatch};
-    use crate::predicates::are_within;
     use pliant_oracle::{Class, Random};
 
     /// Compares two triangles at distances round their gap with exact arithmetic; returns how often the limits were not certain, and how
@@ -282,7 +281,7 @@ mod tests {
                 if distance < 0.0 {
                     continue;
                 }
-                let expected = are_within(&exact[0], &exact[1], distance);
+                let expected = exact[0].are_within(&exact[1], distance);
                 for instructions in Instructions::all() {
                     dispatch!(instructions, i => {
                         let [mut a, mut b] = [Eight::EMPTY; 2];

@@ -15,7 +15,7 @@
 //! ninth u if every length is at least 2^-40 = [`SHORTEST`], which is therefore asked for; shorter ones, zero among them, are
 //! left to exact arithmetic. Comparisons are strict, so infinities and NaN are not certain either.
 //!
-//! Coarser than the bound of `predicates::orientation` by the shape of the triangles, but without a second sum for each sign.
+//! Coarser than the bound of `pliant_exact`'s filter by the shape of the triangles, but without a second sum for each sign.
 
 use super::coordinate::{Coordinate, Corners, Vectors};
 use fearless_simd::prelude::*;

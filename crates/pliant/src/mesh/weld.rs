@@ -336,7 +336,7 @@ impl Search<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicates::distance::are_points_within;
+    use pliant_exact::distance::are_points_within;
     use pliant_oracle::{Random, compare_length};
     use std::cell::Cell;
     use std::cmp::Ordering;

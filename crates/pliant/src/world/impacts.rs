@@ -15,12 +15,12 @@ use crate::error::Error;
 use crate::held::Held;
 use crate::impacts::Impact;
 use crate::kernels::Coordinate;
-use crate::predicates::motion::Grid;
 use crate::queries::{
     Earliest, EdgeEdgeCandidates, First, Impacts, Kind, LIMIT, Margin, Reach,
     VertexTriangleCandidates,
 };
 use crate::statistics::Statistics;
+use pliant_exact::motion::Grid;
 use std::ops::ControlFlow;
 
 /// The next part of a motion that is looked at is so many times as long.

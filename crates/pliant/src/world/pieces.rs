@@ -5,8 +5,8 @@ use crate::edit::Edited;
 use crate::error::{Error, ErrorKind};
 use crate::ids::BodyId;
 use crate::mesh::{self, Nearness};
-use crate::predicates::distance::are_points_within;
 use crate::threads::{Interrupt, Question};
+use pliant_exact::distance::are_points_within;
 use std::ops::Range;
 
 /// A body that was a component of another.

@@ -4,10 +4,10 @@ use super::Selection;
 use crate::contacts::{Contact, ContactKind};
 use crate::error::{Error, ErrorKind};
 use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
-use crate::predicates::motion::Grid;
 use crate::queries::Margin;
 use crate::threads::Question;
 use crate::traversal::Visitor;
+use pliant_exact::motion::Grid;
 use std::fmt;
 use std::ops::ControlFlow;
 

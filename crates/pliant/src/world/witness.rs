@@ -12,10 +12,10 @@ use crate::held::{self, Held};
 use crate::hits::Pair;
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
-use crate::predicates::{Triangle, intersect};
 use crate::queries::{CallerIds, Candidate, Intersections, Kind};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
+use pliant_exact::{Triangle, intersect};
 use std::collections::BTreeMap;
 
 /// The last answers, by the bodies asked for; a body with itself is asked for twice.
@@ -143,7 +143,7 @@ impl<'b, const R: usize, const N: usize, S: Coordinate> Run<'b, R, N, S> {
                 }
                 statistics.candidate_pairs += 1;
                 let exact = &mut statistics.exact_decisions;
-                if intersect::<S>(&self.corners[a], &other.corners[b], exact) {
+                if intersect(S::PRECISION, &self.corners[a], &other.corners[b], exact) {
                     statistics.pairs += 1;
                     return Some(pair);
                 }

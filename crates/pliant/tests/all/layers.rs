@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folder, or file of the crate's root, and what it may use.
-const LAYERS: [(&str, &[&str]); 25] = [
+const LAYERS: [(&str, &[&str]); 24] = [
     ("held", &[]),
     ("ids", &[]),
     ("options", &[]),
@@ -23,7 +23,6 @@ const LAYERS: [(&str, &[&str]); 25] = [
     ("geometry", &["held", "ids"]),
     ("kernels", &["held", "ids", "geometry"]),
     ("mesh", &["held", "ids", "error", "edit", "threads"]),
-    ("predicates", &["geometry", "contacts"]),
     ("sort", &["held", "hits", "kernels", "threads"]),
     (
         "broad_phase",
@@ -60,7 +59,6 @@ const LAYERS: [(&str, &[&str]); 25] = [
             "geometry",
             "kernels",
             "mesh",
-            "predicates",
             "threads",
             "tree",
         ],
@@ -96,7 +94,6 @@ const LAYERS: [(&str, &[&str]); 25] = [
             "geometry",
             "kernels",
             "mesh",
-            "predicates",
             "sort",
             "broad_phase",
             "threads",
@@ -108,19 +105,9 @@ const LAYERS: [(&str, &[&str]); 25] = [
     ),
     (
         "reference",
-        &[
-            "contacts",
-            "error",
-            "geometry",
-            "mesh",
-            "predicates",
-            "world",
-        ],
+        &["contacts", "error", "geometry", "mesh", "world"],
     ),
-    (
-        "pair_impacts",
-        &["error", "kernels", "predicates", "threads", "world"],
-    ),
+    ("pair_impacts", &["error", "kernels", "threads", "world"]),
     ("lib", &[]),
 ];
 

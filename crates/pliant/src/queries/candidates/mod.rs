@@ -20,7 +20,6 @@ use crate::geometry::{Bounds, Real, Shape};
 use crate::ids::TreeVertex;
 use crate::kernels::gaps::Limits;
 use crate::kernels::{Buffer, Coordinate};
-use crate::predicates::are_within;
 use crate::statistics::Statistics;
 use crate::tree::{Grown, Swept};
 pub(crate) use edge_edge::EdgeEdgeCandidates;
@@ -127,6 +126,6 @@ impl Margin {
             }
             bounds
         });
-        are_within(&a, &b, self.gap)
+        a.are_within(&b, self.gap)
     }
 }

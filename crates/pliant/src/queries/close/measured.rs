@@ -6,10 +6,10 @@ use crate::geometry::Shape;
 use crate::hits::{EdgeEdge, Hit, VertexTriangle};
 use crate::kernels::closest::Corners;
 use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
-use crate::predicates::distance::Closest;
 use crate::queries::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, Leaves};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
+use pliant_exact::distance::Closest;
 
 /// Two things that can be measured.
 pub(crate) trait Measurable: Hit {

@@ -2,7 +2,7 @@
 //!
 //! A candidate's boxes are as near as that on every axis; whether the elements are is decided eight at a time between two proven bounds
 //! in single precision (`kernels::closest`), the few that the distance lies between in double precision, and what is left by integers
-//! (`predicates::distance`). They are of the shape of now; where a body has a motion, its boxes hold the way too, and only more candidates
+//! (`pliant_exact::distance`). They are of the shape of now; where a body has a motion, its boxes hold the way too, and only more candidates
 //! are looked at.
 
 mod measured;
@@ -18,10 +18,10 @@ use crate::kernels::closest::{
     Corners, FourClosest, along_normal, decide_eight, of_edges, of_vertices_and_triangles,
 };
 use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
-use crate::predicates::distance::{Closest, Primitives, are_within_distance, closest};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 pub(crate) use measured::{CloseKind, ElementPair, Measurable, Measured};
+use pliant_exact::distance::{Closest, Primitives, are_within_distance, closest};
 pub(crate) use triangles::{NearTriangles, NearestPair, close, closest_of_triangles, corners_of};
 
 /// Candidates of a kind that are at most so far apart.

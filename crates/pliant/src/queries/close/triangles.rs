@@ -2,26 +2,27 @@
 //!
 //! Candidates are triangles whose boxes, grown by half the distance, overlap; within a body, those that share a vertex of the mesh are left
 //! out as in `intersections`. Each is decided between two proven bounds (`kernels::closest`), and what the distance lies between
-//! by exact arithmetic (`predicates::distance`).
+//! by exact arithmetic (`pliant_exact::distance`).
 
 use super::measured::{CloseKind, Measurable};
 use super::{ACCURACY, half};
 use crate::close_pairs::CloseTriangles;
-use crate::geometry::{Real, Shape, barycentric};
+use crate::geometry::{Real, Shape};
 use crate::hits::Pair;
 use crate::ids::TreeTriangle;
 use crate::kernels::closest::{TwoClosest, apart_along, of_triangles};
 use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
-use crate::predicates::Triangle;
-use crate::predicates::distance::{
-    SomePoints, TrianglesClosest, are_triangles_within, closest_triangles,
-};
 use crate::queries::{
     BoxSetNumber, CallerIds, Candidate, Intersections, Kind, LeafTest, Leaves, Margin,
 };
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use crate::tree::{Grown, Swept};
+use pliant_exact::Triangle;
+use pliant_exact::barycentric;
+use pliant_exact::distance::{
+    SomePoints, TrianglesClosest, are_triangles_within, closest_triangles,
+};
 use std::marker::PhantomData;
 
 /// Pairs of triangles that are at most so far apart.
@@ -152,7 +153,7 @@ fn closest<S: Real>(
         along,
         apart: most,
     };
-    (!interrupt.is_set()).then(|| closest_triangles::<S>(&exact(a), &exact(b), known))
+    (!interrupt.is_set()).then(|| closest_triangles(S::PRECISION, &exact(a), &exact(b), known))
 }
 
 /// A triangle as exact arithmetic takes it.
@@ -295,7 +296,7 @@ fn is_within<S: Real>(
         return measured.most <= distance;
     }
     *exact_decisions += 1;
-    are_triangles_within::<S>(&exact(a), &exact(b), distance)
+    are_triangles_within(S::PRECISION, &exact(a), &exact(b), distance)
 }
 
 impl<S: Coordinate> CloseKind for NearTriangles<S> {
@@ -476,9 +477,9 @@ mod tests {
                 apart: f64::INFINITY,
             };
             let least = f64::from_bits(1);
-            let found = closest_triangles::<f64>(&a, &b, unknown);
+            let found = closest_triangles(f64::PRECISION, &a, &b, unknown);
             check_points(&a, &b, &found, 2f64.powi(-40) * size(&a, &b) + least);
-            let barycentric = crate::predicates::distance::point_in_common(&a, &b);
+            let barycentric = pliant_exact::distance::point_in_common(&a, &b);
             let found = TrianglesClosest {
                 barycentric,
                 ..found

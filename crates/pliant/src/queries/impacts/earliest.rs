@@ -5,7 +5,7 @@
 //! out, and what is surely not earlier, if it is behind it in order.
 
 use crate::impacts::Impact;
-use crate::predicates::motion::{Certain, Contact, Decided, Grid, Moving, first_contact, quick};
+use pliant_exact::motion::{Certain, Contact, Decided, Grid, Moving, first_contact, quick};
 use std::cmp::Ordering::Less;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{PoisonError, RwLock};

@@ -2,7 +2,7 @@
 //!
 //! Candidates are decided as soon as a batch of them is found, and never listed: eight at a time by separating directions in single
 //! precision (`kernels::apart`), which leaves few; each of these in double precision where rounding cannot matter, else in integers
-//! (`predicates::motion`). What is found of a pair is its cell of a grid of times, which depends on nothing but the pair.
+//! (`pliant_exact::motion`). What is found of a pair is its cell of a grid of times, which depends on nothing but the pair.
 
 mod earliest;
 
@@ -13,12 +13,10 @@ use crate::hits::{EdgeEdge, Hit, VertexTriangle};
 use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
 use crate::kernels::{Buffer, Simd, dispatch};
-use crate::predicates::distance::{Primitives, are_within_distance};
-use crate::predicates::motion::{
-    Decided, Grid, Moving, distant_until, impact, starts_surely_within,
-};
 use crate::statistics::Statistics;
 pub(crate) use earliest::{Earliest, First};
+use pliant_exact::distance::{Primitives, are_within_distance};
+use pliant_exact::motion::{Decided, Grid, Moving, distant_until, impact, starts_surely_within};
 
 /// Candidates of a kind that meet during a motion.
 #[derive(Debug)]

@@ -8,9 +8,9 @@ use crate::contacts::{Contact, ContactKind};
 use crate::geometry::Shape;
 use crate::held::Held;
 use crate::kernels::{Buffer, Coordinate};
-use crate::predicates::kind_of;
 use crate::queries::{BoxSetNumber, CallerIds, LeafTest, Leaves};
 use crate::statistics::Statistics;
+use pliant_exact::contact_kind;
 
 /// Pairs of triangles that intersect, with their kinds.
 #[derive(Debug)]
@@ -77,7 +77,7 @@ impl<S: Coordinate> Kind for Contacts<S> {
             } else {
                 let [a, b] = pair;
                 let (a, b) = (leaves.shapes[0].corners(a), leaves.shapes[1].corners(b));
-                kind_of::<S>(&a, &b)
+                contact_kind(S::PRECISION, &a, &b)
             };
             if self.only.is_none_or(|only| only == kind) {
                 statistics.pairs += 1;

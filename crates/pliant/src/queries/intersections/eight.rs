@@ -1,6 +1,6 @@
 //! Candidates eight at a time, by signs of which single precision is certain; the few others one by one.
 //!
-//! 1. The six plane signs of `predicates::triangles`. If one triangle lies on one side of the other's plane: **no**. That is most.
+//! 1. The six plane signs of `pliant_exact`. If one triangle lies on one side of the other's plane: **no**. That is most.
 //! 2. If none of the six is zero, each triangle has one corner alone on its side of the other's plane, and both triangles meet
 //!    the line of the two planes in a segment. Let p1 be that corner of one and p2 of the other, q and r the others in order,
 //!    exchanged where p would lie below the plane of the other triangle. Then the segments overlap, and the answer is **yes**, if
@@ -15,8 +15,8 @@ use crate::geometry::Shape;
 use crate::held::Held;
 use crate::ids::TreeVertex;
 use crate::kernels::{Buffer, Coordinate, Corners, Simd, dispatch, signs};
-use crate::predicates::intersect;
 use crate::statistics::Statistics;
+use pliant_exact::intersect;
 
 /// Candidates that are not known to be apart.
 #[derive(Debug, Default)]
@@ -67,7 +67,12 @@ pub(super) fn decide<S: Coordinate>(
         if leaves.interrupt.is_set() {
             break;
         }
-        if intersect::<S>(&shapes[0].corners(a), &shapes[1].corners(b), exact) {
+        if intersect(
+            S::PRECISION,
+            &shapes[0].corners(a),
+            &shapes[1].corners(b),
+            exact,
+        ) {
             hits.push([a, b]);
         }
     }

@@ -266,6 +266,13 @@ impl Integer {
     }
 }
 
+/// Nearly the quotient of two integers, the second of which is not zero: a number from a half to 2, or zero, times a power of two; off by
+/// 2^-50 of itself.
+pub(super) fn quotient(over: &Integer, under: &Integer) -> (f64, i32) {
+    let [(m, e), (by, of_by)] = [over, under].map(Integer::approximately);
+    (m / by, e - of_by)
+}
+
 impl From<u64> for Integer {
     fn from(x: u64) -> Self {
         let mut new = Self::ZERO;

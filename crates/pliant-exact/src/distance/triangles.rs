@@ -4,23 +4,23 @@
 //! the inside of the other triangle. It is computed in plain arithmetic first, and how far the points that were found are apart says
 //! how good they are; where that is too far, as for slivers, once more in integers.
 
-use super::super::integer::{Integer, powers_of_all};
-use super::{
-    Point, Primitives, are_within_distance, closest, closest_of, cross, dot, fraction, minus,
+use super::super::integer::powers_of_all;
+use super::super::vector::{cross, dot, in_units, minus, rounded};
+use super::super::{
+    ELEMENT_PAIRS, FIRST_OF_EDGES, Point, Precision, Triangle, barycentric, four_corners,
+    intersect, is_swapped, on_edge, reference,
 };
-use crate::geometry::{
-    ELEMENT_PAIRS, FIRST_OF_EDGES, Real, barycentric, four_corners, is_swapped, on_edge,
-};
-use crate::predicates::{Exact, Triangle, intersect, triangles_intersect};
+use super::{Primitives, are_within_distance, closest, closest_of, fraction};
 
 /// Where two triangles are closest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct TrianglesClosest {
-    pub(crate) distance: f64,
+pub struct TrianglesClosest {
+    /// How far apart they are; 0 if they intersect.
+    pub distance: f64,
     /// From the second to the first, of length 1 but for rounding; zero if the distance is.
-    pub(crate) direction: Point,
+    pub direction: Point,
     /// What each corner of either triangle counts in its point.
-    pub(crate) barycentric: [[f64; 3]; 2],
+    pub barycentric: [[f64; 3]; 2],
 }
 
 /// Points in common that were computed may be so far apart, as a part of the largest coordinate of any difference of corners: 2^-40.
@@ -28,29 +28,38 @@ const APART: f64 = f64::from_bits((1023 - 40) << 52);
 
 /// Some points of two triangles: a pair of elements, how far along them the points are, and how far apart they are at most.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SomePoints {
-    pub(crate) which: usize,
-    pub(crate) along: [f64; 2],
-    pub(crate) apart: f64,
+pub struct SomePoints {
+    /// The number of the pair of elements.
+    pub which: usize,
+    /// How far along them the points are, as in [`Closest`](super::Closest).
+    pub along: [f64; 2],
+    /// How far apart they are at most.
+    pub apart: f64,
 }
 
-/// Whether two triangles are at most so far apart. Exact; `S` is the type that their coordinates came in.
+/// Whether two triangles are at most so far apart. Exact; the distance is at least 0.
 #[cold]
-pub(crate) fn are_triangles_within<S: Real>(a: &Triangle, b: &Triangle, distance: f64) -> bool {
-    intersect::<S>(a, b, &mut 0)
+pub fn are_triangles_within(
+    precision: Precision,
+    a: &Triangle,
+    b: &Triangle,
+    distance: f64,
+) -> bool {
+    intersect(precision, a, b, &mut 0)
         || (0..ELEMENT_PAIRS).any(|which| are_within_distance(&pair(which, a, b), distance))
 }
 
 /// Where two triangles are closest, with an error of less than 2^-48 of distance and direction; where they intersect, points in common
-/// that are no further apart than 2^-40 of the largest coordinate of any difference of corners. `S` is the type that their coordinates
-/// came in; `known` are some points, which need not be good ones.
+/// that are no further apart than 2^-40 of the largest coordinate of any difference of corners. `known` are some points, which need not be
+/// good ones.
 #[cold]
-pub(crate) fn closest_triangles<S: Real>(
+pub fn closest_triangles(
+    precision: Precision,
     a: &Triangle,
     b: &Triangle,
     known: SomePoints,
 ) -> TrianglesClosest {
-    if !intersect::<S>(a, b, &mut 0) {
+    if !intersect(precision, a, b, &mut 0) {
         let pairs: [Primitives; ELEMENT_PAIRS] = std::array::from_fn(|which| pair(which, a, b));
         let (which, closest) = closest_of(&pairs);
         return TrianglesClosest {
@@ -130,15 +139,7 @@ fn points(is_second: bool, edge: usize, t: f64, [u, v]: [f64; 2]) -> [[f64; 3]; 
 fn crossing(a: &Triangle, b: &Triangle) -> Option<([[f64; 3]; 2], f64)> {
     let mut nearest: Option<([[f64; 3]; 2], f64)> = None;
     for (is_second, edge, [p, q], [c0, c1, c2]) in edges_and_triangles(a, b) {
-        let difference = |p: &Point, q: &Point| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-        let product = |p: &Point, q: &Point| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-        let normal = |p: &Point, q: &Point| {
-            [
-                p[1] * q[2] - p[2] * q[1],
-                p[2] * q[0] - p[0] * q[2],
-                p[0] * q[1] - p[1] * q[0],
-            ]
-        };
+        use rounded::{cross as normal, dot as product, minus as difference};
         let (e, f) = (difference(c1, c0), difference(c2, c0));
         let (from, way) = (difference(&p, c0), difference(&q, &p));
         let n = normal(&e, &f);
@@ -150,7 +151,9 @@ fn crossing(a: &Triangle, b: &Triangle) -> Option<([[f64; 3]; 2], f64)> {
         let t = (0.0 - height / rise).clamp(0.0, 1.0);
         let at: Point = std::array::from_fn(|axis| from[axis] + t * way[axis]);
         let u = (product(&normal(&at, &f), &n) / square).clamp(0.0, 1.0);
-        let v = (product(&normal(&e, &at), &n) / square).clamp(0.0, 1.0 - u);
+        let v = (product(&normal(&e, &at), &n) / square)
+            .max(0.0)
+            .min(1.0 - u);
         let r: Point = std::array::from_fn(|axis| at[axis] - u * e[axis] - v * f[axis]);
         let sum: f64 = [from, way, e, f]
             .as_flattened()
@@ -167,14 +170,14 @@ fn crossing(a: &Triangle, b: &Triangle) -> Option<([[f64; 3]; 2], f64)> {
 }
 
 /// A point in common of triangles that intersect, by integers.
-pub(crate) fn point_in_common(a: &Triangle, b: &Triangle) -> [[f64; 3]; 2] {
+pub fn point_in_common(a: &Triangle, b: &Triangle) -> [[f64; 3]; 2] {
     let touching = (0..ELEMENT_PAIRS).find(|&which| are_within_distance(&pair(which, a, b), 0.0));
     if let Some(which) = touching {
         return barycentric(which, closest(&pair(which, a, b)).along);
     }
     // So an edge goes through the inside of the other triangle, and not in its plane.
     for (is_second, edge, [p, q], other) in edges_and_triangles(a, b) {
-        if triangles_intersect(&[p, q, q], other, &mut Exact) {
+        if reference::intersect(&[p, q, q], other) {
             let all = [p, q, other[0], other[1], other[2]];
             let [unit, _] = powers_of_all(all.as_flattened());
             let [t, u, v] = exact_crossing(&all, unit);
@@ -191,7 +194,7 @@ pub(crate) fn point_in_common(a: &Triangle, b: &Triangle) -> [[f64; 3]; 2] {
 /// With n normal to the triangle, the point is at the part t = h / w of the way, where h = n.(c0 - p) and w = n.(q - p). Times w it is
 /// x = w (p - c0) + h (q - p) from the first corner, and u = (x x f).n / (w n.n): 7 (b + 1) + 7 bits for coordinates of b.
 fn exact_crossing(all: &[Point; 5], unit: i32) -> [f64; 3] {
-    let [p, q, c0, c1, c2] = all.map(|corner| corner.map(|x| Integer::new(x, unit)));
+    let [p, q, c0, c1, c2] = all.map(|corner| in_units(&corner, unit));
     let (e, f) = (minus(&c1, &c0), minus(&c2, &c0));
     let (from, way) = (minus(&p, &c0), minus(&q, &p));
     let n = cross(&e, &f);

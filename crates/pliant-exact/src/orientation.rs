@@ -20,18 +20,19 @@
 //! Where the filter is not certain, `robust::orient3d` (Shewchuk's adaptive expansions) has the last word. With input up to
 //! `f32::MAX` it cannot overflow. Its limit is underflow. If no coordinate but zero is below 2^-288, all are multiples of 2^-340,
 //! whatever it forms from them is a multiple of 2^-1020, and nothing but its error bounds is ever subnormal; an error smaller than
-//! that in a multiple of 2^-1020 is none. For smaller coordinates, which no f32 is, `accumulator` has the last word, in integers.
+//! that in a multiple of 2^-1020 is none. For smaller coordinates, which no f32 is, integers of any size have the last word.
 //!
 //! In the plane the same holds with four roundings, and with products of two: expansions are exact from 2^-459.
 //!
 //! So every sign is exact for every f32 and f64 in range.
 
-use super::accumulator;
+use super::Precision;
+use super::integer::{Integer, powers_of_all};
 use super::point::{Point, Sign};
-use crate::geometry::Real;
+use super::vector::{cross, dot, in_units, minus};
 
 /// A source of orientation signs.
-pub(crate) trait Orientation {
+pub(super) trait Orientation {
     /// The side of the plane through a, b, c on which d lies.
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign;
 
@@ -43,7 +44,7 @@ pub(crate) trait Orientation {
 }
 
 /// Exact arithmetic at once: slow, and the reference.
-pub(crate) struct Exact;
+pub(super) struct Exact;
 
 impl Orientation for Exact {
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
@@ -53,7 +54,7 @@ impl Orientation for Exact {
         {
             adaptive(a, b, c, d)
         } else {
-            accumulator::orientation(a, b, c, d)
+            in_integers(a, b, c, d)
         }
     }
 }
@@ -82,22 +83,22 @@ fn adaptive(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
 }
 
 /// The filter, and exact arithmetic where it is not certain.
-pub(crate) struct Filtered {
+pub(super) struct Filtered {
     underflow: f64,
     uncertain: bool,
 }
 
 impl Filtered {
-    /// `underflow` as [`Real::UNDERFLOW`] gives it for the type of the input.
-    pub(crate) fn new(underflow: f64) -> Self {
+    /// For input of this type.
+    pub(super) fn new(precision: Precision) -> Self {
         Self {
-            underflow,
+            underflow: precision.underflow(),
             uncertain: false,
         }
     }
 
     /// Whether any sign needed exact arithmetic.
-    pub(crate) fn was_uncertain(&self) -> bool {
+    pub(super) fn was_uncertain(&self) -> bool {
         self.uncertain
     }
 }
@@ -138,13 +139,15 @@ pub(super) fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     let left = (b[0] - a[0]) * (c[1] - a[1]);
     let right = (b[1] - a[1]) * (c[0] - a[0]);
     let determinant = left - right;
-    if determinant.abs() > RELATIVE_ERROR_2D * (left.abs() + right.abs()) + f64::UNDERFLOW {
+    if determinant.abs()
+        > RELATIVE_ERROR_2D * (left.abs() + right.abs()) + Precision::Double.underflow()
+    {
         return sign_of(determinant);
     }
     if are_from(SMALLEST_2D, &[a[0], a[1], b[0], b[1], c[0], c[1]]) {
         adaptive_2d(a, b, c)
     } else {
-        accumulator::orientation_2d(a, b, c)
+        in_integers_2d(a, b, c)
     }
 }
 
@@ -157,11 +160,27 @@ fn adaptive_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     sign_of(robust::orient2d(coord(a), coord(b), coord(c)))
 }
 
+/// In integers: of any coordinates, whether or not the thread keeps subnormal numbers, because only bits are read.
+#[cold]
+fn in_integers(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
+    let [unit, _] = powers_of_all([a, b, c, d].into_iter().flatten());
+    let [a, b, c, d] = [a, b, c, d].map(|point| in_units(point, unit));
+    let normal = cross(&minus(&b, &a), &minus(&c, &a));
+    dot(&normal, &minus(&d, &a)).sign()
+}
+
+/// The same in the plane.
+#[cold]
+fn in_integers_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+    let [unit, _] = powers_of_all([a, b, c].as_flattened());
+    let [a, b, c] = [a, b, c].map(|point| point.map(|x| Integer::new(x, unit)));
+    let difference = |p: &[Integer; 2]| [p[0].minus(&a[0]), p[1].minus(&a[1])];
+    let (e, t) = (difference(&b), difference(&c));
+    e[0].times(&t[1]).minus(&e[1].times(&t[0])).sign()
+}
+
+/// Of a determinant; of points out of range perhaps of no number, whose sign is said to be 0.
 fn sign_of(value: f64) -> Sign {
-    debug_assert!(
-        !value.is_nan(),
-        "an exact determinant of points in range is a number"
-    );
     i8::from(value > 0.0) - i8::from(value < 0.0)
 }
 
@@ -203,7 +222,7 @@ mod tests {
             }
             let [a, b, c, d] = points.map(|point| point.map(|x| x as f64));
             let expected = integer(points);
-            let mut filtered = Filtered::new(0.0);
+            let mut filtered = Filtered::new(Precision::Single);
             assert_eq!(filtered.sign(&a, &b, &c, &d), expected, "{points:?}");
             assert_eq!(Exact.sign(&a, &b, &c, &d), expected, "{points:?}");
             zeros += u32::from(expected == 0);
@@ -223,9 +242,9 @@ mod tests {
             let s = 2f64.powi(scale);
             let (a, b, c, d) = ([0.0; 3], [s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]);
             let underflow = if scale == -300 {
-                f64::UNDERFLOW
+                Precision::Double
             } else {
-                f32::UNDERFLOW
+                Precision::Single
             };
             assert_eq!(
                 Filtered::new(underflow).sign(&a, &b, &c, &d),
@@ -274,11 +293,11 @@ mod tests {
                     (!filtered.was_uncertain()).then_some(sign)
                 };
                 assert!(
-                    filter(f64::UNDERFLOW).is_none_or(|sign| sign == expected),
+                    filter(Precision::Double).is_none_or(|sign| sign == expected),
                     "{points:?} at 2^{exponent}"
                 );
                 wrong_without_the_term +=
-                    u32::from(filter(0.0).is_some_and(|sign| sign != expected));
+                    u32::from(filter(Precision::Single).is_some_and(|sign| sign != expected));
             }
         }
         assert!(
@@ -313,9 +332,9 @@ mod tests {
             );
             *certain += u32::from(!filtered.was_uncertain());
         };
-        check(f64::UNDERFLOW);
+        check(Precision::Double);
         if pliant_oracle::fits_f32(&[[a, b, c], [d; 3]]) {
-            check(f32::UNDERFLOW);
+            check(Precision::Single);
         }
         for (x, y) in [(0, 1), (1, 2), (2, 0)] {
             let [p, q, r] = [a, b, d].map(|point| [point[x], point[y]]);

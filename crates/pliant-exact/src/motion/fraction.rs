@@ -1,6 +1,6 @@
 //! Times that are fractions: of two, at which roots are looked for; and of any integers, which some roots are.
 
-use super::super::integer::{Integer, parts};
+use super::super::integer::{Integer, parts, quotient};
 use std::cmp::Ordering;
 
 /// An integer over a power of two.
@@ -192,12 +192,6 @@ impl Ord for Fraction {
         let [a, b] = [self.over.times(&other.under), other.over.times(&self.under)];
         a.minus(&b).sign().cmp(&0)
     }
-}
-
-/// Nearly the quotient of two integers: a number from a half to 2, or zero, times a power of two; off by 2^-50 of itself.
-fn quotient(over: &Integer, under: &Integer) -> (f64, i32) {
-    let [(m, e), (by, of_by)] = [over, under].map(Integer::approximately);
-    (m / by, e - of_by)
 }
 
 /// A number times a power of two; zero if that is below 2^-1000.

@@ -4,9 +4,9 @@
 //! closest, neither point is inside a face unless the other is a corner or, between parallel faces or edges, may be moved until it is one.
 
 /// How many there are.
-pub(crate) const ELEMENT_PAIRS: usize = 15;
+pub const ELEMENT_PAIRS: usize = 15;
 /// The first that is of two edges; those before are of a corner and a triangle.
-pub(crate) const FIRST_OF_EDGES: usize = 6;
+pub const FIRST_OF_EDGES: usize = 6;
 
 /// The elements of a pair of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ const NEXT: [usize; 3] = [1, 2, 0];
 
 /// The four corners of a pair: a corner and those of the other triangle; or the ends of an edge of the first and of one of the second.
 #[inline]
-pub(crate) fn four_corners<T: Copy>(which: usize, a: &[T; 3], b: &[T; 3]) -> [T; 4] {
+pub fn four_corners<T: Copy>(which: usize, a: &[T; 3], b: &[T; 3]) -> [T; 4] {
     match elements(which) {
         Elements::CornerOfFirst(i) => [a[i], b[0], b[1], b[2]],
         Elements::CornerOfSecond(i) => [b[i], a[0], a[1], a[2]],
@@ -43,13 +43,13 @@ pub(crate) fn four_corners<T: Copy>(which: usize, a: &[T; 3], b: &[T; 3]) -> [T;
 
 /// Whether the first element of a pair is of the second triangle.
 #[inline]
-pub(crate) fn is_swapped(which: usize) -> bool {
+pub fn is_swapped(which: usize) -> bool {
     matches!(elements(which), Elements::CornerOfSecond(_))
 }
 
 /// What each corner of either triangle counts in the points that are so far along the elements of a pair: in a triangle a, b, c the point
 /// a + x (b - a) + y (c - a); on two edges the part x of the first and y of the second.
-pub(crate) fn barycentric(which: usize, [x, y]: [f64; 2]) -> [[f64; 3]; 2] {
+pub fn barycentric(which: usize, [x, y]: [f64; 2]) -> [[f64; 3]; 2] {
     let mut corner = [0.0; 3];
     let of_triangle = [(1.0 - x - y).max(0.0), x, y];
     match elements(which) {
@@ -66,7 +66,7 @@ pub(crate) fn barycentric(which: usize, [x, y]: [f64; 2]) -> [[f64; 3]; 2] {
 }
 
 /// What each corner counts in a point of an edge.
-pub(crate) fn on_edge(edge: usize, along: f64) -> [f64; 3] {
+pub fn on_edge(edge: usize, along: f64) -> [f64; 3] {
     let mut counts = [0.0; 3];
     counts[edge] = 1.0 - along;
     counts[NEXT[edge]] = along;

@@ -22,7 +22,7 @@ use super::point::{Sign, Triangle};
 
 /// Whether two closed triangles have a point in common.
 #[inline]
-pub(crate) fn triangles_intersect(
+pub(super) fn triangles_intersect(
     a: &Triangle,
     b: &Triangle,
     orientation: &mut impl Orientation,
@@ -216,7 +216,7 @@ mod tests {
                 let p = rotation.map(|i| p[i]);
                 let (p, q) = (as_f64(&p), as_f64(q));
                 assert_eq!(
-                    triangles_intersect(&p, &q, &mut Filtered::new(0.0)),
+                    triangles_intersect(&p, &q, &mut Filtered::new(crate::Precision::Single)),
                     expected,
                     "{p:?} {q:?}"
                 );

@@ -35,29 +35,29 @@ mod polynomial;
 mod root;
 mod sturm;
 
+use super::Point;
 use super::integer::{Integer, powers_of_all};
-pub(crate) use certain::Certain;
+pub use certain::Certain;
 use certain::certain;
-pub(crate) use distant::{distant_until, starts_surely_within};
+pub use distant::{distant_until, starts_surely_within};
 use polynomial::Polynomial;
 use root::{Root, visit_roots};
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 
-type Point = [f64; 3];
-
 /// Two elements that move: their corners at the start and at the end.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Moving {
+pub struct Moving {
     /// Whether they are two edges, by the ends of either; else they are a vertex and the corners of a triangle.
-    pub(crate) are_edges: bool,
-    pub(crate) corners: [[Point; 4]; 2],
+    pub are_edges: bool,
+    /// At the start and at the end of the motion; in between on straight lines.
+    pub corners: [[Point; 4]; 2],
 }
 
 impl Moving {
     /// Whether a corner of the one is at the start where one of the other is: common where surfaces are not joined along a seam. Compared
     /// bit by bit, so that it does not depend on how subnormal numbers are treated; a zero of the other sign is left to the decision.
-    pub(crate) fn begins_with_a_corner_in_common(&self) -> bool {
+    pub fn begins_with_a_corner_in_common(&self) -> bool {
         let [start, _] = self.corners;
         let [a, b, c, d] = start.map(|corner| corner.map(f64::to_bits));
         if self.are_edges {
@@ -74,14 +74,16 @@ impl Moving {
     clippy::large_enum_variant,
     reason = "there are two at most at a time, and memory for each would be allocated"
 )]
-pub(crate) enum Contact {
+pub enum Contact {
+    /// At time 0.
     AtStart,
+    /// At some time after it, up to 1.
     Later(Later),
 }
 
 /// A time after the start.
 #[derive(Clone, Debug)]
-pub(crate) struct Later(Root);
+pub struct Later(Root);
 
 /// A polynomial for each axis.
 type Vector = [Polynomial; 3];
@@ -96,14 +98,16 @@ struct Polygon {
 
 /// How a pair was decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Decided {
+pub enum Decided {
+    /// In double precision, within a proven bound.
     InFloatingPoint,
+    /// In integers of any size.
     InIntegers,
 }
 
 /// The cell of a grid in which two elements first meet, if they do in [0, 1]; and how that was decided.
 #[inline]
-pub(crate) fn impact(moving: &Moving, grid: Grid) -> (Option<[f64; 2]>, Decided) {
+pub fn impact(moving: &Moving, grid: Grid) -> (Option<[f64; 2]>, Decided) {
     match quick(moving, grid, 1.0) {
         Certain::Never => (None, Decided::InFloatingPoint),
         Certain::Within(cell) => (Some(cell), Decided::InFloatingPoint),
@@ -116,7 +120,7 @@ pub(crate) fn impact(moving: &Moving, grid: Grid) -> (Option<[f64; 2]>, Decided)
 
 /// What is known of the first contact without integers. What surely is after `until`, which is a multiple of 2^-44, may be left out.
 #[inline]
-pub(crate) fn quick(moving: &Moving, grid: Grid, until: f64) -> Certain {
+pub fn quick(moving: &Moving, grid: Grid, until: f64) -> Certain {
     if moving.begins_with_a_corner_in_common() {
         Certain::Within([0.0; 2])
     } else {
@@ -126,7 +130,7 @@ pub(crate) fn quick(moving: &Moving, grid: Grid, until: f64) -> Certain {
 
 /// When they first meet, if they do in [0, 1].
 #[cold]
-pub(crate) fn first_contact(moving: &Moving) -> Option<Contact> {
+pub fn first_contact(moving: &Moving) -> Option<Contact> {
     let polygon = Polygon::new(moving);
     let determinant = polygon.determinant();
     if determinant.sign_at_zero() == 0 && polygon.holds_origin([0.0; 2], &Polynomial::sign_at_zero)
@@ -253,20 +257,20 @@ impl Polygon {
 
 /// The numbers that are told of times: multiples of a power of two up to 1, or all.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Grid {
+pub struct Grid {
     /// The power of two; 0 for all numbers.
     spacing: f64,
 }
 
 impl Grid {
     /// The coarsest with cells no wider than `width`, which is at least 0.
-    pub(crate) fn new(width: f64) -> Self {
+    pub fn new(width: f64) -> Self {
         Self {
-            spacing: if width >= 1.0 {
-                1.0
-            } else {
+            spacing: if width < 1.0 {
                 // The power of two alone; of subnormal numbers none.
-                f64::from_bits(width.to_bits() & 0x7ff << 52)
+                f64::from_bits(width.max(0.0).to_bits() & 0x7ff << 52)
+            } else {
+                1.0
             },
         }
     }
@@ -305,7 +309,7 @@ impl Grid {
 
 impl Contact {
     /// The numbers of a grid next to the time: the largest before it, and the least that is not before it. Of time 0 both are 0.
-    pub(crate) fn cell(&self, grid: Grid) -> [f64; 2] {
+    pub fn cell(&self, grid: Grid) -> [f64; 2] {
         match self {
             Self::AtStart => [0.0; 2],
             Self::Later(later) => later.cell(grid),
@@ -313,7 +317,7 @@ impl Contact {
     }
 
     /// Which time is earlier.
-    pub(crate) fn compare(&self, other: &Self) -> Ordering {
+    pub fn compare(&self, other: &Self) -> Ordering {
         match (self, other) {
             (Self::AtStart, Self::AtStart) => Ordering::Equal,
             (Self::AtStart, Self::Later(_)) => Ordering::Less,

@@ -32,16 +32,17 @@
 //! What is lost below the normal range, even where subnormal numbers are flushed to zero, is at most 2^-1021 a step, times components below
 //! 2^130: the allowances end with a constant that is far above that.
 
+use super::super::Point;
 use super::{Grid, Moving};
-
-type Point = [f64; 3];
 
 /// What is certain of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Certain {
+pub enum Certain {
+    /// They do not meet in [0, 1].
     Never,
     /// They first meet in this cell of the grid.
     Within([f64; 2]),
+    /// Nothing is certain: integers are to decide.
     Nothing,
 }
 
@@ -94,7 +95,7 @@ pub(super) struct Polygon {
 
 /// What is certain of a pair, by cells of a grid. What surely is after `until` may be left out; that is 0 or a multiple of 2^-44.
 #[inline]
-pub(crate) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
+pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     let polygon = Polygon::new(moving);
     let (determinant, error) = polygon.determinant();
     if one_sign(determinant, error) {

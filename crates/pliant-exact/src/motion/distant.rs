@@ -13,10 +13,10 @@
 //! The nearest point is found by arithmetic that depends on the order of corners; they are put in an order of their own first, so that the
 //! answer does not.
 
+use super::super::Point;
+use super::super::vector::rounded::{dot, minus};
 use super::Moving;
 use super::certain::{Corners, Polygon};
-
-type Point = [f64; 3];
 
 const OF_PROJECTION: f64 = 8.0 * (f64::EPSILON / 2.0);
 const LOST: f64 = f64::from_bits((1023 - 850) << 52);
@@ -29,12 +29,12 @@ const LITTLE: f64 = 1.0 / 1024.0;
 
 /// A time up to which two elements surely stay further apart than `distance`, which is above 0: from 0, where perhaps they are not, to 1;
 /// or some such time after `of_interest`.
-pub(crate) fn distant_until(moving: &Moving, distance: f64, of_interest: f64) -> f64 {
+pub fn distant_until(moving: &Moving, distance: f64, of_interest: f64) -> f64 {
     let polygon = Polygon::new(&in_order(moving));
     let mut known: f64 = 0.0;
     for _ in 0..MOST_DIRECTIONS {
         let n = nearest(&polygon.at(known), moving.are_edges);
-        let length = dot(n, n).sqrt();
+        let length = dot(&n, &n).sqrt();
         let level = distance * length * (1.0 + 8.0 * f64::EPSILON);
         let mut gain: f64 = 1.0;
         let mut is_known = true;
@@ -42,7 +42,7 @@ pub(crate) fn distant_until(moving: &Moving, distance: f64, of_interest: f64) ->
             let (start, end, most) = polygon.corner(i);
             let sum = n[0].abs() * most[0] + n[1].abs() * most[1] + n[2].abs() * most[2];
             let allowed = level + sum * OF_PROJECTION + LOST;
-            let [at_start, at_end] = [dot(n, start), dot(n, end)];
+            let [at_start, at_end] = [dot(&n, &start), dot(&n, &end)];
             let now = (1.0 - known) * at_start + known * at_end - allowed;
             let last = at_end - allowed;
             // No number is above zero.
@@ -75,14 +75,14 @@ pub(crate) fn distant_until(moving: &Moving, distance: f64, of_interest: f64) ->
 ///
 /// With u = 2^-53 a component of a difference is off by u of itself, a square of a length by 6 u of itself: 16 u are allowed. What is lost
 /// below the normal range, at most 2^-1018 of the distance, is less than the rest of that if the square of the distance is above 2^-900.
-pub(crate) fn starts_surely_within(moving: &Moving, distance: f64) -> bool {
+pub fn starts_surely_within(moving: &Moving, distance: f64) -> bool {
     let square = distance * distance;
     let limit = square * (1.0 - 16.0 * (f64::EPSILON / 2.0));
     let polygon = Polygon::new(moving);
     let [start, _] = polygon.part([0.0, 1.0]);
     let mut corners = start[..polygon.count()].iter();
     let is_normal = square > f64::powi(0.5, 900) && square.is_finite();
-    is_normal && corners.any(|&corner| dot(corner, corner) <= limit)
+    is_normal && corners.any(|corner| dot(corner, corner) <= limit)
 }
 
 /// The same two elements, their corners in an order that does not depend on that in which they came.
@@ -116,11 +116,10 @@ fn in_order(moving: &Moving) -> Moving {
 
 /// About the point of the polygon that is nearest to the origin.
 fn nearest([a, b, c, d]: &Corners, is_parallelogram: bool) -> Point {
-    let minus = |p: &Point, q: &Point| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let along = |p: &Point, t: f64, e: &Point| [p[0] + t * e[0], p[1] + t * e[1], p[2] + t * e[2]];
     let on_segment = |p: &Point, q: &Point| {
         let e = minus(q, p);
-        let (part, whole) = (0.0 - dot(*p, e), dot(e, e));
+        let (part, whole) = (0.0 - dot(p, &e), dot(&e, &e));
         let t = if part <= 0.0 {
             0.0
         } else if part < whole {
@@ -132,7 +131,7 @@ fn nearest([a, b, c, d]: &Corners, is_parallelogram: bool) -> Point {
     };
     let mut best = on_segment(a, b);
     let mut take = |point: Point| {
-        if dot(point, point) < dot(best, best) {
+        if dot(&point, &point) < dot(&best, &best) {
             best = point;
         }
     };
@@ -146,8 +145,8 @@ fn nearest([a, b, c, d]: &Corners, is_parallelogram: bool) -> Point {
         take(on_segment(c, a));
         (minus(b, a), minus(c, a))
     };
-    let (ee, ef, ff) = (dot(e, e), dot(e, f), dot(f, f));
-    let (ae, af) = (0.0 - dot(*a, e), 0.0 - dot(*a, f));
+    let (ee, ef, ff) = (dot(&e, &e), dot(&e, &f), dot(&f, &f));
+    let (ae, af) = (0.0 - dot(a, &e), 0.0 - dot(a, &f));
     let whole = ee * ff - ef * ef;
     let [x, y] = [(ff * ae - ef * af) / whole, (ee * af - ef * ae) / whole];
     let is_below = if is_parallelogram {
@@ -161,14 +160,10 @@ fn nearest([a, b, c, d]: &Corners, is_parallelogram: bool) -> Point {
     best
 }
 
-fn dot(p: Point, q: Point) -> f64 {
-    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::predicates::distance::{Primitives, are_within_distance};
+    use crate::distance::{Primitives, are_within_distance};
     use pliant_oracle::Random;
 
     /// The corners at a time, exactly, if these are multiples of 2^-20 and the time of 2^-20.
@@ -251,7 +246,7 @@ mod tests {
             // The distance of two corners, or some numbers more or less.
             let [p, q] = [start[0], start[if are_edges { 2 } else { 1 }]];
             let far = [0, 1, 2].map(|axis| p[axis] - q[axis]);
-            let mut distance = dot(far, far).sqrt();
+            let mut distance = dot(&far, &far).sqrt();
             for _ in 0..round % 32 {
                 distance = if round % 64 < 32 {
                     distance.next_up()

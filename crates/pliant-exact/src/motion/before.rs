@@ -15,7 +15,7 @@ use super::{Contact, Later, Moving, Polygon, certain, differences, powers_of_all
 impl Contact {
     /// Whether two elements surely do not meet before this time, nor at it unless they `may_tie`. The time is at most `until`, which is a
     /// multiple of 2^-44. If not, they may meet at any time, or never.
-    pub(crate) fn surely_precedes(&self, moving: &Moving, until: f64, may_tie: bool) -> bool {
+    pub fn surely_precedes(&self, moving: &Moving, until: f64, may_tie: bool) -> bool {
         let Self::Later(Later(time)) = self else {
             return may_tie;
         };
@@ -43,7 +43,7 @@ impl Contact {
     }
 
     /// Whether the time is at most this number, which is from 0 to 1.
-    pub(crate) fn is_at_most(&self, time: f64) -> bool {
+    pub fn is_at_most(&self, time: f64) -> bool {
         match self {
             Self::AtStart => true,
             Self::Later(Later(root)) => root.is_at_most(time),

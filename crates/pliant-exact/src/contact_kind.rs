@@ -6,7 +6,7 @@
 //!
 //! - two triangles with area cross if each has corners on both open sides of the other's plane, and on the line of the two planes the open
 //!   segments in which they meet it overlap. With p1 and p2 the corners alone on their sides and the others in the order of
-//!   `queries::intersections`, these are the two signs of Guigue and Devillers (2003), both negative: a zero is two ends in one point;
+//!   `pliant`'s vector lanes, these are the two signs of Guigue and Devillers (2003), both negative: a zero is two ends in one point;
 //! - a segment crosses a triangle with area if its ends are on both open sides of its plane, and its line has the three edges on one side;
 //! - all others do not: two segments span no space, a point has nothing inside.
 //!
@@ -16,10 +16,23 @@
 use super::orientation::Orientation;
 use super::point::{Point, Sign, Triangle};
 use super::triangles::plane_signs;
-use crate::contacts::ContactKind;
+
+/// How two triangles, as closed sets, have points in common. Each pair that intersects is of one kind, decided exactly.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ContactKind {
+    /// Neither of the others: a corner or an edge on the other triangle, or two edges at a point. A move of their corners, however
+    /// small, could part them.
+    #[default]
+    Touching,
+    /// They lie in one plane, and have an area in common. A small move could part them too.
+    Overlapping,
+    /// They go through each other: after every small enough move of their corners they still intersect. So there is no plane with one
+    /// triangle on either closed side of it. A triangle without area, a segment, crosses another if it goes through its inside.
+    Crossing,
+}
 
 /// How two triangles that are known to intersect do so.
-pub(crate) fn contact_kind(
+pub(super) fn contact_kind(
     a: &Triangle,
     b: &Triangle,
     orientation: &mut impl Orientation,

@@ -4,7 +4,7 @@
 //! so a rounded difference on one side of a number says on which side the difference is; only if it is that number is it not known, and
 //! then the error of the subtraction, which is a floating-point number, decides.
 
-use crate::geometry::Bounds;
+use super::Point;
 
 /// Whether real lo - hi is at most `distance`, which may be infinite.
 #[inline]
@@ -19,10 +19,22 @@ fn is_within(lo: f64, hi: f64, distance: f64) -> bool {
     error <= 0.0
 }
 
-/// Whether on every axis the gap of two boxes is at most `distance`.
-pub(crate) fn are_within(a: &Bounds<f64>, b: &Bounds<f64>, distance: f64) -> bool {
+/// Whether two boxes, each by its lower and its upper corner, are at most `distance` apart on every axis.
+///
+/// Exact, in real arithmetic on the numbers given. The distance is at least 0 and may be infinite.
+///
+/// ```
+/// use pliant_exact::are_boxes_within;
+///
+/// let [a, b] = [[[0.0; 3], [1.0; 3]], [[1.1, 0.0, 0.0], [2.0; 3]]];
+/// // As doubles, 1.1 - 1 is more than 0.1.
+/// assert!(!are_boxes_within(&a, &b, 0.1) && are_boxes_within(&a, &b, 0.100_000_000_000_000_1));
+/// ```
+#[inline]
+pub fn are_boxes_within(a: &[Point; 2], b: &[Point; 2], distance: f64) -> bool {
+    let [[lo_a, hi_a], [lo_b, hi_b]] = [a, b];
     (0..3).all(|axis| {
-        is_within(a.lo[axis], b.hi[axis], distance) && is_within(b.lo[axis], a.hi[axis], distance)
+        is_within(lo_a[axis], hi_b[axis], distance) && is_within(lo_b[axis], hi_a[axis], distance)
     })
 }
 

@@ -22,18 +22,15 @@
 
 mod triangles;
 
-use super::integer::{Integer, parts, powers_of_all};
-use crate::geometry::denormals_are_kept;
-#[cfg(test)]
-pub(crate) use triangles::point_in_common;
-pub(crate) use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_triangles};
-
-type Point = [f64; 3];
-type Vector = [Integer; 3];
+use super::integer::{Integer, parts, powers_of_all, quotient};
+use super::vector::{Vector, cross, dot, in_units, minus};
+use super::{Point, denormals_are_kept};
+pub use triangles::point_in_common;
+pub use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_triangles};
 
 /// Two elements, by their corners.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Primitives {
+pub enum Primitives {
     /// A point, and the corners of a triangle.
     VertexTriangle([Point; 4]),
     /// The ends of one edge, and those of another.
@@ -42,13 +39,14 @@ pub(crate) enum Primitives {
 
 /// Where two elements are closest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Closest {
-    pub(crate) distance: f64,
+pub struct Closest {
+    /// How far apart they are.
+    pub distance: f64,
     /// Of a triangle a, b, c the point is a + p (b - a) + q (c - a). Of two edges it is the part p of the way along the first, and the
     /// part q along the second.
-    pub(crate) along: [f64; 2],
+    pub along: [f64; 2],
     /// From the second to the first, of length 1 but for rounding; zero if the distance is.
-    pub(crate) direction: Point,
+    pub direction: Point,
 }
 
 /// A pair of features: the square of their distance is `over / under`.
@@ -65,7 +63,7 @@ const FARTHEST: f64 = 2.0 * 2.0 * (f32::MAX as f64);
 
 /// Whether elements are at most so far apart. Exact; the distance is at least 0, coordinates at most `f32::MAX` in magnitude.
 #[cold]
-pub(crate) fn are_within_distance(elements: &Primitives, distance: f64) -> bool {
+pub fn are_within_distance(elements: &Primitives, distance: f64) -> bool {
     if distance >= FARTHEST {
         return true;
     }
@@ -82,7 +80,7 @@ pub(crate) fn are_within_distance(elements: &Primitives, distance: f64) -> bool 
 /// With u = 2^-53 the square of the distance of the points is off by 5 u of itself (a difference twice, a square, two sums), that of the
 /// given distance by u: 32 u of the latter are allowed for. What is lost below the normal range, at most 2^-1020, is less than the rest of
 /// that where the latter is above 2^-900.
-pub(crate) fn are_points_within(p: &Point, q: &Point, distance: f64) -> bool {
+pub fn are_points_within(p: &Point, q: &Point, distance: f64) -> bool {
     let [x, y, z] = std::array::from_fn(|axis| p[axis] - q[axis]);
     let square = x * x + y * y + z * z;
     let limit = distance * distance;
@@ -121,7 +119,7 @@ fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
 /// Where elements are closest: distance and direction with an error of less than 2^-48 of themselves, and what is `along` within 2^-48
 /// of the exact one. The distance is zero where they touch alone: what is below the smallest number is that, and off by as much.
 #[cold]
-pub(crate) fn closest(elements: &Primitives) -> Closest {
+pub fn closest(elements: &Primitives) -> Closest {
     closest_of(std::slice::from_ref(elements)).1
 }
 
@@ -187,9 +185,7 @@ impl Primitives {
 
 /// Shows `found` all feet of elements, in units of 2^unit: some distance each, the least among them.
 fn feet(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet)) {
-    let [p, q, r, s] = elements
-        .corners()
-        .map(|corner| corner.map(|x| Integer::new(x, unit)));
+    let [p, q, r, s] = elements.corners().map(|corner| in_units(&corner, unit));
     match elements {
         Primitives::VertexTriangle(_) => {
             let [a, b, c] = [q, r, s];
@@ -288,28 +284,6 @@ fn of_insides(
     });
 }
 
-fn minus(p: &Vector, q: &Vector) -> Vector {
-    std::array::from_fn(|i| p[i].minus(&q[i]))
-}
-
-fn cross(p: &Vector, q: &Vector) -> Vector {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        p[j].times(&q[k]).minus(&p[k].times(&q[j]))
-    })
-}
-
-fn dot(p: &Vector, q: &Vector) -> Integer {
-    let [x, y, z] = std::array::from_fn(|i| p[i].times(&q[i]));
-    x.plus(&y).plus(&z)
-}
-
-/// A quotient of integers, of which the second is positive: a number from 1/2 to 2, or zero, and an exponent.
-fn quotient(over: &Integer, under: &Integer) -> (f64, i32) {
-    let ((m, e), (n, f)) = (over.approximately(), under.approximately());
-    (m / n, e - f)
-}
-
 /// A quotient from 0 to 1.
 fn fraction(over: &Integer, under: &Integer) -> f64 {
     let (m, e) = quotient(over, under);
@@ -346,40 +320,24 @@ fn unit_vector(way: &Vector) -> Point {
 }
 
 #[cfg(test)]
-pub(crate) use tests::hard_pairs;
-
-#[cfg(test)]
 mod tests {
     use super::*;
     use pliant_oracle::{Class, Random, compare_distance};
     use std::cmp::Ordering;
 
     /// Eight pairs of elements of a hard pair of triangles, and the corners of either.
-    pub(crate) fn hard_pairs(
-        [a, b]: &[[Point; 3]; 2],
-    ) -> Vec<(Primitives, Vec<Point>, Vec<Point>)> {
-        let mut all = Vec::new();
-        for corner in 0..2 {
-            for [a, b] in [[a, b], [b, a]] {
-                let four = [a[corner], b[0], b[1], b[2]];
-                all.push((
-                    Primitives::VertexTriangle(four),
-                    vec![a[corner]],
-                    b.to_vec(),
-                ));
-            }
-        }
-        for (i, j) in [(0, 0), (1, 0), (2, 1), (0, 2)] {
-            let edges = [[a[i], a[(i + 1) % 3]], [b[j], b[(j + 1) % 3]]];
-            let [[a0, a1], [b0, b1]] = edges;
-            let four = [a0, a1, b0, b1];
-            all.push((
-                Primitives::EdgeEdge(four),
-                edges[0].to_vec(),
-                edges[1].to_vec(),
-            ));
-        }
-        all
+    fn hard_pairs(triangles: &[[Point; 3]; 2]) -> Vec<(Primitives, Vec<Point>, Vec<Point>)> {
+        let pairs = pliant_oracle::element_pairs(triangles).into_iter();
+        let of = |(first, corners): (usize, [Point; 4])| {
+            let elements = if first == 1 {
+                Primitives::VertexTriangle(corners)
+            } else {
+                Primitives::EdgeEdge(corners)
+            };
+            let (a, b) = corners.split_at(first);
+            (elements, a.to_vec(), b.to_vec())
+        };
+        pairs.map(of).collect()
     }
 
     #[test]

@@ -1,0 +1,111 @@
+#![doc = include_str!("../README.md")]
+
+mod contact_kind;
+pub mod distance;
+mod element_pairs;
+mod environment;
+mod gap;
+mod integer;
+mod lattice;
+pub mod motion;
+mod orientation;
+mod point;
+pub mod reference;
+mod triangles;
+mod vector;
+
+pub use contact_kind::ContactKind;
+pub use element_pairs::{
+    ELEMENT_PAIRS, FIRST_OF_EDGES, barycentric, four_corners, is_swapped, on_edge,
+};
+pub use environment::{Precision, denormals_are_kept, is_in_range};
+pub use gap::are_boxes_within;
+use lattice::{Lattice, on_lattice};
+use orientation::{Filtered, Orientation};
+pub use point::{Point, Triangle};
+use std::cmp::Ordering;
+
+/// Whether a triangle has no area: its corners lie on a line, or in a point. Exact, for coordinates that are
+/// [in range](is_in_range); with others the answer is false. Single precision, widened, is as good.
+///
+/// ```
+/// use pliant_exact::is_degenerate;
+///
+/// assert!(is_degenerate([[0.0; 3], [1.0; 3], [3.0; 3]]));
+/// assert!(!is_degenerate([[0.0; 3], [1.0; 3], [3.0, 3.0, 3.0 + 1e-15]]));
+/// ```
+pub fn is_degenerate([a, b, c]: [[f64; 3]; 3]) -> bool {
+    if ![a, b, c].iter().all(is_in_range) {
+        return false;
+    }
+    // Two corners in one place need no arithmetic, and are most of what there is.
+    a == b
+        || b == c
+        || c == a
+        || (0..3).all(|axis| {
+            let flat = |point: Point| [point[(axis + 1) % 3], point[(axis + 2) % 3]];
+            orientation::orientation_2d(flat(a), flat(b), flat(c)) == 0
+        })
+}
+
+/// On which side of a triangle's plane a point lies: `Greater` where its normal (b - a) x (c - a) points to, `Less` behind it, `Equal` in the
+/// plane, and of a triangle without area always. Exact, for coordinates that are [in range](is_in_range); with others the answer is
+/// `Equal`. Single precision, widened, is as good.
+///
+/// ```
+/// use std::cmp::Ordering::{Equal, Greater, Less};
+///
+/// let floor = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// let sides = [1e-300, 0.0, -1e-300].map(|z| pliant_exact::side_of_plane(floor, [5.0, 7.0, z]));
+/// assert_eq!(sides, [Greater, Equal, Less]);
+/// ```
+pub fn side_of_plane([a, b, c]: [[f64; 3]; 3], point: [f64; 3]) -> Ordering {
+    if [a, b, c, point].iter().all(is_in_range) {
+        let mut filtered = Filtered::new(Precision::Double);
+        filtered.sign(&a, &b, &c, &point).cmp(&0)
+    } else {
+        Ordering::Equal
+    }
+}
+
+/// Whether two closed triangles have a point in common; a degenerate triangle is the segment or point that it is. Adds one to `exact` if
+/// floating point alone did not decide. Exact, for coordinates that are [in range](is_in_range).
+///
+/// Integers of 128 bits are asked first, because exact contact mostly has room in them, then floating point, then expansions.
+///
+/// ```
+/// use pliant_exact::{Precision, intersect};
+///
+/// let floor = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// let above = |z: f64| [[0.2, 0.2, z], [0.2, 0.2, 1.0], [0.3, 0.2, 1.0]];
+/// let meets = |z: f64| intersect(Precision::Double, &floor, &above(z), &mut 0);
+/// assert_eq!([1e-300, 0.0, -1e-300].map(meets), [false, true, true]);
+/// ```
+#[inline]
+pub fn intersect(precision: Precision, a: &Triangle, b: &Triangle, exact: &mut u64) -> bool {
+    if let Some([a, b]) = on_lattice(a, b) {
+        *exact += 1;
+        return triangles::triangles_intersect(&a, &b, &mut Lattice);
+    }
+    let mut filtered = Filtered::new(precision);
+    let intersect = triangles::triangles_intersect(a, b, &mut filtered);
+    *exact += u64::from(filtered.was_uncertain());
+    intersect
+}
+
+/// How two triangles intersect that are known to; as exact as [`intersect`]. Of two that do not the answer says nothing.
+///
+/// ```
+/// use pliant_exact::{ContactKind, Precision, contact_kind};
+///
+/// let floor = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// let above = |z: f64| [[0.2, 0.2, z], [0.2, 0.2, 1.0], [0.3, 0.2, 1.0]];
+/// let kind = |z: f64| contact_kind(Precision::Double, &floor, &above(z));
+/// assert_eq!([0.0, -1e-300].map(kind), [ContactKind::Touching, ContactKind::Crossing]);
+/// ```
+pub fn contact_kind(precision: Precision, a: &Triangle, b: &Triangle) -> ContactKind {
+    match on_lattice(a, b) {
+        Some([a, b]) => contact_kind::contact_kind(&a, &b, &mut Lattice),
+        None => contact_kind::contact_kind(a, b, &mut Filtered::new(precision)),
+    }
+}

@@ -77,13 +77,14 @@ pub(crate) struct NodeId(u32);
 impl NodeId {
     pub(crate) const ROOT: Self = Self(0);
 
+    /// Eight lanes to a wide node, whatever the degree of the tree is.
     #[inline(always)]
-    pub(crate) fn new<const N: usize>(wide_node: WideNodeId, lane: usize) -> Self {
-        Self(wide_node.0 * N as u32 + lane as u32)
+    pub(crate) fn new(wide_node: WideNodeId, lane: usize) -> Self {
+        Self(wide_node.0 * 8 + lane as u32)
     }
 
     #[inline(always)]
-    pub(crate) fn wide_node_and_lane<const N: usize>(self) -> (WideNodeId, usize) {
-        (WideNodeId(self.0 / N as u32), self.0 as usize % N)
+    pub(crate) fn wide_node_and_lane(self) -> (WideNodeId, usize) {
+        (WideNodeId(self.0 / 8), self.0 as usize % 8)
     }
 }

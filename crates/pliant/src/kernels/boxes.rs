@@ -18,7 +18,7 @@ impl<const N: usize> BoxLanes<N> {
         hi: [[f32::NAN; N]; 3],
     };
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn get(&self, lane: usize) -> Aabb {
         Aabb {
             lo: std::array::from_fn(|axis| self.lo[axis][lane]),
@@ -26,7 +26,7 @@ impl<const N: usize> BoxLanes<N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn set(&mut self, lane: usize, value: &Aabb) {
         for axis in 0..3 {
             self.lo[axis][lane] = value.lo[axis];
@@ -47,7 +47,7 @@ impl<const N: usize> BoxLanes<N> {
 
     /// The smallest box that holds all lanes. Lanes are used from the first on, so of two lanes the lower is never the empty one
     /// alone, and passing over a NaN on the right is enough.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn union(&self) -> Aabb {
         // Halves are folded onto each other, in steps that a wide register does at once; one lane after the other would wait
         // for each comparison.
@@ -69,7 +69,7 @@ impl<const N: usize> BoxLanes<N> {
     }
 
     /// The longest side of every box; of empty ones no number.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn longest_sides(&self) -> [f32; N] {
         let mut longest = [0.0; N];
         for lane in 0..N {
@@ -91,7 +91,7 @@ impl<const N: usize> BoxLanes<N> {
     }
 
     /// Bit i is set if lane i overlaps `query`; touching counts.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn overlaps(&self, query: &Aabb) -> u64 {
         // Every lane is computed and no comparison ends the loop: what a wide register does in six compares.
         let mut overlaps = [0; 8];

@@ -2,13 +2,10 @@
 //!
 //! The update, the traversal, the sorting and what users call are the same for every kind. A kind says what is different: what its boxes
 //! are made of and which set of them it uses, what two leaves do to each other, its rule for neighbours in the mesh, and what a hit is.
-//! `intersections` (and `contacts` in it), `candidates`, `close` and `impacts` are kinds. Another, `grown`, is for tests only and shows that
-//! nothing else knows the first.
+//! `intersections` (and `contacts` in it), `candidates`, `close` and `impacts` are kinds.
 
 mod candidates;
 mod close;
-#[cfg(test)]
-pub(crate) mod grown;
 mod impacts;
 mod intersections;
 
@@ -150,9 +147,6 @@ pub(crate) enum Reach {
 pub(crate) enum Leaves {
     /// Two triangles whose boxes overlap; of one body those that share no vertex of the mesh.
     Triangles,
-    /// The same, those that share a vertex too.
-    #[cfg(test)]
-    AllTriangles,
     /// The triangles of either leaf, up to eight at a time: not their boxes, but those of elements that belong to them.
     Runs(Which),
 }
@@ -203,8 +197,6 @@ impl Leaves {
         match self {
             Self::Runs(which) => Some(which),
             Self::Triangles => None,
-            #[cfg(test)]
-            Self::AllTriangles => None,
         }
     }
 }

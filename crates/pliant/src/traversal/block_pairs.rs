@@ -4,12 +4,12 @@
 //! triangles those that share no vertex are mostly apart. So all pairs of blocks are compared by quantized boxes first: mostly nothing is
 //! left. Nothing here knows what is done with candidates, nor the degree of the trees: it is compiled once.
 
-use super::expand::BoxedTree;
 use crate::held::{self, Held};
 use crate::ids::BlockId;
 use crate::kernels::{Buffer, Instructions, QuantizedRows, Simd, dispatch, overlap_mask};
 use crate::mesh::Order;
 use crate::queries::Candidate;
+use crate::tree::BoxedTree;
 use crate::tree::{BlockBoxes, FirstsOfBlocks, Neighbours, Quantized, STRICT_UPPER};
 use std::ops::Range;
 
@@ -34,7 +34,7 @@ pub(super) struct Boxes<'b> {
 }
 
 impl<'b> Boxes<'b> {
-    pub(super) fn of<const N: usize>(BoxedTree { tree, boxes }: BoxedTree<'b, N>) -> Self {
+    pub(super) fn of(BoxedTree { tree, boxes }: BoxedTree<'b>) -> Self {
         Self {
             firsts: tree.leaves.firsts_of_blocks(),
             boxes: boxes.blocks(),

@@ -1,7 +1,6 @@
 //! The loop of the traversal, the same for two trees and for one, and for every kind of query.
 
 use super::context::{Budget, Context};
-use super::expand::NodePair;
 use super::leaf_pairs::LeafTests;
 use super::sink::{Collector, Sink};
 use super::task::{Task, are_free, left_out};
@@ -13,6 +12,7 @@ use crate::queries::Kind;
 use crate::statistics::Statistics;
 use crate::threads::Executor;
 use crate::tree::BoxSource;
+use crate::tree::NodePair;
 use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
 
@@ -124,7 +124,7 @@ impl Sizes {
 
 /// Shows every hit, until `sink` breaks. The order in which a visitor sees them is deterministic, not sorted. Interrupted, it breaks as well,
 /// at no hit.
-pub(crate) fn descend<const N: usize, K, P>(
+pub(crate) fn descend<K, P>(
     refit: Refit,
     kind: &K,
     pair: &mut P,
@@ -134,7 +134,7 @@ pub(crate) fn descend<const N: usize, K, P>(
 ) -> ControlFlow<()>
 where
     K: Kind,
-    P: TreePair<N>,
+    P: TreePair,
     P::Source: BoxSource<Scalar = K::Scalar>,
 {
     let Scratch {
@@ -153,7 +153,7 @@ where
     tasks[..*used].iter_mut().for_each(Task::clear);
     reserve.clear();
     *used = 1;
-    let are_free = are_free::<N, K, _>(pair.sides());
+    let are_free = are_free::<K, _>(pair.sides());
     let (most_tasks, most_leaf_pairs) = shares(are_free, collector.is_some(), executor);
     tasks.resize_with(most_tasks.max(tasks.len()), Task::default);
     tasks[0].walk.found.nodes.push([NodeId::ROOT; 2]);
@@ -244,7 +244,7 @@ where
 }
 
 /// Tests all leaves of a body with themselves and their neighbours, where the descent has left these out.
-fn test_neighbours<const N: usize, K, P>(
+fn test_neighbours<K, P>(
     refit: Refit,
     kind: &K,
     pair: &P,
@@ -255,10 +255,10 @@ fn test_neighbours<const N: usize, K, P>(
 ) -> ControlFlow<Option<K::TreeHit>>
 where
     K: Kind,
-    P: TreePair<N>,
+    P: TreePair,
     P::Source: BoxSource<Scalar = K::Scalar>,
 {
-    let Some(neighbours) = left_out::<N, K, P>(pair) else {
+    let Some(neighbours) = left_out::<K, P>(pair) else {
         return ControlFlow::Continue(());
     };
     let leaves = pair.sides()[0].tree.leaves.len();
@@ -364,7 +364,7 @@ fn rebalance<K: Kind>(tasks: &mut [Task<K>]) {
 type TakeAsked<'t> = &'t mut dyn FnMut(usize, &mut DirtySet);
 
 /// Refits the wide nodes that tasks ask for.
-fn refit_stale<const N: usize, P: TreePair<N>>(
+fn refit_stale<P: TreePair>(
     refit: Refit,
     pair: &mut P,
     take: TakeAsked,
@@ -382,7 +382,7 @@ fn refit_stale<const N: usize, P: TreePair<N>>(
 }
 
 /// Makes the boxes of the triangles in leaves that are to be tested.
-fn refit_leaves<const N: usize, P: TreePair<N>>(
+fn refit_leaves<P: TreePair>(
     refit: Refit,
     pair: &mut P,
     take: TakeAsked,

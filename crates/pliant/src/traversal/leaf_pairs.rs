@@ -6,13 +6,13 @@
 
 use super::block_pairs::{BlockPair, BlockTests, Boxes, OneBody};
 use super::context::Context;
-use super::expand::LeafPair;
 use super::tree_pair::TreePair;
 use crate::held::{self, Held};
 use crate::ids::BlockId;
 use crate::kernels::Buffer;
 use crate::queries::{Kind, LeafTest, Leaves as Shown};
 use crate::statistics::Statistics;
+use crate::tree::LeafPair;
 use crate::tree::{BoxSource, Leaves, Neighbours};
 use std::ops::Range;
 
@@ -87,7 +87,7 @@ impl<K: Kind> LeafTests<K> {
 
     /// Tests pairs of leaves from a cursor on, up to `most` pairs of their blocks; returns the cursor where it stopped. The boxes of the
     /// triangles in them are valid.
-    pub(super) fn test<const N: usize, P>(
+    pub(super) fn test<P>(
         &mut self,
         context: &Context<K, P>,
         leaf_pairs: &[LeafPair],
@@ -95,18 +95,18 @@ impl<K: Kind> LeafTests<K> {
         most: usize,
     ) -> Cursor
     where
-        P: TreePair<N>,
+        P: TreePair,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
         let [a, b] = context.pair.sides();
         let leaf_test = leaf_test(context);
         if const { K::HAS_RUNS } {
-            cursor = self.test_runs::<N, P>(context, leaf_pairs, cursor, most, &leaf_test);
+            cursor = self.test_runs::<P>(context, leaf_pairs, cursor, most, &leaf_test);
         } else if a.tree.leaves.have_blocks() && b.tree.leaves.have_blocks() {
-            cursor = self.test_blocks::<N, P>(context, leaf_pairs, cursor, most, &leaf_test);
+            cursor = self.test_blocks::<P>(context, leaf_pairs, cursor, most, &leaf_test);
         } else {
             let end = leaf_pairs.len().min(cursor.pair + most);
-            self.test_triangles::<N, P>(context, &leaf_pairs[cursor.pair..end], &leaf_test);
+            self.test_triangles::<P>(context, &leaf_pairs[cursor.pair..end], &leaf_test);
             cursor.pair = end;
         }
         self.number_new(context, &leaf_test);
@@ -114,7 +114,7 @@ impl<K: Kind> LeafTests<K> {
     }
 
     /// Tests pairs of leaves block by block.
-    fn test_blocks<const N: usize, P: TreePair<N>>(
+    fn test_blocks<P: TreePair>(
         &mut self,
         context: &Context<K, P>,
         leaf_pairs: &[LeafPair],
@@ -157,7 +157,7 @@ impl<K: Kind> LeafTests<K> {
     }
 
     /// Tests pairs of leaves of one triangle: its box is the leaf's, which overlaps.
-    fn test_triangles<const N: usize, P: TreePair<N>>(
+    fn test_triangles<P: TreePair>(
         &mut self,
         context: &Context<K, P>,
         leaf_pairs: &[LeafPair],
@@ -184,7 +184,7 @@ impl<K: Kind> LeafTests<K> {
     }
 
     /// Tests pairs of leaves run by run: of the blocks in them, or of their single triangles.
-    fn test_runs<const N: usize, P: TreePair<N>>(
+    fn test_runs<P: TreePair>(
         &mut self,
         context: &Context<K, P>,
         leaf_pairs: &[LeafPair],
@@ -225,14 +225,14 @@ impl<K: Kind> LeafTests<K> {
 
     /// Tests leaves, each a block, that are neighbours, and each with itself: the next of a run of leaves and their later neighbours,
     /// until so many pairs of leaves were looked at or enough was found. Takes these leaves from the run.
-    pub(super) fn test_neighbours<const N: usize, P>(
+    pub(super) fn test_neighbours<P>(
         &mut self,
         context: &Context<K, P>,
         neighbours: &Neighbours,
         run: &mut Range<u32>,
         most: usize,
     ) where
-        P: TreePair<N>,
+        P: TreePair,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
         let [side, _] = context.pair.sides();
@@ -269,11 +269,7 @@ impl<K: Kind> LeafTests<K> {
     }
 
     /// Has the kind decide candidates, without those that were taken out of their mesh.
-    fn decide<const N: usize, P: TreePair<N>>(
-        &mut self,
-        context: &Context<K, P>,
-        leaf_test: &LeafTest<K::Scalar>,
-    ) {
+    fn decide<P: TreePair>(&mut self, context: &Context<K, P>, leaf_test: &LeafTest<K::Scalar>) {
         for (which, side) in context.pair.sides().into_iter().enumerate() {
             if let Some(removed) = side.removed {
                 self.blocks
@@ -292,9 +288,9 @@ impl<K: Kind> LeafTests<K> {
 }
 
 /// What a kind works with.
-fn leaf_test<'q, const N: usize, K: Kind, P>(context: &Context<'q, K, P>) -> LeafTest<'q, K::Scalar>
+fn leaf_test<'q, K: Kind, P>(context: &Context<'q, K, P>) -> LeafTest<'q, K::Scalar>
 where
-    P: TreePair<N>,
+    P: TreePair,
     P::Source: BoxSource<Scalar = K::Scalar>,
 {
     let [a, b] = context.pair.sides();

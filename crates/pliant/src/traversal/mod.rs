@@ -34,7 +34,6 @@
 mod block_pairs;
 mod context;
 mod descent;
-mod expand;
 mod leaf_pairs;
 mod nearest;
 mod sink;

@@ -12,7 +12,6 @@
 //! Larsen, Gottschalk, Lin and Manocha (2000, *Fast Distance Queries with Rectangular Swept Sphere Volumes*) descend the same way; here
 //! both nodes are opened at once, all their children compared side by side, and boxes are stale until they are reached.
 
-use super::expand::NodePair;
 use super::tree_pair::{Side, TreePair, TwoTrees};
 use crate::geometry::{Aabb, Shape};
 use crate::held::{self, Held};
@@ -20,7 +19,8 @@ use crate::ids::{BlockId, LeafId, NodeId, WideNodeId};
 use crate::kernels::{dispatch, near_mask};
 use crate::queries::Candidate;
 use crate::statistics::Statistics;
-use crate::tree::{BoxSource, Child, Leaves};
+use crate::tree::NodePair;
+use crate::tree::{BoxSource, Child, Leaves, NodeLanes};
 use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
 
@@ -50,9 +50,9 @@ pub(crate) fn gap_square(a: &Aabb, b: &Aabb) -> f64 {
 
 /// Shows `measure` all triangles of two bodies whose boxes are not further apart than the limit then is; many of those are shown before
 /// others that are further apart. Breaks if interrupted.
-pub(crate) fn nearest<const N: usize, B: BoxSource>(
+pub(crate) fn nearest<B: BoxSource>(
     refit: Refit,
-    pair: &mut TwoTrees<N, B>,
+    pair: &mut TwoTrees<B>,
     scratch: &mut NearestScratch,
     statistics: &mut Statistics,
     mut limit: f64,
@@ -99,9 +99,9 @@ pub(crate) fn nearest<const N: usize, B: BoxSource>(
 }
 
 /// Puts the pairs of children that are near enough onto the stack, the nearest last.
-fn push_children<const N: usize, B: BoxSource>(
+fn push_children<B: BoxSource>(
     refit: Refit,
-    [a, b]: [&Side<'_, N, B>; 2],
+    [a, b]: [&Side<'_, B>; 2],
     [node_a, node_b]: NodePair,
     children: [Child; 2],
     stack: &mut Vec<(f64, NodePair)>,
@@ -121,25 +121,23 @@ fn push_children<const N: usize, B: BoxSource>(
                 a.tree.wide_node(below_a).len(),
                 b.tree.wide_node(below_b).len(),
             ];
-            let (a, b) = (boxes_a.of(below_a), boxes_b.of(below_b));
-            let mut mask = dispatch!(refit.instructions, i => near_mask(i, a, b, lens, limit));
+            let below = [below_a, below_b];
+            let mut mask =
+                NodeLanes::near_mask([boxes_a, boxes_b], below, lens, limit, refit.instructions);
             while mask != 0 {
                 let bit = mask.trailing_zeros() as usize;
-                push([
-                    NodeId::new::<N>(below_a, bit / 8),
-                    NodeId::new::<N>(below_b, bit % 8),
-                ]);
+                push([NodeId::new(below_a, bit / 8), NodeId::new(below_b, bit % 8)]);
                 mask &= mask - 1;
             }
         }
         [Child::Inner(below), Child::Leaf(_)] => {
             for lane in 0..a.tree.wide_node(below).len() {
-                push([NodeId::new::<N>(below, lane), node_b]);
+                push([NodeId::new(below, lane), node_b]);
             }
         }
         [Child::Leaf(_), Child::Inner(below)] => {
             for lane in 0..b.tree.wide_node(below).len() {
-                push([node_a, NodeId::new::<N>(below, lane)]);
+                push([node_a, NodeId::new(below, lane)]);
             }
         }
         [Child::Leaf(_), Child::Leaf(_)] => {}
@@ -148,9 +146,9 @@ fn push_children<const N: usize, B: BoxSource>(
 }
 
 /// Measures the triangles of two leaves, the nearest boxes first; returns the limit then.
-fn among_leaves<const N: usize, B: BoxSource>(
+fn among_leaves<B: BoxSource>(
     refit: Refit,
-    pair: &mut TwoTrees<N, B>,
+    pair: &mut TwoTrees<B>,
     leaves: [LeafId; 2],
     scratch: &mut NearestScratch,
     statistics: &mut Statistics,
@@ -191,9 +189,9 @@ fn among_leaves<const N: usize, B: BoxSource>(
 }
 
 /// The triangles of two leaves whose boxes are near enough, the nearest first.
-fn near_triangles<const N: usize, B: BoxSource>(
+fn near_triangles<B: BoxSource>(
     refit: Refit,
-    sides: [&Side<'_, N, B>; 2],
+    sides: [&Side<'_, B>; 2],
     leaves: [LeafId; 2],
     triangles: &mut Vec<(f64, Candidate)>,
     limit: f64,

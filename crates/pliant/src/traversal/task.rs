@@ -42,8 +42,8 @@ impl<K: Kind> Default for Task<K> {
 
 /// Whether all boxes that the kind reads are known to be valid because they were completed at once, so that tasks need not wait for any,
 /// and pairs of leaves can be tested as soon as they are found.
-pub(super) fn are_free<const N: usize, K: Kind, B: BoxSource>(sides: [&Side<'_, N, B>; 2]) -> bool {
-    let is_complete = |side: &&Side<N, B>| {
+pub(super) fn are_free<K: Kind, B: BoxSource>(sides: [&Side<'_, B>; 2]) -> bool {
+    let is_complete = |side: &&Side<B>| {
         side.boxes.are_nodes_complete() && (K::HAS_RUNS || side.boxes.are_leaves_complete())
     };
     sides.iter().all(is_complete)
@@ -51,12 +51,12 @@ pub(super) fn are_free<const N: usize, K: Kind, B: BoxSource>(sides: [&Side<'_, 
 
 /// The neighbours in a body that meets itself, if the descent leaves them out: where they are known, leaves are blocks, and all boxes are
 /// valid. They overlap in any shape, so nothing is gained by looking for them.
-pub(super) fn left_out<const N: usize, K: Kind, P: TreePair<N>>(pair: &P) -> Option<&Neighbours> {
+pub(super) fn left_out<K: Kind, P: TreePair>(pair: &P) -> Option<&Neighbours> {
     let sides = pair.sides();
     let are_left_out = P::ITSELF
         && K::LEAVES == Leaves::Triangles
         && sides[0].tree.leaves.are_blocks()
-        && are_free::<N, K, _>(sides);
+        && are_free::<K, _>(sides);
     sides[0].tree.neighbours().filter(|_| are_left_out)
 }
 
@@ -90,14 +90,14 @@ impl<K: Kind> Task<K> {
 
     /// Goes on until it asks for boxes that are stale, has found enough, or nothing is left. What it asked for before is valid now.
     /// Where it is free, leaves are tested on the way.
-    pub(super) fn advance<const N: usize, P>(&mut self, context: &Context<K, P>)
+    pub(super) fn advance<P>(&mut self, context: &Context<K, P>)
     where
-        P: TreePair<N>,
+        P: TreePair,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
         self.walk.found.node_pairs = 0;
         self.tests.clear();
-        if !are_free::<N, K, _>(context.pair.sides()) {
+        if !are_free::<K, _>(context.pair.sides()) {
             return self.walk(context);
         }
         let budget = context.budget;
@@ -119,27 +119,27 @@ impl<K: Kind> Task<K> {
     }
 
     /// Walks down until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
-    fn walk<const N: usize, P: TreePair<N>>(&mut self, context: &Context<K, P>) {
+    fn walk<P: TreePair>(&mut self, context: &Context<K, P>) {
         let sides = context.pair.sides();
         let trees = [sides[0].boxed_tree(), sides[1].boxed_tree()];
         let rules = Rules {
             instructions: context.instructions,
             interrupt: context.interrupt,
             budget: context.budget,
-            left_out: left_out::<N, K, P>(context.pair),
-            notes_leaves: !K::HAS_RUNS && !are_free::<N, K, _>(sides),
+            left_out: left_out::<K, P>(context.pair),
+            notes_leaves: !K::HAS_RUNS && !are_free::<K, _>(sides),
         };
         if const { P::ITSELF } {
-            self.walk.go::<N, true>(trees, &rules);
+            self.walk.go::<true>(trees, &rules);
         } else {
-            self.walk.go::<N, false>(trees, &rules);
+            self.walk.go::<false>(trees, &rules);
         }
     }
 
     /// Tests pairs of leaves until all were, or many, or enough was found.
-    pub(super) fn test_some<const N: usize, P>(&mut self, context: &Context<K, P>)
+    pub(super) fn test_some<P>(&mut self, context: &Context<K, P>)
     where
-        P: TreePair<N>,
+        P: TreePair,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
         self.tests.clear();
@@ -158,30 +158,25 @@ impl<K: Kind> Task<K> {
     }
 
     /// Tests the next pairs of leaves, so many pairs of their blocks.
-    fn test<const N: usize, P>(&mut self, context: &Context<K, P>, blocks: usize)
+    fn test<P>(&mut self, context: &Context<K, P>, blocks: usize)
     where
-        P: TreePair<N>,
+        P: TreePair,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
         let leaves = self.walk.found.leaves.as_slice();
-        self.cursor = self
-            .tests
-            .test::<N, P>(context, leaves, self.cursor, blocks);
+        self.cursor = self.tests.test::<P>(context, leaves, self.cursor, blocks);
     }
 
     /// Tests the next leaves of its run with themselves and their neighbours, until many were or enough was found.
-    pub(super) fn test_neighbours<const N: usize, P>(
-        &mut self,
-        context: &Context<K, P>,
-        neighbours: &Neighbours,
-    ) where
-        P: TreePair<N>,
+    pub(super) fn test_neighbours<P>(&mut self, context: &Context<K, P>, neighbours: &Neighbours)
+    where
+        P: TreePair,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
         self.tests.clear();
         let most = context.budget.block_pairs;
         self.tests
-            .test_neighbours::<N, P>(context, neighbours, &mut self.run, most);
+            .test_neighbours::<P>(context, neighbours, &mut self.run, most);
         self.tests.collect(context);
     }
 

@@ -1,19 +1,19 @@
 //! What is descended: the trees of two bodies, or the tree of one against itself.
 
-use super::expand::BoxedTree;
 use crate::geometry::Points;
 use crate::ids::{BodyId, NodeId};
 use crate::mesh::Order;
 use crate::queries::{CallerIds, NearElements, Removed};
+use crate::tree::BoxedTree;
 use crate::tree::{BoxSet, BoxSource, Tree};
 use crate::update::Refitted;
 
 /// One body as the traversal sees it.
-pub(crate) struct Side<'t, const N: usize, B: BoxSource> {
+pub(crate) struct Side<'t, B: BoxSource> {
     pub(crate) body: BodyId,
     pub(crate) order: &'t Order,
-    pub(crate) tree: &'t Tree<N>,
-    pub(crate) boxes: &'t mut BoxSet<N>,
+    pub(crate) tree: &'t Tree,
+    pub(crate) boxes: &'t mut BoxSet,
     pub(crate) source: B,
     /// Where vertices are going, for kinds that hold motions.
     pub(crate) motion: Option<&'t Points<B::Scalar>>,
@@ -23,9 +23,9 @@ pub(crate) struct Side<'t, const N: usize, B: BoxSource> {
     pub(crate) removed: Option<Removed<'t>>,
 }
 
-impl<const N: usize, B: BoxSource> Side<'_, N, B> {
+impl<B: BoxSource> Side<'_, B> {
     /// As the update sees it.
-    pub(crate) fn refitted(&mut self) -> Refitted<'_, N, B> {
+    pub(crate) fn refitted(&mut self) -> Refitted<'_, B> {
         Refitted {
             tree: self.tree,
             boxes: self.boxes,
@@ -34,7 +34,7 @@ impl<const N: usize, B: BoxSource> Side<'_, N, B> {
     }
 
     /// As a walk sees it.
-    pub(super) fn boxed_tree(&self) -> BoxedTree<'_, N> {
+    pub(super) fn boxed_tree(&self) -> BoxedTree<'_> {
         BoxedTree {
             tree: self.tree,
             boxes: self.boxes,
@@ -56,7 +56,7 @@ impl<const N: usize, B: BoxSource> Side<'_, N, B> {
 }
 
 /// Two trees, or one twice.
-pub(crate) trait TreePair<const N: usize>: Sync {
+pub(crate) trait TreePair: Sync {
     type Source: BoxSource;
     /// Whether it is one tree against itself.
     const ITSELF: bool;
@@ -65,10 +65,10 @@ pub(crate) trait TreePair<const N: usize>: Sync {
     fn is_one_body(&self) -> bool;
 
     /// Both bodies, or the one twice.
-    fn sides(&self) -> [&Side<'_, N, Self::Source>; 2];
+    fn sides(&self) -> [&Side<'_, Self::Source>; 2];
 
     /// The first or the second, to refit.
-    fn refitted(&mut self, which: usize) -> Refitted<'_, N, Self::Source>;
+    fn refitted(&mut self, which: usize) -> Refitted<'_, Self::Source>;
 
     /// How the caller numbers what is in them.
     fn caller_ids(&self) -> CallerIds<'_> {
@@ -82,20 +82,20 @@ pub(crate) trait TreePair<const N: usize>: Sync {
 }
 
 /// Two trees, whose root boxes are valid and overlap: of two bodies, or of one.
-pub(crate) struct TwoTrees<'t, const N: usize, B: BoxSource> {
-    pub(crate) a: Side<'t, N, B>,
-    pub(crate) b: Side<'t, N, B>,
+pub(crate) struct TwoTrees<'t, B: BoxSource> {
+    pub(crate) a: Side<'t, B>,
+    pub(crate) b: Side<'t, B>,
 }
 
-impl<const N: usize, B: BoxSource> TwoTrees<'_, N, B> {
+impl<B: BoxSource> TwoTrees<'_, B> {
     /// Whether the root boxes, which are valid, overlap.
     pub(crate) fn overlap(&self) -> bool {
-        let root = |side: &Side<N, B>| side.boxes.nodes().one(NodeId::ROOT);
+        let root = |side: &Side<B>| side.boxes.nodes().one(NodeId::ROOT);
         root(&self.a).overlaps(&root(&self.b))
     }
 }
 
-impl<const N: usize, B: BoxSource> TreePair<N> for TwoTrees<'_, N, B> {
+impl<B: BoxSource> TreePair for TwoTrees<'_, B> {
     type Source = B;
     const ITSELF: bool = false;
 
@@ -105,11 +105,11 @@ impl<const N: usize, B: BoxSource> TreePair<N> for TwoTrees<'_, N, B> {
     }
 
     #[inline(always)]
-    fn sides(&self) -> [&Side<'_, N, B>; 2] {
+    fn sides(&self) -> [&Side<'_, B>; 2] {
         [&self.a, &self.b]
     }
 
-    fn refitted(&mut self, which: usize) -> Refitted<'_, N, B> {
+    fn refitted(&mut self, which: usize) -> Refitted<'_, B> {
         [&mut self.a, &mut self.b][which].refitted()
     }
 }
@@ -118,11 +118,11 @@ impl<const N: usize, B: BoxSource> TreePair<N> for TwoTrees<'_, N, B> {
 ///
 /// A pair of one node with itself stands for the pairs within it; it expands into its children with themselves and into
 /// the pairs of different children that overlap.
-pub(crate) struct OneTree<'t, const N: usize, B: BoxSource> {
-    pub(crate) side: Side<'t, N, B>,
+pub(crate) struct OneTree<'t, B: BoxSource> {
+    pub(crate) side: Side<'t, B>,
 }
 
-impl<const N: usize, B: BoxSource> TreePair<N> for OneTree<'_, N, B> {
+impl<B: BoxSource> TreePair for OneTree<'_, B> {
     type Source = B;
     const ITSELF: bool = true;
 
@@ -132,11 +132,11 @@ impl<const N: usize, B: BoxSource> TreePair<N> for OneTree<'_, N, B> {
     }
 
     #[inline(always)]
-    fn sides(&self) -> [&Side<'_, N, B>; 2] {
+    fn sides(&self) -> [&Side<'_, B>; 2] {
         [&self.side; 2]
     }
 
-    fn refitted(&mut self, _: usize) -> Refitted<'_, N, B> {
+    fn refitted(&mut self, _: usize) -> Refitted<'_, B> {
         self.side.refitted()
     }
 }

@@ -3,10 +3,10 @@
 //! It knows no kind of query, only trees and boxes, so that it is compiled for every degree but not for every kind.
 
 use super::context::Budget;
-use super::expand::{BoxedTree, NodePair, Worklists, expand};
 use crate::held::{self, Held};
-use crate::kernels::{Instructions, dispatch};
+use crate::kernels::Instructions;
 use crate::threads::Interrupt;
+use crate::tree::{BoxedTree, NodePair, Worklists, expand};
 use crate::tree::{Child, Neighbours};
 use crate::update::DirtySet;
 
@@ -50,11 +50,7 @@ impl Walk {
     }
 
     /// Goes on until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
-    pub(super) fn go<const N: usize, const ITSELF: bool>(
-        &mut self,
-        trees: [BoxedTree<'_, N>; 2],
-        rules: &Rules,
-    ) {
+    pub(super) fn go<const ITSELF: bool>(&mut self, trees: [BoxedTree<'_>; 2], rules: &Rules) {
         let &Rules {
             instructions,
             interrupt,
@@ -65,7 +61,7 @@ impl Walk {
         let complete = trees.iter().all(|tree| tree.boxes.are_nodes_complete());
         loop {
             let (batch, found) = (&self.batch, &mut self.found);
-            dispatch!(instructions, i => expand::<_, N, ITSELF>(i, trees, batch, left_out, found));
+            expand(instructions, trees, ITSELF, batch, left_out, found);
             self.batch.clear();
             for (set, reached) in self.reached.iter_mut().zip(&mut self.found.reached) {
                 if notes_leaves {
@@ -90,7 +86,7 @@ impl Walk {
     }
 
     /// Notes the wide nodes below the batch that are stale; whether there are any.
-    fn asks_for_stale<const N: usize>(&mut self, trees: [BoxedTree<'_, N>; 2]) -> bool {
+    fn asks_for_stale(&mut self, trees: [BoxedTree<'_>; 2]) -> bool {
         for pair in &self.batch {
             for which in 0..2 {
                 let BoxedTree { tree, boxes } = trees[which];

@@ -3,7 +3,7 @@
 use super::{BoxSet, Child, Tree, Version};
 use crate::ids::{NodeId, TreeTriangle};
 
-impl<const N: usize> Tree<N> {
+impl Tree {
     /// The first triangle below every node of a level, ascending. A leaf above that level stands for itself.
     pub(crate) fn starts_of_cut(&self, level: u32) -> Vec<TreeTriangle> {
         let nodes = self.nodes_of_cut(level).into_iter();
@@ -11,15 +11,10 @@ impl<const N: usize> Tree<N> {
     }
 
     /// Whether a set of boxes holds the box of every node of a level, made from this version of its source.
-    pub(crate) fn valid_in_cut(
-        &self,
-        level: u32,
-        boxes: &BoxSet<N>,
-        version: Version,
-    ) -> Vec<bool> {
+    pub(crate) fn valid_in_cut(&self, level: u32, boxes: &BoxSet, version: Version) -> Vec<bool> {
         let nodes = self.nodes_of_cut(level).into_iter();
         nodes
-            .map(|node| boxes.holds(node.wide_node_and_lane::<N>().0, version))
+            .map(|node| boxes.holds(node.wide_node_and_lane().0, version))
             .collect()
     }
 
@@ -40,7 +35,7 @@ impl<const N: usize> Tree<N> {
         loop {
             match self.child(node) {
                 Child::Leaf(leaf) => return self.leaves.first_triangle(leaf),
-                Child::Inner(below) => node = NodeId::new::<N>(below, 0),
+                Child::Inner(below) => node = NodeId::new(below, 0),
             }
         }
     }

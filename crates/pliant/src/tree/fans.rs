@@ -21,11 +21,7 @@ pub(super) struct Fans(Vec<Common>);
 
 impl Fans {
     /// Cost: linear in the triangles.
-    pub(super) fn new<const N: usize>(
-        wide_nodes: &[WideNode<N>],
-        leaves: &Leaves,
-        order: &Order,
-    ) -> Self {
+    pub(super) fn new(wide_nodes: &[WideNode], leaves: &Leaves, order: &Order) -> Self {
         let corners = |triangle: usize| {
             let corners = order.corners(TreeTriangle(triangle as u32));
             corners.map(|vertex| vertex.0)

@@ -53,6 +53,7 @@ impl LanesAtVertices {
     }
 
     /// Goes on with the same leaves and order; returns whether it is done. Cost of all: linear in triangles and vertices.
+    #[inline(never)]
     pub(super) fn advance(&mut self, leaves: &Leaves, order: &Order, budget: &mut Budget) -> bool {
         let Self {
             starts,

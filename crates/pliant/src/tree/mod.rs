@@ -1,7 +1,10 @@
-//! The bounding volume tree of one body: axis-aligned boxes, up to N children a node.
+//! The bounding volume tree of one body: axis-aligned boxes, up to 2, 4 or 8 children a node.
+//!
+//! **The degree** is a number here. It is a type where boxes of nodes are side by side: in `boxes` (`NodeLanes`), what
+//! walks down two trees (`expand`), and `update`. Each matches on it once a batch.
 //!
 //! A *node* is a box over a run of triangles. Nodes that are children of one node lie side by side in the lanes of one
-//! [`WideNode`], because their boxes are made and tested together. A `NodeId` is a lane: wide node x N + lane. Wide node 0 holds the
+//! [`WideNode`], because their boxes are made and tested together. A `NodeId` is a lane: wide node x 8 + lane. Wide node 0 holds the
 //! root alone, in its lane 0. Wide nodes are stored level by level from the root down, so that those of the upper levels are
 //! a prefix of the array, and a pass from its end to its beginning meets children before their parents.
 //!
@@ -14,6 +17,7 @@
 mod boxes;
 pub(crate) mod build;
 mod cut;
+mod expand;
 mod fans;
 mod lanes_at_vertices;
 mod leaves;
@@ -27,19 +31,21 @@ use crate::ids::{NodeId, TreeTriangle, TreeVertex, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::{Budget, Executor};
 pub(crate) use boxes::{
-    Block, BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodesMut, Quantized, Swept, Version,
+    Block, BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodeLanes, NodesMut, Quantized, Swept,
+    Version, of_degree,
 };
 use build::Plan;
+pub(crate) use expand::{BoxedTree, LeafPair, NodePair, Worklists, expand};
 pub(crate) use leaves::{BLOCK_LANES, FirstsOfBlocks, Leaves};
 pub(crate) use neighbours::{Neighbours, NeighboursBuilder, STRICT_UPPER};
 pub(crate) use vertex_sets::VertexSets;
 use vertex_sets::VertexSetsBuilder;
 pub(crate) use wide_node::{Child, WideNode};
 
-/// The tree of one body, of degree `N`.
+/// The tree of one body, of degree 2, 4 or 8.
 #[derive(Clone, Debug)]
-pub(crate) struct Tree<const N: usize> {
-    pub(crate) wide_nodes: Vec<WideNode<N>>,
+pub(crate) struct Tree {
+    pub(crate) wide_nodes: Vec<WideNode>,
     /// The first wide node of every level.
     level_starts: Vec<u32>,
     /// The vertices below every node.
@@ -48,11 +54,13 @@ pub(crate) struct Tree<const N: usize> {
     pub(crate) leaves: Leaves,
     /// Which triangles share a vertex; made when the body first meets itself, which most bodies never do.
     neighbours: Option<Box<Neighbours>>,
+    /// The most children of a node: 2, 4 or 8.
+    degree: usize,
     /// The level of the deepest leaf, where the root's is 0: the n of the paper's n / 2.
     pub(crate) depth: u32,
 }
 
-impl<const N: usize> Tree<N> {
+impl Tree {
     /// The tree of a plan over a mesh that is in the plan's order, or over a run of its triangles, which are the first to use vertices from
     /// `first_vertex` on.
     pub(crate) fn new(plan: &Plan, order: &Order, first_vertex: TreeVertex) -> Self {
@@ -114,18 +122,18 @@ impl<const N: usize> Tree<N> {
     }
 
     /// All wide nodes, level by level.
-    pub(crate) fn with_ids(&self) -> impl Iterator<Item = (WideNodeId, &WideNode<N>)> {
+    pub(crate) fn with_ids(&self) -> impl Iterator<Item = (WideNodeId, &WideNode)> {
         (0..).map(WideNodeId).zip(&self.wide_nodes)
     }
 
     /// The structure, for a loop over many nodes.
     #[inline(always)]
-    pub(crate) fn nodes(&self) -> Nodes<'_, N> {
+    pub(crate) fn nodes(&self) -> Nodes<'_> {
         Nodes(&self.wide_nodes)
     }
 
     #[inline(always)]
-    pub(crate) fn wide_node(&self, wide_node: WideNodeId) -> &WideNode<N> {
+    pub(crate) fn wide_node(&self, wide_node: WideNodeId) -> &WideNode {
         self.nodes().wide(wide_node)
     }
 
@@ -136,24 +144,24 @@ impl<const N: usize> Tree<N> {
     }
 
     /// The nodes in a wide node.
-    pub(crate) fn nodes_in(&self, wide_node: WideNodeId) -> impl Iterator<Item = NodeId> + use<N> {
+    pub(crate) fn nodes_in(&self, wide_node: WideNodeId) -> impl Iterator<Item = NodeId> + use<> {
         let lanes = 0..self.wide_node(wide_node).len();
-        lanes.map(move |lane| NodeId::new::<N>(wide_node, lane))
+        lanes.map(move |lane| NodeId::new(wide_node, lane))
     }
 }
 
 /// A tree on its way: its nodes are there, the vertices below them come some at a time.
-pub(crate) struct TreeBuilder<const N: usize> {
-    wide_nodes: Vec<WideNode<N>>,
+pub(crate) struct TreeBuilder {
+    wide_nodes: Vec<WideNode>,
     level_starts: Vec<u32>,
     vertices: VertexSetsBuilder,
     leaves: Leaves,
 }
 
-impl<const N: usize> TreeBuilder<N> {
+impl TreeBuilder {
     /// As [`Tree::new`].
     pub(crate) fn new(plan: &Plan, order: &Order, first_vertex: TreeVertex) -> Self {
-        let mut wide_nodes = vec![WideNode::<N>::new(0)];
+        let mut wide_nodes = vec![WideNode::new(0)];
         let first = plan.parts.first().map_or(0, |root| root.triangles.start);
         let mut leaves = Leaves::new(plan.leaf_size, TreeTriangle(first));
         // Parts come level by level, so the part at hand is always in the first wide node that still lacks a child.
@@ -208,19 +216,20 @@ impl<const N: usize> TreeBuilder<N> {
     }
 
     /// The tree, when it is done.
-    pub(crate) fn finish(self, plan: &Plan) -> Tree<N> {
+    pub(crate) fn finish(self, plan: &Plan) -> Tree {
         Tree {
             wide_nodes: self.wide_nodes,
             level_starts: self.level_starts,
-            vertices: self.vertices.finish(plan, N),
+            vertices: self.vertices.finish(plan),
             leaves: self.leaves,
             neighbours: None,
+            degree: plan.degree,
             depth: plan.parts.last().map_or(0, |deepest| deepest.level),
         }
     }
 }
 
-impl<const N: usize> Held for TreeBuilder<N> {
+impl Held for TreeBuilder {
     fn held(&self) -> usize {
         held::list(&self.wide_nodes)
             + held::list(&self.level_starts)
@@ -231,23 +240,23 @@ impl<const N: usize> Held for TreeBuilder<N> {
 
 /// The structure of a tree, without what hangs on it.
 #[derive(Clone, Copy)]
-pub(crate) struct Nodes<'t, const N: usize>(&'t [WideNode<N>]);
+pub(crate) struct Nodes<'t>(&'t [WideNode]);
 
-impl<'t, const N: usize> Nodes<'t, N> {
+impl<'t> Nodes<'t> {
     #[inline(always)]
-    pub(crate) fn wide(self, wide_node: WideNodeId) -> &'t WideNode<N> {
+    pub(crate) fn wide(self, wide_node: WideNodeId) -> &'t WideNode {
         &self.0[wide_node.index()]
     }
 
     /// What is below a node.
     #[inline(always)]
     pub(crate) fn child(self, node: NodeId) -> Child {
-        let (wide_node, lane) = node.wide_node_and_lane::<N>();
+        let (wide_node, lane) = node.wide_node_and_lane();
         self.wide(wide_node).child(lane)
     }
 }
 
-impl<const N: usize> Held for Tree<N> {
+impl Held for Tree {
     fn held(&self) -> usize {
         let neighbours = self.neighbours.as_deref();
         held::list(&self.wide_nodes)

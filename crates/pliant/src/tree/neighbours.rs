@@ -274,9 +274,9 @@ impl NeighboursBuilder {
     }
 
     /// The table, when it is done.
-    pub(super) fn finish<const N: usize>(
+    pub(super) fn finish(
         self,
-        wide_nodes: &[WideNode<N>],
+        wide_nodes: &[WideNode],
         leaves: &Leaves,
         order: &Order,
     ) -> Neighbours {
@@ -307,8 +307,8 @@ impl Held for NeighboursBuilder {
 
 /// The neighbours of leaves, each a block, as those of the wide nodes that hold nothing but leaves. Wide nodes are numbered as their
 /// leaves are, so what is later there is later here.
-fn lists_of_wide_nodes<const N: usize>(
-    wide_nodes: &[WideNode<N>],
+fn lists_of_wide_nodes(
+    wide_nodes: &[WideNode],
     leaves: &Leaves,
     of_leaves: &LaneLists,
 ) -> LaneLists {
@@ -379,7 +379,7 @@ mod tests {
         }
         let mut neighbours = NeighboursBuilder::new(&leaves, &order);
         while !neighbours.advance(&leaves, &order, &mut Budget::of(1)) {}
-        let neighbours = neighbours.finish::<8>(&[], &leaves, &order);
+        let neighbours = neighbours.finish(&[], &leaves, &order);
         let blocks = || (0..leaves.block_count() as u32).map(BlockId);
         let first = |block: BlockId| leaves.first_of_block(block).0;
         let end = |block: BlockId| {

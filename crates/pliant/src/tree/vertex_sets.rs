@@ -142,8 +142,8 @@ impl VertexSetsBuilder {
         true
     }
 
-    /// The sets, when they are done, of a tree of some degree.
-    pub(super) fn finish(self, plan: &Plan, degree: usize) -> VertexSets {
+    /// The sets, when they are done.
+    pub(super) fn finish(self, plan: &Plan) -> VertexSets {
         let VertexSets {
             mut sets,
             mut border,
@@ -151,7 +151,7 @@ impl VertexSetsBuilder {
         for part in &plan.parts {
             let group = &mut sets[part.children.start as usize..part.children.end as usize];
             let is_twelve = |set: &Set| set.borders as usize == TWELVE && set.run[0] == set.run[1];
-            if group.len() == degree && group.iter().all(is_twelve) {
+            if group.len() == plan.degree && group.iter().all(is_twelve) {
                 group[0].in_twelves = true;
             }
         }

@@ -36,20 +36,23 @@ impl PackedChild {
     }
 }
 
-/// Up to N nodes with one parent. Lanes are used from the first on.
+/// The most nodes that have one parent: the largest degree.
+const MOST_LANES: usize = 8;
+
+/// Up to eight nodes with one parent, as many as the degree of the tree at most. Lanes are used from the first on.
 #[derive(Clone, Debug)]
-pub(crate) struct WideNode<const N: usize> {
-    children: [PackedChild; N],
+pub(crate) struct WideNode {
+    children: [PackedChild; MOST_LANES],
     /// The number of the node in lane 0 when nodes are counted level by level: its place in `VertexSets`.
     pub(crate) first_node: u32,
     /// The leaf in lane 0 if all lanes that are used are leaves, which then have consecutive numbers.
     pub(crate) first_leaf: Option<LeafId>,
 }
 
-impl<const N: usize> WideNode<N> {
+impl WideNode {
     pub(super) fn new(first_node: u32) -> Self {
         Self {
-            children: [PackedChild::NONE; N],
+            children: [PackedChild::NONE; MOST_LANES],
             first_node,
             first_leaf: None,
         }

@@ -11,9 +11,9 @@ use crate::tree::{BoxSource, Child};
 
 /// Refits the nodes of `top` and of `levels - 1` levels of wide nodes below it. `wide_nodes` is scratch. Returns how many boxes it
 /// made.
-pub(super) fn refit_levels<const N: usize, B: BoxSource>(
+pub(super) fn refit_levels<B: BoxSource>(
     refit: &Refit,
-    one: &mut Refitted<N, B>,
+    one: &mut Refitted<B>,
     top: WideNodeId,
     levels: u32,
     wide_nodes: &mut Vec<WideNodeId>,

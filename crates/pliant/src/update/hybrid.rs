@@ -26,9 +26,9 @@ fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {
 }
 
 /// Refits the upper levels, unless they are valid.
-pub(super) fn refit_ahead<const N: usize, B: BoxSource>(
+pub(super) fn refit_ahead<B: BoxSource>(
     refit: &Refit,
-    one: &mut Refitted<N, B>,
+    one: &mut Refitted<B>,
     partner: Partner,
     wide_nodes: &mut Vec<WideNodeId>,
     statistics: &mut Statistics,

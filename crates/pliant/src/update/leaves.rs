@@ -29,9 +29,9 @@ struct LeafRun<'t> {
 
 /// Makes the boxes of the triangles in leaves that were reached, unless they are valid, and empties the set. Returns how many boxes it
 /// made.
-pub(super) fn refit_leaves<const N: usize, B: BoxSource>(
+pub(super) fn refit_leaves<B: BoxSource>(
     refit: &Refit,
-    one: &mut Refitted<N, B>,
+    one: &mut Refitted<B>,
     reached: &mut DirtySet,
 ) -> u64 {
     let leaves = &one.tree.leaves;

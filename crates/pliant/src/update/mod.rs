@@ -49,17 +49,17 @@ pub(crate) struct Refit<'q> {
 }
 
 /// A tree, a set of its boxes, and what these are made of.
-pub(crate) struct Refitted<'t, const N: usize, B> {
-    pub(crate) tree: &'t Tree<N>,
-    pub(crate) boxes: &'t mut BoxSet<N>,
+pub(crate) struct Refitted<'t, B> {
+    pub(crate) tree: &'t Tree,
+    pub(crate) boxes: &'t mut BoxSet,
     pub(crate) source: &'t B,
 }
 
 impl Refit<'_> {
     /// Refits the upper levels, unless they are valid. `wide_nodes` is scratch.
-    pub(crate) fn ahead<const N: usize, B: BoxSource>(
+    pub(crate) fn ahead<B: BoxSource>(
         &self,
-        one: &mut Refitted<N, B>,
+        one: &mut Refitted<B>,
         partner: Partner,
         wide_nodes: &mut Vec<WideNodeId>,
         statistics: &mut Statistics,
@@ -68,9 +68,9 @@ impl Refit<'_> {
     }
 
     /// Refits wide nodes that a traversal has reached; they are stale. The lists are scratch.
-    pub(crate) fn reached<const N: usize, B: BoxSource>(
+    pub(crate) fn reached<B: BoxSource>(
         &self,
-        one: &mut Refitted<N, B>,
+        one: &mut Refitted<B>,
         reached: &mut DirtySet,
         lists: &mut [Vec<WideNodeId>; 2],
         statistics: &mut Statistics,
@@ -79,9 +79,9 @@ impl Refit<'_> {
     }
 
     /// Makes the boxes of triangles in leaves that a traversal has reached; some may be valid.
-    pub(crate) fn reached_leaves<const N: usize, B: BoxSource>(
+    pub(crate) fn reached_leaves<B: BoxSource>(
         &self,
-        one: &mut Refitted<N, B>,
+        one: &mut Refitted<B>,
         reached: &mut DirtySet,
         statistics: &mut Statistics,
     ) {
@@ -90,9 +90,9 @@ impl Refit<'_> {
 
     /// Makes the boxes of the triangles in all leaves, and quantizes them where leaves are blocks; all nodes are valid. `reached` is
     /// scratch.
-    pub(crate) fn all_leaves<const N: usize, B: BoxSource>(
+    pub(crate) fn all_leaves<B: BoxSource>(
         &self,
-        one: &mut Refitted<N, B>,
+        one: &mut Refitted<B>,
         reached: &mut DirtySet,
         statistics: &mut Statistics,
     ) {

@@ -15,7 +15,7 @@ const UNITS: f32 = 32.0;
 const JOB: usize = 128;
 
 /// Quantizes the boxes of all leaves, unless leaves are not blocks, or they lie too far from zero for it. All other boxes are valid.
-pub(super) fn quantize_all<const N: usize, B: BoxSource>(refit: &Refit, one: &mut Refitted<N, B>) {
+pub(super) fn quantize_all<B: BoxSource>(refit: &Refit, one: &mut Refitted<B>) {
     let tree = one.tree;
     if !tree.leaves.are_blocks() || one.boxes.quantized().is_some() {
         return;
@@ -52,28 +52,28 @@ pub(super) fn quantize_all<const N: usize, B: BoxSource>(refit: &Refit, one: &mu
 }
 
 /// Says of all leaves whether they are short enough.
-fn set_fits<const N: usize>(tree: &Tree<N>, boxes: &mut BoxSet<N>, units: f32) {
-    let (nodes, _, Quantized { blocks, .. }) = boxes.all_mut();
-    for (wide_node, boxes) in tree.wide_nodes.iter().zip(nodes.boxes) {
-        let longest = boxes.longest_sides();
-        for (lane, child) in wide_node.children().enumerate() {
-            if let Child::Leaf(LeafId(block)) = child {
-                blocks[BlockId(block).index()].set_fits(longest[lane], units);
+fn set_fits(tree: &Tree, boxes: &mut BoxSet, units: f32) {
+    let (nodes, _, _, Quantized { blocks, .. }) = boxes.all_mut();
+    for (id, wide_node) in tree.with_ids() {
+        let count = wide_node.len();
+        nodes.longest_sides(id, |lane, longest| {
+            if lane < count
+                && let Child::Leaf(LeafId(block)) = wide_node.child(lane)
+            {
+                blocks[BlockId(block).index()].set_fits(longest, units);
             }
-        }
+        });
     }
 }
 
 /// How many units there are to a length of one; `None` if quantized boxes are of no use. All nodes are valid.
-pub(super) fn units_of<const N: usize>(tree: &Tree<N>, boxes: &BoxSet<N>) -> Option<f32> {
+pub(super) fn units_of(tree: &Tree, boxes: &BoxSet) -> Option<f32> {
     let nodes = boxes.nodes();
     let (mut sum, mut count) = (0.0, 0);
     for (id, wide_node) in tree.with_ids() {
         if wide_node.first_leaf.is_some() {
-            for side in nodes.of(id).longest_sides() {
-                // Lanes that are not used are not numbers.
-                sum += side.max(0.0);
-            }
+            // Lanes that are not used are not numbers.
+            nodes.longest_sides(id, |_, side| sum += side.max(0.0));
             count += wide_node.len();
         }
     }
@@ -82,7 +82,7 @@ pub(super) fn units_of<const N: usize>(tree: &Tree<N>, boxes: &BoxSet<N>) -> Opt
 }
 
 /// Whether nothing lies too many units from zero.
-pub(super) fn is_near_enough<const N: usize>(boxes: &BoxSet<N>, units: f32) -> bool {
+pub(super) fn is_near_enough(boxes: &BoxSet, units: f32) -> bool {
     let all = boxes.nodes().one(NodeId::ROOT);
     let ends = all.lo.iter().chain(&all.hi);
     let farthest = ends.fold(0.0, |most: f32, x| most.max(x.abs()));

@@ -7,7 +7,7 @@ use super::{Refit, Refitted};
 use crate::ids::WideNodeId;
 use crate::kernels::extent::{self, Extent};
 use crate::kernels::{BoxLanes, Simd, dispatch};
-use crate::tree::{BoxSource, Child, NodesMut, Tree};
+use crate::tree::{BoxSource, Child, NodesMut, Tree, of_degree};
 
 /// Wide nodes in a job: some microseconds of work.
 const JOB: usize = 16;
@@ -20,6 +20,8 @@ const UNINTERRUPTED: usize = 1024;
 struct NodeRun<'t, const N: usize> {
     run: &'t [WideNodeId],
     nodes: NodesMut<'t, N>,
+    /// Whether boxes are merged from those of wide nodes below, which are valid.
+    merges: bool,
     first_below: usize,
     below: &'t [BoxLanes<N>],
     stamp: u64,
@@ -27,29 +29,25 @@ struct NodeRun<'t, const N: usize> {
 }
 
 /// Makes the boxes of wide nodes from the vertices below them; they come in ascending order. Returns how many boxes it made.
-pub(super) fn refit_from_vertices<const N: usize, B: BoxSource>(
+pub(super) fn refit_from_vertices<B: BoxSource>(
     refit: &Refit,
-    one: &mut Refitted<N, B>,
+    one: &mut Refitted<B>,
     run: &[WideNodeId],
 ) -> u64 {
     let stamp = one.boxes.stamp();
-    let (nodes, below) = one.boxes.nodes_before(one.tree.wide_nodes.len());
-    let job = NodeRun {
-        run,
-        nodes,
-        first_below: 0,
-        below,
-        stamp,
-        made: 0,
-    };
-    refit_all::<_, _, false>(refit, job, one.tree, one.source)
+    let (nodes, stamps) = one.boxes.nodes_mut();
+    of_degree!(nodes, boxes => {
+        let (nodes, below) = NodesMut::before(boxes, stamps, one.tree.wide_nodes.len());
+        let job = NodeRun { run, nodes, merges: false, first_below: 0, below, stamp, made: 0 };
+        refit_all(refit, job, one.tree, one.source)
+    })
 }
 
 /// Makes the boxes of wide nodes from those of the wide nodes below them, which are valid, and from the vertices of their leaves. They
 /// come in ascending order and are made level by level, children before their parents.
-pub(super) fn refit_from_children<const N: usize, B: BoxSource>(
+pub(super) fn refit_from_children<B: BoxSource>(
     refit: &Refit,
-    one: &mut Refitted<N, B>,
+    one: &mut Refitted<B>,
     run: &[WideNodeId],
 ) -> u64 {
     let stamp = one.boxes.stamp();
@@ -57,26 +55,23 @@ pub(super) fn refit_from_children<const N: usize, B: BoxSource>(
     while let Some(&last) = rest.last() {
         let level = one.tree.level(one.tree.level_of(last));
         let first = rest.partition_point(|wide_node| wide_node.index() < level.start);
-        let (nodes, below) = one.boxes.nodes_before(level.end);
-        let job = NodeRun {
-            run: &rest[first..],
-            nodes,
-            first_below: level.end,
-            below,
-            stamp,
-            made: 0,
-        };
-        made += refit_all::<_, _, true>(refit, job, one.tree, one.source);
+        let (nodes, stamps) = one.boxes.nodes_mut();
+        let run = &rest[first..];
+        made += of_degree!(nodes, boxes => {
+            let (nodes, below) = NodesMut::before(boxes, stamps, level.end);
+            let job = NodeRun { run, nodes, merges: true, first_below: level.end, below, stamp, made: 0 };
+            refit_all(refit, job, one.tree, one.source)
+        });
         rest = &rest[..first];
     }
     made
 }
 
 /// Makes the boxes of a job, cut into jobs of fewer wide nodes if there are threads for them. Returns how many boxes it made.
-fn refit_all<const N: usize, B: BoxSource, const MERGE: bool>(
+fn refit_all<const N: usize, B: BoxSource>(
     refit: &Refit,
     whole: NodeRun<'_, N>,
-    tree: &Tree<N>,
+    tree: &Tree,
     source: &B,
 ) -> u64 {
     let executor = refit.executor;
@@ -88,7 +83,7 @@ fn refit_all<const N: usize, B: BoxSource, const MERGE: bool>(
             }
             dispatch!(refit.instructions, i => {
                 for &wide_node in run {
-                    refit_one::<_, _, _, MERGE>(i, job, wide_node, tree, source);
+                    refit_one(i, job, wide_node, tree, source);
                 }
             });
         }
@@ -127,13 +122,13 @@ impl<const N: usize> NodeRun<'_, N> {
     }
 }
 
-/// Makes the boxes of one wide node. If `MERGE`, the wide nodes below are valid.
+/// Makes the boxes of one wide node. If it is merged, the wide nodes below are valid.
 #[inline(always)]
-fn refit_one<I: Simd, const N: usize, B: BoxSource, const MERGE: bool>(
+fn refit_one<I: Simd, const N: usize, B: BoxSource>(
     i: I,
     job: &mut NodeRun<'_, N>,
     wide_node: WideNodeId,
-    tree: &Tree<N>,
+    tree: &Tree,
     source: &B,
 ) {
     let place = wide_node.index() - job.nodes.first;
@@ -150,7 +145,7 @@ fn refit_one<I: Simd, const N: usize, B: BoxSource, const MERGE: bool>(
     let count = structure.len();
     for lane in 0..count {
         boxes[lane] = match structure.child(lane) {
-            Child::Inner(below) if MERGE => {
+            Child::Inner(below) if job.merges => {
                 extent::of_box(i, &job.below[below.index() - job.first_below].union())
             }
             Child::Leaf(leaf) if !tree.leaves.have_blocks() => {

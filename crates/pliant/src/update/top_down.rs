@@ -11,9 +11,9 @@ use crate::tree::BoxSource;
 
 /// Refits wide nodes that were reached and are stale, and with each of them `levels_at_once - 1` levels below; empties the set. The
 /// lists are scratch. Returns how many boxes of nodes it made.
-pub(super) fn refit_reached<const N: usize, B: BoxSource>(
+pub(super) fn refit_reached<B: BoxSource>(
     refit: &Refit,
-    one: &mut Refitted<N, B>,
+    one: &mut Refitted<B>,
     reached: &mut DirtySet,
     [listed, below]: &mut [Vec<WideNodeId>; 2],
 ) -> u64 {

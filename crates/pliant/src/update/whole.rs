@@ -10,7 +10,7 @@ use super::{Refit, Refitted};
 use crate::ids::{BlockId, WideNodeId};
 use crate::kernels::extent::{self, Extent};
 use crate::kernels::{QuantizedLanes, Simd, dispatch, quantize};
-use crate::tree::{BoxSource, LeavesMut, NodesMut, Tree};
+use crate::tree::{BoxSource, LeavesMut, NodesMut, Tree, of_degree};
 
 /// Wide nodes in a job: some microseconds of work.
 const JOB: usize = 4;
@@ -36,9 +36,9 @@ struct WholeRun<'t, const N: usize> {
 
 /// Makes all boxes of nodes, and those of all triangles whose leaves are side by side. `wide_nodes` is scratch. Returns how many boxes
 /// of nodes and of triangles it made.
-pub(super) fn refit_whole<const N: usize, B: BoxSource>(
+pub(super) fn refit_whole<B: BoxSource>(
     refit: &Refit,
-    one: &mut Refitted<N, B>,
+    one: &mut Refitted<B>,
     wide_nodes: &mut Vec<WideNodeId>,
 ) -> [u64; 2] {
     let tree = one.tree;
@@ -49,47 +49,26 @@ pub(super) fn refit_whole<const N: usize, B: BoxSource>(
         wide_nodes.extend(listed.map(|(id, _)| id));
     };
     list(wide_nodes, true);
-    let executor = refit.executor;
     let stamp = one.boxes.stamp();
-    let (nodes, leaves, quantized) = one.boxes.all_mut();
+    let (nodes, stamps, leaves, quantized) = one.boxes.all_mut();
     let units = quantized.units;
     quantized
         .blocks
         .resize_with(tree.leaves.len(), Default::default);
-    let whole = WholeRun {
-        run: wide_nodes,
-        nodes,
-        leaves,
-        quantized: &mut quantized.blocks,
-        stamp,
-        units,
-        made: 0,
-        triangles: 0,
-    };
-    let is_worth_it = whole.run.len() > SHARED && executor.are_many();
-    let work = |job: &mut WholeRun<'_, N>| {
-        for run in job.run.chunks(UNINTERRUPTED) {
-            if executor.is_interrupted() {
-                return;
-            }
-            dispatch!(refit.instructions, i => {
-                for &wide_node in run {
-                    job.refit(i, wide_node, tree, one.source);
-                }
-            });
-        }
-    };
-    let (mut made, mut triangles) = (0, 0);
-    executor.run_cut(
-        whole,
-        is_worth_it,
-        |whole| whole.cut(tree),
-        work,
-        |job| {
-            made += job.made;
-            triangles += job.triangles;
-        },
-    );
+    let [made, triangles] = of_degree!(nodes, boxes => {
+        let end = boxes.len();
+        let whole = WholeRun {
+            run: wide_nodes,
+            nodes: NodesMut::before(boxes, stamps, end).0,
+            leaves,
+            quantized: &mut quantized.blocks,
+            stamp,
+            units,
+            made: 0,
+            triangles: 0,
+        };
+        refit_runs(refit, whole, tree, one.source)
+    });
     one.boxes.count_reached(made);
     // A leaf beside an inner node has no box yet, nor have its triangles.
     let all_leaves = made == tree.leaves.len();
@@ -108,9 +87,44 @@ pub(super) fn refit_whole<const N: usize, B: BoxSource>(
     [made as u64 + merged, triangles as u64]
 }
 
+/// Makes the boxes of a run, cut into shorter ones if there are threads for them. Returns how many of leaves and of triangles it made.
+fn refit_runs<const N: usize, B: BoxSource>(
+    refit: &Refit,
+    whole: WholeRun<'_, N>,
+    tree: &Tree,
+    source: &B,
+) -> [usize; 2] {
+    let executor = refit.executor;
+    let is_worth_it = whole.run.len() > SHARED && executor.are_many();
+    let work = |job: &mut WholeRun<'_, N>| {
+        for run in job.run.chunks(UNINTERRUPTED) {
+            if executor.is_interrupted() {
+                return;
+            }
+            dispatch!(refit.instructions, i => {
+                for &wide_node in run {
+                    job.refit(i, wide_node, tree, source);
+                }
+            });
+        }
+    };
+    let mut all = [0; 2];
+    executor.run_cut(
+        whole,
+        is_worth_it,
+        |whole| whole.cut(tree),
+        work,
+        |job| {
+            all[0] += job.made;
+            all[1] += job.triangles;
+        },
+    );
+    all
+}
+
 impl<const N: usize> WholeRun<'_, N> {
     /// Jobs of fewer wide nodes.
-    fn cut(self, tree: &Tree<N>) -> Vec<Self> {
+    fn cut(self, tree: &Tree) -> Vec<Self> {
         let Self {
             run,
             mut nodes,
@@ -148,7 +162,7 @@ impl<const N: usize> WholeRun<'_, N> {
         &mut self,
         i: I,
         wide_node: WideNodeId,
-        tree: &Tree<N>,
+        tree: &Tree,
         source: &B,
     ) {
         let structure = tree.wide_node(wide_node);

@@ -21,11 +21,11 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What queries of every kind work on: all of a world but what single kinds keep.
-pub(super) struct Common<const N: usize, S> {
+pub(super) struct Common<S> {
     pub(super) options: Options,
     pub(super) instructions: Instructions,
     pub(super) threads: Threads,
-    pub(super) bodies: Bodies<N, S>,
+    pub(super) bodies: Bodies<S>,
     pub(super) body_pairs: BodyPairs,
     pub(super) origin: FloatingOrigin,
     /// The work of the last query.
@@ -60,10 +60,10 @@ where
     K::Scalar: Coordinate,
 {
     /// All hits, sorted.
-    pub(super) fn all<const N: usize>(
+    pub(super) fn all(
         &mut self,
         kind: &K,
-        common: &mut Common<N, K::Scalar>,
+        common: &mut Common<K::Scalar>,
         request: &Request,
     ) -> Result<&[K::Hit], Error> {
         let interrupt = Interrupt::new(request.question);
@@ -84,10 +84,10 @@ where
     K::Scalar: Coordinate,
 {
     /// Has every thread keep what it finds, some hits at a time. It is an error if there are more than the request allows.
-    fn collect<const N: usize>(
+    fn collect(
         (scratch, scheduler): (&mut Scratch<K>, &mut Scheduler<K>),
         kind: &K,
-        common: &mut Common<N, K::Scalar>,
+        common: &mut Common<K::Scalar>,
         request: &Request,
         interrupt: &Interrupt,
         keep: &(dyn Fn(&[K::Hit]) + Sync),
@@ -134,10 +134,10 @@ where
     }
 
     /// All hits, sorted; for kinds whose hits are more than their numbers.
-    pub(super) fn all_listed<const N: usize>(
+    pub(super) fn all_listed(
         &mut self,
         kind: &K,
-        common: &mut Common<N, K::Scalar>,
+        common: &mut Common<K::Scalar>,
         request: &Request,
     ) -> Result<&[K::Hit], Error>
     where
@@ -159,10 +159,10 @@ where
     }
 
     /// Goes through all candidates of a kind that keeps to itself what it finds.
-    pub(super) fn search<const N: usize>(
+    pub(super) fn search(
         &mut self,
         kind: &K,
-        common: &mut Common<N, K::Scalar>,
+        common: &mut Common<K::Scalar>,
         request: &Request,
     ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
@@ -171,10 +171,10 @@ where
     }
 
     /// Shows every hit once, until the visitor breaks.
-    pub(super) fn visit<const N: usize>(
+    pub(super) fn visit(
         &mut self,
         kind: &K,
-        common: &mut Common<N, K::Scalar>,
+        common: &mut Common<K::Scalar>,
         request: &Request,
         visitor: Visitor<K::Hit>,
     ) -> Result<(), Error> {
@@ -196,10 +196,10 @@ where
     }
 
     /// Does early what a query would do first: finds the bodies that may meet and refits the upper levels of their trees.
-    pub(super) fn prepare<const N: usize>(
+    pub(super) fn prepare(
         &mut self,
         kind: &K,
-        common: &mut Common<N, K::Scalar>,
+        common: &mut Common<K::Scalar>,
         request: &Request,
     ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
@@ -227,14 +227,14 @@ where
     }
 
     /// A query that begins, the bodies it works on, and which of them meet.
-    fn step<'q, const N: usize>(
+    fn step<'q>(
         scratch: &'q mut Scratch<K>,
         kind: &'q K,
-        common: &'q mut Common<N, K::Scalar>,
+        common: &'q mut Common<K::Scalar>,
         request: &Request,
         interrupt: &'q Interrupt<'q>,
         early: bool,
-    ) -> Result<(Step<'q, K>, &'q mut Bodies<N, K::Scalar>, &'q mut BodyPairs), Error> {
+    ) -> Result<(Step<'q, K>, &'q mut Bodies<K::Scalar>, &'q mut BodyPairs), Error> {
         let Common {
             options,
             instructions,
@@ -266,7 +266,7 @@ where
     }
 }
 
-impl<const N: usize, S: Coordinate> Common<N, S> {
+impl<S: Coordinate> Common<S> {
     /// The threads that work on a query.
     pub(super) fn executor<'q>(&'q mut self, interrupt: &'q Interrupt<'q>) -> Executor<'q> {
         Executor {

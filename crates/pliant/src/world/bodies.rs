@@ -8,10 +8,10 @@ use crate::ids::{Place, Rank};
 use crate::kernels::Coordinate;
 use std::collections::BTreeSet;
 
-pub(super) struct Bodies<const N: usize, S> {
+pub(super) struct Bodies<S> {
     /// In no order that matters: a removed body's place is taken by the last. Each in memory of its own, so that a list that grows holds no
     /// room for bodies that are not there.
-    pub(super) list: Vec<Box<Body<N, S>>>,
+    pub(super) list: Vec<Box<Body<S>>>,
     /// By rank: the ids in order, and where the bodies stand in the list.
     pub(super) ids: Vec<BodyId>,
     pub(super) places: Vec<Place>,
@@ -20,7 +20,7 @@ pub(super) struct Bodies<const N: usize, S> {
     ignored: BTreeSet<(BodyId, BodyId)>,
 }
 
-impl<const N: usize, S> Default for Bodies<N, S> {
+impl<S> Default for Bodies<S> {
     fn default() -> Self {
         Self {
             list: Vec::new(),
@@ -32,7 +32,7 @@ impl<const N: usize, S> Default for Bodies<N, S> {
     }
 }
 
-impl<const N: usize, S: Coordinate> Bodies<N, S> {
+impl<S: Coordinate> Bodies<S> {
     /// The id of the next body.
     pub(super) fn next_id(&self) -> Result<BodyId, ErrorKind> {
         self.next_id.map(BodyId).ok_or(ErrorKind::TooManyBodies)
@@ -58,7 +58,7 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
     }
 
     /// Adds a body that has the next id.
-    pub(super) fn push(&mut self, body: Body<N, S>) {
+    pub(super) fn push(&mut self, body: Body<S>) {
         self.next_id = body.id.0.checked_add(1);
         self.ids.push(body.id);
         self.places.push(Place(self.list.len() as u32));
@@ -98,21 +98,21 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
     }
 
     /// All bodies in the order of their ids.
-    pub(super) fn in_order(&self) -> impl Iterator<Item = &Body<N, S>> {
+    pub(super) fn in_order(&self) -> impl Iterator<Item = &Body<S>> {
         self.places.iter().map(|place| &*self.list[place.index()])
     }
 
-    pub(super) fn get(&self, id: BodyId) -> Result<&Body<N, S>, Error> {
+    pub(super) fn get(&self, id: BodyId) -> Result<&Body<S>, Error> {
         Ok(&self.list[self.place(id)?.index()])
     }
 
-    pub(super) fn get_mut(&mut self, id: BodyId) -> Result<&mut Body<N, S>, Error> {
+    pub(super) fn get_mut(&mut self, id: BodyId) -> Result<&mut Body<S>, Error> {
         let place = self.place(id)?;
         Ok(&mut self.list[place.index()])
     }
 
     /// The bodies at two different places.
-    pub(super) fn two(&mut self, places: [Place; 2]) -> [&mut Body<N, S>; 2] {
+    pub(super) fn two(&mut self, places: [Place; 2]) -> [&mut Body<S>; 2] {
         let places = places.map(Place::index);
         let both = self.list.get_disjoint_mut(places);
         let [a, b] = both.expect("two different places of bodies");
@@ -137,7 +137,7 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
     }
 
     /// Whether two bodies, or one and itself, meet in queries of the whole world.
-    pub(super) fn do_meet(&self, a: &Body<N, S>, b: &Body<N, S>) -> bool {
+    pub(super) fn do_meet(&self, a: &Body<S>, b: &Body<S>) -> bool {
         a.may_meet(b) && !self.ignored.contains(&(a.id, b.id))
     }
 
@@ -161,7 +161,7 @@ impl<const N: usize, S: Coordinate> Bodies<N, S> {
     }
 }
 
-impl<const N: usize, S> Held for Bodies<N, S> {
+impl<S> Held for Bodies<S> {
     fn held(&self) -> usize {
         held::list(&self.list)
             + held::boxes(&self.list)
@@ -178,7 +178,7 @@ mod tests {
 
     #[test]
     fn numbers_of_bodies_run_out_with_an_error() {
-        let mut bodies = Bodies::<8, f32> {
+        let mut bodies = Bodies::<f32> {
             next_id: Some(u32::MAX),
             ..Bodies::default()
         };
@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn numbers_of_bodies_can_be_skipped_and_never_go_back() {
-        let mut bodies = Bodies::<8, f32>::default();
+        let mut bodies = Bodies::<f32>::default();
         for (next, expected) in [(7, 7), (3, 7), (8, 8)] {
             bodies.skip_ids(Some(next));
             assert_eq!(bodies.next_id(), Ok(BodyId(expected)));

@@ -24,12 +24,12 @@ use std::iter;
 use std::sync::OnceLock;
 
 /// A body with its tree, of degree `N`.
-pub(super) struct Body<const N: usize, S> {
+pub(super) struct Body<S> {
     pub(super) id: BodyId,
     pub(super) topology: Topology,
     pub(super) order: Order,
     /// The first is over the triangles that were there when it was built, the others over those that came since.
-    pub(super) parts: Parts<N>,
+    pub(super) parts: Parts,
     pub(super) positions: Positions<S>,
     /// Of the vertices that triangles use.
     pub(super) bounds: Bounds<S>,
@@ -42,7 +42,7 @@ pub(super) struct Body<const N: usize, S> {
     /// How much more the tree does than a fresh one would.
     pub(super) decay: Decay,
     /// A tree that is to take its place.
-    pub(super) mending: Option<Box<Mending<N>>>,
+    pub(super) mending: Option<Box<Mending>>,
     membership: u32,
     mask: u32,
     pub(super) loose: Option<Bounds<S>>,
@@ -61,25 +61,25 @@ pub(super) struct Body<const N: usize, S> {
 }
 
 /// The parts of a body: the first, which there always is, and the others.
-pub(super) struct Parts<const N: usize> {
-    pub(super) first: Part<N>,
-    pub(super) others: Vec<Part<N>>,
+pub(super) struct Parts {
+    pub(super) first: Part,
+    pub(super) others: Vec<Part>,
 }
 
-impl<const N: usize> Parts<N> {
+impl Parts {
     pub(super) fn len(&self) -> usize {
         1 + self.others.len()
     }
 
-    pub(super) fn all(&self) -> impl Iterator<Item = &Part<N>> {
+    pub(super) fn all(&self) -> impl Iterator<Item = &Part> {
         iter::once(&self.first).chain(&self.others)
     }
 
-    pub(super) fn all_mut(&mut self) -> impl Iterator<Item = &mut Part<N>> {
+    pub(super) fn all_mut(&mut self) -> impl Iterator<Item = &mut Part> {
         iter::once(&mut self.first).chain(&mut self.others)
     }
 
-    fn one_mut(&mut self, number: usize) -> &mut Part<N> {
+    fn one_mut(&mut self, number: usize) -> &mut Part {
         match number.checked_sub(1) {
             None => &mut self.first,
             Some(number) => &mut self.others[number],
@@ -87,7 +87,7 @@ impl<const N: usize> Parts<N> {
     }
 
     /// Two of them, the lower number first.
-    fn two_mut(&mut self, [low, high]: [usize; 2]) -> [&mut Part<N>; 2] {
+    fn two_mut(&mut self, [low, high]: [usize; 2]) -> [&mut Part; 2] {
         let (before, rest) = self.others.split_at_mut(high - 1);
         let low = match low.checked_sub(1) {
             None => &mut self.first,
@@ -188,7 +188,7 @@ impl<'b, S> Places<'b, S> {
 /// Fewer triangles than one of so many are few: a tree in which these were edited does about what a fresh one would.
 const OF_FEW: usize = 256;
 
-impl<const N: usize, S: Coordinate> Body<N, S> {
+impl<S: Coordinate> Body<S> {
     /// A body of validated parts; positions in the caller's order.
     pub(super) fn new(
         id: BodyId,
@@ -273,7 +273,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     }
 
     /// Has another tree from now on, over all triangles in another order, but for some that were changed since these had their order.
-    pub(super) fn exchange_tree(&mut self, order: Order, tree: Tree<N>, changed: &[Changed]) {
+    pub(super) fn exchange_tree(&mut self, order: Order, tree: Tree, changed: &[Changed]) {
         self.positions.forget_tree_order(&self.order);
         if let Some(motion) = &mut self.motion {
             motion.end.forget_tree_order(&self.order);
@@ -563,7 +563,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         kind: &K,
         origin: Origin,
         part: usize,
-    ) -> Side<'_, N, K::Source<'_>> {
+    ) -> Side<'_, K::Source<'_>> {
         let (parts, rest) = self.parts_and_rest();
         rest.side(kind, origin, parts.one_mut(part))
     }
@@ -574,7 +574,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         kind: &K,
         origin: Origin,
         numbers: [usize; 2],
-    ) -> [Side<'_, N, K::Source<'_>>; 2] {
+    ) -> [Side<'_, K::Source<'_>>; 2] {
         let (parts, rest) = self.parts_and_rest();
         parts
             .two_mut(numbers)
@@ -582,7 +582,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
     }
 
     /// The parts, and what they have in common.
-    fn parts_and_rest(&mut self) -> (&mut Parts<N>, InCommon<'_, S>) {
+    fn parts_and_rest(&mut self) -> (&mut Parts, InCommon<'_, S>) {
         let rest = InCommon {
             body: self.id,
             order: &self.order,
@@ -936,9 +936,9 @@ impl<S: Coordinate> Taking<'_, S> {
     }
 }
 
-impl<const N: usize> Parts<N> {
+impl Parts {
     /// Of a tree over all of so many triangles.
-    fn of(tree: Tree<N>, triangles: usize) -> Self {
+    fn of(tree: Tree, triangles: usize) -> Self {
         Self {
             first: Part::new(tree, 0..triangles as u32, TreeVertex(0)),
             others: Vec::new(),
@@ -960,12 +960,12 @@ struct InCommon<'b, S> {
 }
 
 impl<'b, S: Coordinate> InCommon<'b, S> {
-    fn side<const N: usize, K: Kind<Scalar = S>>(
+    fn side<K: Kind<Scalar = S>>(
         self,
         kind: &K,
         origin: Origin,
-        part: &'b mut Part<N>,
-    ) -> Side<'b, N, K::Source<'b>> {
+        part: &'b mut Part,
+    ) -> Side<'b, K::Source<'b>> {
         let shape = Shape {
             positions: self.positions.in_tree_order(),
             triangles: self.order.all_corners(),
@@ -1008,11 +1008,11 @@ impl<'b, S: Coordinate> InCommon<'b, S> {
 }
 
 /// The tree that the options ask for, and the order it brings the mesh into.
-fn build<const N: usize, S: Coordinate>(
+fn build<S: Coordinate>(
     topology: &Topology,
     positions: &[[S; 3]],
     options: &Options,
-) -> (Order, Tree<N>) {
+) -> (Order, Tree) {
     let all = topology.triangles();
     let mut plan = if topology.live_count() == all.len() {
         divide(all, positions, options)
@@ -1093,7 +1093,7 @@ fn first_outside<S: Real>(
     error(vertex, positions[vertex].map(S::to_f64))
 }
 
-impl<const N: usize, S> Held for Body<N, S> {
+impl<S> Held for Body<S> {
     fn held(&self) -> usize {
         self.topology.held()
             + self.order.held()
@@ -1115,7 +1115,7 @@ impl<const N: usize, S> Held for Body<N, S> {
             + self
                 .mending
                 .as_ref()
-                .map_or(0, |it| size_of::<Mending<N>>() + it.held())
+                .map_or(0, |it| size_of::<Mending>() + it.held())
             + self.groups.as_ref().map_or(0, |groups| {
                 let of_elements = groups.of_elements.as_ref().map_or(0, Held::held);
                 size_of::<VertexGroups>() + held::list(&groups.callers) + of_elements

@@ -86,10 +86,10 @@ impl BodyPairs {
 
     /// Begins with the pairs of a selection whose boxes overlap: bodies with themselves first, for which all their boxes are refitted,
     /// and then different bodies; each in the order of ids.
-    pub(super) fn begin<const N: usize, S: Coordinate>(
+    pub(super) fn begin<S: Coordinate>(
         &mut self,
         of: Selection,
-        bodies: &Bodies<N, S>,
+        bodies: &Bodies<S>,
         boxes: BodyBoxes,
         origin: Origin,
         interrupt: &Interrupt,
@@ -128,9 +128,9 @@ impl BodyPairs {
     }
 
     /// The next batch of the query that has begun, which may be empty; none after the last. Interrupted, it is the last.
-    pub(super) fn next<const N: usize, S: Coordinate>(
+    pub(super) fn next<S: Coordinate>(
         &mut self,
-        bodies: &Bodies<N, S>,
+        bodies: &Bodies<S>,
         instructions: Instructions,
         interrupt: &Interrupt,
     ) -> Option<&[BodyPair]> {
@@ -164,9 +164,9 @@ impl BodyPairs {
     }
 
     /// Finds the next batch of the whole world, or, interrupted, some of it. Returns whether there may be more.
-    fn find<const N: usize, S: Coordinate>(
+    fn find<S: Coordinate>(
         &mut self,
-        bodies: &Bodies<N, S>,
+        bodies: &Bodies<S>,
         instructions: Instructions,
         interrupt: &Interrupt,
     ) -> bool {
@@ -198,12 +198,7 @@ impl BodyPairs {
     }
 
     /// The boxes of all bodies as they are now.
-    fn take_boxes<const N: usize, S: Coordinate>(
-        &mut self,
-        bodies: &Bodies<N, S>,
-        boxes: BodyBoxes,
-        origin: Origin,
-    ) {
+    fn take_boxes<S: Coordinate>(&mut self, bodies: &Bodies<S>, boxes: BodyBoxes, origin: Origin) {
         let Self { exact, broad, .. } = self;
         exact.clear();
         let list = bodies.in_order();

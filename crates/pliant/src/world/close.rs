@@ -105,10 +105,10 @@ impl<C: CloseKind> Default for AskedClose<C> {
 
 impl<C: CloseKind<Hit: InBodies>> AskedClose<C> {
     /// All that are close, sorted.
-    pub(super) fn all<const N: usize>(
+    pub(super) fn all(
         &mut self,
         kind: &Measured<C>,
-        common: &mut Common<N, C::Scalar>,
+        common: &mut Common<C::Scalar>,
         request: &Request,
     ) -> Result<&[<C::Hit as Measurable>::Close], Error> {
         let hits = self.lists.all(&kind.0, common, request)?;
@@ -124,10 +124,10 @@ impl<C: CloseKind<Hit: InBodies>> AskedClose<C> {
     }
 
     /// Shows every one once, until the visitor breaks.
-    pub(super) fn visit<const N: usize>(
+    pub(super) fn visit(
         &mut self,
         kind: &Measured<C>,
-        common: &mut Common<N, C::Scalar>,
+        common: &mut Common<C::Scalar>,
         request: &Request,
         visitor: Visitor<<C::Hit as Measurable>::Close>,
     ) -> Result<(), Error> {
@@ -135,10 +135,10 @@ impl<C: CloseKind<Hit: InBodies>> AskedClose<C> {
     }
 
     /// Does early what a query would do first.
-    pub(super) fn prepare<const N: usize>(
+    pub(super) fn prepare(
         &mut self,
         kind: &Measured<C>,
-        common: &mut Common<N, C::Scalar>,
+        common: &mut Common<C::Scalar>,
         request: &Request,
     ) -> Result<(), Error> {
         self.lists.prepare(&kind.0, common, request)
@@ -158,8 +158,8 @@ struct Job<'m, H: Measurable> {
 }
 
 /// Measures pairs, all of whose bodies a query has just looked at, into a list that is kept from call to call. Interrupted, it ends early.
-fn measure<const N: usize, S: Coordinate, H: InBodies>(
-    bodies: &Bodies<N, S>,
+fn measure<S: Coordinate, H: InBodies>(
+    bodies: &Bodies<S>,
     hits: &[H],
     measured: &mut Vec<H::Close>,
     (instructions, executor): (Instructions, Executor),

@@ -33,8 +33,8 @@ pub(super) struct Distances {
 }
 
 /// Lists all others that may meet a body, with the square of the gap of the boxes, the nearest first.
-pub(super) fn others_by_gap<const N: usize, S: Coordinate>(
-    common: &mut Common<N, S>,
+pub(super) fn others_by_gap<S: Coordinate>(
+    common: &mut Common<S>,
     id: BodyId,
     listed: &mut Vec<(f64, BodyId)>,
 ) -> Result<(), Error> {
@@ -52,8 +52,8 @@ pub(super) fn others_by_gap<const N: usize, S: Coordinate>(
 }
 
 /// Triangles of two bodies that intersect, with a point in common.
-pub(super) fn in_common<const N: usize, S: Coordinate>(
-    common: &Common<N, S>,
+pub(super) fn in_common<S: Coordinate>(
+    common: &Common<S>,
     of: [BodyId; 2],
     found: Candidate,
 ) -> Option<CloseTriangles> {
@@ -70,9 +70,9 @@ pub(super) fn in_common<const N: usize, S: Coordinate>(
 
 impl Distances {
     /// The nearest triangles of two bodies that do not intersect.
-    pub(super) fn nearest<const N: usize, S: Coordinate>(
+    pub(super) fn nearest<S: Coordinate>(
         &mut self,
-        common: &mut Common<N, S>,
+        common: &mut Common<S>,
         scratch: &mut Scratch<Intersections<S>>,
         of: [BodyId; 2],
         cut_off: f64,
@@ -156,10 +156,10 @@ impl Distances {
 }
 
 /// All pairs of parts of two bodies.
-fn parts_of<const N: usize, S: Coordinate>(
-    a: &Body<N, S>,
-    b: &Body<N, S>,
-) -> impl Iterator<Item = (usize, usize)> + use<N, S> {
+fn parts_of<S: Coordinate>(
+    a: &Body<S>,
+    b: &Body<S>,
+) -> impl Iterator<Item = (usize, usize)> + use<S> {
     let [of_a, of_b] = [a.parts.len(), b.parts.len()];
     (0..of_a).flat_map(move |a| (0..of_b).map(move |b| (a, b)))
 }

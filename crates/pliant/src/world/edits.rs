@@ -34,7 +34,7 @@ const FEWEST: usize = 32;
 /// A mesh of which more than this part differs is taken as another.
 const MUCH: usize = 8;
 
-impl<const N: usize, S: Coordinate> Body<N, S> {
+impl<S: Coordinate> Body<S> {
     /// An edit of the mesh of now, of a world, without steps.
     pub(super) fn begin_edit(&self, world: u64) -> Edit<S> {
         let counts = [self.vertex_count(), self.triangle_numbers()];

@@ -23,7 +23,7 @@ use crate::held::{self, Held};
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::{Coordinate, Instructions};
-use crate::options::{Degree, Options};
+use crate::options::Options;
 use crate::queries::{
     Close, Contacts, EdgeEdgeCandidates, Impacts, Intersections, Margin, Measured, NearTriangles,
     NearestPair, Reach, VertexTriangleCandidates,
@@ -135,8 +135,8 @@ pub(crate) trait AnyEngine<S>:
 static ENGINES: AtomicU64 = AtomicU64::new(0);
 
 /// An engine whose trees have degree `N`.
-pub(super) struct Engine<const N: usize, S: Coordinate> {
-    pub(super) common: Common<N, S>,
+pub(super) struct Engine<S: Coordinate> {
+    pub(super) common: Common<S>,
     intersections: Asked<Intersections<S>>,
     contacts: Asked<Contacts<S>>,
     vertex_triangle: Asked<VertexTriangleCandidates<S>>,
@@ -151,17 +151,11 @@ pub(super) struct Engine<const N: usize, S: Coordinate> {
     lent: Vec<[S; 3]>,
     /// Which world it is, among all of the process.
     number: u64,
-    #[cfg(test)]
-    pub(super) grown: Asked<crate::queries::grown::Near<S>>,
 }
 
-/// An engine of the degree that the options say.
+/// An engine.
 pub(super) fn engine<S: Coordinate>(options: Options, threads: Threads) -> Box<dyn AnyEngine<S>> {
-    match options.degree {
-        Degree::Two => Box::new(Engine::<2, S>::new(options, threads)),
-        Degree::Four => Box::new(Engine::<4, S>::new(options, threads)),
-        Degree::Eight => Box::new(Engine::<8, S>::new(options, threads)),
-    }
+    Box::new(Engine::new(options, threads))
 }
 
 /// A refusal of a call about a body.
@@ -172,7 +166,7 @@ fn about(body: BodyId) -> impl Fn(ErrorKind) -> Error {
     }
 }
 
-impl<const N: usize, S: Coordinate> Engine<N, S> {
+impl<S: Coordinate> Engine<S> {
     pub(super) fn new(options: Options, threads: Threads) -> Self {
         Self {
             common: Common {
@@ -197,12 +191,10 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
             distances: Distances::default(),
             lent: Vec::new(),
             number: ENGINES.fetch_add(1, Ordering::Relaxed),
-            #[cfg(test)]
-            grown: Asked::default(),
         }
     }
 
-    fn body(&self, id: BodyId) -> Result<&Body<N, S>, Error> {
+    fn body(&self, id: BodyId) -> Result<&Body<S>, Error> {
         self.common.bodies.get(id)
     }
 
@@ -210,7 +202,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
     fn change(
         &mut self,
         id: BodyId,
-        change: impl FnOnce(&mut Body<N, S>, Instructions, Executor) -> Result<(), ErrorKind>,
+        change: impl FnOnce(&mut Body<S>, Instructions, Executor) -> Result<(), ErrorKind>,
     ) -> Result<(), Error> {
         let Common {
             instructions,
@@ -244,7 +236,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
     /// Ends the motion of every body that has one. The error is that of the first body whose motion cannot be ended.
     fn end_motions<E>(
         &mut self,
-        mut end: impl FnMut(&mut Body<N, S>, Instructions, Executor) -> Result<(), E>,
+        mut end: impl FnMut(&mut Body<S>, Instructions, Executor) -> Result<(), E>,
     ) -> Result<(), (BodyId, E)> {
         let Common {
             options,
@@ -286,7 +278,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
     }
 }
 
-impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
+impl<S: Coordinate> AnyEngine<S> for Engine<S> {
     fn copy(&self) -> Box<dyn AnyEngine<S>> {
         let Common {
             options,
@@ -703,7 +695,7 @@ impl<const N: usize, S: Coordinate> AnyEngine<S> for Engine<N, S> {
     }
 }
 
-impl<const N: usize, S: Coordinate> Ask<Pair> for Engine<N, S> {
+impl<S: Coordinate> Ask<Pair> for Engine<S> {
     fn all(&mut self, request: &Request) -> Result<&[Pair], Error> {
         let kind = &Intersections::default();
         self.intersections.all(kind, &mut self.common, request)
@@ -750,7 +742,7 @@ impl<const N: usize, S: Coordinate> Ask<Pair> for Engine<N, S> {
 /// Answers queries of a kind that is made of the request: all of them by this call, with the numbers to sort by where hits are more than those.
 macro_rules! ask {
     ($hit:ty, $asked:ident.$all:ident($($numbers:expr)?), |$request:ident| $kind:expr) => {
-        impl<const N: usize, S: Coordinate> Ask<$hit> for Engine<N, S> {
+        impl<S: Coordinate> Ask<$hit> for Engine<S> {
             fn all(&mut self, $request: &Request) -> Result<&[$hit], Error> {
                 let kind = &$kind;
                 self.$asked.$all(kind, &mut self.common, $request $(, $numbers)?)
@@ -817,7 +809,7 @@ ask!(CloseTriangles, close_triangles.all(), |request| {
 /// Answers queries for impacts of one kind.
 macro_rules! ask_impacts {
     ($hit:ident, $asked:ident, $candidates:ident, $of:expr) => {
-        impl<const N: usize, S: Coordinate> Ask<$hit> for Engine<N, S> {
+        impl<S: Coordinate> Ask<$hit> for Engine<S> {
             fn all(&mut self, request: &Request) -> Result<&[$hit], Error> {
                 let kind = Self::all_of(request, $candidates::within)?;
                 self.impacts
@@ -856,7 +848,7 @@ ask_impacts!(
 );
 ask_impacts!(EdgeEdgeImpact, edge_edge, EdgeEdgeCandidates, OfKind::Edges);
 
-impl<const N: usize, S: Coordinate> Engine<N, S> {
+impl<S: Coordinate> Engine<S> {
     /// All impacts of a kind of candidates.
     fn all_of<K>(request: &Request, within: impl Fn(Margin) -> K) -> Result<Impacts<K>, Error> {
         let candidates = within(Margin::new(0.0));
@@ -865,7 +857,7 @@ impl<const N: usize, S: Coordinate> Engine<N, S> {
 }
 
 /// The pair that answered the last question for a first pair.
-impl<const N: usize, S: Coordinate> Engine<N, S> {
+impl<S: Coordinate> Engine<S> {
     /// Whether bodies that were there are there still, and meet in a query of these.
     fn do_meet(&self, [a, b]: [BodyId; 2], of: Selection) -> bool {
         let (Ok(body_a), Ok(body_b)) = (self.body(a), self.body(b)) else {

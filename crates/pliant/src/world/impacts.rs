@@ -72,9 +72,9 @@ impl<S: Coordinate> Default for AskedImpacts<S> {
 impl<S: Coordinate> AskedImpacts<S> {
     /// The first contact of a motion: which elements it is of, and when. Of several at one time that of a vertex and a triangle; the first
     /// in order.
-    pub(super) fn first_contact<const N: usize>(
+    pub(super) fn first_contact(
         &mut self,
-        common: &mut Common<N, S>,
+        common: &mut Common<S>,
         request: &Request,
         of: OfKind,
     ) -> Result<Option<First>, Error> {
@@ -83,9 +83,9 @@ impl<S: Coordinate> AskedImpacts<S> {
 
     /// The earliest contact, of both kinds or one, after the start or at any time; or the first time at which elements come as near as a
     /// distance.
-    fn earliest<const N: usize>(
+    fn earliest(
         &mut self,
-        common: &mut Common<N, S>,
+        common: &mut Common<S>,
         request: &Request,
         of: OfKind,
         after_start: bool,
@@ -122,9 +122,9 @@ impl<S: Coordinate> AskedImpacts<S> {
     }
 
     /// A time up to which everything may go: see [`World::collision_free_step`](crate::World::collision_free_step).
-    pub(super) fn free_step<const N: usize>(
+    pub(super) fn free_step(
         &mut self,
-        common: &mut Common<N, S>,
+        common: &mut Common<S>,
         request: &Request,
     ) -> Result<f64, Error> {
         let distance = request.distance()?;
@@ -153,9 +153,9 @@ impl<S: Coordinate> AskedImpacts<S> {
 
     /// Whether nothing meets on straight ways to the shapes at a time, rounded, but what meets at the start, or comes as near as a
     /// distance.
-    fn is_free_to<const N: usize>(
+    fn is_free_to(
         &mut self,
-        common: &mut Common<N, S>,
+        common: &mut Common<S>,
         time: f64,
         distance: f64,
         request: &Request,
@@ -180,8 +180,8 @@ impl<S: Coordinate> AskedImpacts<S> {
 }
 
 /// Which part of the motion is looked at first: one in which most vertices move less than an edge.
-fn first_part<const N: usize, S: Coordinate>(common: &Common<N, S>, of: Selection) -> f64 {
-    let is_of_it = |body: &Body<N, S>| match of {
+fn first_part<S: Coordinate>(common: &Common<S>, of: Selection) -> f64 {
+    let is_of_it = |body: &Body<S>| match of {
         Selection::World | Selection::Everything => true,
         Selection::Between(a, b) => body.id == a || body.id == b,
         Selection::Within(a) => body.id == a,
@@ -209,10 +209,10 @@ where
     Impacts<K>: Kind<Scalar = K::Scalar>,
 {
     /// The earliest of one kind, if it is earlier than what is known.
-    fn earliest<const N: usize>(
+    fn earliest(
         &mut self,
         kind: Impacts<K>,
-        common: &mut Common<N, K::Scalar>,
+        common: &mut Common<K::Scalar>,
         request: &Request,
         known: Earliest,
     ) -> Result<Earliest, Error> {
@@ -223,10 +223,10 @@ where
 }
 
 /// Whether none of one kind meets after the start, or at it if that counts.
-fn is_free<const N: usize, K>(
+fn is_free<K>(
     asked: &mut Asked<Impacts<K>>,
     kind: &Impacts<K>,
-    common: &mut Common<N, K::Scalar>,
+    common: &mut Common<K::Scalar>,
     request: &Request,
     at_start_too: bool,
 ) -> Result<bool, Error>

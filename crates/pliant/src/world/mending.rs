@@ -35,7 +35,7 @@ const PACE: f64 = 1.5;
 /// decayed, the less hurry there is, and the shorter are the steps in which it is mended.
 const GAIN: f64 = 8.0;
 
-impl<const N: usize, S: Coordinate> Body<N, S> {
+impl<S: Coordinate> Body<S> {
     /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
     pub(super) fn mend(&mut self, options: &Options) -> bool {
         let spared = self.decay.spared();
@@ -79,7 +79,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         true
     }
 
-    fn begin_to_mend(&self, options: &Options) -> Mending<N> {
+    fn begin_to_mend(&self, options: &Options) -> Mending {
         // In the order of the tree, in which corners lie near each other.
         let places = (0..).map(TreeTriangle).zip(self.order.triangle_order());
         let places = places.filter(|&(place, _)| !self.is_gone(place));
@@ -110,7 +110,7 @@ impl<const N: usize, S: Coordinate> Body<N, S> {
         &mut self,
         mesh: &MeshThen,
         mut order: Order,
-        tree: Tree<N>,
+        tree: Tree,
         options: &Options,
     ) {
         // Numbers of triangles and of vertices do not become fewer while a tree is built.

@@ -48,16 +48,16 @@ impl MeshThen {
 }
 
 /// A tree that is being built.
-pub(super) struct Mending<const N: usize> {
+pub(super) struct Mending {
     mesh: MeshThen,
-    stage: Stage<N>,
+    stage: Stage,
 }
 
 /// The midpoint of a triangle in the shape of now, by its place among those whose midpoints are asked for, and its corners as the caller
 /// numbers vertices.
 pub(super) type MidpointOf<'m> = &'m dyn Fn(usize, [u32; 3]) -> [f64; 3];
 
-enum Stage<const N: usize> {
+enum Stage {
     /// The midpoints of these triangles, as the caller numbers them, are looked up, for a balanced tree of some degree and size of leaves.
     Looking(Vec<u32>, Vec<[f64; 3]>, (usize, u32)),
     /// These triangles, as the caller numbers them, are divided.
@@ -65,10 +65,10 @@ enum Stage<const N: usize> {
     /// Triangles and vertices get their numbers in tree order.
     Ordering(Plan, OrderBuilder),
     /// The vertices below all nodes are found.
-    Growing(Plan, Order, TreeBuilder<N>),
+    Growing(Plan, Order, TreeBuilder),
     /// Which triangles share a vertex is found, for a body that meets itself.
-    Meeting(Order, Tree<N>, NeighboursBuilder),
-    Done(Order, Tree<N>),
+    Meeting(Order, Tree, NeighboursBuilder),
+    Done(Order, Tree),
 }
 
 /// Looks at a triangle that its midpoint takes, and triangles between two looks at the budget.
@@ -77,7 +77,7 @@ const AT_ONCE: usize = 256;
 /// Looks at a triangle where all of them are gone through once more.
 const ONCE_MORE: usize = 1;
 
-impl<const N: usize> Mending<N> {
+impl Mending {
     /// A balanced tree of these triangles, of some degree and size of leaves.
     pub(super) fn balanced(
         mesh: MeshThen,
@@ -123,7 +123,7 @@ impl<const N: usize> Mending<N> {
     }
 
     /// The mesh that the tree is of, its order and the tree, if they are done.
-    pub(super) fn finish(self) -> Option<(MeshThen, Order, Tree<N>)> {
+    pub(super) fn finish(self) -> Option<(MeshThen, Order, Tree)> {
         match self.stage {
             Stage::Done(order, tree) => Some((self.mesh, order, tree)),
             _ => None,
@@ -131,7 +131,7 @@ impl<const N: usize> Mending<N> {
     }
 }
 
-impl<const N: usize> Stage<N> {
+impl Stage {
     /// Goes on with this stage, and comes to the next if it is done.
     fn advance(
         self,
@@ -208,7 +208,7 @@ impl Held for MeshThen {
     }
 }
 
-impl<const N: usize> Held for Mending<N> {
+impl Held for Mending {
     fn held(&self) -> usize {
         let of_stage = match &self.stage {
             Stage::Looking(numbers, midpoints, _) => held::list(numbers) + held::list(midpoints),

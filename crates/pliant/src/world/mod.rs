@@ -41,8 +41,6 @@ mod scalar;
 mod scheduler;
 mod selection;
 mod step;
-#[cfg(test)]
-mod tests_of_kinds;
 mod tree_cut;
 mod validate;
 mod witness;

@@ -22,10 +22,7 @@ impl FloatingOrigin {
     /// Moves to the bodies if they have moved away; all boxes are then stale. Returns whether it moved.
     ///
     /// Looking at all bodies costs O(n), so it is done only when as many shapes were taken over as there are bodies.
-    pub(super) fn settle<const N: usize, S: Coordinate>(
-        &mut self,
-        bodies: &mut [Box<Body<N, S>>],
-    ) -> bool {
+    pub(super) fn settle<S: Coordinate>(&mut self, bodies: &mut [Box<Body<S>>]) -> bool {
         if S::BOXES_ARE_EXACT || self.moves < bodies.len() {
             return false;
         }

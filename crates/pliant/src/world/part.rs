@@ -13,15 +13,15 @@ use crate::threads::Executor;
 use crate::tree::{BoxSet, BoxSource, Swept, Tree};
 use std::ops::Range;
 
-pub(super) struct Part<const N: usize> {
-    pub(super) tree: Tree<N>,
+pub(super) struct Part {
+    pub(super) tree: Tree,
     /// Its run of the triangles in tree order.
     pub(super) triangles: Range<u32>,
     /// They are the first to use vertices from this one on.
     pub(super) first_vertex: TreeVertex,
     /// By the number of the set. They are made when a kind of query asks for them; but in a large body the first, of the shape as it is,
     /// is there from the beginning.
-    boxes: Vec<Option<BoxSet<N>>>,
+    boxes: Vec<Option<BoxSet>>,
     /// Boxes of elements, once somebody asks for those.
     pub(super) near_boxes: Option<Box<NearBoxes>>,
 }
@@ -33,9 +33,9 @@ pub(super) struct OfElements<'b, S> {
     pub(super) end: Option<(&'b Points<S>, u64)>,
 }
 
-impl<const N: usize> Part<N> {
+impl Part {
     /// Of a tree over these triangles, which are the first to use vertices from `first_vertex` on.
-    pub(super) fn new(tree: Tree<N>, triangles: Range<u32>, first_vertex: TreeVertex) -> Self {
+    pub(super) fn new(tree: Tree, triangles: Range<u32>, first_vertex: TreeVertex) -> Self {
         let boxes = if triangles.len() > SMALL {
             vec![Some(BoxSet::new(&tree))]
         } else {
@@ -54,7 +54,7 @@ impl<const N: usize> Part<N> {
     pub(super) fn for_query(
         &mut self,
         number: BoxSetNumber,
-    ) -> (&Tree<N>, &mut BoxSet<N>, Option<&NearBoxes>) {
+    ) -> (&Tree, &mut BoxSet, Option<&NearBoxes>) {
         if self.boxes.len() <= number {
             self.boxes.resize_with(number + 1, || None);
         }
@@ -64,7 +64,7 @@ impl<const N: usize> Part<N> {
     }
 
     /// A set of boxes, if some query asked for it.
-    pub(super) fn boxes(&self, number: BoxSetNumber) -> Option<&BoxSet<N>> {
+    pub(super) fn boxes(&self, number: BoxSetNumber) -> Option<&BoxSet> {
         self.boxes.get(number)?.as_ref()
     }
 
@@ -112,7 +112,7 @@ impl<const N: usize> Part<N> {
     }
 }
 
-impl<const N: usize> Held for Part<N> {
+impl Held for Part {
     fn held(&self) -> usize {
         self.tree.held()
             + held::list(&self.boxes)

@@ -67,16 +67,16 @@ impl<K: Kind> Default for Worker<K> {
 }
 
 /// Whether pairs of bodies are worth it.
-pub(super) fn is_worth_it<const N: usize, S: Coordinate>(
+pub(super) fn is_worth_it<S: Coordinate>(
     executor: Executor,
-    bodies: &Bodies<N, S>,
+    bodies: &Bodies<S>,
     pairs: &[BodyPair],
 ) -> bool {
     executor.are_many() && pairs.len() > 1 && triangles_of(bodies, pairs) >= SHARED
 }
 
 /// The triangles of both bodies of all pairs.
-fn triangles_of<const N: usize, S: Coordinate>(bodies: &Bodies<N, S>, pairs: &[BodyPair]) -> usize {
+fn triangles_of<S: Coordinate>(bodies: &Bodies<S>, pairs: &[BodyPair]) -> usize {
     let places = pairs.as_flattened().iter();
     places
         .map(|place| bodies.list[place.index()].triangle_count())
@@ -85,10 +85,10 @@ fn triangles_of<const N: usize, S: Coordinate>(bodies: &Bodies<N, S>, pairs: &[B
 
 impl<K: Kind> Scheduler<K> {
     /// Meets all pairs of bodies, unless it is interrupted or there are too many hits for the collector.
-    pub(super) fn meet<const N: usize>(
+    pub(super) fn meet(
         &mut self,
         step: &mut Step<K>,
-        bodies: &mut Bodies<N, K::Scalar>,
+        bodies: &mut Bodies<K::Scalar>,
         pairs: &[BodyPair],
         collector: Collector<K::Hit>,
     ) -> ControlFlow<()>
@@ -133,7 +133,7 @@ impl<K: Kind> Scheduler<K> {
                     step.meet_itself(&mut locked(&all[a]), sink)
                 } else {
                     let [mut a, mut b] = [a, b].map(|place| locked(&all[place]));
-                    let both: [&mut Body<N, K::Scalar>; 2] = [&mut a, &mut b];
+                    let both: [&mut Body<K::Scalar>; 2] = [&mut a, &mut b];
                     step.meet_another(both, sink)
                 };
             }
@@ -146,7 +146,7 @@ impl<K: Kind> Scheduler<K> {
     }
 
     /// Cuts small pairs into jobs. How it does changes no answer, so it may look at the number of threads.
-    fn cut<const N: usize, S: Coordinate>(&mut self, bodies: &Bodies<N, S>, pairs: &[BodyPair]) {
+    fn cut<S: Coordinate>(&mut self, bodies: &Bodies<S>, pairs: &[BodyPair]) {
         self.large.clear();
         self.small.clear();
         self.jobs.clear();

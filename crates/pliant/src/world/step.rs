@@ -31,9 +31,9 @@ where
     K::Scalar: Coordinate,
 {
     /// Shows what two bodies, or one and itself, do to each other. Breaks if the sink does, or if it is interrupted.
-    pub(super) fn meet<const N: usize>(
+    pub(super) fn meet(
         &mut self,
-        bodies: &mut Bodies<N, K::Scalar>,
+        bodies: &mut Bodies<K::Scalar>,
         [a, b]: BodyPair,
         sink: &mut Sink<K::Hit>,
     ) -> ControlFlow<()> {
@@ -45,9 +45,9 @@ where
     }
 
     /// Two different bodies.
-    pub(super) fn meet_another<const N: usize>(
+    pub(super) fn meet_another(
         &mut self,
-        both: [&mut Body<N, K::Scalar>; 2],
+        both: [&mut Body<K::Scalar>; 2],
         sink: &mut Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
@@ -73,9 +73,9 @@ where
     }
 
     /// One body with itself.
-    pub(super) fn meet_itself<const N: usize>(
+    pub(super) fn meet_itself(
         &mut self,
-        body: &mut Body<N, K::Scalar>,
+        body: &mut Body<K::Scalar>,
         sink: &mut Sink<K::Hit>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
@@ -118,9 +118,9 @@ where
     }
 
     /// Two trees; those of which bodies have several perhaps do not overlap.
-    fn descend_two<const N: usize>(
+    fn descend_two(
         &mut self,
-        mut pair: TwoTrees<'_, N, K::Source<'_>>,
+        mut pair: TwoTrees<'_, K::Source<'_>>,
         are_several: bool,
         sink: &mut Sink<K::Hit>,
     ) -> ControlFlow<()> {
@@ -130,13 +130,9 @@ where
         self.descend(&mut pair, sink)
     }
 
-    fn descend<const N: usize, P>(
-        &mut self,
-        pair: &mut P,
-        sink: &mut Sink<K::Hit>,
-    ) -> ControlFlow<()>
+    fn descend<P>(&mut self, pair: &mut P, sink: &mut Sink<K::Hit>) -> ControlFlow<()>
     where
-        P: TreePair<N>,
+        P: TreePair,
         P::Source: BoxSource<Scalar = K::Scalar>,
     {
         descend(
@@ -150,9 +146,9 @@ where
     }
 
     /// Does for a body, early, what a query of it does before it descends.
-    pub(super) fn prepare<const N: usize>(
+    pub(super) fn prepare(
         &mut self,
-        body: &mut Body<N, K::Scalar>,
+        body: &mut Body<K::Scalar>,
         partner: Partner,
     ) -> ControlFlow<()> {
         self.bring_body_into_tree_order(body)?;
@@ -166,9 +162,9 @@ where
     }
 
     /// Brings a body into the order of its trees, and makes the boxes of its elements if the kind reads those. Breaks if it is interrupted.
-    pub(super) fn bring_body_into_tree_order<const N: usize>(
+    pub(super) fn bring_body_into_tree_order(
         &mut self,
-        body: &mut Body<N, K::Scalar>,
+        body: &mut Body<K::Scalar>,
     ) -> ControlFlow<()> {
         let executor = self.refit.executor;
         let instructions = self.refit.instructions;
@@ -185,21 +181,21 @@ where
     }
 
     /// A part of a body that was brought into tree order, with the upper levels of its boxes. Breaks if it is interrupted.
-    pub(super) fn ahead<'b, const N: usize>(
+    pub(super) fn ahead<'b>(
         &mut self,
-        body: &'b mut Body<N, K::Scalar>,
+        body: &'b mut Body<K::Scalar>,
         part: usize,
         partner: Partner,
-    ) -> ControlFlow<(), Side<'b, N, K::Source<'b>>> {
+    ) -> ControlFlow<(), Side<'b, K::Source<'b>>> {
         let mut side = body.side(self.kind, self.origin, part);
         self.refit_ahead(&mut side, partner)?;
         ControlFlow::Continue(side)
     }
 
     /// Does what comes before the descent: the same for a query and for what is done early. Breaks if it is interrupted.
-    fn refit_ahead<const N: usize>(
+    fn refit_ahead(
         &mut self,
-        side: &mut Side<'_, N, K::Source<'_>>,
+        side: &mut Side<'_, K::Source<'_>>,
         partner: Partner,
     ) -> ControlFlow<()> {
         let lists = &mut self.scratch.wide_nodes[0];

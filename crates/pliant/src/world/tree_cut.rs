@@ -9,7 +9,7 @@ use crate::queries::{Intersections, Kind};
 use crate::tree::BoxSource;
 use std::ops::Range;
 
-impl<const N: usize, S: Coordinate> Body<N, S> {
+impl<S: Coordinate> Body<S> {
     /// For each triangle, as the caller numbers them, the part it is in.
     pub(super) fn tree_cut(&self, level: u32) -> Vec<u32> {
         let order = self.order.triangle_order();

@@ -7,7 +7,7 @@ use crate::options::Options;
 use crate::queries::{Intersections, Kind, VertexTriangleCandidates};
 use crate::tree::{Grown, Swept};
 
-impl<const N: usize, S: Coordinate> Body<N, S> {
+impl<S: Coordinate> Body<S> {
     /// Checks the structure of the tree, and that each box that claims to be valid is the box over the vertices below it as they
     /// are now. A sentence says what is wrong.
     pub(super) fn validate(&self, options: &Options, origin: Origin) -> Result<(), String> {

@@ -46,22 +46,19 @@ impl Witnesses {
 
 /// A pair that intersects among the neighbours of a pair, of two bodies or of one with itself: on either side the one, its leaf,
 /// the leaves beside it. In tree order, as everything here.
-pub(super) fn near<const N: usize, S: Coordinate>(
-    both: [&Body<N, S>; 2],
+pub(super) fn near<S: Coordinate>(
+    both: [&Body<S>; 2],
     last: Candidate,
     interrupt: &Interrupt,
     statistics: &mut Statistics,
 ) -> Option<Candidate> {
-    among::<1, N, S>(both, last, interrupt, statistics)
-        .or_else(|| among::<8, N, S>(both, last, interrupt, statistics))
-        .or_else(|| among::<64, N, S>(both, last, interrupt, statistics))
+    among::<1, S>(both, last, interrupt, statistics)
+        .or_else(|| among::<8, S>(both, last, interrupt, statistics))
+        .or_else(|| among::<64, S>(both, last, interrupt, statistics))
 }
 
 /// Two triangles of two bodies, or of one, as the caller numbers them.
-pub(super) fn pair_of<const N: usize, S: Coordinate>(
-    both: [&Body<N, S>; 2],
-    found: Candidate,
-) -> Pair {
+pub(super) fn pair_of<S: Coordinate>(both: [&Body<S>; 2], found: Candidate) -> Pair {
     let ids = CallerIds {
         edges: [&[]; 2],
         bodies: both.map(|body| body.id),
@@ -71,20 +68,20 @@ pub(super) fn pair_of<const N: usize, S: Coordinate>(
 }
 
 /// A pair that intersects among `R` triangles on either side.
-fn among<const R: usize, const N: usize, S: Coordinate>(
-    [a, b]: [&Body<N, S>; 2],
+fn among<const R: usize, S: Coordinate>(
+    [a, b]: [&Body<S>; 2],
     [near_a, near_b]: Candidate,
     interrupt: &Interrupt,
     statistics: &mut Statistics,
 ) -> Option<Candidate> {
-    let of_a = Run::<R, N, S>::around(a, near_a);
-    let of_b = Run::<R, N, S>::around(b, near_b);
+    let of_a = Run::<R, S>::around(a, near_a);
+    let of_b = Run::<R, S>::around(b, near_b);
     of_a.meet(&of_b, a.id == b.id, interrupt, statistics)
 }
 
 /// Up to R triangles in a row.
-struct Run<'b, const R: usize, const N: usize, S> {
-    body: &'b Body<N, S>,
+struct Run<'b, const R: usize, S> {
+    body: &'b Body<S>,
     first: TreeTriangle,
     count: usize,
     corners: [Triangle; R],
@@ -92,8 +89,8 @@ struct Run<'b, const R: usize, const N: usize, S> {
     all: Bounds<f64>,
 }
 
-impl<'b, const R: usize, const N: usize, S: Coordinate> Run<'b, R, N, S> {
-    fn around(body: &'b Body<N, S>, triangle: TreeTriangle) -> Self {
+impl<'b, const R: usize, S: Coordinate> Run<'b, R, S> {
+    fn around(body: &'b Body<S>, triangle: TreeTriangle) -> Self {
         let first = triangle.index() / R * R;
         let count = R.min(body.triangle_count() - first);
         let mut corners = [[[0.0; 3]; 3]; R];

@@ -33,5 +33,6 @@ mod oracle;
 mod pieces;
 mod readme;
 mod refusals;
+mod second_kind;
 mod threads;
 mod work;

@@ -8,13 +8,14 @@
 //! Two rules hold at all times: nothing reads a stale box, and the wide node above a valid one, or above a valid leaf, is valid.
 //! `update` makes them valid, `traversal` asks for it, `validate` checks it.
 
+mod lanes;
 mod source;
 
 use super::{BLOCK_LANES, Tree};
-use crate::geometry::Aabb;
 use crate::held::{self, Held};
-use crate::ids::{BlockId, LeafId, NodeId, WideNodeId};
+use crate::ids::{BlockId, LeafId, WideNodeId};
 use crate::kernels::{BoxLanes, QuantizedLanes};
+pub(crate) use lanes::{NodeLanes, of_degree};
 pub(crate) use source::{BoxSource, Grown, Swept, Version};
 
 /// The boxes of up to eight triangles.
@@ -25,11 +26,11 @@ const NEVER: u64 = 0;
 
 /// The boxes of one tree, from one source.
 #[derive(Debug)]
-pub(crate) struct BoxSet<const N: usize> {
+pub(crate) struct BoxSet {
     version: Option<Version>,
     stamp: u64,
     /// Of every wide node the boxes of its nodes, and the stamp with which they were made.
-    nodes: Vec<BoxLanes<N>>,
+    nodes: NodeLanes,
     node_stamps: Vec<u64>,
     /// Of every block the boxes of its triangles, and of every leaf the stamp with which those of all its blocks were made. None where
     /// every leaf is one triangle.
@@ -62,24 +63,6 @@ impl Quantized {
     }
 }
 
-/// The boxes of all nodes.
-#[derive(Clone, Copy)]
-pub(crate) struct NodeBoxes<'b, const N: usize>(&'b [BoxLanes<N>]);
-
-impl<'b, const N: usize> NodeBoxes<'b, N> {
-    #[inline(always)]
-    pub(crate) fn of(self, wide_node: WideNodeId) -> &'b BoxLanes<N> {
-        &self.0[wide_node.index()]
-    }
-
-    /// The box of one node.
-    #[inline(always)]
-    pub(crate) fn one(self, node: NodeId) -> Aabb {
-        let (wide_node, lane) = node.wide_node_and_lane::<N>();
-        self.of(wide_node).get(lane)
-    }
-}
-
 /// The boxes of the triangles of all blocks.
 #[derive(Clone, Copy)]
 pub(crate) struct BlockBoxes<'b>(&'b [Block]);
@@ -106,15 +89,15 @@ pub(crate) struct LeavesMut<'b> {
     pub(crate) blocks: &'b mut [Block],
 }
 
-impl<const N: usize> BoxSet<N> {
+impl BoxSet {
     /// Boxes for a tree, all of them stale.
-    pub(crate) fn new(tree: &Tree<N>) -> Self {
+    pub(crate) fn new(tree: &Tree) -> Self {
         let blocks = tree.leaves.block_count();
         let leaves = if blocks > 0 { tree.leaves.len() } else { 0 };
         Self {
             version: None,
             stamp: NEVER + 1,
-            nodes: vec![BoxLanes::EMPTY; tree.wide_nodes.len()],
+            nodes: NodeLanes::new(tree.degree, tree.wide_nodes.len()),
             node_stamps: vec![NEVER; tree.wide_nodes.len()],
             blocks: vec![Block::EMPTY; blocks],
             leaf_stamps: vec![NEVER; leaves],
@@ -193,8 +176,13 @@ impl<const N: usize> BoxSet<N> {
 
     /// The boxes of nodes, to read those that are valid.
     #[inline(always)]
-    pub(crate) fn nodes(&self) -> NodeBoxes<'_, N> {
-        NodeBoxes(&self.nodes)
+    pub(crate) fn nodes(&self) -> &NodeLanes {
+        &self.nodes
+    }
+
+    /// The boxes of nodes and the stamps of wide nodes, to write.
+    pub(crate) fn nodes_mut(&mut self) -> (&mut NodeLanes, &mut [u64]) {
+        (&mut self.nodes, &mut self.node_stamps)
     }
 
     /// The boxes of triangles, to read those that are valid.
@@ -219,15 +207,17 @@ impl<const N: usize> BoxSet<N> {
         self.quantized.stamp = self.stamp;
     }
 
-    /// Everything, to write: wide nodes, leaves, and quantized boxes.
-    pub(crate) fn all_mut(&mut self) -> (NodesMut<'_, N>, LeavesMut<'_>, &mut Quantized) {
-        let nodes = NodesMut {
-            first: 0,
-            boxes: &mut self.nodes,
-            stamps: &mut self.node_stamps,
-        };
+    /// Everything, to write: boxes and stamps of nodes, leaves, and quantized boxes.
+    pub(crate) fn all_mut(
+        &mut self,
+    ) -> (&mut NodeLanes, &mut [u64], LeavesMut<'_>, &mut Quantized) {
         let leaves = LeavesMut::all(&mut self.leaf_stamps, &mut self.blocks);
-        (nodes, leaves, &mut self.quantized)
+        (
+            &mut self.nodes,
+            &mut self.node_stamps,
+            leaves,
+            &mut self.quantized,
+        )
     }
 
     /// Counts leaves whose triangles had boxes made.
@@ -240,24 +230,28 @@ impl<const N: usize> BoxSet<N> {
         std::mem::take(&mut self.reached)
     }
 
-    /// All wide nodes before `end`, to write, and the boxes of those from there on, to read.
-    pub(crate) fn nodes_before(&mut self, end: usize) -> (NodesMut<'_, N>, &[BoxLanes<N>]) {
-        let (boxes, below) = self.nodes.split_at_mut(end);
-        let nodes = NodesMut {
-            first: 0,
-            boxes,
-            stamps: &mut self.node_stamps[..end],
-        };
-        (nodes, below)
-    }
-
     /// All leaves, to write.
     pub(crate) fn leaves_mut(&mut self) -> LeavesMut<'_> {
         LeavesMut::all(&mut self.leaf_stamps, &mut self.blocks)
     }
 }
 
-impl<const N: usize> NodesMut<'_, N> {
+impl<'b, const N: usize> NodesMut<'b, N> {
+    /// All wide nodes before `end`, and the boxes of those from there on, to read.
+    pub(crate) fn before(
+        boxes: &'b mut [BoxLanes<N>],
+        stamps: &'b mut [u64],
+        end: usize,
+    ) -> (Self, &'b [BoxLanes<N>]) {
+        let (boxes, below) = boxes.split_at_mut(end);
+        let nodes = Self {
+            first: 0,
+            boxes,
+            stamps: &mut stamps[..end],
+        };
+        (nodes, below)
+    }
+
     /// Cuts the run in two before a wide node.
     pub(crate) fn split_before(self, wide_node: WideNodeId) -> [Self; 2] {
         let place = wide_node.index() - self.first;
@@ -310,9 +304,9 @@ impl<'b> LeavesMut<'b> {
     }
 }
 
-impl<const N: usize> Held for BoxSet<N> {
+impl Held for BoxSet {
     fn held(&self) -> usize {
-        held::list(&self.nodes)
+        of_degree!(&self.nodes, nodes => held::list(nodes))
             + held::list(&self.node_stamps)
             + held::list(&self.blocks)
             + held::list(&self.leaf_stamps)

@@ -30,6 +30,8 @@ pub(crate) struct Plan {
     pub(crate) parts: Vec<Part>,
     /// The most triangles in a leaf.
     pub(crate) leaf_size: u32,
+    /// The most children of a part.
+    pub(crate) degree: usize,
 }
 
 impl Plan {
@@ -91,7 +93,6 @@ pub(crate) fn plan(count: usize, degree: usize, leaf_size: u32, rule: impl Split
 pub(crate) struct Planner<R> {
     rule: R,
     plan: Plan,
-    degree: usize,
     /// The first part that was not looked at.
     next: usize,
     /// Whether its split was begun, and the pieces it has so far.
@@ -112,8 +113,8 @@ impl<R: Split> Planner<R> {
                     level: 0,
                 }],
                 leaf_size,
+                degree,
             },
-            degree,
             next: 0,
             is_begun: false,
             pieces: Vec::with_capacity(degree),
@@ -126,6 +127,7 @@ impl<R: Split> Planner<R> {
             order,
             parts,
             leaf_size,
+            degree,
         } = &mut self.plan;
         while self.next < parts.len() {
             if budget.is_spent() {
@@ -144,7 +146,7 @@ impl<R: Split> Planner<R> {
                     return false;
                 }
                 if self.pieces.len() == 1 {
-                    cut_the_order(run.len(), self.degree, &mut self.pieces);
+                    cut_the_order(run.len(), *degree, &mut self.pieces);
                 }
                 let first = parts.len() as u32;
                 parts[self.next].children = first..first + self.pieces.len() as u32;

@@ -10,7 +10,7 @@ use connectedness::Connectedness;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-impl<const N: usize> Tree<N> {
+impl Tree {
     /// Checks the structure over these triangles and what the partition promises; `Err` says what is wrong. Allocates and takes its time.
     pub(crate) fn validate(
         &self,
@@ -33,7 +33,7 @@ impl<const N: usize> Tree<N> {
         while let Some((node, level)) = open.pop() {
             visited += 1;
             deepest = deepest.max(level);
-            let (wide_node, lane) = node.wide_node_and_lane::<N>();
+            let (wide_node, lane) = node.wide_node_and_lane();
             if !self.level(level).contains(&wide_node.index()) {
                 return Err(format!(
                     "{wide_node:?}: not in the run of its level, {level}"
@@ -77,14 +77,14 @@ impl<const N: usize> Tree<N> {
     /// Checks that every valid box is what the source gives over the vertices below it, and that what is above a valid box is valid.
     pub(crate) fn validate_boxes(
         &self,
-        boxes: &BoxSet<N>,
+        boxes: &BoxSet,
         source: &impl BoxSource,
     ) -> Result<(), String> {
         let version = source.version();
         // A node, and whether the wide node above it is valid; nothing is above the root.
         let mut open = vec![(NodeId::ROOT, true)];
         while let Some((node, above)) = open.pop() {
-            let (wide_node, lane) = node.wide_node_and_lane::<N>();
+            let (wide_node, lane) = node.wide_node_and_lane();
             let is_valid = boxes.holds(wide_node, version);
             if is_valid && !above {
                 return Err(format!("{wide_node:?}: valid below a stale one"));
@@ -155,7 +155,7 @@ impl<const N: usize> Tree<N> {
         &self,
         leaf: LeafId,
         above: bool,
-        boxes: &BoxSet<N>,
+        boxes: &BoxSet,
         source: &impl BoxSource,
     ) -> Result<(), String> {
         let is_valid = self.leaves.have_blocks()
@@ -209,7 +209,7 @@ impl<const N: usize> Tree<N> {
                     Child::Leaf(leaf) => return Ok(self.leaves.triangles(leaf)),
                     Child::Inner(below) => {
                         let lanes = self.wide_node(below).len();
-                        node = NodeId::new::<N>(below, if last { lanes - 1 } else { 0 });
+                        node = NodeId::new(below, if last { lanes - 1 } else { 0 });
                     }
                 }
             }
@@ -230,7 +230,7 @@ mod tests {
         let mut plan = plan(triangles.len(), 8, 2, rule);
         let topology = Topology::new(triangles, vertices);
         let order = Order::new(&topology, std::mem::take(&mut plan.order));
-        let tree = Tree::<8>::new(&plan, &order, TreeVertex(0));
+        let tree = Tree::new(&plan, &order, TreeVertex(0));
         assert_eq!(
             tree.validate(&order, 0..triangles.len(), Partition::Balanced),
             Ok(())

@@ -1,28 +1,28 @@
 //! What a pair of nodes becomes: pairs of their children that overlap, or a pair of leaves.
 
+use super::{BoxSet, Child, Neighbours, STRICT_UPPER, Tree, of_degree};
 use crate::held::{self, Held};
 use crate::ids::{LeafId, NodeId};
-use crate::kernels::{Buffer, Simd, overlap_mask};
-use crate::tree::{BoxSet, Child, Neighbours, STRICT_UPPER, Tree};
+use crate::kernels::{BoxLanes, Buffer, Instructions, Simd, dispatch, overlap_mask};
 
 /// Two nodes whose boxes are valid and overlap, or a node with itself.
-pub(super) type NodePair = [NodeId; 2];
+pub(crate) type NodePair = [NodeId; 2];
 
 /// Two leaves whose boxes overlap, or a leaf with itself.
-pub(super) type LeafPair = [LeafId; 2];
+pub(crate) type LeafPair = [LeafId; 2];
 
 /// A tree and a set of its boxes: all that a walk reads of a body.
 #[derive(Clone, Copy)]
-pub(super) struct BoxedTree<'t, const N: usize> {
-    pub(super) tree: &'t Tree<N>,
-    pub(super) boxes: &'t BoxSet<N>,
+pub(crate) struct BoxedTree<'t> {
+    pub(crate) tree: &'t Tree,
+    pub(crate) boxes: &'t BoxSet,
 }
 
 /// Leaves side by side that are in pairs, a bit for each of eight.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct ReachedLeaves {
-    pub(super) first: LeafId,
-    pub(super) lanes: u8,
+pub(crate) struct ReachedLeaves {
+    pub(crate) first: LeafId,
+    pub(crate) lanes: u8,
 }
 
 /// Of the pairs (i, j) of eight lanes, bit 8 i + j, those with j = i.
@@ -30,25 +30,25 @@ const DIAGONAL: u64 = 0x8040_2010_0804_0201;
 
 /// What pairs of nodes became: the stack of a task, and its list of pairs of leaves.
 #[derive(Debug, Default)]
-pub(super) struct Worklists {
+pub(crate) struct Worklists {
     /// The stack: pairs of nodes that are still to be expanded.
-    pub(super) nodes: Buffer<NodePair>,
+    pub(crate) nodes: Buffer<NodePair>,
     /// Pairs of leaves that are still to be tested.
-    pub(super) leaves: Buffer<LeafPair>,
+    pub(crate) leaves: Buffer<LeafPair>,
     /// The leaves in the new pairs of leaves, some perhaps more than once, of either tree.
-    pub(super) reached: [Buffer<ReachedLeaves>; 2],
+    pub(crate) reached: [Buffer<ReachedLeaves>; 2],
     /// How many pairs of nodes were expanded, with those of leaves that went straight onto their list.
-    pub(super) node_pairs: u64,
+    pub(crate) node_pairs: u64,
 }
 
 impl Worklists {
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.nodes.clear();
         self.clear_leaves();
         self.node_pairs = 0;
     }
 
-    pub(super) fn clear_leaves(&mut self) {
+    pub(crate) fn clear_leaves(&mut self) {
         self.leaves.clear();
         self.reached.iter_mut().for_each(Buffer::clear);
     }
@@ -56,10 +56,29 @@ impl Worklists {
 
 /// Expands every pair of a batch, of two trees or of one with itself. What is below the nodes is valid. Leaves that are known to be
 /// neighbours may be left out.
+pub(crate) fn expand(
+    instructions: Instructions,
+    trees: [BoxedTree<'_>; 2],
+    is_itself: bool,
+    batch: &[NodePair],
+    left_out: Option<&Neighbours>,
+    found: &mut Worklists,
+) {
+    let of = trees.map(|it| it.tree);
+    of_degree!([trees[0].boxes.nodes(), trees[1].boxes.nodes()], boxes => {
+        dispatch!(instructions, i => if is_itself {
+            expand_all::<_, _, true>(i, of, boxes, batch, left_out, found);
+        } else {
+            expand_all::<_, _, false>(i, of, boxes, batch, left_out, found);
+        });
+    });
+}
+
 #[inline(always)]
-pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
+fn expand_all<I: Simd, const N: usize, const ITSELF: bool>(
     i: I,
-    [a, b]: [BoxedTree<'_, N>; 2],
+    [a, b]: [&Tree; 2],
+    [boxes_a, boxes_b]: [&[BoxLanes<N>]; 2],
     batch: &[NodePair],
     left_out: Option<&Neighbours>,
     found: &mut Worklists,
@@ -71,8 +90,11 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
         node_pairs,
     } = found;
     *node_pairs += batch.len() as u64;
-    let (nodes_a, nodes_b) = (a.tree.nodes(), b.tree.nodes());
-    let (boxes_a, boxes_b) = (a.boxes.nodes(), b.boxes.nodes());
+    let (nodes_a, nodes_b) = (a.nodes(), b.nodes());
+    let one = |boxes: &[BoxLanes<N>], node: NodeId| {
+        let (wide_node, lane) = node.wide_node_and_lane();
+        boxes[wide_node.index()].get(lane % N)
+    };
     for &[node_a, node_b] in batch {
         match (nodes_a.child(node_a), nodes_b.child(node_b)) {
             (Child::Leaf(leaf_a), Child::Leaf(leaf_b)) => {
@@ -87,23 +109,23 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
                 }
             }
             (Child::Leaf(_), Child::Inner(below)) => {
-                let mask = boxes_b.of(below).overlaps(&boxes_a.one(node_a));
-                nodes.room().push_bits(mask, |lane| {
-                    [node_a, NodeId::new::<N>(below, lane as usize)]
-                });
+                let mask = boxes_b[below.index()].overlaps(&one(boxes_a, node_a));
+                nodes
+                    .room()
+                    .push_bits(mask, |lane| [node_a, NodeId::new(below, lane as usize)]);
             }
             (Child::Inner(below), Child::Leaf(_)) => {
-                let mask = boxes_a.of(below).overlaps(&boxes_b.one(node_b));
-                nodes.room().push_bits(mask, |lane| {
-                    [NodeId::new::<N>(below, lane as usize), node_b]
-                });
+                let mask = boxes_a[below.index()].overlaps(&one(boxes_b, node_b));
+                nodes
+                    .room()
+                    .push_bits(mask, |lane| [NodeId::new(below, lane as usize), node_b]);
             }
             (Child::Inner(below_a), Child::Inner(below_b)) => {
                 if left_out.is_some_and(|known| known.are_one_fan(below_a, below_b)) {
                     continue;
                 }
                 let (wide_a, wide_b) = (nodes_a.wide(below_a), nodes_b.wide(below_b));
-                let (boxes_a, boxes_b) = (boxes_a.of(below_a), boxes_b.of(below_b));
+                let (boxes_a, boxes_b) = (&boxes_a[below_a.index()], &boxes_b[below_b.index()]);
                 if let (Some(first_a), Some(first_b)) = (wide_a.first_leaf, wide_b.first_leaf) {
                     // Leaves side by side: their pairs need not go over the stack.
                     // Where some are left out all boxes are valid: then no leaf is to be refitted.
@@ -147,7 +169,7 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
                 if ITSELF && node_a == node_b {
                     // Every child with itself, whatever its box, and with each later one.
                     for lane in 0..wide_a.len() {
-                        nodes.push([NodeId::new::<N>(below_a, lane); 2]);
+                        nodes.push([NodeId::new(below_a, lane); 2]);
                     }
                     asked = STRICT_UPPER;
                 }
@@ -155,8 +177,8 @@ pub(super) fn expand<I: Simd, const N: usize, const ITSELF: bool>(
                 let mask = overlap_mask(i, boxes_a, boxes_b) & asked;
                 room.push_bits(mask, |bit| {
                     [
-                        NodeId::new::<N>(below_a, bit as usize / 8),
-                        NodeId::new::<N>(below_b, bit as usize % 8),
+                        NodeId::new(below_a, bit as usize / 8),
+                        NodeId::new(below_b, bit as usize % 8),
                     ]
                 });
             }

@@ -1,15 +1,13 @@
-//! numpy arrays of callers, and arrays made for them.
+//! numpy arrays of callers.
 //!
 //! An (n, 3) array of float32 or float64, and an (m, 3) array of any integers, in any layout, is copied once, by numpy, to where
 //! nobody else can write (`copies.rs`); integers are checked on their way to uint32. No value is ever changed: what would have to
 //! be rounded is refused, and so is a masked array that hides any.
 
+use crate::answers::Any;
 use crate::copies::{self, Copied};
-use crate::error::{Fact, Refused};
-use numpy::{
-    Element, IntoPyArray, PyArray2, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray,
-    PyUntypedArrayMethods, dtype,
-};
+use crate::error::{Refused, Result, refused};
+use numpy::{Element, PyArray2, PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods, dtype};
 use pliant_check::double;
 use pliant_io::Positions;
 use pyo3::basic::CompareOp;
@@ -37,7 +35,7 @@ pub(crate) enum CopiedFaces<'py> {
 
 impl<'py> Coordinates<'py> {
     /// Reads an (n, 3) array of float32 or float64, or what numpy makes one of.
-    pub(crate) fn read(given: &Bound<'py, PyAny>) -> Result<Self, Refused> {
+    pub(crate) fn read(given: &Any<'py>) -> Result<Self> {
         let array = as_array(given, "positions", "n")?;
         let dtype = array.dtype();
         match (dtype.kind(), dtype.itemsize()) {
@@ -49,13 +47,9 @@ impl<'py> Coordinates<'py> {
                 } else {
                     ""
                 };
-                Err(Refused::new(
-                    "BadArray",
-                    format!(
-                        "positions are of type {dtype}; they must be float32 or float64: use \
-                         positions.astype(numpy.float64){hint}"
-                    ),
-                ))
+                Err(refused!(BadArray:
+                    "positions are of type {dtype}; they must be float32 or float64: use \
+                     positions.astype(numpy.float64){hint}"))
             }
         }
     }
@@ -71,7 +65,7 @@ impl<'py> Coordinates<'py> {
 
 impl<'py> CopiedCoordinates<'py> {
     /// Copies an (n, 3) array of float32 or float64, or what numpy makes one of.
-    pub(crate) fn of(given: &Bound<'py, PyAny>) -> Result<Self, Refused> {
+    pub(crate) fn of(given: &Any<'py>) -> Result<Self> {
         Ok(match Coordinates::read(given)? {
             Coordinates::F32(array) => Self::F32(copies::anew(&array)?),
             Coordinates::F64(array) => Self::F64(copies::anew(&array)?),
@@ -79,7 +73,7 @@ impl<'py> CopiedCoordinates<'py> {
     }
 
     /// As the Rust libraries have them.
-    pub(crate) fn get(&self) -> Result<Positions<'_>, Refused> {
+    pub(crate) fn get(&self) -> Result<Positions<'_>> {
         Ok(match self {
             Self::F32(copied) => Positions::F32(copied.rows()?),
             Self::F64(copied) => Positions::F64(copied.rows()?),
@@ -89,7 +83,7 @@ impl<'py> CopiedCoordinates<'py> {
 
 impl<'py> CopiedFaces<'py> {
     /// Copies an (m, 3) array of integers, or what numpy makes one of, the corners of triangles over `vertices` vertices.
-    pub(crate) fn of(given: &Bound<'py, PyAny>, vertices: usize) -> Result<Self, Refused> {
+    pub(crate) fn of(given: &Any<'py>, vertices: usize) -> Result<Self> {
         let array = as_array(given, "faces", "m")?;
         let dtype = array.dtype();
         let converted = match (dtype.kind(), dtype.itemsize()) {
@@ -101,19 +95,15 @@ impl<'py> CopiedFaces<'py> {
             (b'i', 2) => convert::<i16>(&array, vertices),
             (b'i', 4) => convert::<i32>(&array, vertices),
             (b'i', 8) => convert::<i64>(&array, vertices),
-            _ => Err(Refused::new(
-                "BadArray",
-                format!(
-                    "faces are of type {dtype}; they must be integers, the numbers of their vertices; were faces and \
-                     positions exchanged?"
-                ),
-            )),
+            _ => Err(refused!(BadArray:
+                "faces are of type {dtype}; they must be integers, the numbers of their vertices; \
+                 were faces and positions exchanged?")),
         };
         converted.map(Self::Converted)
     }
 
     /// As the Rust library has them.
-    pub(crate) fn get(&self) -> Result<&[[u32; 3]], Refused> {
+    pub(crate) fn get(&self) -> Result<&[[u32; 3]]> {
         match self {
             Self::AsGiven(copied) => copied.rows(),
             Self::Converted(triangles) => Ok(triangles),
@@ -121,12 +111,35 @@ impl<'py> CopiedFaces<'py> {
     }
 }
 
+/// A copy of a mesh of a caller's.
+pub(crate) struct CopiedMesh<'py> {
+    faces: CopiedFaces<'py>,
+    positions: CopiedCoordinates<'py>,
+}
+
+impl<'py> CopiedMesh<'py> {
+    /// Copies the arrays of a mesh; what is refused is `about` it.
+    pub(crate) fn of(
+        faces: &Any<'py>,
+        positions: &Any<'py>,
+        about: impl Fn(Refused) -> Refused,
+    ) -> Result<Self> {
+        let positions = CopiedCoordinates::of(positions).map_err(&about)?;
+        let vertices = positions.get()?.len();
+        let faces = CopiedFaces::of(faces, vertices).map_err(&about)?;
+        Ok(Self { faces, positions })
+    }
+
+    /// As the Rust library has it.
+    pub(crate) fn get(&self) -> Result<(&[[u32; 3]], Positions<'_>)> {
+        Ok((self.faces.get()?, self.positions.get()?))
+    }
+}
+
 /// The faces and vertices of a mesh object: trimesh has `faces`, Open3D `triangles`, both `vertices`.
 ///
 /// `faces` first: what trimesh calls `triangles` are coordinates.
-pub(crate) fn parts_of_mesh<'py>(
-    mesh: &Bound<'py, PyAny>,
-) -> Result<[Bound<'py, PyAny>; 2], Refused> {
+pub(crate) fn parts_of_mesh<'py>(mesh: &Any<'py>) -> Result<[Bound<'py, PyAny>; 2]> {
     let py = mesh.py();
     let faces = match mesh.getattr_opt(intern!(py, "faces"))? {
         None => mesh.getattr_opt(intern!(py, "triangles"))?,
@@ -134,31 +147,19 @@ pub(crate) fn parts_of_mesh<'py>(
     };
     match (faces, mesh.getattr_opt(intern!(py, "vertices"))?) {
         (Some(faces), Some(vertices)) => Ok([faces, vertices]),
-        _ => Err(Refused::new(
-            "BadArray",
-            format!(
-                "{} has no .faces (or .triangles) and .vertices; give a mesh that has, or the arrays themselves",
-                mesh.get_type()
-            ),
-        )),
+        _ => Err(refused!(BadArray:
+            "{} has no .faces (or .triangles) and .vertices; give a mesh that has, or the arrays \
+             themselves", mesh.get_type())),
     }
 }
 
 /// Copies an (n,) array of integers from 0 to 2^32 - 1, or what numpy makes one of; `what` they are, and what they are for.
-pub(crate) fn numbers(
-    given: &Bound<'_, PyAny>,
-    [name, what]: [&str; 2],
-) -> Result<Vec<u32>, Refused> {
+pub(crate) fn numbers(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<u32>> {
     let py = given.py();
     refuse_masks(given, name)?;
     let array = as_numpy(given, name)?;
     let dtype = array.dtype();
-    let bad = |have: String| {
-        Refused::new(
-            "BadArray",
-            format!("{name} {have}; they must be integers from 0 to 4294967295, {what}"),
-        )
-    };
+    let bad = |have: String| refused!(BadArray: "{name} {have}; they must be integers from 0 to 4294967295, {what}");
     // numpy takes an empty list for one of floating point numbers.
     if array.shape() == [0] {
         return Ok(Vec::new());
@@ -175,16 +176,14 @@ pub(crate) fn numbers(
 }
 
 /// Copies a (k, 4, 3) array of float32 or float64, or what numpy makes one of: four corners of each pair of elements.
-pub(crate) fn pairs_of_elements(given: &Bound<'_, PyAny>) -> Result<Vec<[[f64; 3]; 4]>, Refused> {
+pub(crate) fn pairs_of_elements(given: &Any<'_>) -> Result<Vec<[[f64; 3]; 4]>> {
     let py = given.py();
     refuse_masks(given, "corners")?;
     let array = as_numpy(given, "corners")?;
     let shape = array.getattr(intern!(py, "shape"))?;
     if !matches!(shape.extract::<Vec<usize>>()?[..], [_, 4, 3]) {
-        return Err(Refused::new(
-            "BadArray",
-            format!("corners have shape {shape}; it must be (k, 4, 3): four corners of each pair"),
-        ));
+        return Err(refused!(BadArray:
+            "corners have shape {shape}; it must be (k, 4, 3): four corners of each pair"));
     }
     let rows = array.call_method1(intern!(py, "reshape"), (-1, 3))?;
     let copied = CopiedCoordinates::of(&rows)?;
@@ -195,41 +194,12 @@ pub(crate) fn pairs_of_elements(given: &Bound<'_, PyAny>) -> Result<Vec<[[f64; 3
 }
 
 /// Three numbers, rounded to 64-bit ones.
-pub(crate) fn point(given: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
+pub(crate) fn point(given: &Any<'_>) -> PyResult<[f64; 3]> {
     given.extract()
 }
 
-/// An array of rows that a query has listed. numpy makes it, because it asks for large pages where there is much to write.
-pub(crate) fn copy_of_rows<const K: usize>(
-    py: Python<'_>,
-    rows: impl ExactSizeIterator<Item = [u32; K]>,
-) -> PyResult<Bound<'_, PyArray2<u32>>> {
-    let array = PyArray2::zeros(py, [rows.len(), K], false);
-    {
-        let mut writable = array.try_readwrite()?;
-        let (places, _) = writable.as_slice_mut()?.as_chunks_mut();
-        for (place, row) in places.iter_mut().zip(rows) {
-            *place = row;
-        }
-    }
-    Ok(array)
-}
-
-/// Rows, pairs or positions, as a new (k, K) array, which takes the vector over.
-pub(crate) fn rows_of<T: Element, const K: usize>(
-    py: Python<'_>,
-    rows: Vec<[T; K]>,
-) -> PyResult<Bound<'_, PyArray2<T>>> {
-    let count = rows.len();
-    rows.into_flattened().into_pyarray(py).reshape([count, K])
-}
-
 /// An array of rows of three, without a mask.
-fn as_array<'py>(
-    given: &Bound<'py, PyAny>,
-    what: &str,
-    rows: &str,
-) -> Result<Bound<'py, PyUntypedArray>, Refused> {
+fn as_array<'py>(given: &Any<'py>, what: &str, rows: &str) -> Result<Bound<'py, PyUntypedArray>> {
     refuse_masks(given, what)?;
     let array = as_numpy(given, what)?;
     if array.ndim() == 2 && array.shape()[1] == 3 {
@@ -245,10 +215,7 @@ fn as_array<'py>(
             _ => about_rows(&array),
         }
     };
-    Err(Refused::new(
-        "BadArray",
-        format!("{what} have shape {shape}; it must be ({rows}, 3){hint}"),
-    ))
+    Err(refused!(BadArray: "{what} have shape {shape}; it must be ({rows}, 3){hint}"))
 }
 
 /// What an array of a wrong shape may be, whatever its rows are.
@@ -290,10 +257,7 @@ fn about_faces(array: &Bound<'_, PyUntypedArray>) -> PyResult<&'static str> {
 }
 
 /// What numpy makes an array of, and what has nothing but `__dlpack__`.
-fn as_numpy<'py>(
-    given: &Bound<'py, PyAny>,
-    what: &str,
-) -> Result<Bound<'py, PyUntypedArray>, Refused> {
+fn as_numpy<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArray>> {
     let py = given.py();
     if let Ok(array) = given.cast::<PyUntypedArray>() {
         return Ok(array.clone());
@@ -317,9 +281,9 @@ fn as_numpy<'py>(
 }
 
 /// Refuses a masked array that hides any number, and a list of such: what is hidden is there all the same, and would be read.
-fn refuse_masks(given: &Bound<'_, PyAny>, what: &str) -> Result<(), Refused> {
+fn refuse_masks(given: &Any<'_>, what: &str) -> Result<()> {
     let py = given.py();
-    let is_masked = |item: &Bound<'_, PyAny>| -> PyResult<bool> {
+    let is_masked = |item: &Any<'_>| -> PyResult<bool> {
         // Masked arrays are arrays of another class than numpy's own.
         let of_another_class =
             |array: &Bound<'_, PyUntypedArray>| !array.is_exact_instance_of::<PyUntypedArray>();
@@ -339,26 +303,20 @@ fn refuse_masks(given: &Bound<'_, PyAny>, what: &str) -> Result<(), Refused> {
     if !found {
         return Ok(());
     }
-    Err(Refused::new(
-        "BadArray",
-        format!(
-            "{what} are masked in places, and what is masked is no number; give an array without a mask: {what}.filled(...), \
-             or only what is not masked"
-        ),
-    ))
+    Err(refused!(BadArray:
+        "{what} are masked in places, and what is masked is no number; give an array without a \
+         mask: {what}.filled(...), or only what is not masked"))
 }
 
 fn any<'py>(
     mut items: impl Iterator<Item = Bound<'py, PyAny>>,
-    is: impl Fn(&Bound<'py, PyAny>) -> PyResult<bool>,
+    is: impl Fn(&Any<'py>) -> PyResult<bool>,
 ) -> PyResult<bool> {
     items.try_fold(false, |found, item| Ok(found || is(&item)?))
 }
 
 /// The array itself, in whatever layout; what is of another byte order is copied once.
-fn typed<'py, T: Element>(
-    array: &Bound<'py, PyUntypedArray>,
-) -> Result<Bound<'py, PyArray2<T>>, Refused> {
+fn typed<'py, T: Element>(array: &Bound<'py, PyUntypedArray>) -> Result<Bound<'py, PyArray2<T>>> {
     if let Ok(array) = array.cast::<PyArray2<T>>() {
         return Ok(array.clone());
     }
@@ -373,7 +331,7 @@ fn typed<'py, T: Element>(
 fn convert<T: Element + Copy + Into<i128>>(
     array: &Bound<'_, PyUntypedArray>,
     vertices: usize,
-) -> Result<Vec<[u32; 3]>, Refused> {
+) -> Result<Vec<[u32; 3]>> {
     let copied = copies::anew(&typed::<T>(array)?)?;
     let rows = copied.rows()?;
     let mut triangles = Vec::with_capacity(rows.len());
@@ -382,15 +340,13 @@ fn convert<T: Element + Copy + Into<i128>>(
         for (corner, &vertex) in converted.iter_mut().zip(corners) {
             *corner = u32::try_from(vertex.into()).map_err(|_| {
                 let vertex: i128 = vertex.into();
-                Refused::new(
-                    "VertexOutOfRange",
-                    format!(
-                        "triangle {triangle} names vertex {vertex}, but there are {vertices} vertices (counted from 0)"
-                    ),
-                )
-                .with("triangle", triangle)
-                .with("vertex", Fact::Number(vertex))
-                .with("vertices", vertices)
+                let refused = refused!(VertexOutOfRange:
+                    "triangle {triangle} names vertex {vertex}, but there are {vertices} vertices \
+                     (counted from 0)");
+                refused
+                    .with("triangle", triangle)
+                    .with("vertex", vertex)
+                    .with("vertices", vertices)
             })?;
         }
         triangles.push(converted);

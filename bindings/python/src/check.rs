@@ -1,7 +1,7 @@
 //! Files, frame by frame: what `pliant check --format json` says, as an iterator of frames. The loop is the program's.
 
-use crate::arrays;
-use crate::error::{Fact, Refused, after_checking, alone, alone_with, caught, named_tuple};
+use crate::answers::{Any, Rows, named};
+use crate::error::{Refused, Result, after_checking, alone, alone_with, caught, refused};
 use crate::options::with_threads;
 use crate::signals::interruptible;
 use crate::usd::{self, Raised};
@@ -78,7 +78,7 @@ pub(crate) enum Known {
 }
 
 impl Known {
-    fn understood(self) -> Result<Baseline, Refused> {
+    fn understood(self) -> Result<Baseline> {
         match self {
             Self::Frame(frame) => from_zero(frame).map(Baseline::Frame),
             Self::File(file) => Ok(Baseline::File(file)),
@@ -87,15 +87,12 @@ impl Known {
 }
 
 impl Name {
-    fn into_text(self) -> Result<String, Refused> {
+    fn into_text(self) -> Result<String> {
         match self {
             Self::Number(number) => Ok(number.to_string()),
             Self::Path(path) => path.into_os_string().into_string().map_err(|name| {
                 let name = shown(&name);
-                Refused::new(
-                    "CannotRead",
-                    format!("{name}: the name is not UTF-8; rename the file"),
-                )
+                refused!(CannotRead: "{name}: the name is not UTF-8; rename the file")
             }),
         }
     }
@@ -159,7 +156,7 @@ pub(crate) fn check(
     clip: Option<String>,
     fps: f64,
     threads: i64,
-) -> Result<Check, Refused> {
+) -> Result<Check> {
     let group = |(name, bodies): (String, Vec<Name>)| {
         let bodies = bodies.into_iter().map(Name::into_text);
         bodies
@@ -194,9 +191,8 @@ pub(crate) fn check(
         warn(py, &text)?;
     }
     if weld_tolerance != 0.0 && !weld {
-        let message =
-            "weld_tolerance joins more than weld does, and weld is False; give one of them";
-        return Err(Refused::new("BadOption", message.to_owned()));
+        return Err(refused!(BadOption:
+            "weld_tolerance joins more than weld does, and weld is False; give one of them"));
     }
     let reading = OpenOptions {
         weld,
@@ -252,7 +248,7 @@ impl Check {
         this
     }
 
-    fn __next__<'py>(&self, py: Python<'py>) -> Result<Option<Bound<'py, PyAny>>, Refused> {
+    fn __next__<'py>(&self, py: Python<'py>) -> Result<Option<Any<'py>>> {
         let next = |running: &mut pliant_check::Check| {
             let mut waiting = alone(&self.waiting)?;
             if waiting.is_none() {
@@ -284,62 +280,30 @@ impl Check {
             self.has_found.store(true, Ordering::Relaxed);
         }
         let changed = PyDict::new(py);
-        for (
-            number,
-            Changed {
-                body,
-                faces,
-                welded,
-            },
-        ) in meshes
-        {
-            let faces = faces.map(|faces| faces.into_pyarray(py));
-            changed.set_item(number, fact(py, body, faces.as_ref(), welded)?)?;
+        for (number, of) in meshes {
+            let faces = of.faces.map(|faces| faces.into_pyarray(py));
+            changed.set_item(number, fact(py, of.body, faces.as_ref(), of.welded)?)?;
         }
-        let Found {
-            frame,
-            count,
-            kinds,
-            distance,
-            pairs,
-            left_out,
-            only_touching,
-            degenerate,
-            complete,
-            places,
-            ..
-        } = found;
-        let places = places.map(|places| {
-            let places = places.into_iter().map(|it| place(py, &it));
+        let kinds = found.kinds;
+        let kinds = kinds.map(|kinds| -> PyResult<_> {
+            named!(py, "Kinds" of kinds: crossing, overlapping, touching)
+        });
+        let places = found.places.map(|places| {
+            let places = places.iter().map(|it| place(py, it));
             PyTuple::new(py, places.collect::<PyResult<Vec<_>>>()?)
         });
-        let fields = PyDict::new(py);
-        fields.set_item("frame", frame)?;
-        fields.set_item("count", count)?;
-        let kinds = kinds.map(|kinds| {
-            let fields = PyDict::new(py);
-            fields.set_item("crossing", kinds.crossing)?;
-            fields.set_item("overlapping", kinds.overlapping)?;
-            fields.set_item("touching", kinds.touching)?;
-            named_tuple(py, "Kinds", &fields)
-        });
-        fields.set_item("distance", distance)?;
-        fields.set_item("kinds", kinds.transpose()?)?;
-        fields.set_item("complete", complete)?;
-        fields.set_item("left_out", left_out)?;
-        fields.set_item("only_touching", only_touching)?;
-        fields.set_item("degenerate", degenerate)?;
-        fields.set_item("changed", changed)?;
-        fields.set_item("pairs", arrays::rows_of(py, pairs)?)?;
-        fields.set_item("places", places.transpose()?)?;
         let interval = interval.map(|interval| way(py, interval));
-        fields.set_item("interval", interval.transpose()?)?;
-        Ok(Some(named_tuple(py, "Frame", &fields)?))
+        Ok(Some(named!(py, "Frame":
+            frame = found.frame, count = found.count, distance = found.distance,
+            kinds = kinds.transpose()?, complete = found.complete, left_out = found.left_out,
+            only_touching = found.only_touching, degenerate = found.degenerate,
+            changed = changed, pairs = Rows(found.pairs), places = places.transpose()?,
+            interval = interval.transpose()?)?))
     }
 
     /// The places of the frames so far, those with the most pairs in a frame first; of very many, a thousand.
     #[getter]
-    fn places<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyTuple>, Refused> {
+    fn places<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyTuple>> {
         let (_, lives) = alone_with(py, &self.running, |running| Ok(running.places()))?;
         let lives = lives.iter().map(|it| life(py, it));
         Ok(PyTuple::new(py, lives.collect::<PyResult<Vec<_>>>()?)?)
@@ -362,7 +326,7 @@ fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
 
 impl Check {
     /// After the last frame says, once, where pairs lie at seams that are not quite closed, and which seams part.
-    fn warn_of_seams(&self, py: Python<'_>) -> Result<(), Refused> {
+    fn warn_of_seams(&self, py: Python<'_>) -> Result<()> {
         if self.is_warned.swap(true, Ordering::Relaxed) {
             return Ok(());
         }
@@ -401,35 +365,27 @@ impl Check {
     }
 }
 
-fn split_named(name: &str) -> Result<Split, Refused> {
+fn split_named(name: &str) -> Result<Split> {
     match name {
         "components" => Ok(Split::Components),
         "groups" => Ok(Split::Groups),
-        other => Err(Refused::new(
-            "BadOption",
-            format!("split is {other:?}; it can be \"components\", \"groups\" or None"),
-        )),
+        other => Err(refused!(BadOption:
+            "split is {other:?}; it can be \"components\", \"groups\" or None")),
     }
 }
 
-fn from_zero(baseline: i64) -> Result<usize, Refused> {
-    usize::try_from(baseline).map_err(|_| {
-        let message = format!("baseline is {baseline}; frames are counted from 0");
-        Refused::new("BadOption", message)
-    })
+fn from_zero(baseline: i64) -> Result<usize> {
+    usize::try_from(baseline)
+        .map_err(|_| refused!(BadOption: "baseline is {baseline}; frames are counted from 0"))
 }
 
 /// What a range of Python's says.
-fn range_of_frames(frames: &Bound<'_, PyRange>) -> Result<Frames, Refused> {
+fn range_of_frames(frames: &Bound<'_, PyRange>) -> Result<Frames> {
     let count = frames.len()?;
     let from_zero = [frames.start()?, frames.step()?].map(usize::try_from);
     let [Ok(start), Ok(step)] = from_zero else {
-        return Err(Refused::new(
-            "BadOption",
-            format!(
-                "{frames:?}: frames are counted from 0 and checked in order; give a range that rises"
-            ),
-        ));
+        return Err(refused!(BadOption:
+            "{frames:?}: frames are counted from 0 and checked in order; give a range that rises"));
     };
     Ok(Frames { start, step, count })
 }
@@ -455,89 +411,54 @@ fn fact<'py>(
     body: BodyFacts,
     faces: Option<&Bound<'py, PyArray1<u32>>>,
     welded: usize,
-) -> PyResult<Bound<'py, PyAny>> {
-    let fields = PyDict::new(py);
-    fields.set_item("name", body.name)?;
-    fields.set_item("vertices", body.vertices)?;
-    fields.set_item("triangles", body.triangles)?;
-    fields.set_item("faces", faces)?;
-    fields.set_item("welded", welded)?;
-    fields.set_item("source", body.source)?;
-    fields.set_item("first_triangle", body.first_triangle)?;
-    named_tuple(py, "Body", &fields)
+) -> PyResult<Any<'py>> {
+    named!(py, "Body":
+        name = body.name, vertices = body.vertices, triangles = body.triangles, faces = faces,
+        welded = welded, source = body.source, first_triangle = body.first_triangle)
 }
 
 /// What meets on the way from a frame to the next.
-fn way(py: Python<'_>, interval: Interval) -> PyResult<Bound<'_, PyAny>> {
-    let Interval {
-        frame,
-        until,
-        changed,
-        count,
-        at_start,
-        first,
-        vertex_triangle,
-        edge_edge,
-        complete,
-    } = interval;
-    let first = first.map(|first| {
+fn way(py: Python<'_>, interval: Interval) -> PyResult<Any<'_>> {
+    let first = interval.first.map(|first| {
         let (kind, pair) = match &first {
             FirstImpact::VertexTriangle(impact) => ("vertex_triangle", &impact.pair[..]),
             FirstImpact::EdgeEdge(impact) => ("edge_edge", &impact.pair[..]),
         };
-        let fields = PyDict::new(py);
-        fields.set_item("time", first.time())?;
-        fields.set_item("kind", kind)?;
-        fields.set_item("pair", PyTuple::new(py, pair)?)?;
-        named_tuple(py, "FirstImpact", &fields)
+        let pair = PyTuple::new(py, pair)?;
+        named!(py, "FirstImpact": time = first.time(), kind = kind, pair = pair)
     });
-    let of_vertices: Vec<_> = vertex_triangle.iter().map(|it| [it.low, it.high]).collect();
-    let of_edges: Vec<_> = edge_edge.iter().map(|it| [it.low, it.high]).collect();
-    let vertices: Vec<[u32; 4]> = vertex_triangle.into_iter().map(|it| it.pair).collect();
-    let edges: Vec<[u32; 6]> = edge_edge.into_iter().map(|it| it.pair).collect();
-    let fields = PyDict::new(py);
-    fields.set_item("frame", frame)?;
-    fields.set_item("until", until)?;
-    fields.set_item("changed", PyTuple::new(py, changed)?)?;
-    fields.set_item("count", count)?;
-    fields.set_item("at_start", at_start)?;
-    fields.set_item("first", first.transpose()?)?;
-    fields.set_item("vertex_triangle", arrays::rows_of(py, vertices)?)?;
-    fields.set_item("vertex_triangle_times", arrays::rows_of(py, of_vertices)?)?;
-    fields.set_item("edge_edge", arrays::rows_of(py, edges)?)?;
-    fields.set_item("edge_edge_times", arrays::rows_of(py, of_edges)?)?;
-    fields.set_item("complete", complete)?;
-    named_tuple(py, "Interval", &fields)
+    let vertices = interval.vertex_triangle.into_iter();
+    let edges = interval.edge_edge.into_iter();
+    let (vertices, of_vertices) = vertices.map(|it| (it.pair, [it.low, it.high])).unzip();
+    let (edges, of_edges) = edges.map(|it| (it.pair, [it.low, it.high])).unzip();
+    named!(py, "Interval":
+        frame = interval.frame, until = interval.until,
+        changed = PyTuple::new(py, interval.changed)?, count = interval.count,
+        at_start = interval.at_start, first = first.transpose()?,
+        vertex_triangle = Rows::<u32, 4>(vertices), vertex_triangle_times = Rows(of_vertices),
+        edge_edge = Rows::<u32, 6>(edges), edge_edge_times = Rows(of_edges),
+        complete = interval.complete)
 }
 
 /// A place of a frame.
-fn place<'py>(py: Python<'py>, place: &Place) -> PyResult<Bound<'py, PyAny>> {
-    let bodies = place.bodies.iter().map(|it| {
-        let fields = PyDict::new(py);
-        fields.set_item("body", it.body)?;
-        fields.set_item("triangles", it.triangles)?;
-        fields.set_item("first_triangle", it.first_triangle)?;
-        named_tuple(py, "BodyThere", &fields)
+fn place<'py>(py: Python<'py>, place: &Place) -> PyResult<Any<'py>> {
+    let bodies = place.bodies.iter();
+    let bodies = bodies.map(|it| -> PyResult<_> {
+        named!(py, "BodyThere" of it: body, triangles, first_triangle)
     });
-    let bodies = PyTuple::new(py, bodies.collect::<PyResult<Vec<_>>>()?)?;
-    let fields = PyDict::new(py);
-    fields.set_item("number", place.number)?;
-    fields.set_item("count", place.count)?;
-    fields.set_item("first_pair", <(u32, u32, u32, u32)>::from(place.first_pair))?;
-    fields.set_item("bodies", bodies)?;
-    fields.set_item("lower", <(f64, f64, f64)>::from(place.lower))?;
-    fields.set_item("upper", <(f64, f64, f64)>::from(place.upper))?;
-    named_tuple(py, "Place", &fields)
+    named!(py, "Place":
+        number = place.number, count = place.count,
+        first_pair = <(u32, u32, u32, u32)>::from(place.first_pair),
+        bodies = PyTuple::new(py, bodies.collect::<PyResult<Vec<_>>>()?)?,
+        lower = <(f64, f64, f64)>::from(place.lower),
+        upper = <(f64, f64, f64)>::from(place.upper))
 }
 
 /// A place, from its first frame to its last.
-fn life<'py>(py: Python<'py>, life: &Life) -> PyResult<Bound<'py, PyAny>> {
-    let fields = PyDict::new(py);
-    fields.set_item("first_frame", life.first_frame)?;
-    fields.set_item("last_frame", life.last_frame)?;
-    fields.set_item("worst_frame", life.worst_frame)?;
-    fields.set_item("worst", place(py, &life.worst)?)?;
-    named_tuple(py, "Life", &fields)
+fn life<'py>(py: Python<'py>, life: &Life) -> PyResult<Any<'py>> {
+    named!(py, "Life":
+        first_frame = life.first_frame, last_frame = life.last_frame,
+        worst_frame = life.worst_frame, worst = place(py, &life.worst)?)
 }
 
 impl From<Error> for Refused {
@@ -552,24 +473,24 @@ impl From<Error> for Refused {
                 error,
             } => Self::from(error)
                 .about(format!("{}, frame {frame}", shown(&source_name)))
-                .with("file", Fact::Text(source_name))
+                .with("file", source_name)
                 .with("frame", frame),
             Error::Missing { source_name, frame } | Error::PiecesChanged { source_name, frame } => {
                 Self::new("CannotRead", message)
-                    .with("file", Fact::Text(source_name))
+                    .with("file", source_name)
                     .with("frame", frame)
             }
             Error::FrameCounts { .. } | Error::AfterError => Self::new("CannotRead", message),
             Error::TooManyPairs { frame, most } | Error::Endless { frame, most } => {
                 Self::new("TooLarge", message)
-                    .with("what", Fact::Text("pairs".to_owned()))
+                    .with("what", "pairs")
                     .with("limit", most)
                     .with("frame", frame)
             }
             Error::OnePoint {
                 source_name, count, ..
             } => Self::new("TooLarge", message)
-                .with("file", Fact::Text(source_name))
+                .with("file", source_name)
                 .with("count", count),
             _ => Self::new("BadOption", message),
         };

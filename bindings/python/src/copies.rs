@@ -5,7 +5,7 @@
 //! to take it, may be another by then; and Rust may not be lent memory that changes at all. So numpy copies the numbers, each is
 //! read once, and Rust is lent the copy. Which of the numbers that were there meanwhile it holds is not known, nor promised.
 
-use crate::error::Refused;
+use crate::error::{Refused, Result};
 use numpy::{Element, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods, dtype};
 use pyo3::prelude::*;
 use pyo3::types::PySlice;
@@ -15,7 +15,7 @@ pub(crate) struct Copied<'py, T: Element>(PyReadonlyArray2<'py, T>);
 
 impl<T: Element> Copied<'_, T> {
     /// As Rust has them.
-    pub(crate) fn rows(&self) -> Result<&[[T; 3]], Refused> {
+    pub(crate) fn rows(&self) -> Result<&[[T; 3]]> {
         let numbers = self.0.as_slice().map_err(PyErr::from)?;
         let (rows, _) = numbers.as_chunks();
         Ok(rows)
@@ -43,7 +43,7 @@ impl<T: Element> Room<T> {
     pub(crate) fn copy<'py, U: Element>(
         &mut self,
         given: &Bound<'py, PyArray2<U>>,
-    ) -> Result<Copied<'py, T>, Refused> {
+    ) -> Result<Copied<'py, T>> {
         let (py, rows) = (given.py(), given.shape()[0]);
         let room = match self.0.take().map(|room| room.into_bound(py)) {
             Some(room) if room.shape()[0] >= rows => room,
@@ -65,9 +65,7 @@ impl<T: Element> Room<T> {
 }
 
 /// Copies an (n, 3) array into a new one.
-pub(crate) fn anew<'py, T: Element>(
-    given: &Bound<'py, PyArray2<T>>,
-) -> Result<Copied<'py, T>, Refused> {
+pub(crate) fn anew<'py, T: Element>(given: &Bound<'py, PyArray2<T>>) -> Result<Copied<'py, T>> {
     fill(given, &new(given.py(), given.shape()[0])?)
 }
 
@@ -83,7 +81,7 @@ fn new<T: Element>(py: Python<'_>, rows: usize) -> PyResult<Bound<'_, PyArray2<T
 fn fill<'py, T: Element, U: Element>(
     given: &Bound<'py, PyArray2<U>>,
     own: &Bound<'py, PyArray2<T>>,
-) -> Result<Copied<'py, T>, Refused> {
+) -> Result<Copied<'py, T>> {
     let _reading = given.try_readonly().map_err(|_| {
         Refused::new(
             "BadArray",

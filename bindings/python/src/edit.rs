@@ -1,16 +1,13 @@
 //! `Edit` as Python sees it: changes of a body's mesh, made all at once or not at all; and what they come to, as named tuples of arrays.
 
+use crate::answers::{Any, Column, class};
 use crate::arrays::{self, CopiedCoordinates, CopiedFaces};
-use crate::error::{Refused, alone};
+use crate::error::{Refused, Result, alone};
 use crate::state::{State, of_body};
-use numpy::{IntoPyArray, PyArray1};
-use pliant::{BodyId, Edited, Error, ErrorKind, Fused, Piece, Scalar};
+use pliant::{BodyId, Edited, Error, ErrorKind, Fused, Piece};
 use pliant_check::{AnyWorld, double, single};
-use pliant_io::Positions;
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyList, PyType};
-use std::ops::Range;
+use pyo3::types::PyList;
 use std::sync::Mutex;
 
 /// What numbers of triangles are called.
@@ -31,6 +28,31 @@ macro_rules! with_edit {
     };
 }
 
+/// Adds a step to an edit, which no other call has meanwhile.
+macro_rules! step {
+    ($this:ident, $edit:ident => $step:expr) => {
+        $this.with(|edit| Ok(with_edit!(edit, $edit => $step)))
+    };
+    // A step that takes positions, in the type of the world.
+    ($this:ident, $edit:ident, $rows:ident of $positions:expr => $step:expr) => {
+        $this.with(|edit| {
+            let body = edit.body();
+            let positions = $positions;
+            Ok(match edit {
+                AnyEdit::F32($edit) => {
+                    let $rows = single(positions).map_err(|refused| of_body(body, refused))?;
+                    $step
+                }
+                AnyEdit::F64($edit) => {
+                    let mut widened = Vec::new();
+                    let $rows = double(positions, &mut widened);
+                    $step
+                }
+            })
+        })
+    };
+}
+
 impl AnyEdit {
     /// Of a body of a world, without steps.
     pub(crate) fn of(state: &State, body: BodyId) -> Result<Self, Error> {
@@ -41,7 +63,7 @@ impl AnyEdit {
     }
 
     /// Makes the changes in the world.
-    pub(crate) fn apply(&self, state: &mut State) -> Result<Edited, Refused> {
+    pub(crate) fn apply(&self, state: &mut State) -> Result<Edited> {
         Ok(match (&mut state.world, self) {
             (AnyWorld::F32(world), Self::F32(edit)) => world.apply(edit)?,
             (AnyWorld::F64(world), Self::F64(edit)) => world.apply(edit)?,
@@ -56,51 +78,6 @@ impl AnyEdit {
 
     fn body(&self) -> BodyId {
         with_edit!(self, edit => edit.body())
-    }
-
-    /// Gives positions to a step that takes them in the type of the world.
-    fn with_positions(
-        &mut self,
-        positions: Positions<'_>,
-        step: impl Steps,
-    ) -> Result<Range<u32>, Refused> {
-        let body = self.body();
-        match self {
-            Self::F32(edit) => {
-                let rows = single(positions).map_err(|not_taken| of_body(body, not_taken))?;
-                Ok(step.take(edit, rows))
-            }
-            Self::F64(edit) => {
-                let mut widened = Vec::new();
-                Ok(step.take(edit, double(positions, &mut widened)))
-            }
-        }
-    }
-}
-
-/// A step that takes positions.
-trait Steps {
-    fn take<S: Scalar>(self, edit: &mut pliant::Edit<S>, rows: &[[S; 3]]) -> Range<u32>;
-}
-
-/// Adds all as vertices.
-struct AddVertices;
-
-impl Steps for AddVertices {
-    fn take<S: Scalar>(self, edit: &mut pliant::Edit<S>, rows: &[[S; 3]]) -> Range<u32> {
-        edit.add_vertices(rows)
-    }
-}
-
-/// Uses an empty number again, for a vertex at the first.
-struct PlaceVertex(u32);
-
-impl Steps for PlaceVertex {
-    fn take<S: Scalar>(self, edit: &mut pliant::Edit<S>, rows: &[[S; 3]]) -> Range<u32> {
-        if let Some(&position) = rows.first() {
-            edit.place_vertex(self.0, position);
-        }
-        self.0..self.0
     }
 }
 
@@ -127,117 +104,97 @@ impl Edit {
         }
     }
 
-    pub(crate) fn with<T>(
-        &self,
-        work: impl FnOnce(&mut AnyEdit) -> Result<T, Refused>,
-    ) -> Result<T, Refused> {
+    pub(crate) fn with<T>(&self, work: impl FnOnce(&mut AnyEdit) -> Result<T>) -> Result<T> {
         work(&mut *alone(&self.edit)?)
+    }
+
+    /// What is refused of arrays is about the body.
+    fn of_body(&self) -> Result<impl Fn(Refused) -> Refused> {
+        let body = self.with(|edit| Ok(edit.body()))?;
+        Ok(move |refused: Refused| refused.of_body(Some(body)))
     }
 }
 
 #[pymethods]
 impl Edit {
     /// The body whose mesh it is.
-    fn body(&self) -> Result<u32, Refused> {
+    fn body(&self) -> Result<u32> {
         self.with(|edit| Ok(edit.body().0))
     }
 
     /// Adds vertices, positions (n, 3) as World.add takes them. Returns their numbers, (n,) uint32.
-    fn add_vertices<'py>(
-        &self,
-        py: Python<'py>,
-        positions: &Bound<'py, PyAny>,
-    ) -> Result<Bound<'py, PyArray1<u32>>, Refused> {
-        let body = self.with(|edit| Ok(edit.body()))?;
-        let copied = CopiedCoordinates::of(positions).map_err(|it| it.of_body(Some(body)))?;
-        let numbers = self.with(|edit| edit.with_positions(copied.get()?, AddVertices))?;
-        Ok(numbers.collect::<Vec<u32>>().into_pyarray(py))
+    fn add_vertices(&self, positions: &Any<'_>) -> Result<Column<u32>> {
+        let about = self.of_body()?;
+        let copied = CopiedCoordinates::of(positions).map_err(about)?;
+        let added = step!(self, edit, rows of copied.get()? => edit.add_vertices(rows))?;
+        Ok(Column(added.collect()))
     }
 
     /// Uses an empty number of a vertex again, for one at a position, (3,).
-    fn place_vertex(&self, vertex: u32, position: &Bound<'_, PyAny>) -> Result<(), Refused> {
-        let body = self.with(|edit| Ok(edit.body()))?;
+    fn place_vertex(&self, vertex: u32, position: &Any<'_>) -> Result<()> {
+        let about = self.of_body()?;
         let one = PyList::new(position.py(), [position])?;
-        let copied = CopiedCoordinates::of(one.as_any()).map_err(|it| it.of_body(Some(body)))?;
-        self.with(|edit| edit.with_positions(copied.get()?, PlaceVertex(vertex)))
-            .map(drop)
+        let copied = CopiedCoordinates::of(one.as_any()).map_err(about)?;
+        step!(self, edit, rows of copied.get()? => {
+            if let Some(&position) = rows.first() {
+                edit.place_vertex(vertex, position);
+            }
+        })
     }
 
     /// Adds a vertex in the place where another is, which these triangles, (k,), have for a corner from now on instead of the other.
     /// Returns its number. It has the group of the other.
-    fn split_vertex(&self, vertex: u32, triangles: &Bound<'_, PyAny>) -> Result<u32, Refused> {
+    fn split_vertex(&self, vertex: u32, triangles: &Any<'_>) -> Result<u32> {
         let triangles = arrays::numbers(triangles, TRIANGLES)?;
-        self.with(|edit| Ok(with_edit!(edit, edit => edit.split_vertex(vertex, &triangles))))
+        step!(self, edit => edit.split_vertex(vertex, &triangles))
     }
 
     /// All triangles that have the vertex gone have kept instead from now on, which stays where it is; gone goes.
-    fn merge_vertices(&self, kept: u32, gone: u32) -> Result<(), Refused> {
-        self.with(|edit| {
-            with_edit!(edit, edit => edit.merge_vertices(kept, gone));
-            Ok(())
-        })
+    fn merge_vertices(&self, kept: u32, gone: u32) -> Result<()> {
+        step!(self, edit => edit.merge_vertices(kept, gone))
     }
 
     /// Adds triangles, faces (m, 3) as World.add takes them, of vertices that are there or were added before. Returns their numbers,
     /// (m,) uint32.
-    fn add_triangles<'py>(
-        &self,
-        py: Python<'py>,
-        faces: &Bound<'py, PyAny>,
-    ) -> Result<Bound<'py, PyArray1<u32>>, Refused> {
-        let vertices = self.with(|edit| Ok(with_edit!(edit, edit => edit.vertex_count())))?;
-        let body = self.with(|edit| Ok(edit.body()))?;
-        let faces = CopiedFaces::of(faces, vertices).map_err(|it| it.of_body(Some(body)))?;
+    fn add_triangles(&self, faces: &Any<'_>) -> Result<Column<u32>> {
+        let vertices = step!(self, edit => edit.vertex_count())?;
+        let about = self.of_body()?;
+        let faces = CopiedFaces::of(faces, vertices).map_err(about)?;
         let faces = faces.get()?;
-        let numbers = self.with(|edit| Ok(with_edit!(edit, edit => edit.add_triangles(faces))))?;
-        Ok(numbers.collect::<Vec<u32>>().into_pyarray(py))
+        let added = step!(self, edit => edit.add_triangles(faces))?;
+        Ok(Column(added.collect()))
     }
 
     /// Gives a triangle other corners, (3,), or uses an empty number again.
-    fn set_triangle(&self, triangle: u32, corners: [u32; 3]) -> Result<(), Refused> {
-        self.with(|edit| {
-            with_edit!(edit, edit => edit.set_triangle(triangle, corners));
-            Ok(())
-        })
+    fn set_triangle(&self, triangle: u32, corners: [u32; 3]) -> Result<()> {
+        step!(self, edit => edit.set_triangle(triangle, corners))
     }
 
     /// Takes triangles, (k,), out.
-    fn remove_triangles(&self, triangles: &Bound<'_, PyAny>) -> Result<(), Refused> {
+    fn remove_triangles(&self, triangles: &Any<'_>) -> Result<()> {
         let triangles = arrays::numbers(triangles, TRIANGLES)?;
-        self.with(|edit| {
-            with_edit!(edit, edit => edit.remove_triangles(&triangles));
-            Ok(())
-        })
+        step!(self, edit => edit.remove_triangles(&triangles))
     }
 }
 
-/// Named tuples of arrays.
-fn class(py: Python<'_>, place: usize) -> PyResult<&Bound<'_, PyType>> {
-    const NAMES: [&str; 3] = ["Edited", "Piece", "Fused"];
-    static CLASSES: [PyOnceLock<Py<PyType>>; 3] = [const { PyOnceLock::new() }; 3];
-    CLASSES[place].import(py, "pliant._types", NAMES[place])
-}
-
 /// An Edited.
-pub(crate) fn edited(py: Python<'_>, edited: Edited) -> PyResult<Bound<'_, PyAny>> {
-    class(py, 0)?.call1((
-        edited.new_triangles.into_pyarray(py),
-        edited.changed_triangles.into_pyarray(py),
-        edited.removed_triangles.into_pyarray(py),
-        edited.new_vertices.into_pyarray(py),
-        edited.removed_vertices.into_pyarray(py),
+pub(crate) fn edited(py: Python<'_>, edited: Edited) -> PyResult<Any<'_>> {
+    class!(py, "Edited").call1((
+        Column(edited.new_triangles),
+        Column(edited.changed_triangles),
+        Column(edited.removed_triangles),
+        Column(edited.new_vertices),
+        Column(edited.removed_vertices),
     ))
 }
 
 /// A Piece.
-pub(crate) fn piece(py: Python<'_>, piece: Piece) -> PyResult<Bound<'_, PyAny>> {
-    let (triangles, vertices) = (piece.triangles, piece.vertices);
-    let arrays = (triangles.into_pyarray(py), vertices.into_pyarray(py));
-    class(py, 1)?.call1((piece.body.0, arrays.0, arrays.1))
+pub(crate) fn piece(py: Python<'_>, piece: Piece) -> PyResult<Any<'_>> {
+    let numbers = (Column(piece.triangles), Column(piece.vertices));
+    class!(py, "Piece").call1((piece.body.0, numbers.0, numbers.1))
 }
 
 /// A Fused.
-pub(crate) fn fused(py: Python<'_>, fused: Fused) -> PyResult<Bound<'_, PyAny>> {
-    let (triangles, vertices) = (fused.triangles, fused.vertices);
-    class(py, 2)?.call1((triangles.into_pyarray(py), vertices.into_pyarray(py)))
+pub(crate) fn fused(py: Python<'_>, fused: Fused) -> PyResult<Any<'_>> {
+    class!(py, "Fused").call1((Column(fused.triangles), Column(fused.vertices)))
 }

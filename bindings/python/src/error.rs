@@ -6,10 +6,13 @@
 use pliant::{BodyId, ErrorKind};
 use pliant_io::Reason;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyTuple};
+use pyo3::types::{PyDict, PyTuple};
 use std::fmt::{Debug, Display};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, MutexGuard, TryLockError};
+
+/// What a call ends in.
+pub(crate) type Result<T, E = Refused> = std::result::Result<T, E>;
 
 /// A call that was refused, or an exception of Python's on its way through.
 #[derive(Debug)]
@@ -32,16 +35,25 @@ pub(crate) enum Fact {
     Text(String),
 }
 
-impl From<usize> for Fact {
-    fn from(number: usize) -> Self {
-        Self::Number(number as i128)
-    }
+/// What is a fact, and of which sort.
+macro_rules! facts {
+    ($($type:ty, $value:ident => $fact:expr;)*) => {
+        $(impl From<$type> for Fact {
+            fn from($value: $type) -> Self {
+                $fact
+            }
+        })*
+    };
 }
 
-impl From<BodyId> for Fact {
-    fn from(body: BodyId) -> Self {
-        Self::Number(body.0.into())
-    }
+facts! {
+    i128, number => Self::Number(number);
+    usize, number => Self::Number(number as i128);
+    u32, number => Self::Number(number.into());
+    BodyId, body => Self::Number(body.0.into());
+    [f64; 3], position => Self::Position(position);
+    String, text => Self::Text(text);
+    &str, text => Self::Text(text.to_owned());
 }
 
 impl Refused {
@@ -88,11 +100,31 @@ impl Refused {
     }
 }
 
+/// A refusal with a message that is put together.
+macro_rules! refused {
+    ($kind:ident: $($message:tt)*) => {
+        $crate::error::Refused::new(stringify!($kind), format!($($message)*))
+    };
+}
+pub(crate) use refused;
+
 /// The name of a variant, which `Debug` prints first.
 fn variant(value: &impl Debug) -> String {
     let text = format!("{value:?}");
     let end = text.find(|c: char| !c.is_alphanumeric());
     text[..end.unwrap_or(text.len())].to_owned()
+}
+
+/// A refusal with the facts of a kind of error. Of others the kind, and the body, say it all.
+macro_rules! with_facts {
+    ($refused:ident, $error:expr; $($kind:ident { $($fact:ident),* })*) => {
+        match $error {
+            $(ErrorKind::$kind { $($fact),* } => {
+                $refused$(.with(stringify!($fact), $fact))*
+            })*
+            _ => $refused,
+        }
+    };
 }
 
 impl From<pliant::Error> for Refused {
@@ -101,53 +133,21 @@ impl From<pliant::Error> for Refused {
         if let Some(body) = error.body {
             refused = refused.with("body", body);
         }
-        match error.kind {
-            ErrorKind::TooLarge { what, count, limit } => refused
-                .with("what", Fact::Text(what.to_owned()))
-                .with("count", count)
-                .with("limit", limit),
-            ErrorKind::VertexOutOfRange {
-                triangle,
-                vertex,
-                vertices,
-            } => refused
-                .with("triangle", triangle)
-                .with("vertex", vertex as usize)
-                .with("vertices", vertices),
-            ErrorKind::WrongLength {
-                what,
-                expected,
-                found,
-            } => refused
-                .with("what", Fact::Text(what.to_owned()))
-                .with("expected", expected)
-                .with("found", found),
-            ErrorKind::BadPosition { vertex, position }
-            | ErrorKind::OutsideLooseBox { vertex, position } => refused
-                .with("vertex", vertex)
-                .with("position", Fact::Position(position)),
-            ErrorKind::NeedsSubnormals { vertex } | ErrorKind::NotWritten { vertex } => {
-                refused.with("vertex", vertex)
-            }
-            ErrorKind::TooManyHits { limit } => refused.with("limit", limit),
-            ErrorKind::NoSuchTriangle {
-                triangle,
-                triangles,
-            } => refused
-                .with("triangle", triangle as usize)
-                .with("triangles", triangles),
-            ErrorKind::EmptyTriangle { triangle } => refused.with("triangle", triangle as usize),
-            ErrorKind::NoSuchVertex { vertex, vertices } => refused
-                .with("vertex", vertex as usize)
-                .with("vertices", vertices),
-            ErrorKind::EmptyVertex { vertex } | ErrorKind::VertexInUse { vertex } => {
-                refused.with("vertex", vertex as usize)
-            }
-            ErrorKind::NotACorner { triangle, vertex } => refused
-                .with("triangle", triangle as usize)
-                .with("vertex", vertex as usize),
-            // The kind, and the body, say it all.
-            _ => refused,
+        with_facts! { refused, error.kind;
+            TooLarge { what, count, limit }
+            VertexOutOfRange { triangle, vertex, vertices }
+            WrongLength { what, expected, found }
+            BadPosition { vertex, position }
+            OutsideLooseBox { vertex, position }
+            NeedsSubnormals { vertex }
+            NotWritten { vertex }
+            TooManyHits { limit }
+            NoSuchTriangle { triangle, triangles }
+            EmptyTriangle { triangle }
+            NoSuchVertex { vertex, vertices }
+            EmptyVertex { vertex }
+            VertexInUse { vertex }
+            NotACorner { triangle, vertex }
         }
     }
 }
@@ -203,12 +203,12 @@ impl From<pliant_io::Error> for Refused {
     fn from(error: pliant_io::Error) -> Self {
         let refused = Self::new("CannotRead", error.to_string())
             .advising(after_reading(error.reason()))
-            .with("file", Fact::Text(error.file().display().to_string()));
+            .with("file", error.file().display().to_string());
         // Displayed behind a file's name, a place begins with a comma.
         let place = error.place().to_string();
         match place.trim_start_matches(", ") {
             "" => refused,
-            place => refused.with("place", Fact::Text(place.to_owned())),
+            place => refused.with("place", place),
         }
     }
 }
@@ -253,28 +253,18 @@ fn raised(
     Ok(PyErr::from_value(error))
 }
 
-/// A value of a class in `_types.py`, from its fields by name.
-pub(crate) fn named_tuple<'py>(
-    py: Python<'py>,
-    class: &str,
-    fields: impl IntoPyDict<'py>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let class = py.import("pliant._types")?.getattr(class)?;
-    class.call((), Some(&fields.into_py_dict(py)?))
-}
-
 /// Does `work` on what `mutex` holds, without the interpreter lock.
 pub(crate) fn alone_with<S: Send, T: Send>(
     py: Python<'_>,
     mutex: &Mutex<S>,
-    work: impl FnOnce(&mut S) -> Result<T, Refused> + Send,
-) -> Result<T, Refused> {
+    work: impl FnOnce(&mut S) -> Result<T> + Send,
+) -> Result<T> {
     py.detach(|| caught(|| work(&mut *alone(mutex)?)))
 }
 
 /// What some work ends in. A panic, which is a bug, is an error like others: what Python makes of panics by itself is no `Exception`,
 /// and ends programs that meant to go on.
-pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T, Refused>) -> Result<T, Refused> {
+pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
     // What the work had in hand is behind a lock, which a panic leaves poisoned, or gone.
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
@@ -288,7 +278,7 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T, Refused>) -> Result<T, 
 /// What `mutex` holds, for one call alone.
 ///
 /// Another call that is under way, of another thread or of this one with a visitor, is not waited for.
-pub(crate) fn alone<S>(mutex: &Mutex<S>) -> Result<MutexGuard<'_, S>, Refused> {
+pub(crate) fn alone<S>(mutex: &Mutex<S>) -> Result<MutexGuard<'_, S>> {
     mutex.try_lock().map_err(|taken| match taken {
         TryLockError::WouldBlock => Refused::new(
             "Busy",

@@ -1,9 +1,8 @@
 //! The keyword arguments of a world, by the names and values of the program's flags.
 
-use crate::error::Refused;
+use crate::error::{Refused, Result};
 use pliant::{BroadPhase, Degree, Options, Partition, Update};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use std::num::NonZeroU32;
 
 /// Names and what they mean.
@@ -29,8 +28,8 @@ const BROAD_PHASES: &Names<BroadPhase> = &[
     ("auto", BroadPhase::Auto),
 ];
 
-/// Options as they were given, and the library's.
-#[derive(Clone, Debug)]
+/// Options as they were given, the keyword arguments that make another world like it.
+#[derive(Clone, Debug, IntoPyObject)]
 pub(crate) struct Keywords {
     pub(crate) degree: i64,
     pub(crate) partition: String,
@@ -44,7 +43,7 @@ pub(crate) struct Keywords {
 
 impl Keywords {
     /// The library's options; a value that is none is refused, with those that are.
-    pub(crate) fn to_options(&self) -> Result<Options, Refused> {
+    pub(crate) fn to_options(&self) -> Result<Options> {
         let mut options = Options::default();
         options.degree = match self.degree {
             2 => Degree::Two,
@@ -70,24 +69,10 @@ impl Keywords {
         options.mending = self.mending;
         Ok(options)
     }
-
-    /// As the keyword arguments that they were.
-    pub(crate) fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let dict = PyDict::new(py);
-        dict.set_item("degree", self.degree)?;
-        dict.set_item("partition", &self.partition)?;
-        dict.set_item("leaf_size", self.leaf_size)?;
-        dict.set_item("update", &self.update)?;
-        dict.set_item("level", self.level)?;
-        dict.set_item("broad", &self.broad)?;
-        dict.set_item("threads", self.threads)?;
-        dict.set_item("mending", self.mending)?;
-        Ok(dict)
-    }
 }
 
 /// The default options with the number of threads that a call was given.
-pub(crate) fn with_threads(threads: i64) -> Result<Options, Refused> {
+pub(crate) fn with_threads(threads: i64) -> Result<Options> {
     let mut options = Options::default();
     options.threads = at_least_one("threads", threads)?
         .try_into()
@@ -95,7 +80,7 @@ pub(crate) fn with_threads(threads: i64) -> Result<Options, Refused> {
     Ok(options)
 }
 
-fn at_least_one(name: &str, given: i64) -> Result<NonZeroU32, Refused> {
+fn at_least_one(name: &str, given: i64) -> Result<NonZeroU32> {
     u32::try_from(given)
         .ok()
         .and_then(NonZeroU32::new)
@@ -106,7 +91,7 @@ fn at_least_one(name: &str, given: i64) -> Result<NonZeroU32, Refused> {
         })
 }
 
-fn named<T: Copy>(option: &str, given: &str, names: &Names<T>) -> Result<T, Refused> {
+fn named<T: Copy>(option: &str, given: &str, names: &Names<T>) -> Result<T> {
     let found = names.iter().find(|(name, _)| *name == given);
     found.map(|&(_, value)| value).ok_or_else(|| {
         let names: Vec<_> = names.iter().map(|(name, _)| format!("{name:?}")).collect();

@@ -5,37 +5,36 @@
 //! asked for them: they stay. What is read is checked as if it was given to a world by calls, which it is. What was written before there
 //! were numbers of edges is read, and its edges are numbered anew.
 
-use crate::arrays::{CopiedCoordinates, CopiedFaces, rows_of};
-use crate::error::{Refused, caught};
-use crate::state::State;
-use crate::world::Owned;
+use crate::answers::{Any, Owned, Rows};
+use crate::arrays::{CopiedCoordinates, CopiedMesh};
+use crate::error::{Refused, Result, caught, refused};
+use crate::state::{Corners, State};
 use numpy::{PyArray2, PyArrayMethods};
 use pliant::{BodyId, Error};
-use pliant_check::{AnyWorld, with_world};
+use pliant_check::with_world;
 use pliant_io::Precision;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
-
-type Corners = ([f64; 3], [f64; 3]);
 
 /// A body, copied from a world without the interpreter lock.
-struct Body {
-    id: u32,
-    triangles: Vec<[u32; 3]>,
+#[derive(IntoPyObject)]
+struct CopiedBody {
+    body: u32,
+    faces: Rows<u32, 3>,
     positions: Owned,
     end: Option<Owned>,
     groups: Vec<u32>,
-    edges: Option<Vec<[u32; 2]>>,
+    edges: Option<Rows<u32, 2>>,
     filter: (u32, u32),
-    loose: Option<Corners>,
+    loose_box: Option<Corners>,
 }
 
-/// All of a world but its options.
+/// All of a world but its options, which becomes a dictionary.
+#[derive(IntoPyObject)]
 pub(crate) struct Copied {
-    precision: Option<Precision>,
+    dtype: Option<&'static str>,
     next: Option<u32>,
-    bodies: Vec<Body>,
-    ignored: Vec<[BodyId; 2]>,
+    bodies: Vec<CopiedBody>,
+    ignored: Vec<(u32, u32)>,
 }
 
 /// A world that was written down.
@@ -54,7 +53,7 @@ struct WrittenBody<'py> {
     body: u32,
     faces: Bound<'py, PyAny>,
     positions: Bound<'py, PyAny>,
-    end: Option<Bound<'py, PyAny>>,
+    end: Option<Any<'py>>,
     groups: Vec<u32>,
     #[pyo3(default)]
     edges: Option<Bound<'py, PyArray2<u32>>>,
@@ -63,67 +62,43 @@ struct WrittenBody<'py> {
 }
 
 impl Copied {
-    pub(crate) fn of(state: &State) -> Result<Self, Refused> {
-        let bodies = with_world!(&state.world, world => {
-            let bodies = world.bodies().map(|id| {
-                Ok(Body {
-                    id: id.0,
-                    triangles: world.triangles(id)?.to_vec(),
-                    positions: Owned::from(world.positions(id)?),
-                    end: world.end_positions(id)?.map(Owned::from),
-                    groups: world.vertex_groups(id)?,
-                    edges: world.numbered_edges(id)?.map(<[_]>::to_vec),
-                    filter: world.filter(id)?,
-                    loose: loose_box(&state.world, id)?,
-                })
-            });
-            bodies.collect::<Result<_, Error>>()?
-        });
-        Ok(Self {
-            precision: state.precision(),
-            next: with_world!(&state.world, world => world.next_id()),
-            bodies,
-            ignored: with_world!(&state.world, world => world.ignored()),
-        })
-    }
-
-    /// As pickle takes it.
-    pub(crate) fn into_dict(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
-        let bodies = PyList::empty(py);
-        for body in self.bodies {
-            let dict = PyDict::new(py);
-            dict.set_item("body", body.id)?;
-            dict.set_item("faces", rows_of(py, body.triangles)?)?;
-            dict.set_item("positions", body.positions.into_array(py)?)?;
-            let end = body.end.map(|end| end.into_array(py)).transpose()?;
-            dict.set_item("end", end)?;
-            // Mostly none: then it is not written at all.
-            let groups = body.groups;
-            let are_any = groups.iter().any(|&group| group != 0);
-            dict.set_item("groups", if are_any { groups } else { Vec::new() })?;
-            let edges = body.edges.map(|edges| rows_of(py, edges)).transpose()?;
-            dict.set_item("edges", edges)?;
-            dict.set_item("filter", body.filter)?;
-            dict.set_item("loose_box", body.loose)?;
-            bodies.append(dict)?;
-        }
-        let dtype = self.precision.map(|precision| match precision {
+    pub(crate) fn of(state: &State) -> Result<Self> {
+        let dtype = state.precision().map(|precision| match precision {
             Precision::F32 => "float32",
             Precision::F64 => "float64",
         });
-        let ignored: Vec<_> = self.ignored.iter().map(|[a, b]| (a.0, b.0)).collect();
-        let dict = PyDict::new(py);
-        dict.set_item("dtype", dtype)?;
-        dict.set_item("next", self.next)?;
-        dict.set_item("bodies", bodies)?;
-        dict.set_item("ignored", ignored)?;
-        Ok(dict)
+        with_world!(&state.world, world => {
+            let bodies = world.bodies().map(|id| {
+                // Mostly none: then it is not written at all.
+                let mut groups = world.vertex_groups(id)?;
+                if groups.iter().all(|&group| group == 0) {
+                    groups.clear();
+                }
+                let edges = world.numbered_edges(id)?;
+                Ok(CopiedBody {
+                    body: id.0,
+                    faces: Rows(world.triangles(id)?.to_vec()),
+                    positions: Owned::from(world.positions(id)?),
+                    end: world.end_positions(id)?.map(Owned::from),
+                    groups,
+                    edges: edges.map(|edges| Rows(edges.to_vec())),
+                    filter: world.filter(id)?,
+                    loose_box: state.loose_box(id)?,
+                })
+            });
+            Ok(Self {
+                dtype,
+                next: world.next_id(),
+                bodies: bodies.collect::<Result<_, Error>>()?,
+                ignored: world.ignored().into_iter().map(|[a, b]| (a.0, b.0)).collect(),
+            })
+        })
     }
 }
 
 impl Written<'_> {
     /// Makes this of a world that has had no body. If anything is refused, what it is then is of no use.
-    pub(crate) fn restore(self, py: Python<'_>, state: &mut State) -> Result<(), Refused> {
+    pub(crate) fn restore(self, py: Python<'_>, state: &mut State) -> Result<()> {
         match self.dtype.as_deref() {
             None => {}
             Some("float32") => state.fix_precision(Precision::F32),
@@ -131,10 +106,8 @@ impl Written<'_> {
             Some(other) => return Err(bad(format!("{other:?} is no type of a world's"))),
         }
         for written in self.bodies {
-            let positions = CopiedCoordinates::of(&written.positions)?;
-            let positions = positions.get()?;
-            let faces = CopiedFaces::of(&written.faces, positions.len())?;
-            let faces = faces.get()?;
+            let mesh = CopiedMesh::of(&written.faces, &written.positions, |refused| refused)?;
+            let (faces, positions) = mesh.get()?;
             let (state, number) = (&mut *state, written.body);
             let body = py.detach(|| {
                 with_world!(&mut state.world, world => world.skip_ids(Some(number)));
@@ -177,21 +150,6 @@ impl Written<'_> {
     }
 }
 
-/// The box that holds a body in every pose, widened.
-pub(crate) fn loose_box(world: &AnyWorld, body: BodyId) -> Result<Option<Corners>, Error> {
-    Ok(match world {
-        AnyWorld::F32(world) => {
-            let wide = |corner: [f32; 3]| corner.map(f64::from);
-            let corners = world.loose_box(body)?;
-            corners.map(|(lo, hi)| (wide(lo), wide(hi)))
-        }
-        AnyWorld::F64(world) => world.loose_box(body)?,
-    })
-}
-
 fn bad(what: impl std::fmt::Display) -> Refused {
-    Refused::new(
-        "BadOption",
-        format!("not a world that pickle wrote down: {what}"),
-    )
+    refused!(BadOption: "not a world that pickle wrote down: {what}")
 }

@@ -5,7 +5,7 @@
 //! while another thread of Python's runs: so it looks seldom, and only where it is of use, in the thread that asks and if this is
 //! the main one. What no query does, building a tree for example, is not interrupted.
 
-use crate::error::Refused;
+use crate::error::{Refused, Result};
 use pyo3::prelude::*;
 use std::cell::Cell;
 use std::sync::OnceLock;
@@ -41,7 +41,7 @@ struct Signals {
 /// meanwhile, `KeyboardInterrupt` if nobody set another, is what comes back then.
 pub(crate) fn interruptible<T, E: Into<Refused>>(
     ask: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, E>,
-) -> Result<T, Refused> {
+) -> Result<T> {
     interruptible_after(ASKED_PER_LOOK_AT_CLOCK, ask)
 }
 
@@ -49,7 +49,7 @@ pub(crate) fn interruptible<T, E: Into<Refused>>(
 pub(crate) fn interruptible_after<T, E: Into<Refused>>(
     per_look: u32,
     ask: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> Result<T, E>,
-) -> Result<T, Refused> {
+) -> Result<T> {
     let signals = Signals {
         began: Instant::now(),
         asker: thread::current().id(),

@@ -2,14 +2,42 @@
 
 use crate::arrays::{Coordinates, CopiedCoordinates};
 use crate::copies::Room;
-use crate::error::Refused;
+use crate::error::{Refused, Result, alone, alone_with};
 use pliant::{BodyId, Error, ErrorKind, Options};
 use pliant_check::{AnyWorld, NotTaken, double, single, with_world};
 use pliant_io::{Positions, Precision};
 use pyo3::Python;
+use std::sync::{Arc, Mutex, MutexGuard};
 
 /// The corners of a number that no triangle has.
 const EMPTY: [u32; 3] = [u32::MAX; 3];
+
+/// The lower and the upper corner of a box.
+pub(crate) type Corners = ([f64; 3], [f64; 3]);
+
+/// A state that one call at a time has: the world's, and that of the questions put to it.
+#[derive(Clone)]
+pub(crate) struct Shared(Arc<Mutex<State>>);
+
+impl Shared {
+    pub(crate) fn new(state: State) -> Self {
+        Self(Arc::new(Mutex::new(state)))
+    }
+
+    /// Does `work` on the state, without the interpreter lock.
+    pub(crate) fn with<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&mut State) -> Result<T> + Send,
+    ) -> Result<T> {
+        alone_with(py, &self.0, work)
+    }
+
+    /// The state, for one call alone.
+    pub(crate) fn alone(&self) -> Result<MutexGuard<'_, State>> {
+        alone(&self.0)
+    }
+}
 
 /// A world, and whether its precision is fixed.
 pub(crate) struct State {
@@ -68,7 +96,7 @@ impl State {
         &mut self,
         triangles: &[[u32; 3]],
         positions: Positions<'_>,
-    ) -> Result<BodyId, Refused> {
+    ) -> Result<BodyId> {
         if !self.precision_is_fixed {
             let mut fixed = Self::new(self.options);
             fixed.fix_precision(precision_of(positions));
@@ -85,10 +113,9 @@ impl State {
         body: BodyId,
         triangles: &[[u32; 3]],
         positions: Positions<'_>,
-    ) -> Result<(), Refused> {
-        let taken = self
-            .world
-            .set_mesh(body, triangles, positions, &mut self.widened);
+    ) -> Result<()> {
+        let widened = &mut self.widened;
+        let taken = self.world.set_mesh(body, triangles, positions, widened);
         taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
@@ -97,7 +124,7 @@ impl State {
         &mut self,
         triangles: &[[u32; 3]],
         positions: Positions<'_>,
-    ) -> Result<BodyId, Refused> {
+    ) -> Result<BodyId> {
         let is_live = |corners: &&[u32; 3]| **corners != EMPTY;
         let Some(&some) = triangles.iter().find(is_live) else {
             return self.add(triangles, positions);
@@ -105,19 +132,11 @@ impl State {
         let is_nan = |row: &[f64; 3]| row.iter().any(|x| x.is_nan());
         let mut rows = double(positions, &mut Vec::new()).to_vec();
         let place = rows.get(some[0] as usize).copied().unwrap_or_default();
-        let empty: Vec<u32> = (0..)
-            .zip(&rows)
-            .filter(|(_, row)| is_nan(row))
-            .map(|(at, _)| at)
-            .collect();
+        let empty = numbers_of(&rows, is_nan);
         for &vertex in &empty {
             rows[vertex as usize] = place;
         }
-        let gone: Vec<u32> = (0..)
-            .zip(triangles)
-            .filter(|(_, corners)| !is_live(corners))
-            .map(|(at, _)| at)
-            .collect();
+        let gone = numbers_of(triangles, |corners| !is_live(&corners));
         let filled = |corners: &[u32; 3]| if is_live(&corners) { *corners } else { some };
         let filled: Vec<[u32; 3]> = triangles.iter().map(filled).collect();
         // Those that were 32-bit numbers still are.
@@ -147,7 +166,7 @@ impl State {
         &mut self,
         body: BodyId,
         given: &Coordinates<'py>,
-    ) -> Result<CopiedCoordinates<'py>, Refused> {
+    ) -> Result<CopiedCoordinates<'py>> {
         let single = matches!(self.world, AnyWorld::F32(_));
         if single && matches!(given, Coordinates::F64(_)) {
             return Err(of_body(body, NotTaken::WouldBeRounded));
@@ -171,33 +190,19 @@ impl State {
     }
 
     /// Gives a body a new shape.
-    pub(crate) fn set_positions(
-        &mut self,
-        body: BodyId,
-        positions: Positions<'_>,
-    ) -> Result<(), Refused> {
+    pub(crate) fn set_positions(&mut self, body: BodyId, positions: Positions<'_>) -> Result<()> {
         let taken = self.world.set_positions(body, positions, &mut self.widened);
         taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
     /// Says where the vertices of a body are going.
-    pub(crate) fn set_motion(&mut self, body: BodyId, end: Positions<'_>) -> Result<(), Refused> {
-        let taken = match &mut self.world {
-            AnyWorld::F32(world) => single(end).and_then(|end| Ok(world.set_motion(body, end)?)),
-            AnyWorld::F64(world) => {
-                let end = double(end, &mut self.widened);
-                world.set_motion(body, end).map_err(NotTaken::Refused)
-            }
-        };
+    pub(crate) fn set_motion(&mut self, body: BodyId, end: Positions<'_>) -> Result<()> {
+        let taken = self.world.set_motion(body, end, &mut self.widened);
         taken.map_err(|not_taken| of_body(body, not_taken))
     }
 
     /// Gives a body the shape that somebody wrote, or did not.
-    pub(crate) fn write_positions(
-        &mut self,
-        body: BodyId,
-        written: Positions<'_>,
-    ) -> Result<(), Refused> {
+    pub(crate) fn write_positions(&mut self, body: BodyId, written: Positions<'_>) -> Result<()> {
         // Should the buffer be of another length now, what is not written is said to be.
         fn copy<T: Copy>(from: &[T], to: &mut [T]) {
             to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
@@ -219,8 +224,8 @@ impl State {
     pub(crate) fn set_loose_box(
         &mut self,
         body: BodyId,
-        corners: Option<([f64; 3], [f64; 3])>,
-    ) -> Result<(), pliant::Error> {
+        corners: Option<Corners>,
+    ) -> Result<(), Error> {
         match &mut self.world {
             AnyWorld::F32(world) => {
                 let rounded = |corner: [f64; 3]| corner.map(|x| x as f32);
@@ -230,6 +235,26 @@ impl State {
             AnyWorld::F64(world) => world.set_loose_box(body, corners),
         }
     }
+
+    /// The box that holds a body in every pose, widened.
+    pub(crate) fn loose_box(&self, body: BodyId) -> Result<Option<Corners>, Error> {
+        Ok(match &self.world {
+            AnyWorld::F32(world) => {
+                let wide = |corner: [f32; 3]| corner.map(f64::from);
+                let corners = world.loose_box(body)?;
+                corners.map(|(lo, hi)| (wide(lo), wide(hi)))
+            }
+            AnyWorld::F64(world) => world.loose_box(body)?,
+        })
+    }
+}
+
+/// The numbers of those in a list of which something is so.
+fn numbers_of<T>(list: &[T], is_so: impl Fn(&T) -> bool) -> Vec<u32> {
+    let numbered = (0..).zip(list);
+    numbered
+        .filter_map(|(number, one)| is_so(one).then_some(number))
+        .collect()
 }
 
 pub(crate) fn precision_of(positions: Positions<'_>) -> Precision {

@@ -3,8 +3,9 @@
 //! Frames are read without the interpreter lock; a frame of USD takes it back. What Python raises meanwhile is kept aside and comes out
 //! of the call as it was.
 
+use crate::answers::Any;
 use crate::arrays::CopiedCoordinates;
-use crate::error::Refused;
+use crate::error::{Refused, Result};
 use pliant_io::{Body, Error, Evaluated, OpenOptions, Positions};
 use pyo3::prelude::*;
 use std::path::Path;
@@ -20,7 +21,7 @@ impl Raised {
     }
 
     /// What was raised, rather than what came of it.
-    pub(crate) fn rather<T>(&self, outcome: Result<T, Refused>) -> Result<T, Refused> {
+    pub(crate) fn rather<T>(&self, outcome: Result<T>) -> Result<T> {
         let mut raised = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         match raised.take() {
             Some(raised) => Err(Refused::Python(raised)),
@@ -90,7 +91,7 @@ pub(crate) fn open(
 ) -> Result<Vec<Body>, Error> {
     let opened = Python::attach(|py| {
         let module = py.import("pliant._usd")?;
-        let (file, meshes): (String, Vec<Bound<'_, PyAny>>) =
+        let (file, meshes): (String, Vec<Any<'_>>) =
             module.call_method1("opened", (argument,))?.extract()?;
         let meshes = meshes.into_iter().map(|mesh| {
             let name: String = mesh.getattr("name")?.extract()?;

@@ -1,0 +1,94 @@
+//! Answers on their way to Python: vectors that become arrays, and classes of `_types.py`.
+
+use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use std::convert::Infallible;
+
+/// An object of Python's, of whatever class.
+pub(crate) type Any<'py> = Bound<'py, PyAny>;
+
+/// A vector that becomes an array (n,), which takes it over.
+pub(crate) struct Column<T>(pub(crate) Vec<T>);
+
+impl<'py, T: Element> IntoPyObject<'py> for Column<T> {
+    type Target = PyArray1<T>;
+    type Output = Bound<'py, Self::Target>;
+    type Error = Infallible;
+
+    fn into_pyobject(self, py: Python<'py>) -> Result<Self::Output, Infallible> {
+        Ok(self.0.into_pyarray(py))
+    }
+}
+
+/// A vector of rows, of pairs or positions, that becomes an array (k, K), which takes it over.
+pub(crate) struct Rows<T, const K: usize>(pub(crate) Vec<[T; K]>);
+
+impl<'py, T: Element, const K: usize> IntoPyObject<'py> for Rows<T, K> {
+    type Target = PyArray2<T>;
+    type Output = Bound<'py, Self::Target>;
+    type Error = PyErr;
+
+    fn into_pyobject(self, py: Python<'py>) -> PyResult<Self::Output> {
+        let shape = [self.0.len(), K];
+        self.0.into_flattened().into_pyarray(py).reshape(shape)
+    }
+}
+
+/// Positions of either precision, that become an array (n, 3) of their type.
+#[derive(IntoPyObject)]
+pub(crate) enum Owned {
+    F32(Rows<f32, 3>),
+    F64(Rows<f64, 3>),
+}
+
+impl From<Vec<[f32; 3]>> for Owned {
+    fn from(rows: Vec<[f32; 3]>) -> Self {
+        Self::F32(Rows(rows))
+    }
+}
+
+impl From<Vec<[f64; 3]>> for Owned {
+    fn from(rows: Vec<[f64; 3]>) -> Self {
+        Self::F64(Rows(rows))
+    }
+}
+
+/// An array of rows that a query has listed. numpy makes it, because it asks for large pages where
+/// there is much to write.
+pub(crate) fn copy_of_rows<const K: usize>(
+    py: Python<'_>,
+    rows: impl ExactSizeIterator<Item = [u32; K]>,
+) -> PyResult<Bound<'_, PyArray2<u32>>> {
+    let array = PyArray2::zeros(py, [rows.len(), K], false);
+    {
+        let mut writable = array.try_readwrite()?;
+        let (places, _) = writable.as_slice_mut()?.as_chunks_mut();
+        for (place, row) in places.iter_mut().zip(rows) {
+            *place = row;
+        }
+    }
+    Ok(array)
+}
+
+/// A class of `_types.py`, which is looked up once: visitors are shown many.
+macro_rules! class {
+    ($py:expr, $name:literal) => {{
+        use pyo3::{Py, sync::PyOnceLock, types::PyType};
+        static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+        CLASS.import($py, "pliant._types", $name)?
+    }};
+}
+pub(crate) use class;
+
+/// A value of a class of `_types.py`: of `from` its fields, or of fields one by one.
+macro_rules! named {
+    ($py:expr, $class:literal of $from:ident: $($field:ident),*) => {
+        named!($py, $class: $($field = $from.$field),*)
+    };
+    ($py:expr, $class:literal: $($field:ident = $value:expr),*) => {{
+        let fields = pyo3::types::PyDict::new($py);
+        $(fields.set_item(stringify!($field), $value)?;)*
+        $crate::answers::class!($py, $class).call((), Some(&fields))
+    }};
+}
+pub(crate) use named;

@@ -1,0 +1,257 @@
+//! Questions that wait to be told how much is wanted of them: what is the same for every kind.
+//!
+//! A kind is a file here. It says what is asked of a world (a [`Kind`]), what each type of hit that
+//! the library finds becomes in Python (a [`Hit`]), and what help says of the class, which
+//! [`query_class`] makes: pyo3 has no generic ones.
+
+use crate::answers::Any;
+use crate::error::Result;
+use crate::selection::Selection;
+use crate::signals::interruptible;
+use crate::state::Shared;
+use pliant::Scalar;
+use pliant_check::with_world;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use std::ops::ControlFlow;
+
+pub(crate) mod close;
+pub(crate) mod contacts;
+pub(crate) mod impacts;
+pub(crate) mod pairs;
+
+/// A hit of the library, and what Python is shown of one and of many.
+pub(crate) trait Hit: Copy + Send + 'static {
+    /// Many, column by column, as arrays take them over.
+    type Columns: Send;
+
+    /// Copies what was found. Whoever calls need not have the interpreter lock.
+    fn columns(hits: &[Self]) -> Self::Columns;
+
+    /// Makes arrays of columns.
+    fn many(columns: Self::Columns, py: Python<'_>) -> PyResult<Any<'_>>;
+
+    /// Makes a named tuple of one hit.
+    fn one(self, py: Python<'_>) -> PyResult<Any<'_>>;
+}
+
+/// A kind of query, with what is asked besides who.
+pub(crate) trait Kind: Copy + Send + Sync {
+    /// Asks a world. The hits of a kind may be of several types.
+    fn ask<'w, W: Want>(
+        self,
+        world: &'w mut pliant::World<impl Scalar>,
+        of: pliant::Selection,
+        wanted: Wanted<'w, W>,
+    ) -> Result<W::Answer>;
+
+    /// What `repr` says behind the selection.
+    fn said(self) -> String;
+}
+
+/// How much is wanted of a query, whatever its hits are.
+pub(crate) trait Want: Send {
+    type Answer: Send;
+
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Self::Answer>;
+}
+
+/// What is wanted, and what may end the search for it.
+pub(crate) struct Wanted<'w, W> {
+    want: W,
+    question: &'w (dyn Fn() -> bool + Sync),
+}
+
+impl<'w, W: Want> Wanted<'w, W> {
+    /// Answers a query with what is wanted.
+    pub(crate) fn of<H: Hit>(self, query: pliant::Query<'w, H>) -> Result<W::Answer> {
+        self.want.of(query.interrupt_if(self.question))
+    }
+}
+
+/// An object of Python's that is made when the world is free again.
+pub(crate) type Made = Box<dyn FnOnce(Python<'_>) -> PyResult<Any<'_>> + Send>;
+
+/// All hits; at most so many.
+pub(crate) struct All(pub(crate) usize);
+
+impl Want for All {
+    type Answer = Made;
+
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Made> {
+        let columns = H::columns(query.at_most(self.0).all()?);
+        Ok(Box::new(move |py| H::many(columns, py)))
+    }
+}
+
+/// The first hit.
+pub(crate) struct First;
+
+impl Want for First {
+    type Answer = Option<Made>;
+
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<Option<Made>> {
+        let hit = query.first()?;
+        Ok(hit.map(|hit| -> Made { Box::new(move |py| hit.one(py)) }))
+    }
+}
+
+/// Nothing but what the query does first.
+pub(crate) struct Prepare;
+
+impl Want for Prepare {
+    type Answer = ();
+
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<()> {
+        Ok(query.prepare()?)
+    }
+}
+
+/// A function of Python's that is shown one hit after the other.
+pub(crate) struct Each<'a>(pub(crate) &'a Py<PyAny>);
+
+impl Want for Each<'_> {
+    type Answer = bool;
+
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<bool> {
+        stopped(query.visit(|hit| show(self.0, |py| hit.one(py)))?)
+    }
+}
+
+/// A function of Python's that is shown some hits at a time.
+pub(crate) struct SomeAtATime<'a>(pub(crate) &'a Py<PyAny>);
+
+impl Want for SomeAtATime<'_> {
+    type Answer = bool;
+
+    fn of<H: Hit>(self, query: pliant::Query<'_, H>) -> Result<bool> {
+        stopped(query.visit_some(|hits| show(self.0, |py| H::many(H::columns(hits), py)))?)
+    }
+}
+
+/// Whether a visitor has ended a visit, or what it raised.
+type Stopped = ControlFlow<PyResult<()>>;
+
+/// Calls a visitor, under the interpreter lock.
+fn show(visit: &Py<PyAny>, shown: impl FnOnce(Python<'_>) -> PyResult<Any<'_>>) -> Stopped {
+    let answer = Python::attach(|py| visit.bind(py).call1((shown(py)?,))?.is_truthy());
+    match answer {
+        Ok(false) => ControlFlow::Continue(()),
+        Ok(true) => ControlFlow::Break(Ok(())),
+        Err(raised) => ControlFlow::Break(Err(raised)),
+    }
+}
+
+fn stopped(visited: Stopped) -> Result<bool> {
+    match visited {
+        ControlFlow::Continue(()) => Ok(false),
+        ControlFlow::Break(stopped) => Ok(stopped.map(|()| true)?),
+    }
+}
+
+/// A question of some kind to a world.
+pub(crate) struct Question<K> {
+    pub(crate) world: Shared,
+    pub(crate) of: Selection,
+    pub(crate) kind: K,
+}
+
+impl<K: Kind> Question<K> {
+    /// Asks the world, without the interpreter lock, for what is wanted.
+    pub(crate) fn ask<W: Want>(&self, py: Python<'_>, want: W) -> Result<W::Answer> {
+        let (kind, of) = (self.kind, self.of.0);
+        self.world.with(py, |state| {
+            interruptible(|question| {
+                let wanted = Wanted { want, question };
+                with_world!(&mut state.world, world => kind.ask(world, of, wanted))
+            })
+        })
+    }
+}
+
+/// Why nobody goes through a question, or counts it.
+pub(crate) fn no_list(question: &Any<'_>) -> PyResult<PyErr> {
+    let class = question.get_type().fully_qualified_name()?;
+    Ok(PyTypeError::new_err(format!(
+        "a {class} is a question that was not answered yet: ask it for all(), first() or visit_some(...)"
+    )))
+}
+
+/// Makes the class of a kind: its documentation, and that of its methods, and methods that only
+/// this kind has.
+macro_rules! query_class {
+    (
+        $(#[$class:meta])*
+        $name:ident of $kind:ident;
+        $(#[$all:meta])*
+        all;
+        $(#[$first:meta])*
+        first;
+        $(#[$visit_some:meta])*
+        visit_some;
+        $(#[$prepare:meta])*
+        prepare;
+        $($more:tt)*
+    ) => {
+        $(#[$class])*
+        #[pyclass(frozen, module = "pliant")]
+        pub(crate) struct $name($crate::queries::Question<$kind>);
+
+        impl $name {
+            pub(crate) fn new(world: &Shared, of: Selection, kind: $kind) -> Self {
+                let world = world.clone();
+                Self($crate::queries::Question { world, of, kind })
+            }
+        }
+
+        #[pymethods]
+        impl $name {
+            fn __iter__(slf: &Bound<'_, Self>) -> PyResult<()> {
+                Err($crate::queries::no_list(slf)?)
+            }
+
+            fn __len__(slf: &Bound<'_, Self>) -> PyResult<usize> {
+                Err($crate::queries::no_list(slf)?)
+            }
+
+            $(#[$all])*
+            #[pyo3(signature = (*, at_most=None))]
+            fn all<'py>(
+                &self,
+                py: Python<'py>,
+                at_most: Option<usize>,
+            ) -> Result<Any<'py>> {
+                let most = at_most.unwrap_or(usize::MAX);
+                Ok(self.0.ask(py, $crate::queries::All(most))?(py)?)
+            }
+
+            $(#[$first])*
+            fn first<'py>(
+                &self,
+                py: Python<'py>,
+            ) -> Result<Option<Any<'py>>> {
+                let hit = self.0.ask(py, $crate::queries::First)?;
+                Ok(hit.map(|hit| hit(py)).transpose()?)
+            }
+
+            $(#[$visit_some])*
+            fn visit_some(&self, visit: &Any<'_>) -> Result<bool> {
+                let visitor = $crate::queries::SomeAtATime(visit.as_unbound());
+                self.0.ask(visit.py(), visitor)
+            }
+
+            $(#[$prepare])*
+            fn prepare(&self, py: Python<'_>) -> Result<()> {
+                self.0.ask(py, $crate::queries::Prepare)
+            }
+
+            fn __repr__(&self) -> String {
+                let (of, said) = (self.0.of.__repr__(), self.0.kind.said());
+                format!(concat!("<pliant.", stringify!($name), " of {}{}>"), of, said)
+            }
+
+            $($more)*
+        }
+    };
+}
+pub(crate) use query_class;

@@ -9,16 +9,16 @@
 //! has as many vertices, and of its positions nothing is kept. The length of the file is that of its header and samples exactly.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
-use std::path::Path;
 
-use crate::body::OpenOptions;
 use crate::error::{Fault, Place, Reason};
 use crate::file::{Found, Opened};
-use crate::format::{Format, FrameSource};
+use crate::format::Format;
 use crate::frame::{Announced, Complete, Frame};
+use crate::moved_mesh::MovedMesh;
 use crate::npz::Npz;
+use crate::options::OpenOptions;
 use crate::positions::Precision;
-use crate::shown::shown;
+use crate::source::FrameSource;
 
 /// How a PC2 file begins, and its version.
 pub(crate) const PC2: [u8; 16] = *b"POINTCACHE2\0\x01\0\0\0";
@@ -28,17 +28,9 @@ const POSITION: usize = 12;
 /// Positions read at a time.
 const ROWS: u64 = 4096;
 
-/// Why positions alone cannot be read.
-pub(crate) fn alone(path: &Path) -> Reason {
-    let name = shown(path.file_name().unwrap_or_default());
-    Reason::Unsupported(format!(
-        "holds positions but no faces; name the mesh that they move too: 'mesh.obj+{name}'"
-    ))
-}
-
 /// The frames of a mesh whose positions are in a file.
 pub(crate) struct Cache {
-    mesh: Option<(Found, Box<dyn FrameSource>)>,
+    mesh: Option<MovedMesh>,
     input: BufReader<Opened>,
     big_endian: bool,
     /// Where positions begin.
@@ -67,8 +59,8 @@ pub(crate) fn open(
     if frames != 1 {
         return Err(in_mesh(Reason::MeshMoves { frames }.into()));
     }
+    let mesh = MovedMesh::new(mesh.clone(), source);
     if format == Format::Npy {
-        let mesh = (mesh.clone(), source);
         let npy = Npz::beside(mesh, positions, options.max_memory)?;
         return Ok(Box::new(npy));
     }
@@ -110,7 +102,7 @@ pub(crate) fn open(
     }
     input.seek(SeekFrom::Start(head))?;
     Ok(Box::new(Cache {
-        mesh: Some((mesh.clone(), source)),
+        mesh: Some(mesh),
         input,
         big_endian,
         head,
@@ -136,26 +128,6 @@ fn whole<const N: usize>(
     Ok(numbers)
 }
 
-/// Reads the mesh that a cache moves, which has positions of so many vertices.
-pub(crate) fn read_mesh(
-    (mesh, mut source): (Found, Box<dyn FrameSource>),
-    count: u64,
-    frame: &mut Frame,
-) -> Result<(), Fault> {
-    let in_mesh = |fault: Fault| fault.or_in(mesh.path());
-    let _complete = source.read(frame).map_err(in_mesh)?;
-    let expected = frame.vertex_count() as u64;
-    if expected != count {
-        return Err(Reason::VertexCount {
-            vertices: count,
-            expected,
-            than: mesh.path().to_owned(),
-        }
-        .into());
-    }
-    Ok(())
-}
-
 fn fill(input: &mut impl Read, bytes: &mut [u8], length: u64) -> Result<(), Reason> {
     input.read_exact(bytes).map_err(|error| match error.kind() {
         io::ErrorKind::UnexpectedEof => {
@@ -170,7 +142,7 @@ impl Cache {
         let place = Place::Frame(self.next);
         let at = |reason: Reason| reason.at(Place::Frame(self.next));
         if let Some(mesh) = self.mesh.take() {
-            read_mesh(mesh, self.count, frame)?;
+            mesh.read(self.count, frame)?;
             frame
                 .replace_vertices(Precision::F32, self.count)
                 .map_err(at)?;
@@ -243,6 +215,6 @@ impl FrameSource for Cache {
     }
 
     fn held(&self) -> u64 {
-        self.mesh.as_ref().map_or(0, |(_, source)| source.held())
+        self.mesh.as_ref().map_or(0, MovedMesh::held)
     }
 }

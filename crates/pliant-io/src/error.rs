@@ -12,8 +12,8 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::memory::Size;
 use crate::shown::{shown, shown_within};
+use crate::size::Size;
 
 /// Why a body could not be read. Its message is one line, whatever the file or its name holds.
 #[derive(Debug)]

@@ -5,12 +5,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::body::Body;
 use crate::error::{Error, Fault, Place, Reason};
 use crate::file::Found;
-use crate::format::FrameSource;
 use crate::frame::{Announced, Complete, Frame};
+use crate::options::OpenOptions;
 use crate::positions::Precision;
-use crate::{Body, OpenOptions};
+use crate::source::FrameSource;
 
 /// The frames of a body, evaluated when they are asked for.
 pub trait Evaluated: Send {

@@ -7,14 +7,14 @@
 
 use std::io::BufReader;
 use std::path::Path;
-use std::sync::Arc;
 
-use crate::body::OpenOptions;
 use crate::error::{Fault, Reason};
 use crate::file::{Found, Opened};
 use crate::frame::{Complete, Frame};
-use crate::note::Note;
-use crate::{cache, gltf, npz, obj, ply, stl};
+use crate::options::OpenOptions;
+use crate::shown::shown;
+use crate::source::FrameSource;
+use crate::{gltf, npz, obj, ply, stl};
 
 /// What to do about a file that cannot be read, as the end of a message.
 const READABLE: &str = "what can: a frame a file: .obj, .ply, .stl; a sequence a file: .npz, .glb, .gltf, .vrm; positions beside a mesh: 'mesh.obj+positions.pc2', .mdd, .npy";
@@ -33,52 +33,6 @@ pub(crate) enum Format {
     Npy,
     /// What a program evaluates by itself; no ending is of it.
     Evaluated,
-}
-
-/// The frames of one file, in order.
-pub(crate) trait FrameSource: Send {
-    /// How many there are.
-    fn frame_count(&self) -> usize;
-
-    /// Reads the next one into `frame`, from a file that did not change meanwhile; not called after the last, nor after an
-    /// error.
-    fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault>;
-
-    /// Passes over so many; at least one is left. Not called before the body has its faces, be they of this source or of another
-    /// one.
-    fn skip(&mut self, frames: usize) -> Result<(), Fault>;
-
-    /// Begins again without opening its file again: the next is the first. False where it cannot.
-    fn rewind(&mut self) -> Result<bool, Fault> {
-        Ok(false)
-    }
-
-    /// The bytes that it holds beside the frame.
-    fn held(&self) -> u64 {
-        0
-    }
-
-    /// A number for each vertex of the frame read first: vertices may be welded only if theirs are equal. None where equal
-    /// positions are enough.
-    fn alike(&self) -> Option<Vec<u64>> {
-        None
-    }
-
-    /// Whether two vertices that are [`alike`](Self::alike) are at one place in every frame, to the bit. If not, they are one vertex all
-    /// the same, and how far rounding parts them is no reason to refuse a frame.
-    fn moves_alike(&self, _: u32, _: u32) -> bool {
-        true
-    }
-
-    /// What is to be said about the body, once its first frame is read. Of a file of several bodies the first says what is about all.
-    fn notes(&self) -> Vec<Note> {
-        Vec::new()
-    }
-
-    /// The name of the animation that moves it.
-    fn clip(&self) -> Option<&Arc<str>> {
-        None
-    }
 }
 
 impl Format {
@@ -146,11 +100,19 @@ impl Format {
             }),
             Self::Npz => Ok(Box::new(npz::Npz::open(file, options.max_memory)?)),
             Self::Gltf => Ok(Box::new(gltf::open_one(file, options)?)),
-            Self::Pc2 | Self::Mdd | Self::Npy => Err(cache::alone(file.path()).into()),
+            Self::Pc2 | Self::Mdd | Self::Npy => Err(without_faces(file.path()).into()),
             // Not called: it begins again without being opened.
             Self::Evaluated => Err(Reason::UnknownFormat { instead: READABLE }.into()),
         }
     }
+}
+
+/// Why positions alone cannot be read.
+fn without_faces(path: &Path) -> Reason {
+    let name = shown(path.file_name().unwrap_or_default());
+    Reason::Unsupported(format!(
+        "holds positions but no faces; name the mesh that they move too: 'mesh.obj+{name}'"
+    ))
 }
 
 /// A file that is one frame.

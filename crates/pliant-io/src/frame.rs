@@ -259,7 +259,7 @@ impl Frame {
     }
 
     /// The seams of the first frame, if it is to be welded. `alike`: see
-    /// [`FrameSource::alike`](crate::format::FrameSource::alike).
+    /// [`FrameSource::alike`](crate::source::FrameSource::alike).
     pub(crate) fn seams(
         &mut self,
         tolerance: f64,

@@ -89,22 +89,28 @@
 //! |---|---|
 //! | `arguments.rs`, `natural.rs` | what an argument names; the order of its files |
 //! | `series.rs` | a pattern that the shell expanded |
-//! | `body.rs` | files in a row are one body: the streaming loop |
+//! | `options.rs`, `body.rs` | how bodies are read; files in a row are one body: the streaming loop |
 //! | `file.rs` | a file must stay as it was found |
+//! | `source.rs` | what readers of sequences do |
 //! | `format.rs` | which ending is which reader: the one place to add a format |
 //! | `frame.rs`, `positions.rs`, `polygons.rs` | what readers fill, checked: recorded once, then compared |
 //! | `groups.rs` | which triangles of an OBJ or STL file have which name |
 //! | `obj.rs`, `ply/`, `stl.rs`, `npz/`, `cache.rs`, `gltf/` | one format each |
+//! | `moved_mesh.rs` | the mesh that the positions of a cache move |
 //! | `evaluated.rs` | bodies that a program evaluates by itself |
 //! | `write/` | one format each, and files that appear when they are whole |
+//! | `boundary.rs`, `classes.rs` | where a surface ends; which vertices are one |
 //! | `weld.rs`, `near.rs` | boundary edges that coincide, or nearly |
 //! | `triangulate.rs` | which triangles a polygon is |
-//! | `memory.rs`, `text.rs` | nothing is allocated on a claim, nor beyond the limit; lines and numbers of text formats |
+//! | `memory.rs`, `size.rs` | nothing is allocated on a claim, nor beyond the limit; bytes as people read them |
+//! | `text.rs` | lines and numbers of text formats |
 //! | `error.rs`, `note.rs`, `shown.rs` | one type, one line; what is no error and worth saying; names as people are shown them |
 
 mod arguments;
 mod body;
+mod boundary;
 mod cache;
+mod classes;
 mod error;
 mod evaluated;
 mod file;
@@ -113,17 +119,21 @@ mod frame;
 mod gltf;
 mod groups;
 mod memory;
+mod moved_mesh;
 mod natural;
 mod near;
 mod note;
 mod npz;
 mod obj;
+mod options;
 mod pattern;
 mod ply;
 mod polygons;
 mod positions;
 mod series;
 mod shown;
+mod size;
+mod source;
 mod stl;
 mod text;
 mod triangulate;
@@ -131,12 +141,13 @@ mod weld;
 mod write;
 
 pub use arguments::group_argument;
-pub use body::{Body, OpenOptions, open, open_all};
+pub use body::{Body, open, open_all};
 pub use error::{Error, Place, Reason};
 pub use evaluated::{Evaluated, evaluated};
 pub use groups::Groups;
 pub use near::NearSeams;
 pub use note::Note;
+pub use options::OpenOptions;
 pub use positions::{Positions, Precision};
 pub use series::looks_like_a_series;
 pub use shown::{shown, shown_within};

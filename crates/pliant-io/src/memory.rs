@@ -7,8 +7,6 @@
 //! One account for all that a body holds: positions, triangles, polygons, what was welded. It counts what is in the arrays; room
 //! that a doubling leaves unused is never touched, and so takes none.
 
-use std::fmt;
-
 use crate::error::Reason;
 
 /// The first reservation, in items: so few that a file of very many small bodies takes no more than it says.
@@ -106,24 +104,6 @@ impl From<Excess> for Reason {
     }
 }
 
-/// A number of bytes for people: `95 bytes`, `4 GiB`, `1.5 GiB`. Rounded up to a tenth.
-pub(crate) struct Size(pub(crate) u64);
-
-impl fmt::Display for Size {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(bytes) = *self;
-        let units = [(40, "TiB"), (30, "GiB"), (20, "MiB"), (10, "KiB")];
-        let Some((shift, unit)) = units.into_iter().find(|(shift, _)| bytes >> shift > 0) else {
-            return write!(f, "{bytes} bytes");
-        };
-        let tenths = (u128::from(bytes) * 10).div_ceil(1 << shift);
-        match tenths % 10 {
-            0 => write!(f, "{} {unit}", tenths / 10),
-            tenth => write!(f, "{}.{tenth} {unit}", tenths / 10),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -160,21 +140,5 @@ mod tests {
         assert_eq!((excess.needed, excess.limit), (100_001, 100_000));
         assert!(account.check(10_000).is_ok());
         assert!(account.check(u64::MAX).is_err());
-    }
-
-    #[test]
-    fn sizes_are_written_for_people() {
-        for (bytes, written) in [
-            (0, "0 bytes"),
-            (1023, "1023 bytes"),
-            (1024, "1 KiB"),
-            (4 << 30, "4 GiB"),
-            ((4 << 30) + 1, "4.1 GiB"),
-            (3 << 29, "1.5 GiB"),
-            ((1 << 40) - 1, "1024 GiB"),
-            (u64::MAX, "16777216 TiB"),
-        ] {
-            assert_eq!(Size(bytes).to_string(), written);
-        }
     }
 }

@@ -18,10 +18,11 @@
 //!
 //! Time is that of sorting, unless very many edges are crowded into the reach of one: then it is refused, not waited for.
 
+use crate::boundary::boundary_edges;
+use crate::classes::Classes;
 use crate::error::Reason;
 use crate::memory::Account;
 use crate::positions::Positions;
-use crate::weld::{Classes, boundary_edges};
 
 /// Vertices joined to others near them.
 #[derive(Debug, Clone, PartialEq)]

@@ -19,6 +19,8 @@
 //! Where a format moves vertices by a rule, the rule decides, in all frames alike. All triangles use the vertex that leads, so how
 //! far rounding parts the others is nowhere seen.
 
+use crate::boundary::{Edge, boundary_edges};
+use crate::classes::Classes;
 use crate::memory::bytes_of;
 use crate::near::{self, NearSeams};
 use crate::positions::Positions;
@@ -57,9 +59,6 @@ pub struct PartedSeams {
     /// How far apart they are, in diagonals of the body's box.
     pub farthest: f64,
 }
-
-/// An edge: its end points, the smaller first.
-type Edge = [u32; 2];
 
 /// The number of no vertex.
 const UNUSED: u32 = u32::MAX;
@@ -155,36 +154,6 @@ pub(crate) fn weld<K: Ord>(
     }
 }
 
-/// The edges used by exactly one triangle. A degenerate triangle uses an edge once, however often
-/// it runs along it.
-pub(crate) fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
-    let mut edges: Vec<Edge> = Vec::with_capacity(3 * triangles.len());
-    for &[a, b, c] in triangles {
-        let mut three = [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)]);
-        three.sort_unstable();
-        let own = three.iter().enumerate();
-        edges.extend(
-            own.filter(|&(i, edge)| edge[0] != edge[1] && (i == 0 || three[i - 1] != *edge))
-                .map(|(_, edge)| *edge),
-        );
-    }
-    edges.sort_unstable();
-    let (mut read, mut kept) = (0, 0);
-    while let Some(&edge) = edges.get(read) {
-        let uses = edges[read..]
-            .iter()
-            .take_while(|&&other| other == edge)
-            .count();
-        if uses == 1 {
-            edges[kept] = edge;
-            kept += 1;
-        }
-        read += uses;
-    }
-    edges.truncate(kept);
-    edges
-}
-
 /// For each end of an edge one vertex that stands for all at its place, no matter which.
 fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> Vec<u32> {
     let mut place = vec![UNUSED; vertices];
@@ -206,30 +175,6 @@ fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> V
         }
     }
     place
-}
-
-/// Union-find; the smallest vertex of a class leads it.
-pub(crate) struct Classes(Vec<u32>);
-
-impl Classes {
-    pub(crate) fn new(vertices: usize) -> Self {
-        Self((0..vertices as u32).collect())
-    }
-
-    pub(crate) fn leader(&mut self, mut vertex: u32) -> u32 {
-        let Self(parent) = self;
-        while parent[vertex as usize] != vertex {
-            let above = parent[parent[vertex as usize] as usize];
-            parent[vertex as usize] = above;
-            vertex = above;
-        }
-        vertex
-    }
-
-    pub(crate) fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.leader(a), self.leader(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }
 
 /// The position of `vertex` as bits that are equal where the numbers are: -0 counts as 0.

@@ -29,14 +29,14 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use crate::body::OpenOptions;
 use crate::error::{Fault, Place, Reason, listed};
 use crate::file::Found;
-use crate::format::FrameSource;
 use crate::frame::{Announced, Complete, Frame};
 use crate::memory::{Account, bytes_of};
 use crate::note::Note;
+use crate::options::OpenOptions;
 use crate::positions::Precision;
+use crate::source::FrameSource;
 use accessor::Reader;
 use animation::Clip;
 use mesh::{Delta, Mesh};

@@ -12,14 +12,14 @@ mod directory;
 mod entry;
 mod header;
 
-use crate::cache::read_mesh;
 use crate::error::{Fault, Place, Reason};
 use crate::file::Found;
-use crate::format::FrameSource;
 use crate::frame::{Announced, Complete, Frame};
-use crate::memory::Size;
+use crate::moved_mesh::MovedMesh;
 use crate::note::Note;
 use crate::positions::Precision;
+use crate::size::Size;
+use crate::source::FrameSource;
 use crate::text::two_coordinates;
 use entry::Entry;
 use header::{Dtype, Header};
@@ -44,7 +44,7 @@ pub(crate) struct Npz {
     columns: Option<Vec<u8>>,
     is_by_columns: bool,
     /// The mesh that an NPY file moves, until it is read.
-    mesh: Option<(Found, Box<dyn FrameSource>)>,
+    mesh: Option<MovedMesh>,
     is_npy: bool,
     notes: Vec<Note>,
 }
@@ -66,11 +66,7 @@ impl Npz {
     }
 
     /// Opens the positions of a mesh, which is one frame.
-    pub(crate) fn beside(
-        mesh: (Found, Box<dyn FrameSource>),
-        file: &Found,
-        max_memory: u64,
-    ) -> Result<Self, Fault> {
+    pub(crate) fn beside(mesh: MovedMesh, file: &Found, max_memory: u64) -> Result<Self, Fault> {
         let mut vertices = Entry::whole(file, VERTICES[0])?;
         let header = Header::read(&mut vertices)?;
         let mut npy = Self::begin_array(file, vertices, header, max_memory)?;
@@ -269,7 +265,7 @@ impl Npz {
     fn read_frame(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
         let place = Place::Frame(self.next);
         if let Some(mesh) = self.mesh.take() {
-            read_mesh(mesh, self.count, frame)?;
+            mesh.read(self.count, frame)?;
             frame.replace_vertices(self.precision(), self.count)?;
         } else if self.next == 0 && !self.is_npy {
             self.begin_with_faces(frame)?;
@@ -329,7 +325,7 @@ impl FrameSource for Npz {
     }
 
     fn held(&self) -> u64 {
-        let mesh = self.mesh.as_ref().map_or(0, |(_, source)| source.held());
+        let mesh = self.mesh.as_ref().map_or(0, MovedMesh::held);
         let all = self
             .count
             .saturating_mul(self.frames.saturating_mul(3 * self.dtype.size as u64));

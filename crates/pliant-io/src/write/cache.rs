@@ -3,7 +3,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use super::{Shape, StagedFile, narrowed, widened};
+use super::coordinates::{narrowed, widened};
+use super::shape::Shape;
+use super::staged::StagedFile;
 use crate::cache::PC2;
 use crate::error::{Error, Reason};
 use crate::positions::Positions;

@@ -5,37 +5,22 @@
 //! come; a file appears under its name when it is whole, and never over another that is not to be lost.
 
 mod cache;
+mod coordinates;
 mod npz;
 mod obj;
 mod ply;
+mod shape;
 mod staged;
 mod stl;
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::arguments::mesh_and_positions;
 use crate::error::{Error, Reason};
 use crate::format::Format;
-use crate::positions::{Positions, Precision};
+use crate::positions::Positions;
+pub use shape::Shape;
 pub use staged::{StagedFile, remove_staged_files};
-
-/// What holds for all frames that are written.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Shape {
-    /// Every index is below [`vertex_count`](Self::vertex_count).
-    pub triangles: Vec<[u32; 3]>,
-    /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
-    pub faces: Option<Vec<u32>>,
-    /// Of polygons whose triangles are no fan round their first corner, by their number in [`faces`](Self::faces), the corners.
-    pub outlines: BTreeMap<u32, Vec<u32>>,
-    /// Vertices of a frame.
-    pub vertex_count: usize,
-    /// How many frames will be written.
-    pub frame_count: usize,
-    /// The type of the coordinates.
-    pub precision: Precision,
-}
 
 /// How to write.
 #[derive(Debug, Clone, PartialEq)]
@@ -306,74 +291,6 @@ fn numbered(argument: &str) -> Option<impl Fn(usize) -> String + '_> {
             format!("{before}{frame:width$}{after}")
         }
     })
-}
-
-impl Shape {
-    /// Refuses parts that do not agree.
-    fn check(&self) -> Result<(), Reason> {
-        let malformed = |why: &str| Err(Reason::Malformed(why.into()));
-        if self.frame_count == 0 {
-            return Err(Reason::NoFrames);
-        }
-        if self.triangles.is_empty() {
-            return Err(Reason::NoFaces);
-        }
-        let mut corners = self.triangles.as_flattened().iter();
-        if corners.any(|&corner| corner as usize >= self.vertex_count) {
-            return malformed("a triangle to be written has a vertex that does not exist");
-        }
-        if u32::try_from(self.vertex_count).is_err() || u32::try_from(self.triangles.len()).is_err()
-        {
-            return Err(Reason::TooMany {
-                what: "vertices or triangles",
-            });
-        }
-        let mut corners = self.outlines.values().flatten();
-        if corners.any(|&corner| corner as usize >= self.vertex_count) {
-            return malformed("a polygon to be written has a vertex that does not exist");
-        }
-        let faces = self.faces.as_ref();
-        if faces.is_some_and(|faces| faces.len() != self.triangles.len()) {
-            return malformed("to be written are not as many faces as triangles");
-        }
-        Ok(())
-    }
-
-    /// Calls `each` with the corners of every polygon: those of its fan, or as they are given.
-    fn each_polygon<E>(&self, mut each: impl FnMut(&[u32]) -> Result<(), E>) -> Result<(), E> {
-        let Some(faces) = &self.faces else {
-            return self.triangles.iter().try_for_each(|corners| each(corners));
-        };
-        let mut polygon = Vec::new();
-        let mut begin = 0;
-        for same in faces.chunk_by(|a, b| a == b) {
-            let fan = &self.triangles[begin..begin + same.len()];
-            begin += same.len();
-            if let Some(outline) = self.outlines.get(&same[0]) {
-                each(outline)?;
-                continue;
-            }
-            polygon.clear();
-            polygon.extend(fan[0]);
-            polygon.extend(fan[1..].iter().map(|corners| corners[2]));
-            each(&polygon)?;
-        }
-        Ok(())
-    }
-}
-
-/// A position in 32 bits; sets `rounded` where it was none.
-fn narrowed(position: [f64; 3], rounded: &mut bool) -> [f32; 3] {
-    position.map(|x| {
-        let narrow = x as f32;
-        *rounded |= f64::from(narrow).to_bits() != x.to_bits();
-        narrow
-    })
-}
-
-/// The positions one by one, widened.
-fn widened(positions: Positions<'_>) -> impl Iterator<Item = [f64; 3]> + '_ {
-    (0..positions.len() as u32).map(move |vertex| positions.get(vertex))
 }
 
 #[cfg(test)]

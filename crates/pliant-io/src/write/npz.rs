@@ -6,7 +6,9 @@ use std::path::Path;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use super::{Shape, StagedFile, widened};
+use super::coordinates::widened;
+use super::shape::Shape;
+use super::staged::StagedFile;
 use crate::error::{Error, Reason};
 use crate::positions::{Positions, Precision};
 

@@ -3,7 +3,8 @@
 use std::fmt;
 use std::io::{self, Write};
 
-use super::{Shape, widened};
+use super::coordinates::widened;
+use super::shape::Shape;
 use crate::positions::Positions;
 
 /// Writes one frame; nothing is rounded.

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::{Shape, widened};
+use super::coordinates::widened;
+use super::shape::Shape;
 use crate::positions::{Positions, Precision};
 
 /// Writes one frame; nothing is rounded.

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::{Shape, narrowed};
+use super::coordinates::narrowed;
+use super::shape::Shape;
 use crate::positions::Positions;
 
 /// Writes one frame; returns whether a coordinate was rounded.

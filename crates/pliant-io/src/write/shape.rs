@@ -1,0 +1,80 @@
+//! What is written: a mesh, and how many frames of it.
+
+use std::collections::BTreeMap;
+
+use crate::error::Reason;
+use crate::positions::Precision;
+
+/// What holds for all frames that are written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Every index is below [`vertex_count`](Self::vertex_count).
+    pub triangles: Vec<[u32; 3]>,
+    /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
+    pub faces: Option<Vec<u32>>,
+    /// Of polygons whose triangles are no fan round their first corner, by their number in [`faces`](Self::faces), the corners.
+    pub outlines: BTreeMap<u32, Vec<u32>>,
+    /// Vertices of a frame.
+    pub vertex_count: usize,
+    /// How many frames will be written.
+    pub frame_count: usize,
+    /// The type of the coordinates.
+    pub precision: Precision,
+}
+
+impl Shape {
+    /// Refuses parts that do not agree.
+    pub(super) fn check(&self) -> Result<(), Reason> {
+        let malformed = |why: &str| Err(Reason::Malformed(why.into()));
+        if self.frame_count == 0 {
+            return Err(Reason::NoFrames);
+        }
+        if self.triangles.is_empty() {
+            return Err(Reason::NoFaces);
+        }
+        let mut corners = self.triangles.as_flattened().iter();
+        if corners.any(|&corner| corner as usize >= self.vertex_count) {
+            return malformed("a triangle to be written has a vertex that does not exist");
+        }
+        if u32::try_from(self.vertex_count).is_err() || u32::try_from(self.triangles.len()).is_err()
+        {
+            return Err(Reason::TooMany {
+                what: "vertices or triangles",
+            });
+        }
+        let mut corners = self.outlines.values().flatten();
+        if corners.any(|&corner| corner as usize >= self.vertex_count) {
+            return malformed("a polygon to be written has a vertex that does not exist");
+        }
+        let faces = self.faces.as_ref();
+        if faces.is_some_and(|faces| faces.len() != self.triangles.len()) {
+            return malformed("to be written are not as many faces as triangles");
+        }
+        Ok(())
+    }
+
+    /// Calls `each` with the corners of every polygon: those of its fan, or as they are given.
+    pub(super) fn each_polygon<E>(
+        &self,
+        mut each: impl FnMut(&[u32]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let Some(faces) = &self.faces else {
+            return self.triangles.iter().try_for_each(|corners| each(corners));
+        };
+        let mut polygon = Vec::new();
+        let mut begin = 0;
+        for same in faces.chunk_by(|a, b| a == b) {
+            let fan = &self.triangles[begin..begin + same.len()];
+            begin += same.len();
+            if let Some(outline) = self.outlines.get(&same[0]) {
+                each(outline)?;
+                continue;
+            }
+            polygon.clear();
+            polygon.extend(fan[0]);
+            polygon.extend(fan[1..].iter().map(|corners| corners[2]));
+            each(&polygon)?;
+        }
+        Ok(())
+    }
+}

@@ -6,7 +6,7 @@
 use crate::bodies::Bodies;
 use crate::error::Error;
 use crate::filter::Names;
-use crate::found::Row;
+use crate::row::Row;
 use pliant_io::Body as Source;
 use serde::Deserialize;
 use std::fs::File;

@@ -5,10 +5,10 @@
 //! triangles that share a vertex are left out whatever bodies they are of. Triangles keep the numbers that they have in their source.
 //! Where only some groups of a source are asked for, the triangles of the others are of no body.
 
-use crate::Row;
 use crate::error::Error;
 use crate::opened::Opened;
 use crate::pieces::{NONE, Piece, Pieces};
+use crate::row::Row;
 use crate::settings::Split;
 use pliant_io::{Body as Source, Groups};
 use std::collections::BTreeMap;

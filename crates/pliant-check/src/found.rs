@@ -4,11 +4,9 @@
 //! their number is asked for, none is kept; where they are listed, the list has a limit.
 
 use crate::places::Place;
+use crate::row::Row;
 use pliant::ContactKind;
 use std::ops::ControlFlow;
-
-/// Body, triangle, body, triangle; the smaller (body, triangle) first.
-pub type Row = [u32; 4];
 
 /// The pairs of a frame.
 #[derive(Clone, Debug, PartialEq)]

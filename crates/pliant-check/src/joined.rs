@@ -3,8 +3,9 @@
 //! Vertices of triangles that are hit have *slots*, numbered as they come, which union-find joins. It takes four bytes a vertex and a triangle
 //! of sources that are hit, for ever, and 12 a vertex that is hit, until they are forgotten.
 
-use crate::found::Row;
-use crate::pieces::{NONE, find, join};
+use crate::pieces::NONE;
+use crate::row::Row;
+use crate::union_find::{find, join};
 
 /// Where triangles are. Sources and their triangles are numbered as in pairs.
 pub trait Meshes {

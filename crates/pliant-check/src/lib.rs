@@ -49,8 +49,9 @@
 //! | `sequence.rs`, `any_world.rs` | sources side by side; the world, of either precision, in a frame of theirs |
 //! | `bodies.rs`, `pieces.rs` | what an answer calls a body; pieces of a mesh |
 //! | `filter.rs` | names and groups; who may meet whom |
-//! | `found.rs`, `remarks.rs` | the pairs of one frame; what is to be said of them |
+//! | `row.rs`, `found.rs`, `remarks.rs` | a pair; those of one frame; what is to be said of them |
 //! | `interval.rs`, `elements.rs` | what meets on the way from a frame to the next; whose vertices and edges are |
+//! | `union_find.rs` | sets of numbers that are joined |
 //! | `joined.rs`, `places.rs`, `lives.rs` | vertices that hits join; places, the same from frame to frame; their lives |
 //! | `touching.rs` | places where surfaces touch, and none passes through another |
 //! | `baseline.rs` | the pairs of an earlier check, which are left out |
@@ -73,18 +74,21 @@ mod opened;
 mod pieces;
 mod places;
 mod remarks;
+mod row;
 mod sequence;
 mod settings;
 mod touching;
+mod union_find;
 
 pub use any_world::{AnyWorld, NotTaken, double, single};
 pub use bodies::BodyFacts;
 pub use check::Check;
 pub use error::Error;
-pub use found::{Found, Gap, Kinds, Row};
+pub use found::{Found, Gap, Kinds};
 pub use interval::{FirstImpact, Impact, Interval};
 pub use joined::Meshes;
 pub use lives::{Life, Lives};
 pub use places::{BodyThere, Place, Places};
 pub use remarks::{AtSeams, Parted};
+pub use row::Row;
 pub use settings::{Baseline, Frames, Group, Settings, Split};

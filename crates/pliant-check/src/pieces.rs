@@ -4,6 +4,8 @@
 //! Takes eight bytes a vertex while it works, and keeps four a triangle and twelve a piece: a mesh of 100,000 single triangles is
 //! no danger. Pieces that are named take as much.
 
+use crate::union_find::{find, join};
+
 /// The number of no piece: there are fewer vertices, and fewer triangles.
 pub(crate) const NONE: u32 = u32::MAX;
 
@@ -93,20 +95,6 @@ impl Pieces {
         }
         Self { of_triangles, all }
     }
-}
-
-pub(crate) fn find(leader: &mut [u32], mut vertex: u32) -> u32 {
-    while leader[vertex as usize] != vertex {
-        let above = leader[leader[vertex as usize] as usize];
-        leader[vertex as usize] = above;
-        vertex = above;
-    }
-    vertex
-}
-
-pub(crate) fn join(leader: &mut [u32], a: u32, b: u32) {
-    let (a, b) = (find(leader, a), find(leader, b));
-    leader[a.max(b) as usize] = a.min(b);
 }
 
 #[cfg(test)]

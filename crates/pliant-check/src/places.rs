@@ -14,9 +14,9 @@
 //! looked at before, however many were passed over. A source whose mesh has changed since has no vertex in common with what it
 //! was: places go on through sources that kept theirs only.
 
-use crate::found::Row;
 use crate::joined::{Joined, Meshes};
 use crate::pieces::NONE;
+use crate::row::Row;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap};
 

@@ -5,7 +5,7 @@
 //! full of pairs, and none of them is what anybody looks for. Of the first frame in which a source meets itself it is counted how
 //! many pairs would be of neighbours if boundary edges that nearly coincide were one.
 
-use crate::found::Row;
+use crate::row::Row;
 use pliant_io::{Body as Source, NearSeams, PartedSeams};
 use std::fmt;
 

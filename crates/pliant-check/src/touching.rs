@@ -25,9 +25,9 @@
 //!
 //! Takes up to 200 bytes a triangle round a vertex that is hit, and 32 a pair. Linear in these and in the triangles of sources that are hit.
 
-use crate::found::Row;
 use crate::joined::{Joined, Meshes};
 use crate::pieces::NONE;
+use crate::row::Row;
 use pliant::ContactKind;
 use pliant::exact::side_of_plane;
 use std::cmp::Ordering::{self, Equal, Greater};

@@ -2,7 +2,7 @@
 
 use crate::MARK;
 use crate::colours::of_line;
-use crate::page::escape;
+use crate::escape::escape;
 use serde::Serialize;
 use std::fmt::Write;
 

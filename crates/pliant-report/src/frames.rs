@@ -1,6 +1,6 @@
 //! What was kept of a motion.
 
-use crate::recorder::BodyLabel;
+use crate::label::BodyLabel;
 use pliant::{BodyId, Scalar};
 
 /// Bodies in motion, as a page can hold them; numbers for every frame, shapes for some.

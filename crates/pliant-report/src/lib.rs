@@ -36,7 +36,9 @@ pub const MARK: &str = "written by pliant";
 
 mod chart;
 mod colours;
+mod escape;
 mod frames;
+mod label;
 mod pack;
 mod page;
 pub mod picture;
@@ -45,5 +47,6 @@ mod report;
 
 pub use chart::{Chart, Series};
 pub use frames::{Contact, Elements, Gap, Moment, Motion, Spot};
-pub use recorder::{BodyLabel, Parts, Recorder};
+pub use label::{BodyLabel, Parts};
+pub use recorder::Recorder;
 pub use report::{Play, Report};

@@ -242,7 +242,7 @@ fn zigzag(difference: u16) -> u16 {
 mod tests {
     use super::*;
     use crate::frames::{GapShown, Shape};
-    use crate::recorder::{BodyLabel, Parts};
+    use crate::label::{BodyLabel, Parts};
     use flate2::read::ZlibDecoder;
     use pliant::BodyId;
     use std::io::Read;

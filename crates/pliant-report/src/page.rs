@@ -6,6 +6,7 @@
 use crate::MARK;
 use crate::chart::Chart;
 use crate::colours::{BODIES, HIT, NEAR, of_line};
+use crate::escape::escape;
 use crate::frames::{Elements, Frame, Motion};
 use crate::pack::{STEPS, View};
 use crate::report::{Play, Report};
@@ -201,21 +202,4 @@ fn chart(chart: &Chart) -> Value {
 
 fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
-}
-
-/// Text as HTML and SVG have it.
-pub(crate) fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '&' => escaped.push_str("&amp;"),
-            '"' => escaped.push_str("&quot;"),
-            // Not in XML, not even escaped.
-            c if c.is_control() && !matches!(c, '\n' | '\t') => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }

@@ -8,6 +8,7 @@
 //! A body that gets another mesh has a record more from that frame on. A record goes when the last frame that shows it goes.
 
 use crate::frames::{BodyRecord, Frame, Gap, GapShown, Hits, Moment, Motion, Shape, Spot};
+use crate::label::BodyLabel;
 use pliant::{BodyId, Scalar, World};
 use std::borrow::Cow;
 use std::sync::{Arc, Weak};
@@ -30,26 +31,6 @@ const MOST_CONTACTS: usize = 1_000;
 
 /// Levels of a tree that can be shown.
 const MOST_LEVELS: u32 = 16;
-
-/// A body, drawn and named.
-#[derive(Clone, Debug, Default)]
-pub struct BodyLabel {
-    /// What people call it; its file, say. Anything may be in it.
-    pub name: String,
-    /// For each triangle the polygon of the file that it is a part of, where they differ.
-    pub faces: Option<Vec<u32>>,
-    /// What it is split into, if each part is a body to those who read the page.
-    pub parts: Option<Parts>,
-}
-
-/// What a body is split into.
-#[derive(Clone, Debug, Default)]
-pub struct Parts {
-    /// What each is called, behind the name of the whole and a `#`. Anything may be in it.
-    pub names: Vec<String>,
-    /// The part of each triangle; one that is of none has the number behind the last.
-    pub of_triangles: Vec<u32>,
-}
 
 /// A frame, and the meshes that its bodies have in it: its triangles are numbered in a row through these.
 #[derive(Clone)]
@@ -572,6 +553,7 @@ fn drawn_parts<S: Scalar>(world: &World<S>, id: BodyId, level: u32) -> Vec<u32> 
 mod tests {
     use super::*;
     use crate::frames::{Contact, Elements};
+    use crate::label::Parts;
     use crate::report::{Play, Report};
     use pliant::Options;
 

@@ -6,8 +6,8 @@
 //! in it, its distance is that of some points of the hulls, and the least of those is the answer; but where the origin is inside the
 //! hull of differences, which it can be only of two triangles, these intersect, and are 0 apart.
 
-use crate::hull::{Vector, minus};
-use crate::integers::integers;
+use crate::hull::minus;
+use crate::integers::{Vector, integers};
 use crate::intersect;
 use dashu_int::IBig;
 use std::cmp::Ordering;

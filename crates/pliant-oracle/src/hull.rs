@@ -4,9 +4,7 @@
 //! All are looked at, of nine points 255, from the small to the large. A simplex that is degenerate need not be recognised at its own size: the
 //! smaller ones in it were looked at before.
 
-use crate::integers::{Exact, Ring};
-
-pub(crate) type Vector<I> = [I; 3];
+use crate::integers::{Exact, Ring, Vector};
 
 pub(crate) fn minus<I: Ring>(p: &Vector<I>, q: &Vector<I>) -> Vector<I> {
     [0, 1, 2].map(|i| p[i].minus(&q[i]))

@@ -4,7 +4,6 @@
 //! and no question about intersection has changed its answer. Where they are small, so is everything computed from them, and 128
 //! bits hold it; else they are big integers.
 
-use crate::hull::Vector;
 use dashu_int::IBig;
 
 /// What is added and multiplied without rounding: an implementation has room for all results, or grows.
@@ -18,6 +17,9 @@ pub(crate) trait Ring: Clone {
 pub(crate) trait Exact: Ring {
     fn sign(&self) -> i8;
 }
+
+/// A point, or a direction.
+pub(crate) type Vector<I> = [I; 3];
 
 impl Ring for i128 {
     fn minus(&self, other: &Self) -> Self {

@@ -28,8 +28,8 @@ pub use motion::{
 };
 pub use pairs::{Class, Random, element_pairs, fits_f32};
 
-use hull::{Vector, cross, determinant, minus, zero_in_hull, zero_inside, zero_inside_of_plane};
-use integers::{Exact, Scaled, scale};
+use hull::{cross, determinant, minus, zero_in_hull, zero_inside, zero_inside_of_plane};
+use integers::{Exact, Scaled, Vector, scale};
 
 /// Three corners.
 pub type Triangle = [[f64; 3]; 3];

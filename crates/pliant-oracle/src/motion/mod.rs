@@ -26,8 +26,8 @@ mod proofs;
 
 pub use classes::{MotionClass, motion_fits_f32};
 
-use crate::hull::{Vector, cross, determinant, dot, minus, pairs, triples, zero_in_hull};
-use crate::integers::{Exact, Ring, integers};
+use crate::hull::{cross, determinant, dot, minus, pairs, triples, zero_in_hull};
+use crate::integers::{Exact, Ring, Vector, integers};
 use algebraic::Root;
 use polynomial::Polynomial;
 use std::cell::RefCell;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::Scene;
+use crate::limits;
 
 /// Why a scene could not be made.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,7 +24,8 @@ pub enum SceneError {
         /// The nearest possible number above, if there is one.
         above: Option<usize>,
     },
-    /// [`Scene::gather`] was asked for no body, or for more than [`Scene::MAX_BODIES`].
+    /// [`Scene::gather`](crate::Scene::gather) was asked for no body, or for more than
+    /// [`Scene::MAX_BODIES`](crate::Scene::MAX_BODIES).
     ImpossibleBodyCount {
         /// The number of bodies that was asked for.
         asked: usize,
@@ -38,7 +39,7 @@ impl fmt::Display for SceneError {
                 write!(
                     f,
                     "there is no scene `{asked}`; there are {}",
-                    Scene::NAMES.join(", ")
+                    limits::NAMES.join(", ")
                 )
             }
             Self::ImpossibleSize {
@@ -66,7 +67,7 @@ impl fmt::Display for SceneError {
                 write!(
                     f,
                     "{asked} bodies cannot gather; 1 to {} can",
-                    Scene::MAX_BODIES
+                    limits::MAX_BODIES
                 )
             }
         }

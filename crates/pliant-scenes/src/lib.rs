@@ -33,6 +33,7 @@
 // From what a caller sees down to the arithmetic.
 mod changing;
 mod error;
+mod limits;
 mod scene;
 mod scenes;
 

@@ -7,8 +7,8 @@
 use std::fmt;
 
 use crate::error::SceneError;
+use crate::limits;
 use crate::motion::{Moment, Pose};
-use crate::scenes;
 use crate::surface::{MAX_TRIANGLES, Nearest, Surface};
 use crate::vector::Vec3;
 
@@ -34,6 +34,22 @@ pub(crate) struct About {
     pub(crate) name: &'static str,
     pub(crate) asks: Asks,
     pub(crate) steps: u32,
+}
+
+impl About {
+    /// A surface of so many triangles, if there is one.
+    pub(crate) fn surface(
+        self,
+        triangles: usize,
+        of: fn(usize) -> Result<Surface, Nearest>,
+    ) -> Result<Surface, SceneError> {
+        of(triangles).map_err(|nearest| SceneError::ImpossibleSize {
+            scene: self.name,
+            asked: triangles,
+            below: nearest.below,
+            above: nearest.above,
+        })
+    }
 }
 
 /// What a scene is about: the intersections that make it interesting.
@@ -68,7 +84,7 @@ pub struct Scene {
 
 impl Scene {
     /// The names that [`new`](Self::new) knows.
-    pub const NAMES: [&'static str; 5] = ["spheres", "crowd", "arms", "gather", "cloth"];
+    pub const NAMES: [&'static str; 5] = limits::NAMES;
 
     /// The seed that the scenes are calibrated for: the figures in their descriptions hold for it.
     /// With most others `spheres` first touches at steps 53 to 73.
@@ -78,53 +94,7 @@ impl Scene {
     pub const MAX_TRIANGLES: usize = MAX_TRIANGLES;
 
     /// No scene has more bodies.
-    pub const MAX_BODIES: usize = scenes::gather::MAX_BODIES;
-
-    /// The scene called `name`, with `triangles` triangles a body or the scene's own number.
-    ///
-    /// Bodies made of spheres can have 4, 8 or 20 times any power of four, the cloth twice any
-    /// square, up to [`MAX_TRIANGLES`](Self::MAX_TRIANGLES).
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError::UnknownName`], and [`SceneError::ImpossibleSize`] with the nearest possible
-    /// sizes.
-    ///
-    /// ```
-    /// use pliant_scenes::Scene;
-    ///
-    /// let error = Scene::new("spheres", Some(20_000), 0).unwrap_err();
-    /// assert_eq!(
-    ///     error.to_string(),
-    ///     "a body of scene `spheres` cannot have 20000 triangles; \
-    ///      the nearest possible numbers are 16384 and 20480",
-    /// );
-    /// ```
-    pub fn new(name: &str, triangles: Option<usize>, seed: u64) -> Result<Self, SceneError> {
-        match name {
-            "spheres" => scenes::spheres::scene(triangles, seed),
-            "crowd" => scenes::crowd::scene(triangles, seed),
-            "arms" => scenes::arms::scene(triangles, seed),
-            "gather" => scenes::gather::scene(None, triangles, seed),
-            "cloth" => scenes::cloth::scene(triangles, seed),
-            _ => Err(SceneError::UnknownName {
-                asked: name.to_owned(),
-            }),
-        }
-    }
-
-    /// The scene `gather` with any number of bodies, of `triangles` triangles each.
-    ///
-    /// They gather as densely for any number: a body meets its neighbours, not all the others.
-    /// Shape and motion of a body do not depend on the number of bodies.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError::ImpossibleBodyCount`] for none or more than [`MAX_BODIES`](Self::MAX_BODIES),
-    /// and [`SceneError::ImpossibleSize`].
-    pub fn gather(bodies: usize, triangles: usize, seed: u64) -> Result<Self, SceneError> {
-        scenes::gather::scene(Some(bodies), Some(triangles), seed)
-    }
+    pub const MAX_BODIES: usize = limits::MAX_BODIES;
 
     /// The scene's name, one of [`NAMES`](Self::NAMES).
     pub fn name(&self) -> &'static str {
@@ -240,12 +210,7 @@ impl Scene {
         surface: fn(usize) -> Result<Surface, Nearest>,
         bodies: impl Iterator<Item = B>,
     ) -> Result<Self, SceneError> {
-        let surface = surface(triangles).map_err(|nearest| SceneError::ImpossibleSize {
-            scene: about.name,
-            asked: triangles,
-            below: nearest.below,
-            above: nearest.above,
-        })?;
+        let surface = about.surface(triangles, surface)?;
         let bodies = bodies.map(|body| Box::new(body) as Box<dyn Body>).collect();
         Ok(Self {
             about,

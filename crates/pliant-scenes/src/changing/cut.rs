@@ -3,7 +3,9 @@
 //! A triangle that the plane crosses becomes three: a smaller one on the side where one corner is, two on the other. Every edge that is
 //! crossed gets two vertices, one for either side, in the same place until the pieces part.
 
-use super::{Change, ChangingScene, Rule, Timeline, surface};
+use super::change::Change;
+use super::scene::{ChangingScene, Rule};
+use super::timeline::Timeline;
 use crate::bumps::{Bumps, LANES};
 use crate::error::SceneError;
 use crate::motion::{Moment, rounded};
@@ -65,7 +67,7 @@ fn is_above([_, _, z]: Vec3) -> bool {
 }
 
 pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene, SceneError> {
-    let surface = surface(ABOUT, triangles.unwrap_or(TRIANGLES), sphere)?;
+    let surface = ABOUT.surface(triangles.unwrap_or(TRIANGLES), sphere)?;
     let mut rest = surface.rest.clone();
     let mut sides: Vec<bool> = rest.iter().map(|&point| is_above(point)).collect();
     let mut timeline = Timeline::new(vec![rest.len()], ABOUT.steps);

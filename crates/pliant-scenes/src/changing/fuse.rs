@@ -3,7 +3,9 @@
 //! The second is the mirror image of the first, in a plane between them. Until they merge they move into each other; then the caps that
 //! are inside the other are taken out, and the rims that are left become one rim, in the plane.
 
-use super::{Change, ChangingScene, Rule, Timeline, surface};
+use super::change::Change;
+use super::scene::{ChangingScene, Rule};
+use super::timeline::Timeline;
 use crate::bumps::{Bumps, LANES};
 use crate::error::SceneError;
 use crate::motion::{Moment, rounded};
@@ -78,7 +80,7 @@ impl Rule for Mirrored {
 }
 
 pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene, SceneError> {
-    let surface = surface(ABOUT, triangles.unwrap_or(TRIANGLES), sphere)?;
+    let surface = ABOUT.surface(triangles.unwrap_or(TRIANGLES), sphere)?;
     let vertices = surface.rest.len();
     let count = surface.triangles.len() as u32;
     let is_beyond = |vertex: u32| surface.rest[vertex as usize][0] > RIM;

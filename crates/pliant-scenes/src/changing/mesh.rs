@@ -1,6 +1,6 @@
 //! A mesh as events leave it, for whoever builds anew what they change.
 
-use super::Change;
+use super::change::Change;
 use std::collections::BTreeSet;
 
 /// Triangles over vertices, some of whose numbers may be empty.

@@ -3,7 +3,9 @@
 //! Each step some triangles are split in three, each by a vertex in its middle, and some that were are collapsed again. Empty numbers
 //! are used again, as a simulator would.
 
-use super::{Change, ChangingScene, Rule, Timeline, surface};
+use super::change::Change;
+use super::scene::{ChangingScene, Rule};
+use super::timeline::Timeline;
 use crate::bumps::{Bumps, LANES};
 use crate::error::SceneError;
 use crate::motion::{Moment, rounded};
@@ -168,7 +170,7 @@ impl Life {
 }
 
 pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene, SceneError> {
-    let surface = surface(ABOUT, triangles.unwrap_or(TRIANGLES), sphere)?;
+    let surface = ABOUT.surface(triangles.unwrap_or(TRIANGLES), sphere)?;
     let mut timeline = Timeline::new(vec![surface.rest.len(); 2], ABOUT.steps);
     let lives = [0, 1].map(|body: usize| {
         let mut rng = Rng::new(seed, STREAM, body as u64);

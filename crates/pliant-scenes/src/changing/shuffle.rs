@@ -2,7 +2,8 @@
 //!
 //! Its mesh never changes, but nothing that was near is near in the end: a tree built at the beginning is of no use above the pieces.
 
-use super::{ChangingScene, Rule, Timeline, surface};
+use super::scene::{ChangingScene, Rule};
+use super::timeline::Timeline;
 use crate::error::SceneError;
 use crate::motion::{Moment, rounded};
 use crate::rng::Rng;
@@ -72,7 +73,7 @@ fn pieces(triangles: usize) -> Result<Surface, Nearest> {
 }
 
 pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene, SceneError> {
-    let piece = surface(ABOUT, triangles.unwrap_or(TRIANGLES), pieces)?;
+    let piece = ABOUT.surface(triangles.unwrap_or(TRIANGLES), pieces)?;
     let mut rng = Rng::new(seed, STREAM, 0);
     let [columns, rows, layers] = LATTICE;
     let mut places = Vec::new();

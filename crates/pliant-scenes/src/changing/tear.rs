@@ -3,7 +3,9 @@
 //! Every vertex of the line becomes two as the tear reaches it: the triangles on its right take the new one. Until then the sheet only
 //! waves; the two lips move apart a little behind the tip. After that it folds onto itself as the scene `cloth` does.
 
-use super::{Change, ChangingScene, Rule, Timeline, surface};
+use super::change::Change;
+use super::scene::{ChangingScene, Rule};
+use super::timeline::Timeline;
 use crate::bodies::FoldingSheet;
 use crate::error::SceneError;
 use crate::motion::Moment;
@@ -88,7 +90,7 @@ impl Rule for TornSheet {
 }
 
 pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene, SceneError> {
-    let surface = surface(ABOUT, triangles.unwrap_or(TRIANGLES), sheet)?;
+    let surface = ABOUT.surface(triangles.unwrap_or(TRIANGLES), sheet)?;
     let mut rng = Rng::new(seed, STREAM, 0);
     let line = wandering_line(&mut rng, surface.rest.len().isqrt() as u32);
     let right = right_of(&line, &surface);

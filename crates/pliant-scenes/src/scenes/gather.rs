@@ -10,6 +10,7 @@
 use crate::bodies::BumpySphere;
 use crate::bumps::Bumps;
 use crate::error::SceneError;
+use crate::limits::MAX_BODIES;
 use crate::motion::{Path, Spin};
 use crate::rng::Rng;
 use crate::scene::{About, Asks, Scene};
@@ -26,8 +27,6 @@ const STREAM: u64 = 3;
 
 /// Places are drawn from a stream that no body uses.
 const PLACES: u64 = u64::MAX;
-
-pub(crate) const MAX_BODIES: usize = 10_000;
 
 /// Bodies unless asked otherwise.
 const BODIES: usize = 64;

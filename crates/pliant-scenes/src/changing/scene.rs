@@ -1,0 +1,134 @@
+//! [`ChangingScene`]: what every scene has in common whose meshes change.
+
+use super::change::Event;
+use super::timeline::Timeline;
+use crate::motion::Moment;
+use crate::scene::About;
+use std::fmt;
+
+/// Where vertices are.
+pub(super) trait Rule: Send + Sync {
+    /// The first vertices of a body: as many as there is room for.
+    fn place(&self, body: usize, now: Moment, out: &mut [[f32; 3]]);
+}
+
+/// A scene whose meshes change: the same events and positions for the same name, size, seed and step, on every machine.
+///
+/// | name | bodies | triangles | steps | what happens |
+/// |---|---|---|---|---|
+/// | `cut` | 1 | 20,480 | 200 | a bumpy sphere is sliced, a few triangles a step, into two pieces that part |
+/// | `tear` | 1 | 79,202 | 250 | a sheet is torn along a wandering line, a vertex or two a step, then folds |
+/// | `fuse` | 2 | 20,480 each | 200 | two bumpy spheres meet, merge at step 100 and go on as one |
+/// | `shuffle` | 1 | 81,920 | 200 | a body of 1,024 pieces, all of which go far away from their neighbours |
+/// | `remesh` | 2 | 20,480 each | 200 | bumpy spheres that overlap; each step 100 triangles of each are split, and 100 collapsed |
+///
+/// ```
+/// use pliant_scenes::{ChangingScene, Event};
+///
+/// let scene = ChangingScene::new("cut", Some(1280), ChangingScene::DEFAULT_SEED)?;
+/// let mut positions = Vec::new();
+/// for step in 1..=scene.steps() {
+///     for event in scene.events(step) {
+///         assert!(matches!(event, Event::Edit { body: 0, .. }));
+///     }
+///     scene.positions(0, step, &mut positions);
+/// }
+/// assert!(positions.len() > scene.vertex_count(0, 0));
+/// # Ok::<(), pliant_scenes::SceneError>(())
+/// ```
+pub struct ChangingScene {
+    pub(super) about: About,
+    /// Of each body at the beginning.
+    pub(super) triangles: Vec<Vec<[u32; 3]>>,
+    pub(super) timeline: Timeline,
+    pub(super) rule: Box<dyn Rule>,
+}
+
+impl ChangingScene {
+    /// The names that [`new`](Self::new) knows.
+    pub const NAMES: [&'static str; 5] = ["cut", "tear", "fuse", "shuffle", "remesh"];
+
+    /// The seed that the descriptions hold for.
+    pub const DEFAULT_SEED: u64 = crate::Scene::DEFAULT_SEED;
+
+    /// The same positions, in which nothing happens: vertices that would come are left out. For a scene without
+    /// [`Event::Fuse`].
+    #[must_use]
+    pub fn without_events(mut self) -> Self {
+        self.timeline = Timeline::new(self.timeline.counts[0].clone(), self.about.steps);
+        self
+    }
+
+    /// The scene's name, one of [`NAMES`](Self::NAMES).
+    pub fn name(&self) -> &'static str {
+        self.about.name
+    }
+
+    /// The number of steps: from step 1 to this one, both included.
+    pub fn steps(&self) -> u32 {
+        self.about.steps
+    }
+
+    /// The number of bodies at the beginning, numbered from 0.
+    pub fn body_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// The triangles of a body at the beginning.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body.
+    pub fn triangles(&self, body: usize) -> &[[u32; 3]] {
+        &self.triangles[body]
+    }
+
+    /// What happens at the beginning of a step, in this order; nothing in steps that there are none of.
+    pub fn events(&self, step: u32) -> &[Event] {
+        let events = (step as usize).checked_sub(1);
+        let events = events.and_then(|step| self.timeline.events.get(step));
+        events.map_or(&[], Vec::as_slice)
+    }
+
+    /// The number of vertices of a body, counted by number, after what happens in a step; step 0 is the beginning. None once the body is
+    /// fused with another.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body.
+    pub fn vertex_count(&self, body: usize, step: u32) -> usize {
+        self.timeline.counts[step.min(self.steps()) as usize][body]
+    }
+
+    /// The positions of a body's vertices at a step, after what happens in it; `out` then holds these and nothing else. What it holds for
+    /// vertices that are empty means nothing.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body.
+    pub fn positions(&self, body: usize, step: u32, out: &mut Vec<[f32; 3]>) {
+        out.resize(self.vertex_count(body, step), [0.0; 3]);
+        let now = Moment::of(step, self.steps());
+        self.rule.place(body, now, out);
+    }
+
+    /// The positions that a body has before the first step, when it is made.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such body.
+    pub fn first_positions(&self, body: usize) -> Vec<[f32; 3]> {
+        let mut out = vec![[0.0; 3]; self.vertex_count(body, 0)];
+        self.rule.place(body, Moment::of(1, self.steps()), &mut out);
+        out
+    }
+}
+
+impl fmt::Debug for ChangingScene {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ChangingScene")
+            .field("about", &self.about)
+            .field("bodies", &self.triangles.len())
+            .finish_non_exhaustive()
+    }
+}

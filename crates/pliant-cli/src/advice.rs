@@ -3,13 +3,14 @@
 //! The libraries name no flags, since Python shows their messages too: every flag that can help is named here, or by the verb
 //! that knows what else was asked.
 
+use crate::terminal::one_line;
 use pliant_check::Error as CheckError;
 use pliant_io::{Place, Reason};
 use std::io::{self, ErrorKind};
 
 /// All that is said of an error, wherever it is shown: what is wrong, `"; "` and what to do; in one line.
 pub(crate) fn with_advice(error: &anyhow::Error) -> String {
-    crate::one_line(&match error.chain().find_map(advice) {
+    one_line(&match error.chain().find_map(advice) {
         Some(advice) => format!("{error:#}; {advice}"),
         None => format!("{error:#}"),
     })

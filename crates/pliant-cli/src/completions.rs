@@ -1,7 +1,8 @@
 //! `pliant completions`: what a shell needs to complete verbs, options and their values.
 
-use crate::{Outcome, command, print_all};
-use clap::Args;
+use crate::outcome::Outcome;
+use crate::terminal::print_all;
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 #[derive(Args, Debug)]
@@ -22,15 +23,15 @@ Examples:
 
 The folder must be there; zsh needs fpath+=(~/.zfunc) before compinit in ~/.zshrc.";
 
-/// Prints the script of a shell.
-pub(crate) fn print(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    print_all(&script(arguments.shell))?;
+/// Prints the script of a shell for the program.
+pub(crate) fn print(arguments: &Arguments, program: Command) -> anyhow::Result<Outcome> {
+    print_all(&script(arguments.shell, program))?;
     Ok(Outcome::Clear)
 }
 
-fn script(shell: Shell) -> String {
+fn script(shell: Shell, mut program: Command) -> String {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut command(), "pliant", &mut script);
+    clap_complete::generate(shell, &mut program, "pliant", &mut script);
     String::from_utf8_lossy(&script).into_owned()
 }
 
@@ -44,7 +45,7 @@ mod tests {
     #[test]
     fn every_shell_knows_every_verb_and_option() {
         for &shell in Shell::value_variants() {
-            let script = script(shell);
+            let script = script(shell, crate::command());
             for_each_option(|verb, option| {
                 // fish names options by `-l`, without their dashes.
                 let written = match shell {

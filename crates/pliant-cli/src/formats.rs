@@ -1,6 +1,7 @@
 //! `pliant formats`: what is read of each kind of file, as which surface, and what to export instead of what is not read.
 
-use crate::{Outcome, print_all};
+use crate::outcome::Outcome;
+use crate::terminal::print_all;
 use clap::Args;
 
 #[derive(Args, Debug)]

@@ -14,18 +14,22 @@ mod examples;
 mod formats;
 mod frames;
 mod man;
+mod outcome;
 mod output;
+mod rate;
 mod report;
 mod run;
+mod size;
 mod table;
+mod terminal;
 mod tree_options;
 mod usage;
 
-use anyhow::Context;
 use clap::{CommandFactory, Parser, Subcommand};
-use indicatif::ProgressBar;
-use std::io::{self, Write};
+use outcome::Outcome;
+use std::io;
 use std::process::ExitCode;
+use terminal::complain;
 
 /// Find which triangles of deforming meshes intersect, exactly.
 #[derive(Parser)]
@@ -66,15 +70,6 @@ Examples:
 
 `pliant VERB --help` has more. Exit code 0: nothing intersects, or nothing was asked. 1: something does. 2: it could not be done.";
 
-/// What the caller of the program learns from its exit code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outcome {
-    /// 0: nothing intersects, or nothing was asked.
-    Clear,
-    /// 1: something intersects.
-    Intersects,
-}
-
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
@@ -88,8 +83,8 @@ fn main() -> ExitCode {
         Verb::Convert(arguments) => convert::convert(&arguments),
         Verb::Bench(arguments) => bench::bench(&arguments),
         Verb::Formats(arguments) => formats::print(&arguments),
-        Verb::Completions(arguments) => completions::print(&arguments),
-        Verb::Man(arguments) => man::write(&arguments),
+        Verb::Completions(arguments) => completions::print(&arguments, command()),
+        Verb::Man(arguments) => man::write(&arguments, command()),
     });
     match outcome {
         Ok(Outcome::Clear) => ExitCode::SUCCESS,
@@ -104,43 +99,9 @@ fn main() -> ExitCode {
     }
 }
 
-/// Text on standard output.
-fn print_all(text: &str) -> anyhow::Result<()> {
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
-        .context("cannot write to standard output")
-}
-
 /// The program as clap knows it, for what is made from it.
 fn command() -> clap::Command {
     Arguments::command()
-}
-
-/// A bar on standard error where that is a terminal, or none.
-fn progress(length: u64, quiet: bool) -> ProgressBar {
-    if quiet {
-        ProgressBar::hidden()
-    } else {
-        ProgressBar::new(length)
-    }
-}
-
-/// A line on standard error, whatever is quoted in it; if even that is closed, there is nothing left to do.
-fn complain(line: &str) {
-    let _ = writeln!(io::stderr(), "pliant: {}", one_line(line));
-}
-
-/// What there is to say about a body, a line each on standard error.
-fn note(body: &pliant_io::Body, quiet: bool) {
-    for note in body.notes().iter().filter(|_| !quiet) {
-        complain(&format!("note: {}: {note}", pliant_io::shown(body.name())));
-    }
-}
-
-/// What is said in one line: of very many or very long names its beginning and its end.
-fn one_line(text: &str) -> String {
-    pliant_io::shown_within(text, 4000)
 }
 
 fn is_broken_pipe(error: &anyhow::Error) -> bool {

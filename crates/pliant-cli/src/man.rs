@@ -1,8 +1,9 @@
 //! `pliant man`: manual pages, one for the program and one for each verb, made from the same arguments as the help.
 
-use crate::{Outcome, command, print_all};
+use crate::outcome::Outcome;
+use crate::terminal::print_all;
 use anyhow::Context;
-use clap::Args;
+use clap::{Args, Command};
 use clap_mangen::Man;
 use pliant_io::shown;
 use std::fs;
@@ -21,9 +22,9 @@ Examples:
   pliant man ~/.local/share/man/man1    then `man pliant`, `man pliant-check`
   pliant man | man -l -                 read it now";
 
-/// Writes the pages.
-pub(crate) fn write(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let pages = pages()?;
+/// Writes the pages of the program.
+pub(crate) fn write(arguments: &Arguments, program: Command) -> anyhow::Result<Outcome> {
+    let pages = pages(program)?;
     let Some(folder) = &arguments.folder else {
         let page = pages.into_iter().next().map(|(_, page)| page);
         print_all(&page.unwrap_or_default())?;
@@ -38,8 +39,8 @@ pub(crate) fn write(arguments: &Arguments) -> anyhow::Result<Outcome> {
 }
 
 /// Names of files and what is in them: the program first, then its verbs.
-fn pages() -> anyhow::Result<Vec<(String, String)>> {
-    let mut program = command().disable_help_subcommand(true);
+fn pages(program: Command) -> anyhow::Result<Vec<(String, String)>> {
+    let mut program = program.disable_help_subcommand(true);
     // Makes usage lines name the program.
     program.build();
     let verbs: Vec<_> = program.get_subcommands().cloned().collect();
@@ -62,7 +63,7 @@ mod tests {
 
     #[test]
     fn a_page_a_verb_names_every_option_and_example() {
-        let pages = pages().unwrap();
+        let pages = pages(crate::command()).unwrap();
         // A page for each verb, and none for the help that clap adds to them.
         let files: Vec<&str> = pages.iter().map(|(file, _)| file.as_str()).collect();
         let verbs = [

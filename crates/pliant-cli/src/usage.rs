@@ -2,6 +2,7 @@
 //!
 //! clap writes several: what is wrong, what is possible, tips, the usage, where help is. The usage is left to the help.
 
+use crate::terminal::complain;
 use clap::Error;
 use clap::error::ErrorKind;
 use std::process::ExitCode;
@@ -17,7 +18,7 @@ pub(crate) fn said(error: &Error) -> ExitCode {
             ExitCode::from(u8::from(error.use_stderr()) * 2)
         }
         _ => {
-            crate::complain(&in_one_line(&error.render().to_string()));
+            complain(&in_one_line(&error.render().to_string()));
             ExitCode::from(2)
         }
     }

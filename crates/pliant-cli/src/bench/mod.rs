@@ -3,8 +3,9 @@
 mod report;
 mod tables;
 
+use crate::outcome::Outcome;
 use crate::output::{self, MARK, Overwrite};
-use crate::{Outcome, print_all, progress};
+use crate::terminal::{print_all, progress};
 use anyhow::bail;
 use clap::Args;
 use indicatif::ProgressStyle;

@@ -5,6 +5,9 @@ use pliant_check::{Baseline, Group};
 /// A comma or an equals sign inside a name would end it.
 const OTHERWISE: &str = "a body whose name has a comma or an equals sign is named by its number";
 
+/// `A,B`.
+pub(super) type Names = [String; 2];
+
 pub(super) fn group(text: &str) -> Result<Group, String> {
     let (name, bodies) = text
         .split_once('=')
@@ -17,7 +20,7 @@ pub(super) fn group(text: &str) -> Result<Group, String> {
     })
 }
 
-pub(super) fn two(text: &str) -> Result<super::Names, String> {
+pub(super) fn two(text: &str) -> Result<Names, String> {
     match text.split(',').collect::<Vec<_>>()[..] {
         [a, b] if !a.is_empty() && !b.is_empty() => Ok([a, b].map(str::to_owned)),
         _ => Err(format!(

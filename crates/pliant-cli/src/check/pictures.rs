@@ -3,8 +3,9 @@
 //! A picture has the sources as its bodies, with the triangles' own numbers; a page tells pieces and groups of a source apart. Groups that
 //! were not asked for are in both too.
 
-use super::output::short;
-use super::{Arguments, Split, moments};
+use super::arguments::{Arguments, Split};
+use super::figures::short;
+use super::moments;
 use crate::advice;
 use crate::report::{Watcher, fact};
 use crate::table::grouped;

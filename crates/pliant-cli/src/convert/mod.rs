@@ -3,10 +3,11 @@
 //! Streamed like a check: in memory is one frame. Vertices stay as they are in the file, of a group those that it has; an STL file has none of its own, so its
 //! corners are welded and each place is written once.
 
-use crate::Outcome;
-use crate::check::size;
 use crate::frames::Frames;
+use crate::outcome::Outcome;
 use crate::table::grouped;
+use crate::terminal::{complain, note, print_all};
+use crate::{rate, size};
 use anyhow::{Context, bail};
 use clap::Args;
 use pliant_io::{Body, OpenOptions, Positions, Shape, WriteOptions, Writer, shown};
@@ -33,7 +34,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "NAME")]
     clip: Option<String>,
     /// Frames a second: at which an animation of a glTF file is evaluated, and that an MDD file says it has
-    #[arg(long, value_name = "N", default_value = "30", allow_negative_numbers = true, value_parser = rate)]
+    #[arg(long, value_name = "N", default_value = "30", allow_negative_numbers = true, value_parser = rate::parse)]
     fps: f64,
     /// Write over files that are there
     #[arg(long)]
@@ -68,14 +69,6 @@ Examples:
 A file appears under its name when it is whole; nothing is written over without --force. glTF is read, not written.
 STL, PC2 and MDD have 32-bit coordinates: others are rounded, and a note says so.";
 
-/// A number of frames a second.
-pub(crate) fn rate(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|rate: &f64| *rate > 0.0 && rate.is_finite())
-        .ok_or_else(|| "write a number above 0: 30, 59.94".to_owned())
-}
-
 /// Reads, writes, and says what was written.
 pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let is_stl = arguments.from.to_ascii_lowercase().ends_with(".stl");
@@ -93,7 +86,7 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         let name = shown(body.name());
         bail!("{name}: has no animation; leave out `--clip`");
     }
-    crate::note(&body, arguments.quiet);
+    note(&body, arguments.quiet);
     let frames = arguments.frames.within(body.frame_count())?;
     let (vertices, triangles, outlines) = kept(&body);
     let shape = Shape {
@@ -138,13 +131,13 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     }
     if writer.rounded() {
         let [to, from] = [&arguments.to, body.name()].map(shown);
-        crate::complain(&format!(
+        complain(&format!(
             "note: {to} has 32-bit coordinates, {from} has 64-bit ones: they were rounded"
         ));
     }
     writer.finish()?;
     if !arguments.quiet {
-        crate::print_all(&format!("{}: {said}\n", shown(&arguments.to)))?;
+        print_all(&format!("{}: {said}\n", shown(&arguments.to)))?;
     }
     Ok(Outcome::Clear)
 }

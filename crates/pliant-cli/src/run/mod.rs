@@ -1,16 +1,19 @@
 //! `pliant run`: play a scene, time every step, report.
 
+mod query;
 mod record;
 mod scene;
 
+use crate::outcome::Outcome;
 use crate::report::{PictureOptions, Watcher};
+use crate::terminal::{print_all, progress};
 use crate::tree_options::{TreeOptions, value_name};
-use crate::{Outcome, print_all, progress};
 use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use indicatif::ProgressStyle;
 use pliant::{Scalar, Selection, World};
 use pliant_scenes::Scene;
+use query::Query;
 use record::{Record, StepRecord};
 use scene::AnyScene;
 use std::time::Instant;
@@ -67,15 +70,6 @@ Examples:
 fn seed(text: &str) -> Result<u64, String> {
     text.parse()
         .map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Query {
-    All,
-    First,
-    #[value(name = "self")]
-    Itself,
-    Everything,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,6 @@
 //! A scene of either kind: one whose meshes stay, or one in which they change.
 
-use super::Query;
+use super::query::Query;
 use pliant::{BodyId, Scalar, World};
 use pliant_bench::methods::add_step;
 use pliant_scenes::{Asks, ChangingScene, Event, Scene, SceneError};

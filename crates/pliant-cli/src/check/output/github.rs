@@ -4,9 +4,12 @@
 //! found, with `--first` or `--count`, one for each of the first frames that intersect. The runner shows ten errors of a step, so no
 //! more are printed.
 
-use super::{Form, Tally, counted, places, short};
+use super::form::Form;
+use super::places;
+use super::tally::Tally;
 use crate::advice;
-use crate::check::Arguments;
+use crate::check::arguments::Arguments;
+use crate::check::figures::{counted, short};
 use crate::table::grouped;
 use pliant_check::{Check, Found, Row};
 use pliant_io::{shown, shown_within};

@@ -59,8 +59,10 @@
 //! `degenerate` says how many pairs have a triangle without area, where there are any: of those counted, or with
 //! `"skip_degenerate": true` of those that were left out for it.
 
-use super::{Form, Tally};
-use crate::check::{Arguments, Names, Split};
+use super::form::Form;
+use super::tally::Tally;
+use crate::check::arguments::{Arguments, Split};
+use crate::check::names::Names;
 use pliant_check::{Baseline, Check, FirstImpact, Found, Group, Impact, Interval, Life, Place};
 use pliant_io::Body as Source;
 use serde::Serialize;

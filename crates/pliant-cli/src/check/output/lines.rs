@@ -1,8 +1,9 @@
 //! A plain line for each pair, for programs that read lines: `FRAME BODY TRIANGLE BODY TRIANGLE`, sorted. With `--count` a line for
 //! each frame: `FRAME COUNT`. Nothing else.
 
-use super::{Form, Tally};
-use crate::check::Arguments;
+use super::form::Form;
+use super::tally::Tally;
+use crate::check::arguments::Arguments;
 use pliant_check::{Check, Found};
 use std::io::{self, Write};
 

@@ -1,6 +1,6 @@
 //! Places, in words: a line each, for the table and for annotations.
 
-use super::{counted, short};
+use crate::check::figures::{counted, short};
 use pliant_check::{Check, Life, Place};
 use pliant_io::shown;
 

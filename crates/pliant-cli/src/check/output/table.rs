@@ -1,9 +1,13 @@
 //! A table for people.
 
 use super::files::Files;
-use super::{Form, Tally, counted, places, short};
+use super::form::Form;
+use super::places;
+use super::tally::Tally;
+use crate::check::arguments::Arguments;
+use crate::check::figures::{counted, short};
 use crate::check::moments::elements;
-use crate::check::{Arguments, Names};
+use crate::check::names::Names;
 use crate::table::grouped;
 use pliant_check::{Baseline, BodyFacts, Check, Found, Interval};
 use pliant_io::shown;

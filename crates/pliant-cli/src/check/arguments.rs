@@ -1,0 +1,152 @@
+//! What is asked of `pliant check`.
+
+use super::names::{self, Names};
+use crate::frames::Frames;
+use crate::report::PictureOptions;
+use crate::tree_options::at_least_one;
+use crate::{rate, size};
+use clap::{Args, ValueEnum, ValueHint};
+use pliant_check::{Baseline, Group};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a flag of the program"
+)]
+pub(crate) struct Arguments {
+    /// One body each: a mesh (.obj, .ply, .stl), a sequence (.npz), a mesh with its positions (mesh.obj+walk.pc2, .mdd, .npy), or a quoted pattern whose files in natural order are its frames ('cloth_*.obj'); each body of a glTF file (.glb, .gltf, .vrm), or one of them (scene.glb#arm); a group of an OBJ file, a solid of an STL file, or of a pattern (scan.obj#arm)
+    #[arg(value_name = "BODY", required = true, value_hint = ValueHint::FilePath)]
+    pub(super) bodies: Vec<String>,
+    /// Check each body against itself too; one body alone always is
+    #[arg(long = "self")]
+    pub(super) itself: bool,
+    /// Instead of what intersects, the triangles of different bodies that are at most D apart, in the unit of the files; those that intersect are 0 apart. Of one body neighbours always are that close: not with --self
+    #[arg(long, value_name = "D", allow_negative_numbers = true, value_parser = distance, conflicts_with = "png")]
+    pub(super) within: Option<f64>,
+    /// Leave out places where surfaces only touch, as along a cut: where no triangles cross and no surface passes through another, not even exactly at edges and vertices. Where it is not clear what a side is, a place stays. Not with --within
+    #[arg(long, conflicts_with = "within")]
+    pub(super) crossing: bool,
+    /// Only these frames: 100..200 are 100 to 199; 100.. and ..200 are open; 100 is one; 100..200:10 is every tenth, and what meets on the way to the next goes ten frames on
+    #[arg(
+        long,
+        value_name = "A..B:STEP",
+        default_value = "..",
+        allow_negative_numbers = true
+    )]
+    pub(super) frames: Frames,
+    /// Besides what intersects in a frame, what meets on the way from it to the next, every corner on a straight line: a vertex and a triangle, or two edges, and when first. Costs many times what a check of the frames alone does. Not with --within, --baseline, --hits, --format lines or github
+    #[arg(long)]
+    pub(super) swept: bool,
+    /// Only how many pairs, not which
+    #[arg(long)]
+    pub(super) count: bool,
+    /// Stop at the first pair of each frame; with --within the nearest pair; with --swept the first to meet on the way to the next, too
+    #[arg(long)]
+    pub(super) first: bool,
+    /// Make every connected piece of a file a body: FILE#1, FILE#2, ...; or every group of an OBJ file, every solid of an STL file: FILE#NAME; in the order of their lowest triangle. Triangles keep their numbers, and those that share a vertex of the file are left out
+    #[arg(long, value_enum, value_name = "INTO")]
+    pub(super) split: Option<Split>,
+    /// Give several bodies a name, for --ignore; each by its name, or by its number, from 0; a glTF file stands for all its bodies
+    #[arg(long = "group", value_name = "NAME=BODY,BODY", value_parser = names::group)]
+    pub(super) groups: Vec<Group>,
+    /// Bodies, or groups, that do not meet; A,A means that those of A do not meet each other, nor themselves
+    #[arg(long, value_name = "A,B", value_parser = names::two)]
+    pub(super) ignore: Vec<Names>,
+    /// Only what is new: leave out the pairs that intersect in this frame, from 0, or in any frame of an earlier check, whose --format json was written to a file
+    #[arg(long, value_name = "FRAME|FILE", allow_negative_numbers = true, value_parser = names::baseline, value_hint = ValueHint::FilePath)]
+    pub(super) baseline: Option<Baseline>,
+    /// Leave out pairs with a triangle that has no area
+    #[arg(long)]
+    pub(super) skip_degenerate: bool,
+    /// Keep vertices apart where boundary edges coincide; seams are then intersections
+    #[arg(long)]
+    pub(super) no_weld: bool,
+    /// Join boundary edges besides that are no further apart than TOL times the diagonal of their body, in each frame: 1e-6
+    #[arg(
+        long,
+        value_name = "TOL",
+        default_value = "0",
+        allow_negative_numbers = true,
+        conflicts_with = "no_weld"
+    )]
+    pub(super) weld: f64,
+    /// The most memory that a frame may take, seam finding included, and again that a list of pairs may (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
+    #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
+    pub(super) max_memory: u64,
+    /// The animation of glTF files, by name; the first if none is named
+    #[arg(long, value_name = "NAME")]
+    pub(super) clip: Option<String>,
+    /// Frames a second at which animations of glTF files are evaluated
+    #[arg(long, value_name = "N", default_value = "30", allow_negative_numbers = true, value_parser = rate::parse)]
+    pub(super) fps: f64,
+    /// How many threads share the work; no number changes an answer
+    #[arg(long, value_name = "T", default_value = "1", value_parser = at_least_one::<NonZeroUsize>)]
+    pub(super) threads: NonZeroUsize,
+    /// A table by frame, one JSON object, annotations for GitHub Actions, or a line for each pair: FRAME BODY TRIANGLE BODY TRIANGLE
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    pub(super) format: Format,
+    /// Write the triangles that intersect for ParaView, a .vtp or .vtu; of several frames a file each, and a .pvd that names them
+    #[arg(long, value_name = "FILE")]
+    pub(super) hits: Option<PathBuf>,
+    /// Nothing on standard output: the exit code says it
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+    #[command(flatten)]
+    pub(super) pictures: PictureOptions,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pliant check shirt.ply body.ply hair.ply --ignore hair.ply,body.ply
+  pliant check a.ply b.ply c.ply --group soft=a.ply,c.ply --ignore soft,soft
+  pliant check a,1.ply b.ply c.ply --ignore 0,2      by number: one has a comma
+  pliant check teeth.ply --split components          which pieces meet?
+  pliant check teeth.ply --split components --ignore 'teeth.ply#1,teeth.ply#2'
+  pliant check scan.obj --split groups               which objects meet?
+  pliant check 'scan.obj#arm' 'scan.obj#sleeve'      two of them
+  pliant check scene.glb --ignore 'scene.glb#arm,scene.glb#sleeve'
+  pliant check fox.glb --clip Run --baseline 0       what frame 0 does not have
+  pliant check new.ply --baseline old.json           what an older check had not
+  pliant check part.stl --weld 1e-6                  corners nearly coincide
+  pliant check left.ply right.ply --crossing         not what only touches
+  pliant check walk.npz --report walk.html           a page: in motion, hits red
+  pliant check walk.npz --png worst.png --frame 50   its largest place
+  pliant check a.ply --png a.png --view top --size 800x600
+  pliant check walk.npz --frames 100..200:10         every tenth of these
+  pliant check walk.npz --hits hits.vtp              hits_00.vtp, ... (ParaView)
+  pliant check shirt.ply skin.ply --within 0.002     nothing closer than 2 mm?
+  pliant check shirt.npz skin.npz --swept            nothing jumps through?
+  pliant check walk.npz --swept --report walk.html   with the moments of contact
+  pliant check walk.npz --quiet && echo clean
+
+With --swept all elements that meet on the way count, but those that meet in the frame before already. They are of both bodies where two share them. It looks from each frame to the next only: where a mesh changes in between, nothing moves, and that is said.
+Exit code 0: nothing intersects, is as close as that, or meets on the way. 1: something does. 2: it could not be checked; standard error says why.
+Memory: at most 3.5 times two frames (positions and triangles) and 12 MB, however many frames there are, 7.5 times two frames where the mesh changes from file to file, and 11 times with --swept; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), with --crossing 32 bytes a pair and 200 a triangle near one, and of glTF bodies that move the rest positions, joints, deltas and keys.
+Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
+
+/// What files are split into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Split {
+    Components,
+    Groups,
+}
+
+/// How answers are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    Table,
+    Json,
+    Github,
+    Lines,
+}
+
+/// A distance that triangles may have from each other.
+fn distance(text: &str) -> Result<f64, String> {
+    let distance = text.parse().ok();
+    distance
+        .filter(|distance: &f64| *distance >= 0.0 && distance.is_finite())
+        .ok_or_else(|| "write a distance in the unit of the files, at least 0: 0.002".to_owned())
+}

@@ -3,6 +3,7 @@
 //! An experiment is a plan: contests, made one after the other because their motions are large, and then what follows from
 //! all of them. Each has a small form, for tests.
 
+mod all;
 mod bodies;
 mod change;
 mod close;
@@ -18,6 +19,8 @@ mod response;
 mod splits;
 mod table_1;
 mod when;
+
+pub use all::EXPERIMENTS;
 
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::exact;
@@ -65,24 +68,6 @@ pub struct Experiment {
     plan: fn(Form) -> Vec<Planned>,
     claims: fn(&[ContestRecord]) -> Vec<Claim>,
 }
-
-/// All experiments, in the order in which `all` runs them.
-pub const EXPERIMENTS: [Experiment; 14] = [
-    experiment_1::EXPERIMENT,
-    table_1::EXPERIMENT,
-    experiment_3::EXPERIMENT,
-    degrees::EXPERIMENT,
-    splits::EXPERIMENT,
-    levels::EXPERIMENT,
-    bodies::EXPERIMENT,
-    cloth::EXPERIMENT,
-    degenerate::EXPERIMENT,
-    peers::EXPERIMENT,
-    near::EXPERIMENT,
-    close::EXPERIMENT,
-    when::EXPERIMENT,
-    change::EXPERIMENT,
-];
 
 impl Experiment {
     /// How many steps will be played by all methods together: the length of a progress bar.

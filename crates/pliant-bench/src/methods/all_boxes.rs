@@ -3,7 +3,7 @@
 //! Two corners that are near each other bound the distance first; of either body only triangles are looked at whose boxes are no further
 //! from the box of the other body.
 
-use super::bodies::Aabb;
+use super::aabb::Aabb;
 use super::plain_distance::of_triangles;
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};

@@ -4,8 +4,9 @@
 //! It is the floor well built: boxes are made once a query and body, and compared eight at a time, each axis a row of eight
 //! numbers, without a branch until all eight are known.
 
+use super::aabb::Aabb;
 use super::answer::{Answer, Proposer, self_pair};
-use super::bodies::{Aabb, Bodies, share_a_vertex};
+use super::bodies::{Bodies, share_a_vertex};
 use super::region::{Region, gather_overlap};
 use crate::decision::Decision;
 

@@ -1,5 +1,6 @@
 //! One file or folder a method.
 
+mod aabb;
 mod all_boxes;
 mod answer;
 mod bodies;

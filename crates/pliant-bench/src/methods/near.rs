@@ -7,7 +7,7 @@
 //! is too near to the limit for that is decided by the library's reference, which is exact and has no tree. Whether elements meet on their
 //! way is always left to that.
 
-use super::bodies::Aabb;
+use super::aabb::Aabb;
 use super::plain_distance::{of_point_and_triangle, of_segments};
 use crate::method::{Counters, Method, Pair};
 use crate::motion::{BodyMesh, Shape};

@@ -1,7 +1,8 @@
 //! The triangles of a body that reach into a region, with their boxes: what methods without a tree work on. Nothing is kept
 //! from step to step but memory.
 
-use super::bodies::{Aabb, Bodies};
+use super::aabb::Aabb;
+use super::bodies::Bodies;
 
 /// Triangles and their boxes, side by side.
 #[derive(Debug, Default)]

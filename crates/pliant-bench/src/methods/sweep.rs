@@ -8,8 +8,9 @@
 //! Nothing is kept from step to step, there is nothing to go stale and no structure to be wrong: this is also the method that
 //! others are compared with where all pairs without boxes would take too long.
 
+use super::aabb::Aabb;
 use super::answer::{Answer, Proposer, self_pair};
-use super::bodies::{Aabb, Bodies, share_a_vertex};
+use super::bodies::{Bodies, share_a_vertex};
 use super::region::{Region, gather_overlap};
 use crate::decision::Decision;
 use crate::method::{Counters, Method, Pair};

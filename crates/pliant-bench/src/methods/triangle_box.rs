@@ -4,7 +4,7 @@
 //! corners are not copied first (three points put together and at once read in other pieces make a processor wait), and `if`
 //! picks the smaller number, one instruction, where `f32::min` spends two more on NaN.
 
-use super::bodies::Aabb;
+use super::aabb::Aabb;
 
 /// The box of a triangle given by its vertices.
 #[inline]

@@ -16,8 +16,9 @@ mod octree;
 
 use crate::decision::Decision;
 use crate::method::{Counters, Method, Pair};
+use crate::methods::aabb::Aabb;
 use crate::methods::answer::{Answer, Wanted, self_pair};
-use crate::methods::bodies::{Aabb, Bodies, share_a_vertex};
+use crate::methods::bodies::{Bodies, share_a_vertex};
 use crate::methods::triangle_box::triangle_box;
 use crate::motion::{BodyMesh, Shape};
 use octree::Octree;

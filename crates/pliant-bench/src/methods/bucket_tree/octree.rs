@@ -8,7 +8,8 @@
 //! A node is empty if no bucket below it has a triangle. Empty nodes have no box that means anything; each node knows which of
 //! its children are not empty.
 
-use crate::methods::bodies::{Aabb, Bodies};
+use crate::methods::aabb::Aabb;
+use crate::methods::bodies::Bodies;
 use crate::methods::triangle_box::triangle_box;
 
 /// Ends a list; no bucket yet.

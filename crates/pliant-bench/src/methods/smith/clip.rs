@@ -4,7 +4,7 @@
 //! turned away; one that misses it by a hair may not be. The three axes of the box are the test of boxes, made before.
 
 use crate::decision::Triangle;
-use crate::methods::bodies::Aabb;
+use crate::methods::aabb::Aabb;
 
 /// Relative to the size of what is compared; rounding is a few times 2^-53.
 const ROOM: f64 = 1.0 / (1_u64 << 42) as f64;

@@ -21,8 +21,9 @@ mod octree;
 
 use crate::decision::Decision;
 use crate::method::{Counters, Method, Pair};
+use crate::methods::aabb::Aabb;
 use crate::methods::answer::{Answer, Wanted};
-use crate::methods::bodies::{Aabb, Bodies};
+use crate::methods::bodies::Bodies;
 use crate::methods::triangle_box::triangle_box;
 use crate::motion::{BodyMesh, Shape};
 use octree::{Face, Octree};

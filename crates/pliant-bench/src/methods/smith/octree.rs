@@ -9,8 +9,9 @@
 //! **Order.** Faces stay body after body in every list, so that a cell has faces of two bodies just if the first and the last
 //! are of different ones.
 
+use crate::methods::aabb::Aabb;
 use crate::methods::answer::Answer;
-use crate::methods::bodies::{Aabb, Bodies};
+use crate::methods::bodies::Bodies;
 use std::ops::ControlFlow;
 
 /// A face that was kept.

@@ -23,8 +23,8 @@ mod relation;
 mod tree;
 
 use crate::decision::Decision;
+use crate::methods::aabb::Aabb;
 use crate::methods::answer::{Answer, Proposer, self_pair};
-use crate::methods::bodies::Aabb;
 use crate::motion::{BodyMesh, Pose, Shape};
 use centre_box::CentreBox;
 use descent::{Stack, one_tree, two_trees};

@@ -33,7 +33,8 @@
 //! 2^130: the allowances end with a constant that is far above that.
 
 use super::super::Point;
-use super::{Grid, Moving};
+use super::grid::Grid;
+use super::moving::Moving;
 
 /// What is certain of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]

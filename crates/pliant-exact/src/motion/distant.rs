@@ -15,8 +15,8 @@
 
 use super::super::Point;
 use super::super::vector::rounded::{dot, minus};
-use super::Moving;
 use super::certain::{Corners, Polygon};
+use super::moving::Moving;
 
 const OF_PROJECTION: f64 = 8.0 * (f64::EPSILON / 2.0);
 const LOST: f64 = f64::from_bits((1023 - 850) << 52);

@@ -31,42 +31,22 @@ mod before;
 mod certain;
 mod distant;
 mod fraction;
+mod grid;
+mod moving;
 mod polynomial;
 mod root;
 mod sturm;
 
-use super::Point;
 use super::integer::{Integer, powers_of_all};
 pub use certain::Certain;
 use certain::certain;
 pub use distant::{distant_until, starts_surely_within};
+pub use grid::Grid;
+pub use moving::Moving;
 use polynomial::Polynomial;
 use root::{Root, visit_roots};
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
-
-/// Two elements that move: their corners at the start and at the end.
-#[derive(Clone, Copy, Debug)]
-pub struct Moving {
-    /// Whether they are two edges, by the ends of either; else they are a vertex and the corners of a triangle.
-    pub are_edges: bool,
-    /// At the start and at the end of the motion; in between on straight lines.
-    pub corners: [[Point; 4]; 2],
-}
-
-impl Moving {
-    /// Whether a corner of the one is at the start where one of the other is: common where surfaces are not joined along a seam. Compared
-    /// bit by bit, so that it does not depend on how subnormal numbers are treated; a zero of the other sign is left to the decision.
-    pub fn begins_with_a_corner_in_common(&self) -> bool {
-        let [start, _] = self.corners;
-        let [a, b, c, d] = start.map(|corner| corner.map(f64::to_bits));
-        if self.are_edges {
-            a == c || a == d || b == c || b == d
-        } else {
-            a == b || a == c || a == d
-        }
-    }
-}
 
 /// When two elements first meet.
 #[derive(Clone, Debug)]
@@ -255,58 +235,6 @@ impl Polygon {
     }
 }
 
-/// The numbers that are told of times: multiples of a power of two up to 1, or all.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grid {
-    /// The power of two; 0 for all numbers.
-    spacing: f64,
-}
-
-impl Grid {
-    /// The coarsest with cells no wider than `width`, which is at least 0.
-    pub fn new(width: f64) -> Self {
-        Self {
-            spacing: if width < 1.0 {
-                // The power of two alone; of subnormal numbers none.
-                f64::from_bits(width.max(0.0).to_bits() & 0x7ff << 52)
-            } else {
-                1.0
-            },
-        }
-    }
-
-    /// The cell or cells that a part of the step is in.
-    fn cell_of(self, low: f64, high: f64) -> [f64; 2] {
-        [self.down(low), self.up(high)]
-    }
-
-    /// Whether there is no other number of the grid between these two of it.
-    fn is_cell(self, [low, high]: [f64; 2]) -> bool {
-        if self.spacing == 0.0 {
-            high <= low.next_up()
-        } else {
-            high - low <= self.spacing
-        }
-    }
-
-    /// The largest of them that is at most `t`, from 0 to 1.
-    fn down(self, t: f64) -> f64 {
-        if self.spacing == 0.0 {
-            return t;
-        }
-        // A quotient by a power of two is exact, and so is its product.
-        (t / self.spacing).floor() * self.spacing
-    }
-
-    /// The least of them that is at least `t`.
-    fn up(self, t: f64) -> f64 {
-        if self.spacing == 0.0 {
-            return t;
-        }
-        (t / self.spacing).ceil() * self.spacing
-    }
-}
-
 impl Contact {
     /// The numbers of a grid next to the time: the largest before it, and the least that is not before it. Of time 0 both are 0.
     pub fn cell(&self, grid: Grid) -> [f64; 2] {
@@ -365,6 +293,7 @@ impl Later {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Point;
 
     fn vertex_triangle(p: [Point; 2], a: [Point; 2], b: [Point; 2], c: [Point; 2]) -> Moving {
         Moving {

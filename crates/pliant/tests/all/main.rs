@@ -10,6 +10,7 @@ mod common;
 mod boxes;
 mod boxes_of_levels;
 mod candidates;
+mod circles;
 mod clearance;
 mod cloth_on_ball;
 mod configurations;

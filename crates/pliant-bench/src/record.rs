@@ -175,6 +175,17 @@ pub enum Verdict {
     Measured,
 }
 
+impl Verdict {
+    /// Of a claim that holds or does not.
+    pub(crate) fn of(holds: bool) -> Self {
+        if holds {
+            Self::Holds
+        } else {
+            Self::DoesNotHoldToday
+        }
+    }
+}
+
 impl Spread {
     /// Of at least one value.
     pub fn of(mut values: Vec<f64>) -> Self {
@@ -224,5 +235,20 @@ impl ContestRecord {
             (Some(fast), Some(slow)) => slow.mean_ms / fast.mean_ms,
             _ => f64::NAN,
         }
+    }
+
+    /// The fastest of some peers over a window, and how many times faster `ours` is; none if all
+    /// are missing.
+    pub(crate) fn fastest<'a>(
+        &self,
+        ours: &str,
+        peers: &[&'a str],
+        window: &str,
+    ) -> Option<(f64, &'a str)> {
+        let factors = peers
+            .iter()
+            .map(|&peer| (self.times_faster(ours, peer, window), peer));
+        let known = factors.filter(|(factor, _)| factor.is_finite());
+        known.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 }

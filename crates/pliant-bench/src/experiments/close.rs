@@ -4,10 +4,10 @@
 //! Close pairs are asked of all bodies and of each with itself, as a solver does. *Margin m* is m mean lengths of an edge: elements are close
 //! that are at most so far apart, and candidates are those whose boxes are.
 
-use super::{DEFAULT, Experiment, Form, Planned, STEPS, every, factor_claim, scene, whole};
+use super::lines::{Line, planned};
+use super::{DEFAULT, Experiment, Form, Planned, STEPS, every, factor_claim};
 use crate::contest::{Contender, Contest, Query};
 use crate::methods::{AllBoxes, FarParry, NearSweep, Ours};
-use crate::motion::Motion;
 use crate::record::{Claim, ContestRecord, Verdict};
 use pliant::Options;
 
@@ -30,41 +30,14 @@ const PEERS: [&str; 2] = [BY_QUERY, BY_LEAF_PAIRS];
 
 const DISTANCE: &str = "distance";
 
-struct Line {
-    name: &'static str,
-    scene: &'static str,
-    /// Triangles a body, in full and in small form.
-    triangles: [usize; 2],
-    steps: Vec<u32>,
-    /// In mean lengths of an edge; none where bodies are asked how far they are apart.
-    margin: Option<f64>,
-}
+/// A margin in mean lengths of an edge; none where bodies are asked how far they are apart.
+type Margin = Option<f64>;
 
-fn lines() -> Vec<Line> {
-    let spheres = |name, margin| Line {
-        name,
-        scene: "spheres",
-        triangles: [20_480, 320],
-        steps: every(40, 160),
-        margin: Some(margin),
-    };
-    let crowd = |name, margin| Line {
-        scene: "crowd",
-        triangles: [5_120, 320],
-        ..spheres(name, margin)
-    };
-    let cloth = |name, margin| Line {
-        scene: "cloth",
-        triangles: [79_202, 648],
-        steps: (35..=49).step_by(4).collect(),
-        ..spheres(name, margin)
-    };
-    let apart = |name, triangles| Line {
-        triangles: [triangles, 320],
-        steps: (1..=50).collect(),
-        margin: None,
-        ..spheres(name, 0.0)
-    };
+fn lines() -> Vec<Line<Margin>> {
+    let spheres = |name, margin| Line::spheres(name, Some(margin)).at(every(40, 160));
+    let crowd = |name, margin| Line::crowd(name, Some(margin));
+    let cloth = |name, margin| Line::cloth(name, Some(margin)).at((35..=49).step_by(4));
+    let apart = |name, triangles| Line::spheres(name, None).of(triangles).at(1..=50);
     vec![
         spheres("two spheres, margin 0.1", 0.1),
         spheres("two spheres, margin 0.5", 0.5),
@@ -78,46 +51,24 @@ fn lines() -> Vec<Line> {
 }
 
 fn plan(form: Form) -> Vec<Planned> {
-    lines()
-        .into_iter()
-        .map(|mut line| {
-            if form == Form::Small {
-                line.steps.drain(..line.steps.len() - 2);
-            }
-            let methods = line.margin.map_or(OF_BODIES.len(), |_| METHODS.len());
-            Planned::new(methods, line.steps.len(), move || line.contest(form))
-        })
-        .collect()
+    let methods = |margin: &Margin| margin.map_or(OF_BODIES.len(), |_| METHODS.len());
+    planned(lines(), form, methods, contest)
 }
 
-impl Line {
-    fn contest(self, form: Form) -> Contest {
-        let scene = scene(self.scene, self.triangles[usize::from(form == Form::Small)]);
-        let motion = Motion::of_scene(&scene, self.steps.iter().copied());
-        let windows = whole(&self.steps);
-        let name = self.name.to_owned();
-        let Some(margin) = self.margin else {
-            return Contest {
-                name,
-                motion,
-                query: Query::Distance,
-                truth: Box::new(AllBoxes::default()),
-                methods: OF_BODIES.map(of_bodies).into(),
-                windows,
-                cold: false,
-            };
-        };
-        let distance = margin * motion.mean_side();
-        Contest {
-            name,
-            motion,
-            query: Query::Near,
-            truth: Box::new(NearSweep::closer_than(distance)),
-            methods: METHODS.map(|label| method(label, distance)).into(),
-            windows,
-            cold: false,
-        }
-    }
+fn contest(line: &Line<Margin>, form: Form) -> Contest {
+    let (_, motion) = line.played(form);
+    let Some(margin) = line.asked else {
+        let methods = OF_BODIES.map(of_bodies);
+        return line.contest(motion, Query::Distance, AllBoxes::default(), methods);
+    };
+    let distance = margin * motion.mean_side();
+    let methods = METHODS.map(|label| method(label, distance));
+    line.contest(
+        motion,
+        Query::Near,
+        NearSweep::closer_than(distance),
+        methods,
+    )
 }
 
 fn method(label: &'static str, distance: f64) -> Contender {
@@ -154,12 +105,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
     for contest in contests {
         let name = &contest.name;
         if contest.query == DISTANCE {
-            let fastest = PEERS
-                .into_iter()
-                .map(|peer| (contest.times_faster(DEFAULT, peer, STEPS), peer))
-                .filter(|(factor, _)| factor.is_finite())
-                .min_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((factor, peer)) = fastest {
+            if let Some((factor, peer)) = contest.fastest(DEFAULT, &PEERS, STEPS) {
                 let claim = format!("{name}: 10 times faster than parry3d in its faster way");
                 let figure = format!("{factor:.2} times, the faster is {peer}");
                 claims.push(factor_claim(&claim, factor, 10.0, 10.0, figure));
@@ -171,14 +117,9 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
             if over.is_finite() {
                 let claim =
                     format!("{name}: time of {close}, close pairs, over candidates, at most 1.5");
-                let verdict = if over <= 1.5 {
-                    Verdict::Holds
-                } else {
-                    Verdict::DoesNotHoldToday
-                };
                 claims.push(Claim {
                     claim,
-                    verdict,
+                    verdict: Verdict::of(over <= 1.5),
                     figure: format!("{over:.2}"),
                 });
             }

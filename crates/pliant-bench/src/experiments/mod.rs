@@ -13,6 +13,7 @@ mod degrees;
 mod experiment_1;
 mod experiment_3;
 mod levels;
+mod lines;
 mod near;
 mod peers;
 mod response;

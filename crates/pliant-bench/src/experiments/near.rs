@@ -3,13 +3,10 @@
 //! Everything is asked of all bodies and of each with itself, as a solver does. *Margin m* is m mean lengths of an edge: two elements are
 //! found that are within it, each has a margin of half of it. *Swept*: margin 0, from each step the stated part of the way to the next one.
 
-use super::{
-    DEFAULT, Experiment, Form, OBVHS_1, OBVHS_4, PARRY, Planned, STEPS, every, factor_claim, scene,
-    whole,
-};
+use super::lines::{Line, planned};
+use super::{DEFAULT, Experiment, Form, OBVHS_1, OBVHS_4, PARRY, Planned, STEPS, factor_claim};
 use crate::contest::{Contender, Contest, Query};
 use crate::methods::{NearObvhs, NearParry, NearSweep, Ours};
-use crate::motion::Motion;
 use crate::record::{Claim, ContestRecord, Verdict};
 use pliant::{Options, Update};
 
@@ -35,15 +32,6 @@ enum Asked {
     Swept(f32),
 }
 
-struct Line {
-    name: &'static str,
-    scene: &'static str,
-    /// Triangles a body, in full and in small form.
-    triangles: [usize; 2],
-    steps: Vec<u32>,
-    asked: Asked,
-}
-
 const SPHERES: &str = "two spheres, margin 0.1";
 const SPHERES_WIDE: &str = "two spheres, margin 0.5";
 const SPHERES_SWEPT: &str = "two spheres, swept tenth";
@@ -52,70 +40,30 @@ const CLOTH: &str = "cloth, margin 0.1";
 const CLOTH_WIDE: &str = "cloth, margin 0.5";
 const CLOTH_SWEPT: &str = "cloth, swept tenth";
 
-fn lines() -> Vec<Line> {
-    let spheres = |name, asked| Line {
-        name,
-        scene: "spheres",
-        triangles: [20_480, 320],
-        steps: every(20, 180),
-        asked,
-    };
-    let cloth = |name, asked| Line {
-        name,
-        scene: "cloth",
-        triangles: [79_202, 648],
-        steps: (35..=49).step_by(2).collect(),
-        asked,
-    };
-    vec![
-        spheres(SPHERES, Asked::Margin(0.1)),
-        spheres(SPHERES_WIDE, Asked::Margin(0.5)),
-        spheres(SPHERES_SWEPT, Asked::Swept(0.1)),
-        Line {
-            scene: "crowd",
-            triangles: [5_120, 320],
-            steps: every(40, 160),
-            ..spheres(CROWD, Asked::Margin(0.1))
-        },
-        cloth(CLOTH, Asked::Margin(0.1)),
-        cloth(CLOTH_WIDE, Asked::Margin(0.5)),
-        cloth(CLOTH_SWEPT, Asked::Swept(0.1)),
-    ]
-}
-
 fn plan(form: Form) -> Vec<Planned> {
-    lines()
-        .into_iter()
-        .map(|mut line| {
-            if form == Form::Small {
-                line.steps.drain(..line.steps.len() - 2);
-            }
-            Planned::new(METHODS.len(), line.steps.len(), move || line.contest(form))
-        })
-        .collect()
+    let lines = vec![
+        Line::spheres(SPHERES, Asked::Margin(0.1)),
+        Line::spheres(SPHERES_WIDE, Asked::Margin(0.5)),
+        Line::spheres(SPHERES_SWEPT, Asked::Swept(0.1)),
+        Line::crowd(CROWD, Asked::Margin(0.1)),
+        Line::cloth(CLOTH, Asked::Margin(0.1)),
+        Line::cloth(CLOTH_WIDE, Asked::Margin(0.5)),
+        Line::cloth(CLOTH_SWEPT, Asked::Swept(0.1)),
+    ];
+    planned(lines, form, |_| METHODS.len(), contest)
 }
 
-impl Line {
-    fn contest(self, form: Form) -> Contest {
-        let scene = scene(self.scene, self.triangles[usize::from(form == Form::Small)]);
-        let motion = Motion::of_scene(&scene, self.steps.iter().copied());
-        let (motion, radius) = match self.asked {
-            Asked::Margin(lengths) => {
-                let radius = lengths / 2.0 * motion.mean_side();
-                (motion, radius)
-            }
-            Asked::Swept(part) => (motion.on_the_way(&scene, part), 0.0),
-        };
-        Contest {
-            name: self.name.to_owned(),
-            motion,
-            query: Query::Near,
-            truth: Box::new(NearSweep::new(radius)),
-            methods: METHODS.map(|label| method(label, radius)).into(),
-            windows: whole(&self.steps),
-            cold: false,
+fn contest(line: &Line<Asked>, form: Form) -> Contest {
+    let (scene, motion) = line.played(form);
+    let (motion, radius) = match line.asked {
+        Asked::Margin(lengths) => {
+            let radius = lengths / 2.0 * motion.mean_side();
+            (motion, radius)
         }
-    }
+        Asked::Swept(part) => (motion.on_the_way(&scene, part), 0.0),
+    };
+    let methods = METHODS.map(|label| method(label, radius));
+    line.contest(motion, Query::Near, NearSweep::new(radius), methods)
 }
 
 fn method(label: &'static str, radius: f64) -> Contender {
@@ -141,12 +89,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
     let mut claims = Vec::new();
     for contest in contests {
         let name = &contest.name;
-        let fastest = PEERS
-            .into_iter()
-            .map(|peer| (contest.times_faster(DEFAULT, peer, STEPS), peer))
-            .filter(|(factor, _)| factor.is_finite())
-            .min_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((factor, peer)) = fastest {
+        if let Some((factor, peer)) = contest.fastest(DEFAULT, &PEERS, STEPS) {
             let claim = format!("{name}: 4 times faster than the fastest peer with grown boxes");
             let figure = format!("{factor:.2} times, the fastest is {peer}");
             claims.push(factor_claim(&claim, factor, 4.0, 4.0, figure));

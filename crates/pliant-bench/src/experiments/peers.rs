@@ -265,13 +265,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
         .map(|(name, window, wanted)| (name, window, Some(wanted)))
         .chain([(SPHERES_COLD, EASY, None), (SPHERES_COLD, HARD, None)]);
     for (name, window, wanted) in lines {
-        let fastest = contest(name).and_then(|contest| {
-            PEERS
-                .into_iter()
-                .map(|peer| (contest.times_faster(DEFAULT, peer, window), peer))
-                .filter(|(factor, _)| factor.is_finite())
-                .min_by(|a, b| a.0.total_cmp(&b.0))
-        });
+        let fastest = contest(name).and_then(|contest| contest.fastest(DEFAULT, &PEERS, window));
         let Some((factor, peer)) = fastest else {
             continue;
         };
@@ -304,11 +298,7 @@ fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
         };
         claims.push(Claim {
             claim: format!("{name}, {window}: time of {slow} over {fast}, {bound}"),
-            verdict: if holds {
-                Verdict::Holds
-            } else {
-                Verdict::DoesNotHoldToday
-            },
+            verdict: Verdict::of(holds),
             figure: format!("{ratio:.2}"),
         });
     }

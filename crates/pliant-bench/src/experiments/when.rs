@@ -4,11 +4,11 @@
 //! Everything is asked of all bodies and of each with itself, as a simulator does; *whole* is the way to the next step, *tenth* its first tenth.
 //! What a candidate costs is the time of all impacts less that of showing all candidates to a visitor who counts them, over their number.
 
-use super::{DEFAULT, Experiment, Form, Planned, STEPS, every, scene, whole};
+use super::lines::{Line, planned};
+use super::{DEFAULT, Experiment, Form, Planned, STEPS};
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::exact;
 use crate::methods::{Everywhere, NearSweep, Ours, Precision};
-use crate::motion::Motion;
 use crate::record::{Claim, ContestRecord, Verdict};
 use pliant::Options;
 
@@ -33,78 +33,27 @@ const DOUBLE: [&str; 4] = [
     "pliant, f64, intersections",
 ];
 
-struct Line {
-    name: &'static str,
-    scene: &'static str,
-    /// Triangles a body, in full and in small form.
-    triangles: [usize; 2],
-    steps: Vec<u32>,
-    /// How much of the way to the next step.
-    part: f32,
-}
-
-fn lines() -> Vec<Line> {
-    let spheres = |name, part| Line {
-        name,
-        scene: "spheres",
-        triangles: [20_480, 320],
-        steps: every(20, 180),
-        part,
-    };
-    let crowd = |name, part| Line {
-        scene: "crowd",
-        triangles: [5_120, 320],
-        steps: every(40, 160),
-        ..spheres(name, part)
-    };
-    let cloth = |name, part| Line {
-        scene: "cloth",
-        triangles: [79_202, 648],
-        steps: (35..=49).step_by(2).collect(),
-        ..spheres(name, part)
-    };
-    vec![
-        spheres("two spheres, whole", 1.0),
-        spheres("two spheres, tenth", 0.1),
-        crowd("27 spheres, whole", 1.0),
-        crowd("27 spheres, tenth", 0.1),
-        cloth("cloth, whole", 1.0),
-        cloth("cloth, tenth", 0.1),
-    ]
-}
-
 fn plan(form: Form) -> Vec<Planned> {
-    lines()
-        .into_iter()
-        .map(|mut line| {
-            if form == Form::Small {
-                line.steps.drain(..line.steps.len() - 2);
-            }
-            let methods = SINGLE.len() + DOUBLE.len();
-            Planned::new(methods, line.steps.len(), move || line.contest(form))
-        })
-        .collect()
+    // With how much of the way to the next step.
+    let lines = vec![
+        Line::spheres("two spheres, whole", 1.0),
+        Line::spheres("two spheres, tenth", 0.1),
+        Line::crowd("27 spheres, whole", 1.0),
+        Line::crowd("27 spheres, tenth", 0.1),
+        Line::cloth("cloth, whole", 1.0),
+        Line::cloth("cloth, tenth", 0.1),
+    ];
+    planned(lines, form, |_| SINGLE.len() + DOUBLE.len(), contest)
 }
 
-impl Line {
-    fn contest(self, form: Form) -> Contest {
-        let scene = scene(self.scene, self.triangles[usize::from(form == Form::Small)]);
-        let motion = Motion::of_scene(&scene, self.steps.iter().copied());
-        // In a tenth of a step of few triangles nothing meets.
-        let part = if form == Form::Small { 1.0 } else { self.part };
-        let motion = motion.on_the_way(&scene, part);
-        let mut methods = Vec::from(contenders::<f32>(SINGLE));
-        methods.extend(contenders::<f64>(DOUBLE));
-        Contest {
-            name: self.name.to_owned(),
-            motion,
-            query: Query::When,
-            truth: Box::new(NearSweep::meeting()),
-            methods,
-            windows: whole(&self.steps),
-            cold: false,
-        }
-    }
+fn contest(line: &Line<f32>, form: Form) -> Contest {
+    let (scene, motion) = line.played(form);
+    // In a tenth of a step of few triangles nothing meets.
+    let part = if form == Form::Small { 1.0 } else { line.asked };
+    let motion = motion.on_the_way(&scene, part);
+    let mut methods = Vec::from(contenders::<f32>(SINGLE));
+    methods.extend(contenders::<f64>(DOUBLE));
+    line.contest(motion, Query::When, NearSweep::meeting(), methods)
 }
 
 fn contenders<S: Precision>(labels: [&'static str; 4]) -> [Contender; 4] {
@@ -124,14 +73,9 @@ fn contenders<S: Precision>(labels: [&'static str; 4]) -> [Contender; 4] {
 fn claims(contests: &[ContestRecord]) -> Vec<Claim> {
     let mut claims = Vec::new();
     let mut at_most = |claim: String, found: f64, limit: f64, figure: String| {
-        let verdict = if found <= limit {
-            Verdict::Holds
-        } else {
-            Verdict::DoesNotHoldToday
-        };
         claims.push(Claim {
             claim,
-            verdict,
+            verdict: Verdict::of(found <= limit),
             figure,
         });
     };

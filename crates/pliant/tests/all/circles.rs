@@ -456,7 +456,6 @@ fn no_crate_has_a_circle() {
 }
 
 #[test]
-#[ignore = "six files of the Python binding still use each other in a circle"]
 fn the_bindings_have_no_circle() {
     let source = workspace().join("bindings/python/src");
     let said = Crate::read(&source).circles(true);

@@ -16,7 +16,6 @@ use crate::kernels::{Buffer, Coordinate, Instructions};
 use crate::mesh::{Bits, Order};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
-use crate::tree::BoxSource;
 pub(crate) use candidates::{
     EdgeEdgeCandidates, Groups, Margin, NearBoxes, NearElements, VertexTriangleCandidates, Which,
 };
@@ -33,6 +32,48 @@ pub(crate) type Candidate = [TreeTriangle; 2];
 /// Which set of a tree's boxes a kind uses: kinds whose boxes have the same source share one.
 pub(crate) type BoxSetNumber = usize;
 
+/// The boxes of the shape of now: of intersections, contacts and distances.
+pub(crate) const OF_SHAPES: BoxSetNumber = 0;
+/// Boxes that hold the shape and the end of a motion, and are grown: of candidates, close pairs and impacts.
+pub(crate) const OF_MOTIONS: BoxSetNumber = 1;
+/// Boxes of the shape of now, grown: of close triangles.
+pub(crate) const OF_GROWN_SHAPES: BoxSetNumber = 2;
+
+/// What a query reads of bodies: all that is to be known of it until leaves are tested.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Needs {
+    pub(crate) box_set: BoxSetNumber,
+    /// What it is shown of leaves.
+    pub(crate) leaves: Leaves,
+    /// By how much boxes are larger than those of the shape, on every side; none if they are those of the shape.
+    pub(crate) grows_by: Option<f32>,
+    /// How far it looks along motions; none if it does not.
+    pub(crate) reach: Option<Reach>,
+}
+
+impl Needs {
+    /// The shape of now, and triangles whose boxes overlap.
+    pub(crate) const TRIANGLES: Self = Self {
+        box_set: OF_SHAPES,
+        leaves: Leaves::Triangles,
+        grows_by: None,
+        reach: None,
+    };
+
+    /// Whether it is shown triangles, not runs of them.
+    pub(crate) fn triangles(&self) -> bool {
+        self.leaves == Leaves::Triangles
+    }
+
+    /// What boxes of bodies are for it.
+    pub(crate) fn body_boxes(&self) -> BodyBoxes {
+        BodyBoxes {
+            grow_by: self.grows_by,
+            hold_motions: self.reach.is_some(),
+        }
+    }
+}
+
 /// A kind of query.
 pub(crate) trait Kind: Sync {
     type Scalar: Coordinate;
@@ -42,64 +83,19 @@ pub(crate) trait Kind: Sync {
     type TreeHit: Copy + Default + std::fmt::Debug + Send + Sync;
     /// What a task keeps for the tests of leaves, from query to query.
     type Buffers: Default + std::fmt::Debug + Held + Send;
-    /// What its boxes are made of.
-    type Source<'s>: BoxSource<Scalar = Self::Scalar>;
 
-    const BOX_SET: BoxSetNumber;
-    const LEAVES: Leaves;
-    /// Whether its boxes hold the end of a motion too.
-    const HOLDS_MOTIONS: bool = false;
-    /// Whether it is shown runs, not triangles. In `if const { K::HAS_RUNS }` the other way is not compiled for it.
-    const HAS_RUNS: bool = Self::LEAVES.elements().is_some();
+    fn needs(&self) -> Needs;
 
-    /// How far it looks along motions.
-    fn reach(&self) -> Reach {
-        Reach::End
-    }
-
-    /// By how much its boxes are larger than those of the shape, on every side; none if they are those of the shape.
-    fn grows_by(&self) -> Option<f32> {
-        None
-    }
-
-    /// What boxes of bodies are for it.
-    fn body_boxes(&self) -> BodyBoxes {
-        BodyBoxes {
-            grow_by: self.grows_by(),
-            hold_motions: Self::HOLDS_MOTIONS,
-        }
-    }
-
-    /// What boxes are made of, of a body that is going to have the shape `end` if that is some.
-    fn source<'s>(
-        &self,
-        shape: Shape<'s, Self::Scalar>,
-        end: Option<Shape<'s, Self::Scalar>>,
-    ) -> Self::Source<'s>;
-
-    /// Decides candidates, and appends what it finds to `hits`, in an order that depends on nothing but the candidates. It counts them,
-    /// exact decisions and hits. For kinds that are shown triangles.
+    /// Decides what it is shown, and appends what it finds to `hits`, in an order that depends on nothing but that. It counts candidates,
+    /// exact decisions and hits.
     fn test(
         &self,
-        _leaves: &LeafTest<Self::Scalar>,
-        _candidates: &mut Buffer<Candidate>,
-        _buffers: &mut Self::Buffers,
-        _hits: &mut Buffer<Self::TreeHit>,
-        _statistics: &mut Statistics,
-    ) {
-    }
-
-    /// The same, for kinds that are shown runs of up to eight triangles, of the first body and of the second, by their numbers: those of
-    /// blocks, or of triangles where every leaf is one; in one body a run perhaps with itself.
-    fn test_runs(
-        &self,
-        _leaves: &LeafTest<Self::Scalar>,
-        _pairs: &[[u32; 2]],
-        _buffers: &mut Self::Buffers,
-        _hits: &mut Buffer<Self::TreeHit>,
-        _statistics: &mut Statistics,
-    ) {
-    }
+        leaves: &LeafTest<Self::Scalar>,
+        batch: Batch,
+        buffers: &mut Self::Buffers,
+        hits: &mut Buffer<Self::TreeHit>,
+        statistics: &mut Statistics,
+    );
 
     /// A hit as the caller numbers things.
     fn to_caller(&self, ids: &CallerIds, hit: Self::TreeHit) -> Self::Hit;
@@ -115,6 +111,47 @@ pub(crate) trait Kind: Sync {
     ) {
         of_caller.extend(hits.iter().map(|&hit| self.to_caller(ids, hit)));
     }
+}
+
+/// Leaves that overlap, some at a time, as a kind is shown them: what its [`Needs::leaves`] say.
+pub(crate) enum Batch<'b> {
+    /// Two triangles whose boxes overlap; of one body those that share no vertex of the mesh. The list may be changed.
+    Triangles(&'b mut Buffer<Candidate>),
+    /// Two runs of up to eight triangles, of the first body and of the second, by their numbers: those of blocks, or of triangles where
+    /// every leaf is one; in one body a run perhaps with itself.
+    Runs(&'b [[u32; 2]]),
+}
+
+impl<'b> Batch<'b> {
+    /// For a kind that needs triangles.
+    #[inline]
+    pub(crate) fn triangles(self) -> &'b mut Buffer<Candidate> {
+        match self {
+            Self::Triangles(candidates) => candidates,
+            Self::Runs(_) => unreachable!("a kind is shown what it needs"),
+        }
+    }
+
+    /// For a kind that needs runs.
+    #[inline]
+    pub(crate) fn runs(self) -> &'b [[u32; 2]] {
+        match self {
+            Self::Runs(pairs) => pairs,
+            Self::Triangles(_) => unreachable!("a kind is shown what it needs"),
+        }
+    }
+}
+
+/// What one task does with leaves that overlap: the door between the traversal and the kinds. What it finds stays inside.
+pub(crate) trait LeafWork<S> {
+    /// Forgets what was found and has been handed over.
+    fn clear(&mut self);
+    /// Decides some leaves, whose boxes are valid.
+    fn test(&mut self, leaves: &LeafTest<S>, batch: Batch);
+    /// Whether to go on before what was found is handed over.
+    fn has_room(&self) -> bool;
+    /// Hands what was found to a collector, if there is one.
+    fn hand_over(&mut self);
 }
 
 /// What boxes of bodies are for a kind: by how much they are grown, and whether they hold the ends of motions.
@@ -142,10 +179,10 @@ pub(crate) enum Reach {
     To(f64),
 }
 
-/// What a kind is shown of leaves that overlap.
+/// What a kind is shown of leaves that overlap: see [`Batch`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Leaves {
-    /// Two triangles whose boxes overlap; of one body those that share no vertex of the mesh.
+    /// Triangles whose boxes overlap.
     Triangles,
     /// The triangles of either leaf, up to eight at a time: not their boxes, but those of elements that belong to them.
     Runs(Which),
@@ -188,16 +225,6 @@ impl Removed<'_> {
     #[inline]
     pub(crate) fn has_vertex(&self, vertex: TreeVertex) -> bool {
         self.vertices.has(vertex.0)
-    }
-}
-
-impl Leaves {
-    /// Which elements a kind looks at, if it is shown runs.
-    pub(crate) const fn elements(self) -> Option<Which> {
-        match self {
-            Self::Runs(which) => Some(which),
-            Self::Triangles => None,
-        }
     }
 }
 

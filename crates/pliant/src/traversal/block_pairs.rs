@@ -47,8 +47,10 @@ impl<'b> Boxes<'b> {
 pub(super) struct OneBody<'b> {
     pub(super) boxes: Boxes<'b>,
     pub(super) quantized: Option<&'b Quantized>,
-    /// Where triangles that share a vertex are left out: which vertices they have, and which blocks are neighbours, if that is known.
-    pub(super) left_out: Option<(&'b Order, Option<&'b Neighbours>)>,
+    /// Which vertices triangles have: those that share one are left out;
+    pub(super) order: &'b Order,
+    /// and which blocks are neighbours, if that is known.
+    pub(super) neighbours: Option<&'b Neighbours>,
 }
 
 /// Candidates, and the lists on the way to them.
@@ -86,7 +88,8 @@ impl BlockTests {
         let OneBody {
             boxes,
             quantized,
-            left_out,
+            order,
+            neighbours,
         } = body;
         let Self {
             compared,
@@ -94,8 +97,8 @@ impl BlockTests {
             candidates: found,
         } = self;
         found.clear();
-        let (Some((_, Some(neighbours))), Some(quantized)) = (left_out, quantized) else {
-            dispatch!(instructions, i => of_one(i, boxes, left_out, pairs, found));
+        let (Some(neighbours), Some(quantized)) = (neighbours, quantized) else {
+            dispatch!(instructions, i => of_one(i, boxes, order, neighbours, pairs, found));
             return;
         };
         compared.clear();
@@ -105,7 +108,8 @@ impl BlockTests {
             overlapping(i, boxes, compared, found);
         });
         if !crowded.is_empty() {
-            dispatch!(instructions, i => of_one(i, boxes, left_out, crowded, found));
+            let neighbours = Some(neighbours);
+            dispatch!(instructions, i => of_one(i, boxes, order, neighbours, crowded, found));
         }
     }
 
@@ -164,12 +168,13 @@ fn push_overlapping<I: Simd>(
     });
 }
 
-/// The candidates of pairs of blocks of one body; if neighbours are left out, those that share no vertex.
+/// The candidates of pairs of blocks of one body: those that share no vertex.
 #[inline(always)]
 fn of_one<I: Simd>(
     i: I,
     Boxes { firsts, boxes }: Boxes,
-    left_out: Option<(&Order, Option<&Neighbours>)>,
+    order: &Order,
+    neighbours: Option<&Neighbours>,
     pairs: &[BlockPair],
     found: &mut Buffer<Candidate>,
 ) {
@@ -182,10 +187,6 @@ fn of_one<I: Simd>(
             // Within one block, each pair of triangles once, and none with itself.
             overlaps &= STRICT_UPPER;
         }
-        let Some((order, neighbours)) = left_out else {
-            room.push_bits(overlaps, candidate);
-            continue;
-        };
         if let Some(neighbours) = neighbours
             && let Some(compared) = neighbours.compared(i, a, b)
         {

@@ -1,16 +1,14 @@
 //! What all tasks of a descent work with, and how far each goes before it gives way to the others.
 
-use super::sink::Collector;
+use super::tree_pair::TreePair;
 use crate::kernels::Instructions;
-use crate::queries::Kind;
+use crate::queries::Needs;
 use crate::threads::Interrupt;
 
 /// What all tasks work with.
-pub(super) struct Context<'q, K: Kind, P> {
-    pub(super) kind: &'q K,
-    pub(super) pair: &'q P,
-    /// Where all that is found goes, if there is no visitor.
-    pub(super) collector: Option<Collector<'q, K::Hit>>,
+pub(super) struct Context<'q, S> {
+    pub(super) needs: Needs,
+    pub(super) pair: &'q TreePair<'q, S>,
     pub(super) instructions: Instructions,
     pub(super) interrupt: &'q Interrupt<'q>,
     pub(super) budget: Budget,

@@ -1,17 +1,14 @@
 //! The loop of the traversal, the same for two trees and for one, and for every kind of query.
 
 use super::context::{Budget, Context};
-use super::leaf_pairs::LeafTests;
-use super::sink::{Collector, Sink};
-use super::task::{Task, are_free, left_out};
+use super::task::{Tasks, are_free, left_out};
 use super::tree_pair::TreePair;
 use crate::held::{self, Held};
 use crate::ids::{NodeId, WideNodeId};
-use crate::kernels::Buffer;
-use crate::queries::Kind;
+use crate::kernels::{Buffer, Coordinate};
+use crate::queries::Needs;
 use crate::statistics::Statistics;
 use crate::threads::Executor;
-use crate::tree::BoxSource;
 use crate::tree::NodePair;
 use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
@@ -43,46 +40,26 @@ const FEWEST_LEAVES: usize = 64;
 const DISTRIBUTED: usize = 512;
 
 /// Buffers, kept from query to query.
-#[derive(Debug)]
-pub(crate) struct Scratch<K: Kind> {
+#[derive(Debug, Default)]
+pub(crate) struct Scratch {
     /// Lists of wide nodes, for the update.
     pub(crate) wide_nodes: [Vec<WideNodeId>; 2],
-    /// Wide nodes or leaves of one tree that are to be refitted, of all tasks together.
-    pub(crate) reached: DirtySet,
-    tasks: Vec<Task<K>>,
-    /// How many of them, from the first on, are in use.
-    used: usize,
+    /// Wide nodes or leaves that are to be refitted, of all tasks together: of the first tree, or the only one, and of the second.
+    pub(crate) reached: [DirtySet; 2],
     /// Pairs of nodes that were not distributed yet, and those that are being distributed.
     reserve: Buffer<NodePair>,
     distributed: Vec<NodePair>,
     sizes: Sizes,
-    /// The hit at which a query stopped, in tree order.
-    pub(crate) broke_at: Option<K::TreeHit>,
 }
 
-impl<K: Kind> Default for Scratch<K> {
-    fn default() -> Self {
-        Self {
-            wide_nodes: Default::default(),
-            reached: DirtySet::default(),
-            tasks: Vec::new(),
-            used: 0,
-            reserve: Buffer::default(),
-            distributed: Vec::new(),
-            sizes: Sizes::LARGEST,
-            broke_at: None,
-        }
-    }
-}
-
-impl<K: Kind> Scratch<K> {
-    /// At the beginning of every query.
-    pub(crate) fn begin(&mut self, sink: &Sink<K::Hit>) {
-        self.sizes = match sink {
-            Sink::Visitor(_) => Sizes::SMALLEST,
-            Sink::Collector(_) => Sizes::LARGEST,
+impl Scratch {
+    /// At the beginning of every query: whether it wants all there is.
+    pub(crate) fn begin(&mut self, wants_all: bool) {
+        self.sizes = if wants_all {
+            Sizes::LARGEST
+        } else {
+            Sizes::SMALLEST
         };
-        self.broke_at = None;
     }
 }
 
@@ -91,6 +68,12 @@ impl<K: Kind> Scratch<K> {
 struct Sizes {
     batch: usize,
     blocks: usize,
+}
+
+impl Default for Sizes {
+    fn default() -> Self {
+        Self::LARGEST
+    }
 }
 
 impl Sizes {
@@ -122,103 +105,69 @@ impl Sizes {
     }
 }
 
-/// Shows every hit, until `sink` breaks. The order in which a visitor sees them is deterministic, not sorted. Interrupted, it breaks as well,
-/// at no hit.
-pub(crate) fn descend<K, P>(
+/// Tests all leaves that overlap, and shows what is found, until a visitor breaks. The order in which that sees hits is deterministic, not
+/// sorted. Interrupted, it breaks as well, at no hit.
+pub(crate) fn descend<S: Coordinate>(
     refit: Refit,
-    kind: &K,
-    pair: &mut P,
-    scratch: &mut Scratch<K>,
+    needs: Needs,
+    pair: &mut TreePair<S>,
+    tasks: &mut dyn Tasks<S>,
+    scratch: &mut Scratch,
     statistics: &mut Statistics,
-    sink: &mut Sink<K::Hit>,
-) -> ControlFlow<()>
-where
-    K: Kind,
-    P: TreePair,
-    P::Source: BoxSource<Scalar = K::Scalar>,
-{
-    let Scratch {
-        wide_nodes,
-        reached,
-        tasks,
-        used,
-        reserve,
-        distributed,
-        sizes,
-        broke_at,
-    } = scratch;
+) -> ControlFlow<()> {
     let executor = refit.executor;
-    let collector = sink.collector();
-    // Tasks are left as they were where a visitor stopped, or panicked.
-    tasks[..*used].iter_mut().for_each(Task::clear);
-    reserve.clear();
-    *used = 1;
-    let are_free = are_free::<K, _>(pair.sides());
-    let (most_tasks, most_leaf_pairs) = shares(are_free, collector.is_some(), executor);
-    tasks.resize_with(most_tasks.max(tasks.len()), Task::default);
-    tasks[0].walk.found.nodes.push([NodeId::ROOT; 2]);
+    let are_free = are_free(&needs, pair.sides());
+    let (most_tasks, most_leaf_pairs) = shares(are_free, tasks.wants_all(), executor);
+    scratch.reserve.clear();
+    tasks.begin(most_tasks);
+    tasks.one(0).walk.found.nodes.push([NodeId::ROOT; 2]);
+    let mut used = 1;
     loop {
-        if most_tasks > 1 && is_to_be_distributed(&tasks[..*used], reserve) {
-            *used = most_tasks;
-            distribute(&mut tasks[..*used], reserve, distributed);
+        if most_tasks > 1 && is_to_be_distributed(tasks, used, &scratch.reserve) {
+            used = most_tasks;
+            tasks.use_all(used);
+            distribute(tasks, used, scratch);
         }
-        let tasks = &mut tasks[..*used];
-        let mut budget = sizes.budget(most_leaf_pairs);
-        if tasks.len() < most_tasks {
+        let mut budget = scratch.sizes.budget(most_leaf_pairs);
+        if used < most_tasks {
             budget.stack = ENOUGH_TO_DISTRIBUTE;
         }
-        let now = context(refit, kind, pair, collector, budget);
-        executor.run(tasks, |_, task| task.advance(&now));
+        let now = context(refit, needs, pair, budget);
+        tasks.run(executor, used, &|task, work| task.advance(&now, work));
         // What a task that was not run found before is not to be shown again.
         if executor.is_interrupted() {
             return ControlFlow::Break(());
         }
-        sizes.double_batch();
-        for task in &*tasks {
-            statistics.node_pairs += task.walk.found.node_pairs;
-        }
-        let working = tasks.iter().filter(|task| !task.is_done()).count();
-        let mut last = reserve.is_empty() && working == 0;
-        let mut shown = ControlFlow::Continue(());
+        scratch.sizes.double_batch();
+        let round = gather(tasks, used, pair.is_one_tree(), scratch);
+        statistics.node_pairs += round.node_pairs;
+        let mut last = scratch.reserve.is_empty() && round.working == 0;
         if are_free {
-            last &= tasks.iter().all(Task::all_tested);
-            shown = show_hits(tasks, statistics, sink);
-            sizes.double_blocks();
+            last &= round.are_all_tested;
+            tasks.show(used, statistics)?;
+            scratch.sizes.double_blocks();
         } else {
-            let take = &mut |which: usize, reached: &mut DirtySet| {
-                for task in &mut *tasks {
-                    reached.take(&mut task.walk.stale[which]);
-                }
-            };
-            refit_stale(refit, pair, take, reached, wide_nodes, statistics);
-            let leaves = |task: &Task<K>| task.walk.found.leaves.len();
-            let leaves = tasks.iter().map(leaves).sum::<usize>();
-            if last || leaves >= budget.leaf_pairs * working.max(1) {
-                let take = &mut |which: usize, reached: &mut DirtySet| {
-                    for task in &mut *tasks {
-                        reached.take(&mut task.walk.reached[which]);
-                    }
-                };
-                refit_leaves(refit, pair, take, reached, statistics);
-                if collector.is_some() && executor.are_many() {
+            refit_stale(refit, pair, scratch, statistics);
+            if last || round.leaves >= budget.leaf_pairs * round.working.max(1) {
+                refit_leaves(refit, pair, tasks, used, scratch, statistics);
+                if tasks.wants_all() && executor.are_many() {
                     // The same hits are found in any order.
-                    rebalance(tasks);
+                    rebalance(tasks, used);
                 }
-                while shown.is_continue() && !tasks.iter().all(Task::all_tested) {
-                    let now = context(refit, kind, pair, collector, sizes.budget(most_leaf_pairs));
-                    executor.run(tasks, |_, task| task.test_some(&now));
+                while !are_all_tested(tasks, used) {
+                    let budget = scratch.sizes.budget(most_leaf_pairs);
+                    let now = context(refit, needs, pair, budget);
+                    tasks.run(executor, used, &|task, work| task.test_some(&now, work));
                     if executor.is_interrupted() {
                         return ControlFlow::Break(());
                     }
-                    sizes.double_blocks();
-                    shown = show_hits(tasks, statistics, sink);
+                    scratch.sizes.double_blocks();
+                    tasks.show(used, statistics)?;
                 }
-                tasks.iter_mut().for_each(Task::forget_leaves);
+                for number in 0..used {
+                    tasks.one(number).forget_leaves();
+                }
             }
-        }
-        if let ControlFlow::Break(hit) = shown {
-            *broke_at = hit;
-            return ControlFlow::Break(());
         }
         if executor.is_interrupted() {
             return ControlFlow::Break(());
@@ -227,73 +176,104 @@ where
             break;
         }
     }
-    // Only a tree with itself, for a kind that is shown triangles, leaves neighbours out.
-    if const { P::ITSELF && !K::HAS_RUNS } {
-        let tasks = &mut tasks[..most_tasks];
-        if let ControlFlow::Break(hit) =
-            test_neighbours(refit, kind, &*pair, tasks, sizes, statistics, sink)
-        {
-            *broke_at = hit;
-            return ControlFlow::Break(());
-        }
-    }
+    test_neighbours(refit, needs, pair, tasks, most_tasks, scratch, statistics)?;
     if executor.is_interrupted() {
         return ControlFlow::Break(());
     }
     ControlFlow::Continue(())
 }
 
+/// What tasks have come to when each has gone as far as it could.
+#[derive(Default)]
+struct Round {
+    node_pairs: u64,
+    /// How many have pairs of nodes left.
+    working: usize,
+    /// Pairs of leaves of all of them.
+    leaves: usize,
+    are_all_tested: bool,
+}
+
+/// Takes the wide nodes that tasks ask for, and sums up the rest. Of one tree, what is asked for on both sides is one.
+fn gather<S>(
+    tasks: &mut dyn Tasks<S>,
+    used: usize,
+    is_one_tree: bool,
+    scratch: &mut Scratch,
+) -> Round {
+    let mut round = Round {
+        are_all_tested: true,
+        ..Round::default()
+    };
+    for number in 0..used {
+        let task = tasks.one(number);
+        round.node_pairs += task.walk.found.node_pairs;
+        round.working += usize::from(!task.is_done());
+        round.leaves += task.walk.found.leaves.len();
+        round.are_all_tested &= task.all_tested();
+        for (which, stale) in task.walk.stale.iter_mut().enumerate() {
+            scratch.reached[which * usize::from(!is_one_tree)].take(stale);
+        }
+    }
+    round
+}
+
+/// Whether tasks have tested all pairs of leaves that they have.
+fn are_all_tested<S>(tasks: &mut dyn Tasks<S>, used: usize) -> bool {
+    (0..used).all(|number| tasks.one(number).all_tested())
+}
+
 /// Tests all leaves of a body with themselves and their neighbours, where the descent has left these out.
-fn test_neighbours<K, P>(
+fn test_neighbours<S: Coordinate>(
     refit: Refit,
-    kind: &K,
-    pair: &P,
-    tasks: &mut [Task<K>],
-    sizes: &mut Sizes,
+    needs: Needs,
+    pair: &TreePair<S>,
+    tasks: &mut dyn Tasks<S>,
+    most_tasks: usize,
+    scratch: &mut Scratch,
     statistics: &mut Statistics,
-    sink: &mut Sink<K::Hit>,
-) -> ControlFlow<Option<K::TreeHit>>
-where
-    K: Kind,
-    P: TreePair,
-    P::Source: BoxSource<Scalar = K::Scalar>,
-{
-    let Some(neighbours) = left_out::<K, P>(pair) else {
+) -> ControlFlow<()> {
+    let Some(neighbours) = left_out(&needs, pair) else {
         return ControlFlow::Continue(());
     };
     let leaves = pair.sides()[0].tree.leaves.len();
-    let each = leaves.div_ceil(tasks.len()).max(FEWEST_LEAVES);
+    let each = leaves.div_ceil(most_tasks).max(FEWEST_LEAVES);
     let used = leaves.div_ceil(each);
-    let tasks = &mut tasks[..used];
-    for (place, task) in tasks.iter_mut().enumerate() {
-        let run = place * each..((place + 1) * each).min(leaves);
-        task.run = run.start as u32..run.end as u32;
+    for number in 0..used {
+        let run = number * each..((number + 1) * each).min(leaves);
+        tasks.one(number).run = run.start as u32..run.end as u32;
     }
     let executor = refit.executor;
-    while tasks.iter().any(|task| task.run.start < task.run.end) && !executor.is_interrupted() {
-        let budget = sizes.budget(usize::MAX);
-        let now = context(refit, kind, pair, sink.collector(), budget);
-        executor.run(tasks, |_, task| task.test_neighbours(&now, neighbours));
+    let are_left = |tasks: &mut dyn Tasks<S>| {
+        (0..used).any(|number| {
+            let run = &tasks.one(number).run;
+            run.start < run.end
+        })
+    };
+    while are_left(tasks) && !executor.is_interrupted() {
+        let budget = scratch.sizes.budget(usize::MAX);
+        let now = context(refit, needs, pair, budget);
+        tasks.run(executor, used, &|task, work| {
+            task.test_neighbours(&now, work, neighbours);
+        });
         if executor.is_interrupted() {
             break;
         }
-        show_hits(tasks, statistics, sink)?;
-        sizes.double_blocks();
+        tasks.show(used, statistics)?;
+        scratch.sizes.double_blocks();
     }
     ControlFlow::Continue(())
 }
 
-fn context<'q, K: Kind, P>(
+fn context<'q, S>(
     refit: Refit<'q>,
-    kind: &'q K,
-    pair: &'q P,
-    collector: Option<Collector<'q, K::Hit>>,
+    needs: Needs,
+    pair: &'q TreePair<'q, S>,
     budget: Budget,
-) -> Context<'q, K, P> {
+) -> Context<'q, S> {
     Context {
-        kind,
+        needs,
         pair,
-        collector,
         instructions: refit.instructions,
         interrupt: refit.executor.interrupt,
         budget,
@@ -316,120 +296,104 @@ fn shares(are_free: bool, wants_all: bool, executor: Executor) -> (usize, usize)
 }
 
 /// Whether a task is idle while others have work, or a single task has enough to share.
-fn is_to_be_distributed<K: Kind>(tasks: &[Task<K>], reserve: &Buffer<NodePair>) -> bool {
-    let stack = |task: &Task<K>| task.walk.found.nodes.len();
-    let all: usize = tasks.iter().map(stack).sum();
-    if tasks.len() == 1 {
+fn is_to_be_distributed<S>(
+    tasks: &mut dyn Tasks<S>,
+    used: usize,
+    reserve: &Buffer<NodePair>,
+) -> bool {
+    let (mut all, mut is_any_done) = (0, false);
+    for number in 0..used {
+        let task = tasks.one(number);
+        all += task.walk.found.nodes.len();
+        is_any_done |= task.is_done();
+    }
+    if used == 1 {
         return all >= ENOUGH_TO_DISTRIBUTE;
     }
-    (!reserve.is_empty() || all >= tasks.len()) && tasks.iter().any(Task::is_done)
+    (!reserve.is_empty() || all >= used) && is_any_done
 }
 
 /// Distributes the last of all pairs of nodes to all tasks, in order and in equal parts.
-fn distribute<K: Kind>(
-    tasks: &mut [Task<K>],
-    reserve: &mut Buffer<NodePair>,
-    distributed: &mut Vec<NodePair>,
-) {
-    for task in &mut *tasks {
-        reserve.extend(task.walk.found.nodes.as_slice());
-        task.walk.found.nodes.clear();
+fn distribute<S>(tasks: &mut dyn Tasks<S>, used: usize, scratch: &mut Scratch) {
+    let Scratch {
+        reserve,
+        distributed,
+        ..
+    } = scratch;
+    for number in 0..used {
+        let nodes = &mut tasks.one(number).walk.found.nodes;
+        reserve.extend(nodes.as_slice());
+        nodes.clear();
     }
     reserve.take_last(DISTRIBUTED, distributed);
-    let each = distributed.len().div_ceil(tasks.len());
-    for (task, pairs) in tasks.iter_mut().zip(distributed.chunks(each)) {
-        task.walk.found.nodes.extend(pairs);
+    let each = distributed.len().div_ceil(used);
+    for (number, pairs) in distributed.chunks(each).enumerate() {
+        tasks.one(number).walk.found.nodes.extend(pairs);
     }
 }
 
 /// Gives tasks that have found few pairs of leaves some of those of others that have found many.
-fn rebalance<K: Kind>(tasks: &mut [Task<K>]) {
-    let leaves = |task: &Task<K>| task.walk.found.leaves.len();
-    let all: usize = tasks.iter().map(leaves).sum();
-    let each = all.div_ceil(tasks.len());
+fn rebalance<S>(tasks: &mut dyn Tasks<S>, used: usize) {
+    let all: usize = (0..used)
+        .map(|number| tasks.one(number).walk.found.leaves.len())
+        .sum();
+    let each = all.div_ceil(used);
     let mut more = Vec::new();
-    for task in &mut *tasks {
-        let leaves = &mut task.walk.found.leaves;
+    for number in 0..used {
+        let leaves = &mut tasks.one(number).walk.found.leaves;
         more.extend_from_slice(leaves.as_slice().get(each..).unwrap_or_default());
         leaves.truncate(each);
     }
-    for task in tasks {
-        let rest = more.len().saturating_sub(each - leaves(task));
-        task.walk.found.leaves.extend(&more[rest..]);
+    for number in 0..used {
+        let leaves = &mut tasks.one(number).walk.found.leaves;
+        let rest = more.len().saturating_sub(each - leaves.len());
+        leaves.extend(&more[rest..]);
         more.truncate(rest);
     }
 }
 
-/// Moves what tasks ask for in the first tree, or the second, to a set.
-type TakeAsked<'t> = &'t mut dyn FnMut(usize, &mut DirtySet);
-
-/// Refits the wide nodes that tasks ask for.
-fn refit_stale<P: TreePair>(
+/// Refits the wide nodes that tasks have asked for.
+fn refit_stale<S: Coordinate>(
     refit: Refit,
-    pair: &mut P,
-    take: TakeAsked,
-    reached: &mut DirtySet,
-    lists: &mut [Vec<WideNodeId>; 2],
+    pair: &mut TreePair<S>,
+    scratch: &mut Scratch,
     statistics: &mut Statistics,
 ) {
-    for which in 0..2 {
-        take(which, reached);
-        // Of one tree, what both sides ask for is refitted together.
-        if (!P::ITSELF || which == 1) && !reached.is_empty() {
+    let lists = &mut scratch.wide_nodes;
+    for (which, reached) in scratch.reached.iter_mut().enumerate() {
+        if !reached.is_empty() {
             refit.reached(&mut pair.refitted(which), reached, lists, statistics);
         }
     }
 }
 
 /// Makes the boxes of the triangles in leaves that are to be tested.
-fn refit_leaves<P: TreePair>(
+fn refit_leaves<S: Coordinate>(
     refit: Refit,
-    pair: &mut P,
-    take: TakeAsked,
-    reached: &mut DirtySet,
+    pair: &mut TreePair<S>,
+    tasks: &mut dyn Tasks<S>,
+    used: usize,
+    scratch: &mut Scratch,
     statistics: &mut Statistics,
 ) {
-    for which in 0..2 {
-        take(which, reached);
-        if !P::ITSELF || which == 1 {
+    let is_one_tree = pair.is_one_tree();
+    for number in 0..used {
+        let of_task = &mut tasks.one(number).walk.reached;
+        for (which, leaves) in of_task.iter_mut().enumerate() {
+            scratch.reached[which * usize::from(!is_one_tree)].take(leaves);
+        }
+    }
+    for (which, reached) in scratch.reached.iter_mut().enumerate() {
+        if !reached.is_empty() {
             refit.reached_leaves(&mut pair.refitted(which), reached, statistics);
         }
     }
 }
 
-/// Shows what was found among the pairs that were tested, to a visitor; breaks with the hit at which that does. A collector was shown it.
-fn show_hits<K: Kind>(
-    tasks: &[Task<K>],
-    statistics: &mut Statistics,
-    sink: &mut Sink<K::Hit>,
-) -> ControlFlow<Option<K::TreeHit>> {
-    for task in tasks {
-        *statistics += task.tests.statistics;
-    }
-    for LeafTests {
-        hits,
-        of_caller,
-        are_too_many,
-        ..
-    } in tasks.iter().map(|task| &task.tests)
-    {
-        if *are_too_many {
-            return ControlFlow::Break(None);
-        }
-        if let Sink::Visitor(visitor) = sink
-            && let ControlFlow::Break(place) = visitor(of_caller)
-        {
-            return ControlFlow::Break(Some(hits.as_slice()[place]));
-        }
-    }
-    ControlFlow::Continue(())
-}
-
-impl<K: Kind> Held for Scratch<K> {
+impl Held for Scratch {
     fn held(&self) -> usize {
         self.wide_nodes.iter().map(held::list).sum::<usize>()
-            + self.reached.held()
-            + held::lists(&self.tasks)
+            + held::within(&self.reached)
             + self.reserve.held()
             + held::list(&self.distributed)
     }

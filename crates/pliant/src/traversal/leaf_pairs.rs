@@ -1,4 +1,4 @@
-//! Leaves that overlap: which of their triangles are candidates, and what the kind of query makes of these.
+//! Leaves that overlap: which of their triangles are candidates, or which runs of triangles the kind of query is shown.
 //!
 //! A leaf is one block of up to eight triangles, or several. Pairs of blocks are compared (`block_pairs`); what they leave, candidates,
 //! is decided some thousands at a time. Of a body with itself every pair of triangles comes up once, and none with itself. Where leaves are
@@ -6,20 +6,15 @@
 
 use super::block_pairs::{BlockPair, BlockTests, Boxes, OneBody};
 use super::context::Context;
-use super::tree_pair::TreePair;
 use crate::held::{self, Held};
 use crate::ids::BlockId;
-use crate::kernels::Buffer;
-use crate::queries::{Kind, LeafTest, Leaves as Shown};
-use crate::statistics::Statistics;
-use crate::tree::LeafPair;
-use crate::tree::{BoxSource, Leaves, Neighbours};
+use crate::kernels::Coordinate;
+use crate::queries::{Batch, LeafTest, LeafWork};
+use crate::tree::{LeafPair, Leaves, Neighbours};
 use std::ops::Range;
 
 /// Pairs of blocks compared before their candidates are decided: at most 64 candidates each.
 const BLOCK_PAIRS_AT_ONCE: usize = 64;
-/// With so many hits a task shows them to a collector, or stops until a visitor has seen them: what all tasks have found takes little memory.
-const MOST_HITS: usize = 2048;
 
 /// Where in a list of pairs of leaves: a pair, a block of its first leaf, a block of its second.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -29,105 +24,56 @@ pub(super) struct Cursor {
     b: u32,
 }
 
-/// What a task tests, and what it has found.
-#[derive(Debug)]
-pub(super) struct LeafTests<K: Kind> {
+/// The lists on the way from pairs of leaves to what a kind is shown.
+#[derive(Debug, Default)]
+pub(super) struct LeafTests {
     block_pairs: Vec<BlockPair>,
     runs: Vec<[u32; 2]>,
     blocks: BlockTests,
-    buffers: K::Buffers,
-    /// What was found, in tree order.
-    pub(super) hits: Buffer<K::TreeHit>,
-    /// The same hits as the caller numbers things.
-    pub(super) of_caller: Vec<K::Hit>,
-    /// Whether a collector does not take any more.
-    pub(super) are_too_many: bool,
-    pub(super) statistics: Statistics,
 }
 
-impl<K: Kind> Default for LeafTests<K> {
-    fn default() -> Self {
-        Self {
-            block_pairs: Vec::new(),
-            runs: Vec::new(),
-            blocks: BlockTests::default(),
-            buffers: K::Buffers::default(),
-            hits: Buffer::default(),
-            of_caller: Vec::new(),
-            are_too_many: false,
-            statistics: Statistics::default(),
-        }
-    }
-}
-
-impl<K: Kind> LeafTests<K> {
-    /// Forgets what was found.
-    pub(super) fn clear(&mut self) {
-        self.hits.clear();
-        self.of_caller.clear();
-        self.are_too_many = false;
-        self.statistics = Statistics::default();
-    }
-
-    /// Whether to go on before what was found is shown.
-    pub(super) fn have_room(&self) -> bool {
-        self.hits.len() < MOST_HITS && !self.are_too_many
-    }
-
-    /// Shows what was found to a collector, if there is one.
-    pub(super) fn collect<P>(&mut self, context: &Context<K, P>) {
-        if let Some(collector) = context.collector
-            && !self.of_caller.is_empty()
-        {
-            self.are_too_many |= collector(&self.of_caller).is_break();
-            self.hits.clear();
-            self.of_caller.clear();
-        }
-    }
-
+impl LeafTests {
     /// Tests pairs of leaves from a cursor on, up to `most` pairs of their blocks; returns the cursor where it stopped. The boxes of the
     /// triangles in them are valid.
-    pub(super) fn test<P>(
+    pub(super) fn test<S: Coordinate>(
         &mut self,
-        context: &Context<K, P>,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
         leaf_pairs: &[LeafPair],
         mut cursor: Cursor,
         most: usize,
-    ) -> Cursor
-    where
-        P: TreePair,
-        P::Source: BoxSource<Scalar = K::Scalar>,
-    {
+    ) -> Cursor {
         let [a, b] = context.pair.sides();
-        let leaf_test = leaf_test(context);
-        if const { K::HAS_RUNS } {
-            cursor = self.test_runs::<P>(context, leaf_pairs, cursor, most, &leaf_test);
+        let leaf_test = &leaf_test(context);
+        if !context.needs.triangles() {
+            self.test_runs(context, work, leaf_pairs, cursor, most, leaf_test)
         } else if a.tree.leaves.have_blocks() && b.tree.leaves.have_blocks() {
-            cursor = self.test_blocks::<P>(context, leaf_pairs, cursor, most, &leaf_test);
+            self.test_blocks(context, work, leaf_pairs, cursor, most, leaf_test)
         } else {
             let end = leaf_pairs.len().min(cursor.pair + most);
-            self.test_triangles::<P>(context, &leaf_pairs[cursor.pair..end], &leaf_test);
+            let leaf_pairs = &leaf_pairs[cursor.pair..end];
+            self.test_triangles(context, work, leaf_pairs, leaf_test);
             cursor.pair = end;
+            cursor
         }
-        self.number_new(context, &leaf_test);
-        cursor
     }
 
     /// Tests pairs of leaves block by block.
-    fn test_blocks<P: TreePair>(
+    fn test_blocks<S: Coordinate>(
         &mut self,
-        context: &Context<K, P>,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
         leaf_pairs: &[LeafPair],
         cursor: Cursor,
         most: usize,
-        leaf_test: &LeafTest<K::Scalar>,
+        leaf_test: &LeafTest<S>,
     ) -> Cursor {
         let instructions = context.instructions;
         let [a, b] = context.pair.sides();
         let leaves = [&a.tree.leaves, &b.tree.leaves];
-        let shares_left_out = K::LEAVES == Shown::Triangles;
+        let is_one_tree = context.pair.is_one_tree();
         let cursor = block_pairs(
-            P::ITSELF,
+            is_one_tree,
             leaves,
             leaf_pairs,
             cursor,
@@ -138,32 +84,34 @@ impl<K: Kind> LeafTests<K> {
             let end = self.block_pairs.len().min(start + BLOCK_PAIRS_AT_ONCE);
             let pairs = &self.block_pairs[start..end];
             let boxes = Boxes::of(a.boxed_tree());
-            if P::ITSELF {
+            if is_one_tree {
                 let body = OneBody {
                     boxes,
                     quantized: a.boxes.quantized(),
-                    left_out: shares_left_out.then_some((a.order, a.tree.neighbours())),
+                    order: a.order,
+                    neighbours: a.tree.neighbours(),
                 };
                 self.blocks.of_one(instructions, body, pairs);
             } else {
                 let both = [boxes, Boxes::of(b.boxed_tree())];
-                let is_left_out = shares_left_out && context.pair.is_one_body();
-                let left_out = is_left_out.then_some(a.order);
+                let left_out = context.pair.is_one_body().then_some(a.order);
                 self.blocks.of_two(instructions, both, pairs, left_out);
             }
-            self.decide(context, leaf_test);
+            self.decide(context, work, leaf_test);
         }
         cursor
     }
 
     /// Tests pairs of leaves of one triangle: its box is the leaf's, which overlaps.
-    fn test_triangles<P: TreePair>(
+    fn test_triangles<S: Coordinate>(
         &mut self,
-        context: &Context<K, P>,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
         leaf_pairs: &[LeafPair],
-        leaf_test: &LeafTest<K::Scalar>,
+        leaf_test: &LeafTest<S>,
     ) {
         let [a, b] = context.pair.sides();
+        let is_one_body = context.pair.is_one_body();
         for pairs in leaf_pairs.chunks(64 * BLOCK_PAIRS_AT_ONCE) {
             self.blocks.candidates.clear();
             for &[leaf_a, leaf_b] in pairs {
@@ -171,33 +119,32 @@ impl<K: Kind> LeafTests<K> {
                     a.tree.leaves.first_triangle(leaf_a),
                     b.tree.leaves.first_triangle(leaf_b),
                 ];
-                let left_out = context.pair.is_one_body()
-                    && (pair[0] == pair[1]
-                        || K::LEAVES == Shown::Triangles
-                            && a.order.share_a_vertex(pair[0], pair[1]));
+                let left_out =
+                    is_one_body && (pair[0] == pair[1] || a.order.share_a_vertex(pair[0], pair[1]));
                 if !left_out {
                     self.blocks.candidates.push(pair);
                 }
             }
-            self.decide(context, leaf_test);
+            self.decide(context, work, leaf_test);
         }
     }
 
     /// Tests pairs of leaves run by run: of the blocks in them, or of their single triangles.
-    fn test_runs<P: TreePair>(
+    fn test_runs<S: Coordinate>(
         &mut self,
-        context: &Context<K, P>,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
         leaf_pairs: &[LeafPair],
         mut cursor: Cursor,
         most: usize,
-        leaf_test: &LeafTest<K::Scalar>,
+        leaf_test: &LeafTest<S>,
     ) -> Cursor {
         let [a, b] = context.pair.sides();
         let leaves = [&a.tree.leaves, &b.tree.leaves];
         self.runs.clear();
         if leaves.iter().all(|leaves| leaves.have_blocks()) {
             cursor = block_pairs(
-                P::ITSELF,
+                context.pair.is_one_tree(),
                 leaves,
                 leaf_pairs,
                 cursor,
@@ -213,37 +160,26 @@ impl<K: Kind> LeafTests<K> {
             self.runs.extend(pairs.map(runs));
             cursor.pair = end;
         }
-        context.kind.test_runs(
-            leaf_test,
-            &self.runs,
-            &mut self.buffers,
-            &mut self.hits,
-            &mut self.statistics,
-        );
+        work.test(leaf_test, Batch::Runs(&self.runs));
         cursor
     }
 
     /// Tests leaves, each a block, that are neighbours, and each with itself: the next of a run of leaves and their later neighbours,
-    /// until so many pairs of leaves were looked at or enough was found. Takes these leaves from the run.
-    pub(super) fn test_neighbours<P>(
+    /// until as many pairs of leaves were looked at as the budget allows or enough was found. Takes these leaves from the run.
+    pub(super) fn test_neighbours<S: Coordinate>(
         &mut self,
-        context: &Context<K, P>,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
         neighbours: &Neighbours,
         run: &mut Range<u32>,
-        most: usize,
-    ) where
-        P: TreePair,
-        P::Source: BoxSource<Scalar = K::Scalar>,
-    {
+    ) {
         let [side, _] = context.pair.sides();
         let leaf_test = leaf_test(context);
         let boxes = Boxes::of(side.boxed_tree());
         let quantized = side.boxes.quantized();
+        let most = context.budget.block_pairs;
         let mut tested = 0;
-        while run.start < run.end
-            && tested < most
-            && self.have_room()
-            && !context.interrupt.is_set()
+        while run.start < run.end && tested < most && work.has_room() && !context.interrupt.is_set()
         {
             tested += self.blocks.of_neighbours(
                 context.instructions,
@@ -253,46 +189,29 @@ impl<K: Kind> LeafTests<K> {
                 run,
                 most - tested,
             );
-            self.decide(context, &leaf_test);
-            self.number_new(context, &leaf_test);
-        }
-    }
-
-    /// Gives what was found the caller's numbers.
-    fn number_new<P>(&mut self, context: &Context<K, P>, leaves: &LeafTest<K::Scalar>) {
-        let new = &self.hits.as_slice()[self.of_caller.len()..];
-        let kind = context.kind;
-        kind.to_callers(leaves, &leaves.ids, new, &mut self.of_caller);
-        if !self.have_room() {
-            self.collect(context);
+            self.decide(context, work, &leaf_test);
         }
     }
 
     /// Has the kind decide candidates, without those that were taken out of their mesh.
-    fn decide<P: TreePair>(&mut self, context: &Context<K, P>, leaf_test: &LeafTest<K::Scalar>) {
+    fn decide<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
+        leaf_test: &LeafTest<S>,
+    ) {
+        let candidates = &mut self.blocks.candidates;
         for (which, side) in context.pair.sides().into_iter().enumerate() {
             if let Some(removed) = side.removed {
-                self.blocks
-                    .candidates
-                    .retain(|pair| !removed.has(pair[which]));
+                candidates.retain(|pair| !removed.has(pair[which]));
             }
         }
-        context.kind.test(
-            leaf_test,
-            &mut self.blocks.candidates,
-            &mut self.buffers,
-            &mut self.hits,
-            &mut self.statistics,
-        );
+        work.test(leaf_test, Batch::Triangles(candidates));
     }
 }
 
 /// What a kind works with.
-fn leaf_test<'q, K: Kind, P>(context: &Context<'q, K, P>) -> LeafTest<'q, K::Scalar>
-where
-    P: TreePair,
-    P::Source: BoxSource<Scalar = K::Scalar>,
-{
+fn leaf_test<'q, S: Coordinate>(context: &Context<'q, S>) -> LeafTest<'q, S> {
     let [a, b] = context.pair.sides();
     LeafTest {
         instructions: context.instructions,
@@ -303,7 +222,7 @@ where
         ids: context.pair.caller_ids(),
         elements: [a.elements, b.elements],
         is_one_body: context.pair.is_one_body(),
-        is_one_tree: P::ITSELF,
+        is_one_tree: context.pair.is_one_tree(),
     }
 }
 
@@ -347,13 +266,8 @@ fn block_pairs(
     cursor
 }
 
-impl<K: Kind> Held for LeafTests<K> {
+impl Held for LeafTests {
     fn held(&self) -> usize {
-        held::list(&self.block_pairs)
-            + held::list(&self.runs)
-            + self.blocks.held()
-            + self.buffers.held()
-            + self.hits.held()
-            + held::list(&self.of_caller)
+        held::list(&self.block_pairs) + held::list(&self.runs) + self.blocks.held()
     }
 }

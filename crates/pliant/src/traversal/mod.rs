@@ -26,6 +26,9 @@
 //! included), and needs no recursion. Batches are long from the beginning where all hits are wanted: each ends in waiting for
 //! the last task. For a visitor they start small, so that one that wants the first hit gets it after a few nodes, and double.
 //!
+//! What is done with leaves is behind a door, `queries::LeafWork`, of which every task has one; nothing here is compiled for a kind of
+//! query, or for a degree.
+//!
 //! `nearest` is another loop, for two trees that are apart: not what overlaps is looked for, but what is least apart.
 //!
 //! A node is one box, a lane of a wide node (Embree calls the wide node a node). Differs from the paper, which descends pair by pair;
@@ -44,4 +47,5 @@ mod walk;
 pub(crate) use descent::{Scratch, descend};
 pub(crate) use nearest::{NearestScratch, gap_square, nearest};
 pub(crate) use sink::{Collector, Sink, Visitor};
-pub(crate) use tree_pair::{OneTree, Side, TreePair, TwoTrees};
+pub(crate) use task::{Task, TaskWork, Tasks};
+pub(crate) use tree_pair::{Side, TreePair};

@@ -12,15 +12,15 @@
 //! Larsen, Gottschalk, Lin and Manocha (2000, *Fast Distance Queries with Rectangular Swept Sphere Volumes*) descend the same way; here
 //! both nodes are opened at once, all their children compared side by side, and boxes are stale until they are reached.
 
-use super::tree_pair::{Side, TreePair, TwoTrees};
+use super::tree_pair::{Side, TreePair};
 use crate::geometry::{Aabb, Shape};
 use crate::held::{self, Held};
 use crate::ids::{BlockId, LeafId, NodeId, WideNodeId};
-use crate::kernels::{dispatch, near_mask};
+use crate::kernels::{Coordinate, dispatch, near_mask};
 use crate::queries::Candidate;
 use crate::statistics::Statistics;
 use crate::tree::NodePair;
-use crate::tree::{BoxSource, Child, Leaves, NodeLanes};
+use crate::tree::{Child, Leaves, NodeLanes};
 use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
 
@@ -50,13 +50,13 @@ pub(crate) fn gap_square(a: &Aabb, b: &Aabb) -> f64 {
 
 /// Shows `measure` all triangles of two bodies whose boxes are not further apart than the limit then is; many of those are shown before
 /// others that are further apart. Breaks if interrupted.
-pub(crate) fn nearest<B: BoxSource>(
+pub(crate) fn nearest<S: Coordinate>(
     refit: Refit,
-    pair: &mut TwoTrees<B>,
+    pair: &mut TreePair<S>,
     scratch: &mut NearestScratch,
     statistics: &mut Statistics,
     mut limit: f64,
-    measure: Measure<B::Scalar>,
+    measure: Measure<S>,
 ) -> ControlFlow<()> {
     scratch.stack.clear();
     scratch.stack.push((0.0, [NodeId::ROOT; 2]));
@@ -68,10 +68,8 @@ pub(crate) fn nearest<B: BoxSource>(
             return ControlFlow::Break(());
         }
         statistics.node_pairs += 1;
-        let children = [
-            pair.a.tree.nodes().child(nodes[0]),
-            pair.b.tree.nodes().child(nodes[1]),
-        ];
+        let [a, b] = pair.sides();
+        let children = [a.tree.child(nodes[0]), b.tree.child(nodes[1])];
         if let [Child::Leaf(a), Child::Leaf(b)] = children {
             limit = among_leaves(refit, pair, [a, b], scratch, statistics, limit, measure);
             continue;
@@ -80,7 +78,7 @@ pub(crate) fn nearest<B: BoxSource>(
             let Child::Inner(below) = child else {
                 continue;
             };
-            if ![&pair.a, &pair.b][which].boxes.is_valid(below) {
+            if !pair.sides()[which].boxes.is_valid(below) {
                 scratch.reached.insert(below.0);
                 let (reached, lists) = (&mut scratch.reached, &mut scratch.lists);
                 refit.reached(&mut pair.refitted(which), reached, lists, statistics);
@@ -88,7 +86,7 @@ pub(crate) fn nearest<B: BoxSource>(
         }
         push_children(
             refit,
-            [&pair.a, &pair.b],
+            pair.sides(),
             nodes,
             children,
             &mut scratch.stack,
@@ -99,9 +97,9 @@ pub(crate) fn nearest<B: BoxSource>(
 }
 
 /// Puts the pairs of children that are near enough onto the stack, the nearest last.
-fn push_children<B: BoxSource>(
+fn push_children<S: Coordinate>(
     refit: Refit,
-    [a, b]: [&Side<'_, B>; 2],
+    [a, b]: [&Side<'_, S>; 2],
     [node_a, node_b]: NodePair,
     children: [Child; 2],
     stack: &mut Vec<(f64, NodePair)>,
@@ -146,38 +144,32 @@ fn push_children<B: BoxSource>(
 }
 
 /// Measures the triangles of two leaves, the nearest boxes first; returns the limit then.
-fn among_leaves<B: BoxSource>(
+fn among_leaves<S: Coordinate>(
     refit: Refit,
-    pair: &mut TwoTrees<B>,
+    pair: &mut TreePair<S>,
     leaves: [LeafId; 2],
     scratch: &mut NearestScratch,
     statistics: &mut Statistics,
     mut limit: f64,
-    measure: Measure<B::Scalar>,
+    measure: Measure<S>,
 ) -> f64 {
-    let all = [&pair.a.tree.leaves, &pair.b.tree.leaves];
+    let all = pair.sides().map(|side| &side.tree.leaves);
     scratch.triangles.clear();
     if all.iter().all(|leaves| leaves.have_blocks()) {
         for which in 0..2 {
-            if ![&pair.a, &pair.b][which].boxes.is_leaf_valid(leaves[which]) {
+            if !pair.sides()[which].boxes.is_leaf_valid(leaves[which]) {
                 scratch.reached.insert(leaves[which].0);
                 let mut one = pair.refitted(which);
                 refit.reached_leaves(&mut one, &mut scratch.reached, statistics);
             }
         }
-        near_triangles(
-            refit,
-            [&pair.a, &pair.b],
-            leaves,
-            &mut scratch.triangles,
-            limit,
-        );
+        near_triangles(refit, pair.sides(), leaves, &mut scratch.triangles, limit);
     } else {
         let triangle = |which: usize| all[which].first_triangle(leaves[which]);
         let [a, b] = [triangle(0), triangle(1)];
         scratch.triangles.push((0.0, [a, b]));
     }
-    let shapes = [pair.a.source.shape(), pair.b.source.shape()];
+    let shapes = pair.sides().map(|side| side.source.shape());
     for &(gap, triangles) in &scratch.triangles {
         if gap > limit {
             break;
@@ -189,9 +181,9 @@ fn among_leaves<B: BoxSource>(
 }
 
 /// The triangles of two leaves whose boxes are near enough, the nearest first.
-fn near_triangles<B: BoxSource>(
+fn near_triangles<S: Coordinate>(
     refit: Refit,
-    sides: [&Side<'_, B>; 2],
+    sides: [&Side<'_, S>; 2],
     leaves: [LeafId; 2],
     triangles: &mut Vec<(f64, Candidate)>,
     limit: f64,

@@ -17,7 +17,7 @@ pub(crate) enum Sink<'s, H> {
 
 impl<'s, H> Sink<'s, H> {
     /// The collector, which wants all there is.
-    pub(super) fn collector(&self) -> Option<Collector<'s, H>> {
+    pub(crate) fn collector(&self) -> Option<Collector<'s, H>> {
         match self {
             Self::Collector(collector) => Some(*collector),
             Self::Visitor(_) => None,

@@ -1,15 +1,19 @@
 //! A task of a descent: some of its pairs of nodes, and all that comes of them.
 //!
-//! A task goes on by itself, depth first, on a stack and lists of its own, for as long as the boxes it asks for are valid.
+//! A task goes on by itself, depth first, on a stack and lists of its own, for as long as the boxes it asks for are valid. What becomes
+//! of leaves that overlap its `LeafWork` knows; which that is depends on the kind of query.
 
 use super::context::Context;
 use super::leaf_pairs::{Cursor, LeafTests};
 use super::tree_pair::{Side, TreePair};
 use super::walk::{Rules, Walk};
 use crate::held::Held;
-use crate::queries::{Kind, Leaves};
-use crate::tree::{BoxSource, Neighbours};
-use std::ops::Range;
+use crate::kernels::Coordinate;
+use crate::queries::{LeafWork, Needs};
+use crate::statistics::Statistics;
+use crate::threads::Executor;
+use crate::tree::Neighbours;
+use std::ops::{ControlFlow, Range};
 
 /// Pairs of blocks that are tested before a task looks at what it has found.
 const BLOCK_PAIRS_BEFORE_LOOK: usize = 128;
@@ -17,62 +21,73 @@ const BLOCK_PAIRS_BEFORE_LOOK: usize = 128;
 const RUN_PAIRS_BEFORE_LOOK: usize = 32;
 
 /// A task, and its buffers, kept from query to query.
-#[derive(Debug)]
-pub(super) struct Task<K: Kind> {
+#[derive(Debug, Default)]
+pub(crate) struct Task {
     /// The way down: its stack, and pairs of leaves that are to be tested.
     pub(super) walk: Walk,
     /// Up to where the pairs of leaves were tested.
     cursor: Cursor,
     /// Leaves that are still to be tested with themselves and their neighbours, where the descent leaves these out.
     pub(super) run: Range<u32>,
-    /// What was found among the pairs of leaves that were tested last.
-    pub(super) tests: LeafTests<K>,
+    /// The lists on the way from leaves to what the kind is shown.
+    tests: LeafTests,
 }
 
-impl<K: Kind> Default for Task<K> {
-    fn default() -> Self {
-        Self {
-            walk: Walk::default(),
-            cursor: Cursor::default(),
-            run: 0..0,
-            tests: LeafTests::default(),
-        }
-    }
+/// What a task is to do, with what the kind of query makes of it.
+pub(crate) type TaskWork<'w, S> = &'w (dyn Fn(&mut Task, &mut dyn LeafWork<S>) + Sync);
+
+/// The tasks of a query of some kind, each with a [`LeafWork`] of its own; kept from query to query.
+pub(crate) trait Tasks<S> {
+    /// Whether all that is found is wanted, and in no order.
+    fn wants_all(&self) -> bool;
+    /// Forgets what tasks that were used before were about. One is used from now on, of as many as there may be.
+    fn begin(&mut self, most: usize);
+    /// So many are used from now on.
+    fn use_all(&mut self, count: usize);
+    /// One of them.
+    fn one(&mut self, number: usize) -> &mut Task;
+    /// Has the first `count` do something, side by side where there are threads.
+    fn run(&mut self, executor: Executor, count: usize, work: TaskWork<S>);
+    /// Shows what the first `count` have found to a visitor, and counts the work. Breaks if the visitor does, or if a collector has
+    /// enough, which was shown it before.
+    fn show(&mut self, count: usize, statistics: &mut Statistics) -> ControlFlow<()>;
 }
 
-/// Whether all boxes that the kind reads are known to be valid because they were completed at once, so that tasks need not wait for any,
+/// Whether all boxes that the query reads are known to be valid because they were completed at once, so that tasks need not wait for any,
 /// and pairs of leaves can be tested as soon as they are found.
-pub(super) fn are_free<K: Kind, B: BoxSource>(sides: [&Side<'_, B>; 2]) -> bool {
-    let is_complete = |side: &&Side<B>| {
-        side.boxes.are_nodes_complete() && (K::HAS_RUNS || side.boxes.are_leaves_complete())
+pub(super) fn are_free<S: Coordinate>(needs: &Needs, sides: [&Side<'_, S>; 2]) -> bool {
+    let is_complete = |side: &&Side<S>| {
+        side.boxes.are_nodes_complete() && (!needs.triangles() || side.boxes.are_leaves_complete())
     };
     sides.iter().all(is_complete)
 }
 
 /// The neighbours in a body that meets itself, if the descent leaves them out: where they are known, leaves are blocks, and all boxes are
 /// valid. They overlap in any shape, so nothing is gained by looking for them.
-pub(super) fn left_out<K: Kind, P: TreePair>(pair: &P) -> Option<&Neighbours> {
-    let sides = pair.sides();
-    let are_left_out = P::ITSELF
-        && K::LEAVES == Leaves::Triangles
-        && sides[0].tree.leaves.are_blocks()
-        && are_free::<K, _>(sides);
-    sides[0].tree.neighbours().filter(|_| are_left_out)
+pub(super) fn left_out<'p, S: Coordinate>(
+    needs: &Needs,
+    pair: &'p TreePair<S>,
+) -> Option<&'p Neighbours> {
+    let TreePair::One(side) = pair else {
+        return None;
+    };
+    let are_left_out =
+        needs.triangles() && side.tree.leaves.are_blocks() && are_free(needs, [side; 2]);
+    side.tree.neighbours().filter(|_| are_left_out)
 }
 
 /// How many pairs are tested before a task looks at what it has found.
-const fn before_look<K: Kind>() -> usize {
-    if K::HAS_RUNS {
-        RUN_PAIRS_BEFORE_LOOK
-    } else {
+fn before_look(needs: &Needs) -> usize {
+    if needs.triangles() {
         BLOCK_PAIRS_BEFORE_LOOK
+    } else {
+        RUN_PAIRS_BEFORE_LOOK
     }
 }
 
-impl<K: Kind> Task<K> {
+impl Task {
     /// Forgets what it was about.
-    pub(super) fn clear(&mut self) {
-        self.tests.clear();
+    pub(crate) fn clear(&mut self) {
         self.walk.clear();
         self.cursor = Cursor::default();
         self.run = 0..0;
@@ -90,94 +105,93 @@ impl<K: Kind> Task<K> {
 
     /// Goes on until it asks for boxes that are stale, has found enough, or nothing is left. What it asked for before is valid now.
     /// Where it is free, leaves are tested on the way.
-    pub(super) fn advance<P>(&mut self, context: &Context<K, P>)
-    where
-        P: TreePair,
-        P::Source: BoxSource<Scalar = K::Scalar>,
-    {
+    pub(super) fn advance<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
+    ) {
         self.walk.found.node_pairs = 0;
-        self.tests.clear();
-        if !are_free::<K, _>(context.pair.sides()) {
+        work.clear();
+        if !are_free(&context.needs, context.pair.sides()) {
             return self.walk(context);
         }
         let budget = context.budget;
         let mut tested = 0;
-        while tested < budget.block_pairs && self.tests.have_room() && !context.interrupt.is_set() {
+        while tested < budget.block_pairs && work.has_room() && !context.interrupt.is_set() {
             if self.all_tested() {
                 self.forget_leaves();
                 self.walk(context);
             }
-            let blocks = budget.leaf_pairs.min(before_look::<K>());
-            self.test(context, blocks);
+            let blocks = budget.leaf_pairs.min(before_look(&context.needs));
+            self.test(context, work, blocks);
             tested += blocks;
             let stack = self.walk.found.nodes.len();
             if self.all_tested() && (stack == 0 || stack >= budget.stack) {
                 break;
             }
         }
-        self.tests.collect(context);
+        work.hand_over();
     }
 
     /// Walks down until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
-    fn walk<P: TreePair>(&mut self, context: &Context<K, P>) {
+    fn walk<S: Coordinate>(&mut self, context: &Context<S>) {
+        let needs = &context.needs;
         let sides = context.pair.sides();
-        let trees = [sides[0].boxed_tree(), sides[1].boxed_tree()];
+        let trees = sides.map(Side::boxed_tree);
         let rules = Rules {
             instructions: context.instructions,
             interrupt: context.interrupt,
             budget: context.budget,
-            left_out: left_out::<K, P>(context.pair),
-            notes_leaves: !K::HAS_RUNS && !are_free::<K, _>(sides),
+            left_out: left_out(needs, context.pair),
+            is_one_tree: context.pair.is_one_tree(),
+            notes_leaves: needs.triangles() && !are_free(needs, sides),
         };
-        if const { P::ITSELF } {
-            self.walk.go::<true>(trees, &rules);
-        } else {
-            self.walk.go::<false>(trees, &rules);
-        }
+        self.walk.go(trees, &rules);
     }
 
     /// Tests pairs of leaves until all were, or many, or enough was found.
-    pub(super) fn test_some<P>(&mut self, context: &Context<K, P>)
-    where
-        P: TreePair,
-        P::Source: BoxSource<Scalar = K::Scalar>,
-    {
-        self.tests.clear();
+    pub(super) fn test_some<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
+    ) {
+        work.clear();
         let budget = context.budget;
-        let blocks = budget.leaf_pairs.min(before_look::<K>());
+        let blocks = budget.leaf_pairs.min(before_look(&context.needs));
         let mut tested = 0;
         while tested < budget.block_pairs
-            && self.tests.have_room()
+            && work.has_room()
             && !self.all_tested()
             && !context.interrupt.is_set()
         {
-            self.test(context, blocks);
+            self.test(context, work, blocks);
             tested += blocks;
         }
-        self.tests.collect(context);
+        work.hand_over();
     }
 
     /// Tests the next pairs of leaves, so many pairs of their blocks.
-    fn test<P>(&mut self, context: &Context<K, P>, blocks: usize)
-    where
-        P: TreePair,
-        P::Source: BoxSource<Scalar = K::Scalar>,
-    {
+    fn test<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
+        blocks: usize,
+    ) {
         let leaves = self.walk.found.leaves.as_slice();
-        self.cursor = self.tests.test::<P>(context, leaves, self.cursor, blocks);
+        self.cursor = self.tests.test(context, work, leaves, self.cursor, blocks);
     }
 
     /// Tests the next leaves of its run with themselves and their neighbours, until many were or enough was found.
-    pub(super) fn test_neighbours<P>(&mut self, context: &Context<K, P>, neighbours: &Neighbours)
-    where
-        P: TreePair,
-        P::Source: BoxSource<Scalar = K::Scalar>,
-    {
-        self.tests.clear();
-        let most = context.budget.block_pairs;
+    pub(super) fn test_neighbours<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
+        neighbours: &Neighbours,
+    ) {
+        work.clear();
         self.tests
-            .test_neighbours::<P>(context, neighbours, &mut self.run, most);
-        self.tests.collect(context);
+            .test_neighbours(context, work, neighbours, &mut self.run);
+        work.hand_over();
     }
 
     /// Forgets the pairs of leaves, all of which were tested.
@@ -187,7 +201,7 @@ impl<K: Kind> Task<K> {
     }
 }
 
-impl<K: Kind> Held for Task<K> {
+impl Held for Task {
     fn held(&self) -> usize {
         self.walk.held() + self.tests.held()
     }

@@ -1,31 +1,31 @@
-//! What is descended: the trees of two bodies, or the tree of one against itself.
+//! What is descended: the trees of two bodies, two trees of one, or one tree against itself.
 
 use crate::geometry::Points;
 use crate::ids::{BodyId, NodeId};
+use crate::kernels::Coordinate;
 use crate::mesh::Order;
 use crate::queries::{CallerIds, NearElements, Removed};
-use crate::tree::BoxedTree;
-use crate::tree::{BoxSet, BoxSource, Tree};
+use crate::tree::{BoxSet, BoxedTree, Source, Tree};
 use crate::update::Refitted;
 
 /// One body as the traversal sees it.
-pub(crate) struct Side<'t, B: BoxSource> {
+pub(crate) struct Side<'t, S> {
     pub(crate) body: BodyId,
     pub(crate) order: &'t Order,
     pub(crate) tree: &'t Tree,
     pub(crate) boxes: &'t mut BoxSet,
-    pub(crate) source: B,
-    /// Where vertices are going, for kinds that hold motions.
-    pub(crate) motion: Option<&'t Points<B::Scalar>>,
+    pub(crate) source: Source<'t, S>,
+    /// Where vertices are going, for kinds that look along motions.
+    pub(crate) motion: Option<&'t Points<S>>,
     /// For kinds that are shown runs of triangles.
     pub(crate) elements: Option<NearElements<'t>>,
     /// What was taken out of the mesh and is still in the tree, if anything is.
     pub(crate) removed: Option<Removed<'t>>,
 }
 
-impl<B: BoxSource> Side<'_, B> {
+impl<S: Coordinate> Side<'_, S> {
     /// As the update sees it.
-    pub(crate) fn refitted(&mut self) -> Refitted<'_, B> {
+    pub(crate) fn refitted(&mut self) -> Refitted<'_, S> {
         Refitted {
             tree: self.tree,
             boxes: self.boxes,
@@ -41,8 +41,8 @@ impl<B: BoxSource> Side<'_, B> {
         }
     }
 
-    /// Where vertices are at the end of a motion, for kinds that hold motions.
-    pub(super) fn end(&self) -> Option<&Points<B::Scalar>> {
+    /// Where vertices are at the end of a motion, for kinds that look along motions.
+    pub(super) fn end(&self) -> Option<&Points<S>> {
         self.source.end().map(|end| end.positions)
     }
 
@@ -55,88 +55,67 @@ impl<B: BoxSource> Side<'_, B> {
     }
 }
 
-/// Two trees, or one twice.
-pub(crate) trait TreePair: Sync {
-    type Source: BoxSource;
-    /// Whether it is one tree against itself.
-    const ITSELF: bool;
+/// Two trees, or one twice. The root boxes are valid.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there is one at a time, and memory for it would be allocated"
+)]
+pub(crate) enum TreePair<'t, S> {
+    /// One tree with itself, every pair of its triangles once.
+    ///
+    /// A pair of one node with itself stands for the pairs within it; it expands into its children with themselves and into
+    /// the pairs of different children that overlap.
+    One(Side<'t, S>),
+    /// Two trees whose root boxes overlap: of two bodies, or of one.
+    Two([Side<'t, S>; 2]),
+}
+
+impl<S: Coordinate> TreePair<'_, S> {
+    /// Whether it is one tree with itself.
+    #[inline]
+    pub(super) fn is_one_tree(&self) -> bool {
+        matches!(self, Self::One(_))
+    }
 
     /// Whether it is one body, in one tree or two: then triangles that share a vertex of the mesh are no answer.
-    fn is_one_body(&self) -> bool;
+    #[inline]
+    pub(super) fn is_one_body(&self) -> bool {
+        let [a, b] = self.sides();
+        a.body == b.body
+    }
 
-    /// Both bodies, or the one twice.
-    fn sides(&self) -> [&Side<'_, Self::Source>; 2];
+    /// Whether the root boxes, which are valid, overlap.
+    pub(crate) fn do_overlap(&self) -> bool {
+        let [a, b] = self
+            .sides()
+            .map(|side| side.boxes.nodes().one(NodeId::ROOT));
+        a.overlaps(&b)
+    }
+
+    /// Both, or the one twice.
+    #[inline]
+    pub(super) fn sides(&self) -> [&Side<'_, S>; 2] {
+        match self {
+            Self::One(side) => [side; 2],
+            Self::Two([a, b]) => [a, b],
+        }
+    }
 
     /// The first or the second, to refit.
-    fn refitted(&mut self, which: usize) -> Refitted<'_, Self::Source>;
+    pub(super) fn refitted(&mut self, which: usize) -> Refitted<'_, S> {
+        match self {
+            Self::One(side) => side.refitted(),
+            Self::Two(sides) => sides[which].refitted(),
+        }
+    }
 
     /// How the caller numbers what is in them.
-    fn caller_ids(&self) -> CallerIds<'_> {
+    pub(super) fn caller_ids(&self) -> CallerIds<'_> {
         let [a, b] = self.sides();
         CallerIds {
             bodies: [a.body, b.body],
             orders: [a.order, b.order],
             edges: [a.caller_edges(), b.caller_edges()],
         }
-    }
-}
-
-/// Two trees, whose root boxes are valid and overlap: of two bodies, or of one.
-pub(crate) struct TwoTrees<'t, B: BoxSource> {
-    pub(crate) a: Side<'t, B>,
-    pub(crate) b: Side<'t, B>,
-}
-
-impl<B: BoxSource> TwoTrees<'_, B> {
-    /// Whether the root boxes, which are valid, overlap.
-    pub(crate) fn overlap(&self) -> bool {
-        let root = |side: &Side<B>| side.boxes.nodes().one(NodeId::ROOT);
-        root(&self.a).overlaps(&root(&self.b))
-    }
-}
-
-impl<B: BoxSource> TreePair for TwoTrees<'_, B> {
-    type Source = B;
-    const ITSELF: bool = false;
-
-    #[inline(always)]
-    fn is_one_body(&self) -> bool {
-        self.a.body == self.b.body
-    }
-
-    #[inline(always)]
-    fn sides(&self) -> [&Side<'_, B>; 2] {
-        [&self.a, &self.b]
-    }
-
-    fn refitted(&mut self, which: usize) -> Refitted<'_, B> {
-        [&mut self.a, &mut self.b][which].refitted()
-    }
-}
-
-/// One body with itself, every pair of its triangles once. Its root box is valid.
-///
-/// A pair of one node with itself stands for the pairs within it; it expands into its children with themselves and into
-/// the pairs of different children that overlap.
-pub(crate) struct OneTree<'t, B: BoxSource> {
-    pub(crate) side: Side<'t, B>,
-}
-
-impl<B: BoxSource> TreePair for OneTree<'_, B> {
-    type Source = B;
-    const ITSELF: bool = true;
-
-    #[inline(always)]
-    fn is_one_body(&self) -> bool {
-        true
-    }
-
-    #[inline(always)]
-    fn sides(&self) -> [&Side<'_, B>; 2] {
-        [&self.side; 2]
-    }
-
-    fn refitted(&mut self, _: usize) -> Refitted<'_, B> {
-        self.side.refitted()
     }
 }

@@ -1,6 +1,6 @@
 //! The walk of a task down the trees, depth first, on a stack and lists of its own: from pairs of nodes to pairs of leaves.
 //!
-//! It knows no kind of query, only trees and boxes, so that it is compiled for every degree but not for every kind.
+//! It knows no kind of query, only trees and boxes.
 
 use super::context::Budget;
 use crate::held::{self, Held};
@@ -18,6 +18,8 @@ pub(super) struct Rules<'q> {
     pub(super) budget: Budget,
     /// Leaves of one tree that are left out.
     pub(super) left_out: Option<&'q Neighbours>,
+    /// Whether it is one tree with itself.
+    pub(super) is_one_tree: bool,
     /// Whether it notes the leaves it reaches, because boxes of their triangles are still to be made.
     pub(super) notes_leaves: bool,
 }
@@ -50,18 +52,19 @@ impl Walk {
     }
 
     /// Goes on until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
-    pub(super) fn go<const ITSELF: bool>(&mut self, trees: [BoxedTree<'_>; 2], rules: &Rules) {
+    pub(super) fn go(&mut self, trees: [BoxedTree<'_>; 2], rules: &Rules) {
         let &Rules {
             instructions,
             interrupt,
             budget,
             left_out,
+            is_one_tree,
             notes_leaves,
         } = rules;
         let complete = trees.iter().all(|tree| tree.boxes.are_nodes_complete());
         loop {
             let (batch, found) = (&self.batch, &mut self.found);
-            expand(instructions, trees, ITSELF, batch, left_out, found);
+            expand(instructions, trees, is_one_tree, batch, left_out, found);
             self.batch.clear();
             for (set, reached) in self.reached.iter_mut().zip(&mut self.found.reached) {
                 if notes_leaves {

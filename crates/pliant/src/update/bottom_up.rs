@@ -7,13 +7,14 @@
 use super::refit::{refit_from_children, refit_from_vertices};
 use super::{Refit, Refitted};
 use crate::ids::WideNodeId;
-use crate::tree::{BoxSource, Child};
+use crate::kernels::Coordinate;
+use crate::tree::Child;
 
 /// Refits the nodes of `top` and of `levels - 1` levels of wide nodes below it. `wide_nodes` is scratch. Returns how many boxes it
 /// made.
-pub(super) fn refit_levels<B: BoxSource>(
+pub(super) fn refit_levels<S: Coordinate>(
     refit: &Refit,
-    one: &mut Refitted<B>,
+    one: &mut Refitted<S>,
     top: WideNodeId,
     levels: u32,
     wide_nodes: &mut Vec<WideNodeId>,

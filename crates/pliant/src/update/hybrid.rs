@@ -9,8 +9,8 @@ use super::whole::refit_whole;
 use super::{Partner, Refit, Refitted};
 use crate::Update;
 use crate::ids::WideNodeId;
+use crate::kernels::Coordinate;
 use crate::statistics::Statistics;
-use crate::tree::BoxSource;
 
 /// One leaf in so many reached is much of a tree: on spheres in contact, nodes that are reached are then about half of all.
 const MUCH: usize = 10;
@@ -26,9 +26,9 @@ fn level_ahead(update: Update, depth: u32, much: bool) -> u32 {
 }
 
 /// Refits the upper levels, unless they are valid.
-pub(super) fn refit_ahead<B: BoxSource>(
+pub(super) fn refit_ahead<S: Coordinate>(
     refit: &Refit,
-    one: &mut Refitted<B>,
+    one: &mut Refitted<S>,
     partner: Partner,
     wide_nodes: &mut Vec<WideNodeId>,
     statistics: &mut Statistics,

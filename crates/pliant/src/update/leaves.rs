@@ -7,8 +7,8 @@
 use super::{DirtySet, Refit, Refitted};
 use crate::ids::{BlockId, LeafId, TreeVertex};
 use crate::kernels::extent::{self, Extent, Four};
-use crate::kernels::{Simd, dispatch};
-use crate::tree::{BLOCK_LANES, Block, BoxSource, Leaves, LeavesMut};
+use crate::kernels::{Coordinate, Simd, dispatch};
+use crate::tree::{BLOCK_LANES, Block, BoxSource, Leaves, LeavesMut, of_source};
 use std::ops::Range;
 
 /// Words of 64 leaves in a job: at most some microseconds of work.
@@ -29,9 +29,9 @@ struct LeafRun<'t> {
 
 /// Makes the boxes of the triangles in leaves that were reached, unless they are valid, and empties the set. Returns how many boxes it
 /// made.
-pub(super) fn refit_leaves<B: BoxSource>(
+pub(super) fn refit_leaves<S: Coordinate>(
     refit: &Refit,
-    one: &mut Refitted<B>,
+    one: &mut Refitted<S>,
     reached: &mut DirtySet,
 ) -> u64 {
     let leaves = &one.tree.leaves;
@@ -55,11 +55,11 @@ pub(super) fn refit_leaves<B: BoxSource>(
                 return;
             }
             let words = start..words.end.min(start + UNINTERRUPTED);
-            dispatch!(refit.instructions, i => {
+            of_source!(one.source, source => dispatch!(refit.instructions, i => {
                 for leaf in reached.of(words).map(LeafId) {
-                    job.refit(i, leaf, leaves, one.source);
+                    job.refit(i, leaf, leaves, source);
                 }
-            });
+            }));
         }
     };
     let (mut made, mut triangles) = (0, 0);

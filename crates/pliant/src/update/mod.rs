@@ -13,7 +13,8 @@
 //! `hybrid` decides how far ahead, `bottom_up` refits some levels below a wide node, `top_down` what a traversal reaches, and `refit`
 //! makes the boxes, for all of them; `leaves` makes those of single triangles, `whole` all
 //! of a body that meets itself, `quantize` quantizes them; a `DirtySet` is what was reached. Boxes made are
-//! counted, so that the strategies can be compared by their work. All of it is generic over what boxes are made of (`BoxSource`).
+//! counted, so that the strategies can be compared by their work. What boxes are made of (`Source`) and
+//! the degree are types where boxes are made, and matched on once a batch.
 
 mod bottom_up;
 mod dirty_set;
@@ -25,11 +26,11 @@ mod top_down;
 mod whole;
 
 use crate::ids::WideNodeId;
-use crate::kernels::Instructions;
+use crate::kernels::{Coordinate, Instructions};
 use crate::options::Update;
 use crate::statistics::Statistics;
 use crate::threads::Executor;
-use crate::tree::{BoxSet, BoxSource, Tree};
+use crate::tree::{BoxSet, Source, Tree};
 pub(crate) use dirty_set::DirtySet;
 
 /// What a body meets in a query: of how much of its tree boxes are made ahead depends on it.
@@ -49,17 +50,17 @@ pub(crate) struct Refit<'q> {
 }
 
 /// A tree, a set of its boxes, and what these are made of.
-pub(crate) struct Refitted<'t, B> {
+pub(crate) struct Refitted<'t, S> {
     pub(crate) tree: &'t Tree,
     pub(crate) boxes: &'t mut BoxSet,
-    pub(crate) source: &'t B,
+    pub(crate) source: &'t Source<'t, S>,
 }
 
 impl Refit<'_> {
     /// Refits the upper levels, unless they are valid. `wide_nodes` is scratch.
-    pub(crate) fn ahead<B: BoxSource>(
+    pub(crate) fn ahead<S: Coordinate>(
         &self,
-        one: &mut Refitted<B>,
+        one: &mut Refitted<S>,
         partner: Partner,
         wide_nodes: &mut Vec<WideNodeId>,
         statistics: &mut Statistics,
@@ -68,9 +69,9 @@ impl Refit<'_> {
     }
 
     /// Refits wide nodes that a traversal has reached; they are stale. The lists are scratch.
-    pub(crate) fn reached<B: BoxSource>(
+    pub(crate) fn reached<S: Coordinate>(
         &self,
-        one: &mut Refitted<B>,
+        one: &mut Refitted<S>,
         reached: &mut DirtySet,
         lists: &mut [Vec<WideNodeId>; 2],
         statistics: &mut Statistics,
@@ -79,9 +80,9 @@ impl Refit<'_> {
     }
 
     /// Makes the boxes of triangles in leaves that a traversal has reached; some may be valid.
-    pub(crate) fn reached_leaves<B: BoxSource>(
+    pub(crate) fn reached_leaves<S: Coordinate>(
         &self,
-        one: &mut Refitted<B>,
+        one: &mut Refitted<S>,
         reached: &mut DirtySet,
         statistics: &mut Statistics,
     ) {
@@ -90,9 +91,9 @@ impl Refit<'_> {
 
     /// Makes the boxes of the triangles in all leaves, and quantizes them where leaves are blocks; all nodes are valid. `reached` is
     /// scratch.
-    pub(crate) fn all_leaves<B: BoxSource>(
+    pub(crate) fn all_leaves<S: Coordinate>(
         &self,
-        one: &mut Refitted<B>,
+        one: &mut Refitted<S>,
         reached: &mut DirtySet,
         statistics: &mut Statistics,
     ) {

@@ -6,8 +6,8 @@
 
 use super::{Refit, Refitted};
 use crate::ids::{BlockId, LeafId, NodeId};
-use crate::kernels::{FARTHEST, QuantizedLanes, dispatch, quantize};
-use crate::tree::{Block, BoxSet, BoxSource, Child, Quantized, Tree};
+use crate::kernels::{Coordinate, FARTHEST, QuantizedLanes, dispatch, quantize};
+use crate::tree::{Block, BoxSet, Child, Quantized, Tree};
 
 /// Units in the mean of the longest sides of leaves.
 const UNITS: f32 = 32.0;
@@ -15,7 +15,7 @@ const UNITS: f32 = 32.0;
 const JOB: usize = 128;
 
 /// Quantizes the boxes of all leaves, unless leaves are not blocks, or they lie too far from zero for it. All other boxes are valid.
-pub(super) fn quantize_all<B: BoxSource>(refit: &Refit, one: &mut Refitted<B>) {
+pub(super) fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) {
     let tree = one.tree;
     if !tree.leaves.are_blocks() || one.boxes.quantized().is_some() {
         return;

@@ -6,8 +6,8 @@
 use super::{Refit, Refitted};
 use crate::ids::WideNodeId;
 use crate::kernels::extent::{self, Extent};
-use crate::kernels::{BoxLanes, Simd, dispatch};
-use crate::tree::{BoxSource, Child, NodesMut, Tree, of_degree};
+use crate::kernels::{BoxLanes, Coordinate, Simd, dispatch};
+use crate::tree::{BoxSource, Child, NodesMut, Source, Tree, of_degree, of_source};
 
 /// Wide nodes in a job: some microseconds of work.
 const JOB: usize = 16;
@@ -29,9 +29,9 @@ struct NodeRun<'t, const N: usize> {
 }
 
 /// Makes the boxes of wide nodes from the vertices below them; they come in ascending order. Returns how many boxes it made.
-pub(super) fn refit_from_vertices<B: BoxSource>(
+pub(super) fn refit_from_vertices<S: Coordinate>(
     refit: &Refit,
-    one: &mut Refitted<B>,
+    one: &mut Refitted<S>,
     run: &[WideNodeId],
 ) -> u64 {
     let stamp = one.boxes.stamp();
@@ -45,9 +45,9 @@ pub(super) fn refit_from_vertices<B: BoxSource>(
 
 /// Makes the boxes of wide nodes from those of the wide nodes below them, which are valid, and from the vertices of their leaves. They
 /// come in ascending order and are made level by level, children before their parents.
-pub(super) fn refit_from_children<B: BoxSource>(
+pub(super) fn refit_from_children<S: Coordinate>(
     refit: &Refit,
-    one: &mut Refitted<B>,
+    one: &mut Refitted<S>,
     run: &[WideNodeId],
 ) -> u64 {
     let stamp = one.boxes.stamp();
@@ -68,11 +68,11 @@ pub(super) fn refit_from_children<B: BoxSource>(
 }
 
 /// Makes the boxes of a job, cut into jobs of fewer wide nodes if there are threads for them. Returns how many boxes it made.
-fn refit_all<const N: usize, B: BoxSource>(
+fn refit_all<const N: usize, S: Coordinate>(
     refit: &Refit,
     whole: NodeRun<'_, N>,
     tree: &Tree,
-    source: &B,
+    source: &Source<S>,
 ) -> u64 {
     let executor = refit.executor;
     let is_worth_it = whole.run.len() > SHARED && executor.are_many();
@@ -81,11 +81,11 @@ fn refit_all<const N: usize, B: BoxSource>(
             if executor.is_interrupted() {
                 return;
             }
-            dispatch!(refit.instructions, i => {
+            of_source!(source, source => dispatch!(refit.instructions, i => {
                 for &wide_node in run {
                     refit_one(i, job, wide_node, tree, source);
                 }
-            });
+            }));
         }
     };
     let mut made = 0;

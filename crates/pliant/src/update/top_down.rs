@@ -7,13 +7,13 @@ use super::bottom_up::refit_levels;
 use super::refit::refit_from_vertices;
 use super::{DirtySet, Refit, Refitted};
 use crate::ids::WideNodeId;
-use crate::tree::BoxSource;
+use crate::kernels::Coordinate;
 
 /// Refits wide nodes that were reached and are stale, and with each of them `levels_at_once - 1` levels below; empties the set. The
 /// lists are scratch. Returns how many boxes of nodes it made.
-pub(super) fn refit_reached<B: BoxSource>(
+pub(super) fn refit_reached<S: Coordinate>(
     refit: &Refit,
-    one: &mut Refitted<B>,
+    one: &mut Refitted<S>,
     reached: &mut DirtySet,
     [listed, below]: &mut [Vec<WideNodeId>; 2],
 ) -> u64 {

@@ -9,8 +9,8 @@ use super::refit::refit_from_children;
 use super::{Refit, Refitted};
 use crate::ids::{BlockId, WideNodeId};
 use crate::kernels::extent::{self, Extent};
-use crate::kernels::{QuantizedLanes, Simd, dispatch, quantize};
-use crate::tree::{BoxSource, LeavesMut, NodesMut, Tree, of_degree};
+use crate::kernels::{Coordinate, QuantizedLanes, Simd, dispatch, quantize};
+use crate::tree::{BoxSource, LeavesMut, NodesMut, Source, Tree, of_degree, of_source};
 
 /// Wide nodes in a job: some microseconds of work.
 const JOB: usize = 4;
@@ -36,9 +36,9 @@ struct WholeRun<'t, const N: usize> {
 
 /// Makes all boxes of nodes, and those of all triangles whose leaves are side by side. `wide_nodes` is scratch. Returns how many boxes
 /// of nodes and of triangles it made.
-pub(super) fn refit_whole<B: BoxSource>(
+pub(super) fn refit_whole<S: Coordinate>(
     refit: &Refit,
-    one: &mut Refitted<B>,
+    one: &mut Refitted<S>,
     wide_nodes: &mut Vec<WideNodeId>,
 ) -> [u64; 2] {
     let tree = one.tree;
@@ -88,11 +88,11 @@ pub(super) fn refit_whole<B: BoxSource>(
 }
 
 /// Makes the boxes of a run, cut into shorter ones if there are threads for them. Returns how many of leaves and of triangles it made.
-fn refit_runs<const N: usize, B: BoxSource>(
+fn refit_runs<const N: usize, S: Coordinate>(
     refit: &Refit,
     whole: WholeRun<'_, N>,
     tree: &Tree,
-    source: &B,
+    source: &Source<S>,
 ) -> [usize; 2] {
     let executor = refit.executor;
     let is_worth_it = whole.run.len() > SHARED && executor.are_many();
@@ -101,11 +101,11 @@ fn refit_runs<const N: usize, B: BoxSource>(
             if executor.is_interrupted() {
                 return;
             }
-            dispatch!(refit.instructions, i => {
+            of_source!(source, source => dispatch!(refit.instructions, i => {
                 for &wide_node in run {
                     job.refit(i, wide_node, tree, source);
                 }
-            });
+            }));
         }
     };
     let mut all = [0; 2];

@@ -1,5 +1,6 @@
 //! What a world keeps for one kind of query, and how one is answered: all that is found, or shown to a sink until it breaks.
 
+use super::answer::{Answer, TaskList};
 use super::bodies::Bodies;
 use super::body_pairs::BodyPairs;
 use super::origin::FloatingOrigin;
@@ -11,7 +12,7 @@ use crate::held::{self, Held};
 use crate::hits::{Hit, Numbered};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
-use crate::queries::Kind;
+use crate::queries::{Kind, Needs};
 use crate::sort::{Sorter, sort_by_numbers};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, PerThread, Threads};
@@ -28,6 +29,8 @@ pub(super) struct Common<S> {
     pub(super) bodies: Bodies<S>,
     pub(super) body_pairs: BodyPairs,
     pub(super) origin: FloatingOrigin,
+    /// Buffers of the descent.
+    pub(super) scratch: Scratch,
     /// The work of the last query.
     pub(super) statistics: Statistics,
     /// The work that was done early since the last query.
@@ -37,7 +40,7 @@ pub(super) struct Common<S> {
 /// Buffers of one kind, kept from query to query.
 #[derive(Debug)]
 pub(super) struct Asked<K: Kind> {
-    pub(super) scratch: Scratch<K>,
+    pub(super) tasks: TaskList<K>,
     scheduler: Scheduler<K>,
     sorter: Sorter<K::Hit>,
     /// Hits that are more than their numbers, of every thread; the first of these lists is that of all in the end.
@@ -47,7 +50,7 @@ pub(super) struct Asked<K: Kind> {
 impl<K: Kind> Default for Asked<K> {
     fn default() -> Self {
         Self {
-            scratch: Scratch::default(),
+            tasks: TaskList::default(),
             scheduler: Scheduler::default(),
             sorter: Sorter::default(),
             lists: PerThread::default(),
@@ -69,7 +72,7 @@ where
         let interrupt = Interrupt::new(request.question);
         self.sorter.begin(common.executor(&interrupt));
         let keep = &|found: &[K::Hit]| self.sorter.push(found);
-        let buffers = (&mut self.scratch, &mut self.scheduler);
+        let buffers = (&mut self.tasks, &mut self.scheduler);
         Self::collect(buffers, kind, common, request, &interrupt, keep)?;
         let instructions = common.instructions;
         let executor = common.executor(&interrupt);
@@ -85,7 +88,7 @@ where
 {
     /// Has every thread keep what it finds, some hits at a time. It is an error if there are more than the request allows.
     fn collect(
-        (scratch, scheduler): (&mut Scratch<K>, &mut Scheduler<K>),
+        (tasks, scheduler): (&mut TaskList<K>, &mut Scheduler<K>),
         kind: &K,
         common: &mut Common<K::Scalar>,
         request: &Request,
@@ -102,17 +105,17 @@ where
             keep(found);
             ControlFlow::Continue(())
         };
-        let mut sink = Sink::Collector(collector);
-        scratch.begin(&sink);
+        let mut answer = Answer::new(kind, tasks, Sink::Collector(collector));
+        common.scratch.begin(true);
         let (mut step, bodies, body_pairs) =
-            Self::step(scratch, kind, common, request, interrupt, false)?;
+            common.step(kind.needs(), request, interrupt, false)?;
         let instructions = step.refit.instructions;
         // Bodies with themselves are a batch of their own, the first: what is refitted then does not depend on the order in which
         // threads take the others.
         'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
             if is_worth_it(step.refit.executor, bodies, pairs) {
                 if scheduler
-                    .meet(&mut step, bodies, pairs, collector)
+                    .meet(&mut step, &mut answer, bodies, pairs, collector)
                     .is_break()
                 {
                     break;
@@ -120,7 +123,7 @@ where
                 continue;
             }
             for &pair in pairs {
-                if step.meet(bodies, pair, &mut sink).is_break() {
+                if step.meet(bodies, pair, &mut answer).is_break() {
                     break 'batches;
                 }
             }
@@ -147,7 +150,7 @@ where
         self.lists.for_threads(common.executor(&interrupt).count());
         self.lists.iter_mut().for_each(Vec::clear);
         let keep = &|found: &[K::Hit]| self.lists.own().extend_from_slice(found);
-        let buffers = (&mut self.scratch, &mut self.scheduler);
+        let buffers = (&mut self.tasks, &mut self.scheduler);
         Self::collect(buffers, kind, common, request, &interrupt, keep)?;
         let mut lists = self.lists.iter_mut();
         let Some(all) = lists.next() else {
@@ -166,7 +169,7 @@ where
         request: &Request,
     ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
-        let buffers = (&mut self.scratch, &mut self.scheduler);
+        let buffers = (&mut self.tasks, &mut self.scheduler);
         Self::collect(buffers, kind, common, request, &interrupt, &|_| {})
     }
 
@@ -180,89 +183,19 @@ where
     ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
         common.begin(request)?;
-        let mut sink = Sink::Visitor(visitor);
-        self.scratch.begin(&sink);
+        let mut answer = Answer::new(kind, &mut self.tasks, Sink::Visitor(visitor));
+        common.scratch.begin(false);
         let (mut step, bodies, body_pairs) =
-            Self::step(&mut self.scratch, kind, common, request, &interrupt, false)?;
+            common.step(kind.needs(), request, &interrupt, false)?;
         let instructions = step.refit.instructions;
         'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, &interrupt) {
             for &pair in pairs {
-                if step.meet(bodies, pair, &mut sink).is_break() {
+                if step.meet(bodies, pair, &mut answer).is_break() {
                     break 'batches;
                 }
             }
         }
         common.end(&interrupt)
-    }
-
-    /// Does early what a query would do first: finds the bodies that may meet and refits the upper levels of their trees.
-    pub(super) fn prepare(
-        &mut self,
-        kind: &K,
-        common: &mut Common<K::Scalar>,
-        request: &Request,
-    ) -> Result<(), Error> {
-        let interrupt = Interrupt::new(request.question);
-        common.bodies.validate(request.of)?;
-        common.settle_origin();
-        let (mut step, bodies, body_pairs) =
-            Self::step(&mut self.scratch, kind, common, request, &interrupt, true)?;
-        let instructions = step.refit.instructions;
-        'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, &interrupt) {
-            for &[a, b] in pairs {
-                let partner = if a == b {
-                    Partner::Itself
-                } else {
-                    Partner::Another
-                };
-                for place in [a, b] {
-                    let body = &mut bodies.list[place.index()];
-                    if step.prepare(body, partner).is_break() {
-                        break 'batches;
-                    }
-                }
-            }
-        }
-        common.end(&interrupt)
-    }
-
-    /// A query that begins, the bodies it works on, and which of them meet.
-    fn step<'q>(
-        scratch: &'q mut Scratch<K>,
-        kind: &'q K,
-        common: &'q mut Common<K::Scalar>,
-        request: &Request,
-        interrupt: &'q Interrupt<'q>,
-        early: bool,
-    ) -> Result<(Step<'q, K>, &'q mut Bodies<K::Scalar>, &'q mut BodyPairs), Error> {
-        let Common {
-            options,
-            instructions,
-            threads,
-            bodies,
-            body_pairs,
-            origin,
-            statistics,
-            done_early,
-        } = common;
-        let refit = Refit {
-            executor: Executor {
-                threads: threads.here(),
-                interrupt,
-            },
-            instructions: *instructions,
-            update: options.update,
-        };
-        let boxes = kind.body_boxes();
-        body_pairs.begin(request.of, bodies, boxes, origin.point, interrupt)?;
-        let step = Step {
-            kind,
-            refit,
-            origin: origin.point,
-            scratch,
-            statistics: if early { done_early } else { statistics },
-        };
-        Ok((step, bodies, body_pairs))
     }
 }
 
@@ -281,6 +214,70 @@ impl<S: Coordinate> Common<S> {
         self.settle_origin();
         self.statistics = std::mem::take(&mut self.done_early);
         Ok(())
+    }
+
+    /// A query that begins, the bodies it works on, and which of them meet.
+    fn step<'q>(
+        &'q mut self,
+        needs: Needs,
+        request: &Request,
+        interrupt: &'q Interrupt<'q>,
+        early: bool,
+    ) -> Result<(Step<'q>, &'q mut Bodies<S>, &'q mut BodyPairs), Error> {
+        let Self {
+            options,
+            instructions,
+            threads,
+            bodies,
+            body_pairs,
+            origin,
+            scratch,
+            statistics,
+            done_early,
+        } = self;
+        let refit = Refit {
+            executor: Executor {
+                threads: threads.here(),
+                interrupt,
+            },
+            instructions: *instructions,
+            update: options.update,
+        };
+        let boxes = needs.body_boxes();
+        body_pairs.begin(request.of, bodies, boxes, origin.point, interrupt)?;
+        let step = Step {
+            needs,
+            refit,
+            origin: origin.point,
+            scratch,
+            statistics: if early { done_early } else { statistics },
+        };
+        Ok((step, bodies, body_pairs))
+    }
+
+    /// Does early what a query would do first: finds the bodies that may meet and refits the upper levels of their trees.
+    pub(super) fn prepare(&mut self, needs: Needs, request: &Request) -> Result<(), Error> {
+        let interrupt = Interrupt::new(request.question);
+        self.bodies.validate(request.of)?;
+        self.settle_origin();
+        let (mut step, bodies, body_pairs) = self.step(needs, request, &interrupt, true)?;
+        let instructions = step.refit.instructions;
+        'batches: while let Some(pairs) = body_pairs.next(bodies, instructions, &interrupt) {
+            for &[a, b] in pairs {
+                let partner = if a == b {
+                    Partner::Itself
+                } else {
+                    Partner::Another
+                };
+                for place in [a, b] {
+                    let body = &mut bodies.list[place.index()];
+                    if step.prepare(body, partner).is_break() {
+                        break 'batches;
+                    }
+                }
+            }
+        }
+        self.end(&interrupt)
     }
 
     /// At the end of every query: if it was interrupted, nothing that it left half done is believed.
@@ -310,7 +307,7 @@ impl<S: Coordinate> Common<S> {
 
 impl<K: Kind> Held for Asked<K> {
     fn held(&self) -> usize {
-        self.scratch.held()
+        self.tasks.held()
             + self.scheduler.held()
             + self.sorter.held()
             + self.lists.held_by(held::list)

@@ -13,11 +13,11 @@ use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{self, Changed, Elements, Order, Topology};
 use crate::options::{Options, Partition};
-use crate::queries::{BodyBoxes, Groups, Kind, NearElements, Reach, Removed, Which};
+use crate::queries::{BodyBoxes, Groups, NearElements, Needs, Reach, Removed, Which};
 use crate::threads::Executor;
 use crate::traversal::Side;
-use crate::tree::Tree;
 use crate::tree::build::{Balanced, Connectivity, CutAt, InitialShape, Plan, plan};
+use crate::tree::{Source, Tree};
 use pliant_exact::denormals_are_kept;
 use std::borrow::Cow;
 use std::iter;
@@ -558,27 +558,22 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// What a query of some kind descends: one part of a body that was brought into tree order.
-    pub(super) fn side<K: Kind<Scalar = S>>(
-        &mut self,
-        kind: &K,
-        origin: Origin,
-        part: usize,
-    ) -> Side<'_, K::Source<'_>> {
+    pub(super) fn side(&mut self, needs: &Needs, origin: Origin, part: usize) -> Side<'_, S> {
         let (parts, rest) = self.parts_and_rest();
-        rest.side(kind, origin, parts.one_mut(part))
+        rest.side(needs, origin, parts.one_mut(part))
     }
 
     /// Two different parts of it, the one with the lower number first.
-    pub(super) fn two_sides<K: Kind<Scalar = S>>(
+    pub(super) fn two_sides(
         &mut self,
-        kind: &K,
+        needs: &Needs,
         origin: Origin,
         numbers: [usize; 2],
-    ) -> [Side<'_, K::Source<'_>>; 2] {
+    ) -> [Side<'_, S>; 2] {
         let (parts, rest) = self.parts_and_rest();
         parts
             .two_mut(numbers)
-            .map(|part| rest.side(kind, origin, part))
+            .map(|part| rest.side(needs, origin, part))
     }
 
     /// The parts, and what they have in common.
@@ -960,34 +955,29 @@ struct InCommon<'b, S> {
 }
 
 impl<'b, S: Coordinate> InCommon<'b, S> {
-    fn side<K: Kind<Scalar = S>>(
-        self,
-        kind: &K,
-        origin: Origin,
-        part: &'b mut Part,
-    ) -> Side<'b, K::Source<'b>> {
+    fn side(self, needs: &Needs, origin: Origin, part: &'b mut Part) -> Side<'b, S> {
         let shape = Shape {
             positions: self.positions.in_tree_order(),
             triangles: self.order.all_corners(),
             origin,
             epoch: self.epoch,
         };
-        let motion = self.motion.filter(|_| K::HOLDS_MOTIONS);
-        let end = motion.map(|motion| {
-            let (positions, epoch) = motion.held(kind.reach());
+        let motion = self.motion.zip(needs.reach);
+        let end = motion.map(|(motion, reach)| {
+            let (positions, epoch) = motion.held(reach);
             Shape {
                 positions,
                 epoch,
                 ..shape
             }
         });
-        let going = motion.map(|motion| match kind.reach() {
+        let going = motion.map(|(motion, reach)| match reach {
             Reach::End | Reach::Until(_) => motion.end.in_tree_order(),
-            Reach::To(_) => motion.held(kind.reach()).0,
+            Reach::To(_) => motion.held(reach).0,
         });
-        let (tree, boxes, near_boxes) = part.for_query(K::BOX_SET);
+        let (tree, boxes, near_boxes) = part.for_query(needs.box_set);
         let elements = self.elements.zip(near_boxes);
-        let elements = elements.filter(|_| K::HAS_RUNS);
+        let elements = elements.filter(|_| !needs.triangles());
         let elements = elements.map(|(edges, boxes)| NearElements {
             edges,
             boxes,
@@ -999,7 +989,7 @@ impl<'b, S: Coordinate> InCommon<'b, S> {
             order: self.order,
             tree,
             boxes,
-            source: kind.source(shape, end),
+            source: Source::new(shape, end, needs.grows_by),
             motion: going,
             elements,
             removed: self.removed,

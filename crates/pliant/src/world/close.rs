@@ -133,16 +133,6 @@ impl<C: CloseKind<Hit: InBodies>> AskedClose<C> {
     ) -> Result<(), Error> {
         self.visits.visit(kind, common, request, visitor)
     }
-
-    /// Does early what a query would do first.
-    pub(super) fn prepare(
-        &mut self,
-        kind: &Measured<C>,
-        common: &mut Common<C::Scalar>,
-        request: &Request,
-    ) -> Result<(), Error> {
-        self.lists.prepare(&kind.0, common, request)
-    }
 }
 
 impl<C: CloseKind> Held for AskedClose<C> {

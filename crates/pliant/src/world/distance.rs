@@ -15,10 +15,10 @@ use crate::geometry::Shape;
 use crate::held::{self, Held};
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
-    BodyBoxes, Candidate, Intersections, NearestPair, close, closest_of_triangles, corners_of,
+    BodyBoxes, Candidate, NearestPair, Needs, close, closest_of_triangles, corners_of,
 };
 use crate::threads::{Executor, Interrupt};
-use crate::traversal::{NearestScratch, Scratch, TwoTrees, gap_square, nearest};
+use crate::traversal::{NearestScratch, TreePair, gap_square, nearest};
 use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
 
@@ -73,7 +73,6 @@ impl Distances {
     pub(super) fn nearest<S: Coordinate>(
         &mut self,
         common: &mut Common<S>,
-        scratch: &mut Scratch<Intersections<S>>,
         of: [BodyId; 2],
         cut_off: f64,
         interrupt: &Interrupt,
@@ -81,7 +80,6 @@ impl Distances {
         let origin = common.origin.point;
         let places = [common.bodies.place(of[0])?, common.bodies.place(of[1])?];
         let instructions = common.instructions;
-        let kind = &Intersections::default();
         let mut found = NearestPair::within(cut_off);
         let mut limit = found.limit();
         let both = common.bodies.two(places);
@@ -100,10 +98,10 @@ impl Distances {
             update: common.options.update,
         };
         let mut step = Step {
-            kind,
+            needs: Needs::TRIANGLES,
             refit,
             origin,
-            scratch,
+            scratch: &mut common.scratch,
             statistics: &mut common.statistics,
         };
         let [body_a, body_b] = both;
@@ -125,7 +123,8 @@ impl Distances {
                 return Ok(None);
             };
             let removed = [a.removed, b.removed];
-            let mut pair = TwoTrees { a, b };
+            let last_shapes = [*a.source.shape(), *b.source.shape()];
+            let mut pair = TreePair::Two([a, b]);
             let mut measure = |shapes: [&Shape<'_, S>; 2], triangles: Candidate| {
                 let is_gone = |which: usize| {
                     removed[which].is_some_and(|removed| removed.has(triangles[which]))
@@ -137,7 +136,7 @@ impl Distances {
                 found.limit()
             };
             if let Some(last) = last.take() {
-                limit = measure([&pair.a.source, &pair.b.source], last);
+                limit = measure(last_shapes.each_ref(), last);
             }
             let statistics = &mut *step.statistics;
             let scratch = &mut self.scratch;

@@ -25,12 +25,12 @@ use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
 use crate::queries::{
-    Close, Contacts, EdgeEdgeCandidates, Impacts, Intersections, Margin, Measured, NearTriangles,
-    NearestPair, Reach, VertexTriangleCandidates,
+    Close, Contacts, EdgeEdgeCandidates, Impacts, Intersections, Kind, Margin, Measured,
+    NearTriangles, NearestPair, Needs, Reach, VertexTriangleCandidates,
 };
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Question, Threads};
-use crate::traversal::Visitor;
+use crate::traversal::{Scratch, Visitor};
 use crate::tree::Tree;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -176,6 +176,7 @@ impl<S: Coordinate> Engine<S> {
                 bodies: Bodies::default(),
                 body_pairs: BodyPairs::new(options.broad_phase),
                 origin: FloatingOrigin::default(),
+                scratch: Scratch::default(),
                 statistics: Statistics::default(),
                 done_early: Statistics::default(),
             },
@@ -579,11 +580,8 @@ impl<S: Coordinate> AnyEngine<S> for Engine<S> {
             return Ok(triangles.and_then(|it| distance::in_common(&self.common, of, it)));
         }
         let interrupt = Interrupt::new(question);
-        let scratch = &mut self.intersections.scratch;
         let common = &mut self.common;
-        let found = self
-            .distances
-            .nearest(common, scratch, of, cut_off, &interrupt)?;
+        let found = self.distances.nearest(common, of, cut_off, &interrupt)?;
         common.end(&interrupt)?;
         Ok(found)
     }
@@ -662,11 +660,15 @@ impl<S: Coordinate> AnyEngine<S> for Engine<S> {
 
     fn memory_usage(&self) -> usize {
         let Common {
-            bodies, body_pairs, ..
+            bodies,
+            body_pairs,
+            scratch,
+            ..
         } = &self.common;
         size_of::<Self>()
             + bodies.held()
             + body_pairs.held()
+            + scratch.held()
             + self.intersections.held()
             + self.contacts.held()
             + self.vertex_triangle.held()
@@ -721,7 +723,7 @@ impl<S: Coordinate> Ask<Pair> for Engine<S> {
             Selection::Everything => self.witnesses.of_world[1] = bodies,
             Selection::Between(..) | Selection::Within(_) => {}
         }
-        if let (Some(bodies), Some(at)) = (bodies, self.intersections.scratch.broke_at.take()) {
+        if let (Some(bodies), Some(at)) = (bodies, self.intersections.tasks.broke_at.take()) {
             self.witnesses.keep(bodies, at);
         }
         Ok(found)
@@ -734,8 +736,7 @@ impl<S: Coordinate> Ask<Pair> for Engine<S> {
     }
 
     fn prepare(&mut self, request: &Request) -> Result<(), Error> {
-        let kind = &Intersections::default();
-        self.intersections.prepare(kind, &mut self.common, request)
+        self.common.prepare(Needs::TRIANGLES, request)
     }
 }
 
@@ -758,8 +759,8 @@ macro_rules! ask {
             }
 
             fn prepare(&mut self, $request: &Request) -> Result<(), Error> {
-                let kind = &$kind;
-                self.$asked.prepare(kind, &mut self.common, $request)
+                let needs = $kind.needs();
+                self.common.prepare(needs, $request)
             }
         }
     };
@@ -781,29 +782,29 @@ fn first_seen<H: Copy>(
     Ok(found)
 }
 
-ask!(Contact, contacts.all_listed(), |request| Contacts::of(
+ask!(Contact, contacts.all_listed(), |request| Contacts::<S>::of(
     request.only
 ));
 ask!(VertexTriangle, vertex_triangle.all(), |request| {
-    VertexTriangleCandidates::within(request.margin()?)
+    VertexTriangleCandidates::<S>::within(request.margin()?)
 });
 ask!(EdgeEdge, edge_edge.all(), |request| {
-    EdgeEdgeCandidates::within(request.margin()?)
+    EdgeEdgeCandidates::<S>::within(request.margin()?)
 });
 ask!(
     CloseVertexTriangle,
     close_vertex_triangle.all(),
     |request| {
-        let candidates = VertexTriangleCandidates::within;
+        let candidates = VertexTriangleCandidates::<S>::within;
         Measured(Close::within(request.distance()?, candidates))
     }
 );
 ask!(CloseEdgeEdge, close_edge_edge.all(), |request| {
-    let candidates = EdgeEdgeCandidates::within;
+    let candidates = EdgeEdgeCandidates::<S>::within;
     Measured(Close::within(request.distance()?, candidates))
 });
 ask!(CloseTriangles, close_triangles.all(), |request| {
-    Measured(NearTriangles::within(request.distance()?))
+    Measured(NearTriangles::<S>::within(request.distance()?))
 });
 
 /// Answers queries for impacts of one kind.
@@ -831,10 +832,8 @@ macro_rules! ask_impacts {
             }
 
             fn prepare(&mut self, request: &Request) -> Result<(), Error> {
-                let kind = Self::all_of(request, $candidates::within)?;
-                self.impacts
-                    .$asked
-                    .prepare(&kind, &mut self.common, request)
+                let kind = Self::all_of(request, $candidates::<S>::within)?;
+                self.common.prepare(kind.needs(), request)
             }
         }
     };

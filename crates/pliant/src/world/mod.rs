@@ -4,7 +4,8 @@
 //! meet. `bodies` are there, each a `body` of one `part` or several, whose `positions` are in the
 //! caller's order or in the tree's. `body_pairs` says who may meet whom in a `selection`.
 //!
-//! `asked` answers a `query` of some kind, pair by pair (`step`) or many pairs at once (`scheduler`);
+//! `asked` answers a `query` of some kind, pair by pair (`step`) or many pairs at once (`scheduler`); an
+//! `answer` is what its tasks find;
 //! `witness` is the last first pair, `origin` what boxes are relative to. Close pairs are put in order
 //! and measured in `close`; how far bodies are apart is found in `distance`, how far vertices may go in
 //! `clearance`. What meets first, and how far everything may go, is found in `impacts`; `free_step` says
@@ -15,6 +16,7 @@
 //! (`mending_state`). `debug_view` and `tree_cut` are for those who look at trees, `validate` looks at
 //! every invariant.
 
+mod answer;
 mod asked;
 mod bodies;
 mod body;

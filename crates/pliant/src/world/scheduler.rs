@@ -4,6 +4,7 @@
 //! takes pairs whose bodies no other has at that moment. Bodies with themselves go first; then which boxes are made does not depend on the
 //! order in which bodies meet, so neither do the counters. A pair that is much of all the work is met by all threads together.
 
+use super::answer::{Answer, TaskList};
 use super::bodies::Bodies;
 use super::body::Body;
 use super::body_pairs::BodyPair;
@@ -42,7 +43,8 @@ pub(super) struct Scheduler<K: Kind> {
 /// What one thread works with.
 #[derive(Debug)]
 struct Worker<K: Kind> {
-    scratch: Scratch<K>,
+    scratch: Scratch,
+    tasks: TaskList<K>,
     statistics: Statistics,
 }
 
@@ -61,6 +63,7 @@ impl<K: Kind> Default for Worker<K> {
     fn default() -> Self {
         Self {
             scratch: Scratch::default(),
+            tasks: TaskList::default(),
             statistics: Statistics::default(),
         }
     }
@@ -87,7 +90,8 @@ impl<K: Kind> Scheduler<K> {
     /// Meets all pairs of bodies, unless it is interrupted or there are too many hits for the collector.
     pub(super) fn meet(
         &mut self,
-        step: &mut Step<K>,
+        step: &mut Step,
+        answer: &mut Answer<K>,
         bodies: &mut Bodies<K::Scalar>,
         pairs: &[BodyPair],
         collector: Collector<K::Hit>,
@@ -99,16 +103,17 @@ impl<K: Kind> Scheduler<K> {
         self.workers.resize_with(executor.count(), Worker::default);
         self.cut(bodies, pairs);
         for &pair in &self.large {
-            step.meet(bodies, pair, &mut Sink::Collector(collector))?;
+            step.meet(bodies, pair, answer)?;
         }
         for worker in &mut self.workers {
-            worker.scratch.begin(&Sink::Collector(collector));
+            worker.scratch.begin(true);
             worker.statistics = Statistics::default();
         }
         let (small, jobs) = (&self.small, &self.jobs);
         let all: Vec<_> = bodies.list.iter_mut().map(Mutex::new).collect();
         let threads = &Threads::one();
-        let (kind, refit, origin) = (step.kind, step.refit, step.origin);
+        let kind = answer.kind();
+        let (needs, refit, origin) = (step.needs, step.refit, step.origin);
         let bodies_of = &|job: usize| small[jobs[job].clone()].as_flattened();
         let workers = &mut self.workers;
         executor.run_conflict_free(jobs.len(), bodies_of, all.len(), workers, &|worker, job| {
@@ -117,7 +122,7 @@ impl<K: Kind> Scheduler<K> {
                 interrupt: executor.interrupt,
             };
             let mut step = Step {
-                kind,
+                needs,
                 refit: Refit {
                     executor: alone,
                     ..refit
@@ -126,15 +131,15 @@ impl<K: Kind> Scheduler<K> {
                 scratch: &mut worker.scratch,
                 statistics: &mut worker.statistics,
             };
+            let answer = &mut Answer::new(kind, &mut worker.tasks, Sink::Collector(collector));
             for &[a, b] in &small[jobs[job].clone()] {
-                let sink = &mut Sink::Collector(collector);
                 // No other thread has these bodies: no lock is ever waited for.
                 let _ = if a == b {
-                    step.meet_itself(&mut locked(&all[a]), sink)
+                    step.meet_itself(&mut locked(&all[a]), answer)
                 } else {
                     let [mut a, mut b] = [a, b].map(|place| locked(&all[place]));
                     let both: [&mut Body<K::Scalar>; 2] = [&mut a, &mut b];
-                    step.meet_another(both, sink)
+                    step.meet_another(both, answer)
                 };
             }
         });
@@ -183,6 +188,6 @@ impl<K: Kind> Held for Scheduler<K> {
 
 impl<K: Kind> Held for Worker<K> {
     fn held(&self) -> usize {
-        self.scratch.held()
+        self.scratch.held() + self.tasks.held()
     }
 }

@@ -7,10 +7,9 @@ use super::body_pairs::BodyPair;
 use super::decay::Work;
 use crate::geometry::Origin;
 use crate::kernels::Coordinate;
-use crate::queries::{Kind, Leaves};
+use crate::queries::{Leaves, Needs};
 use crate::statistics::Statistics;
-use crate::traversal::{OneTree, Scratch, Side, Sink, TreePair, TwoTrees, descend};
-use crate::tree::BoxSource;
+use crate::traversal::{Scratch, Side, Tasks, TreePair, descend};
 use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
 
@@ -18,37 +17,34 @@ use std::ops::ControlFlow;
 const SAYS_NOTHING: u64 = 64;
 
 /// What a query needs besides bodies.
-pub(super) struct Step<'q, K: Kind> {
-    pub(super) kind: &'q K,
+pub(super) struct Step<'q> {
+    pub(super) needs: Needs,
     pub(super) refit: Refit<'q>,
     pub(super) origin: Origin,
-    pub(super) scratch: &'q mut Scratch<K>,
+    pub(super) scratch: &'q mut Scratch,
     pub(super) statistics: &'q mut Statistics,
 }
 
-impl<K: Kind> Step<'_, K>
-where
-    K::Scalar: Coordinate,
-{
+impl Step<'_> {
     /// Shows what two bodies, or one and itself, do to each other. Breaks if the sink does, or if it is interrupted.
-    pub(super) fn meet(
+    pub(super) fn meet<S: Coordinate>(
         &mut self,
-        bodies: &mut Bodies<K::Scalar>,
+        bodies: &mut Bodies<S>,
         [a, b]: BodyPair,
-        sink: &mut Sink<K::Hit>,
+        tasks: &mut dyn Tasks<S>,
     ) -> ControlFlow<()> {
         if a == b {
-            self.meet_itself(&mut bodies.list[a.index()], sink)
+            self.meet_itself(&mut bodies.list[a.index()], tasks)
         } else {
-            self.meet_another(bodies.two([a, b]), sink)
+            self.meet_another(bodies.two([a, b]), tasks)
         }
     }
 
     /// Two different bodies.
-    pub(super) fn meet_another(
+    pub(super) fn meet_another<S: Coordinate>(
         &mut self,
-        both: [&mut Body<K::Scalar>; 2],
-        sink: &mut Sink<K::Hit>,
+        both: [&mut Body<S>; 2],
+        tasks: &mut dyn Tasks<S>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
         let before = self.looked_at();
@@ -60,7 +56,7 @@ where
             for b in 0..parts_b {
                 let a = self.ahead(body_a, a, Partner::Another)?;
                 let b = self.ahead(body_b, b, Partner::Another)?;
-                self.descend_two(TwoTrees { a, b }, parts_a + parts_b > 2, sink)?;
+                self.descend_two([a, b], parts_a + parts_b > 2, tasks)?;
             }
         }
         if let Some([node_pairs, candidates]) = self.much_since(before) {
@@ -73,28 +69,28 @@ where
     }
 
     /// One body with itself.
-    pub(super) fn meet_itself(
+    pub(super) fn meet_itself<S: Coordinate>(
         &mut self,
-        body: &mut Body<K::Scalar>,
-        sink: &mut Sink<K::Hit>,
+        body: &mut Body<S>,
+        tasks: &mut dyn Tasks<S>,
     ) -> ControlFlow<()> {
         self.statistics.body_pairs += 1;
         let before = self.looked_at();
         self.bring_body_into_tree_order(body)?;
         let parts = body.parts.len();
         for part in 0..parts {
-            if K::LEAVES == Leaves::Triangles {
+            if self.needs.triangles() {
                 body.know_neighbours(part, self.refit.executor);
             }
             let side = self.ahead(body, part, Partner::Itself)?;
-            self.descend(&mut OneTree { side }, sink)?;
+            self.descend(&mut TreePair::One(side), tasks)?;
         }
         for high in 1..parts {
             for low in 0..high {
-                let [mut a, mut b] = body.two_sides(self.kind, self.origin, [low, high]);
+                let [mut a, mut b] = body.two_sides(&self.needs, self.origin, [low, high]);
                 self.refit_ahead(&mut a, Partner::Another)?;
                 self.refit_ahead(&mut b, Partner::Another)?;
-                self.descend_two(TwoTrees { a, b }, true, sink)?;
+                self.descend_two([a, b], true, tasks)?;
             }
         }
         if let Some([node_pairs, candidates]) = self.much_since(before) {
@@ -113,47 +109,42 @@ where
     /// The same since they were so, if that says anything of how trees have decayed.
     fn much_since(&self, before: [u64; 2]) -> Option<[u64; 2]> {
         let now = self.looked_at();
-        let is_much = K::LEAVES == Leaves::Triangles && now[0] - before[0] >= SAYS_NOTHING;
+        let is_much = self.needs.triangles() && now[0] - before[0] >= SAYS_NOTHING;
         is_much.then(|| [now[0] - before[0], now[1] - before[1]])
     }
 
     /// Two trees; those of which bodies have several perhaps do not overlap.
-    fn descend_two(
+    fn descend_two<S: Coordinate>(
         &mut self,
-        mut pair: TwoTrees<'_, K::Source<'_>>,
+        both: [Side<'_, S>; 2],
         are_several: bool,
-        sink: &mut Sink<K::Hit>,
+        tasks: &mut dyn Tasks<S>,
     ) -> ControlFlow<()> {
-        if are_several && !pair.overlap() {
+        let mut pair = TreePair::Two(both);
+        if are_several && !pair.do_overlap() {
             return ControlFlow::Continue(());
         }
-        self.descend(&mut pair, sink)
+        self.descend(&mut pair, tasks)
     }
 
-    fn descend<P>(&mut self, pair: &mut P, sink: &mut Sink<K::Hit>) -> ControlFlow<()>
-    where
-        P: TreePair,
-        P::Source: BoxSource<Scalar = K::Scalar>,
-    {
-        descend(
-            self.refit,
-            self.kind,
-            pair,
-            self.scratch,
-            self.statistics,
-            sink,
-        )
+    fn descend<S: Coordinate>(
+        &mut self,
+        pair: &mut TreePair<S>,
+        tasks: &mut dyn Tasks<S>,
+    ) -> ControlFlow<()> {
+        let (scratch, statistics) = (&mut *self.scratch, &mut *self.statistics);
+        descend(self.refit, self.needs, pair, tasks, scratch, statistics)
     }
 
     /// Does for a body, early, what a query of it does before it descends.
-    pub(super) fn prepare(
+    pub(super) fn prepare<S: Coordinate>(
         &mut self,
-        body: &mut Body<K::Scalar>,
+        body: &mut Body<S>,
         partner: Partner,
     ) -> ControlFlow<()> {
         self.bring_body_into_tree_order(body)?;
         for part in 0..body.parts.len() {
-            if partner == Partner::Itself && K::LEAVES == Leaves::Triangles {
+            if partner == Partner::Itself && self.needs.triangles() {
                 body.know_neighbours(part, self.refit.executor);
             }
             let _ = self.ahead(body, part, partner)?;
@@ -162,17 +153,17 @@ where
     }
 
     /// Brings a body into the order of its trees, and makes the boxes of its elements if the kind reads those. Breaks if it is interrupted.
-    pub(super) fn bring_body_into_tree_order(
+    pub(super) fn bring_body_into_tree_order<S: Coordinate>(
         &mut self,
-        body: &mut Body<K::Scalar>,
+        body: &mut Body<S>,
     ) -> ControlFlow<()> {
         let executor = self.refit.executor;
         let instructions = self.refit.instructions;
-        let reach = K::HOLDS_MOTIONS.then(|| self.kind.reach());
+        let reach = self.needs.reach;
         if !body.bring_into_tree_order(reach, instructions, executor) {
             return ControlFlow::Break(());
         }
-        if let Some(which) = K::LEAVES.elements()
+        if let Leaves::Runs(which) = self.needs.leaves
             && !body.make_near_boxes(which, reach, self.origin, (instructions, executor))
         {
             return ControlFlow::Break(());
@@ -181,21 +172,21 @@ where
     }
 
     /// A part of a body that was brought into tree order, with the upper levels of its boxes. Breaks if it is interrupted.
-    pub(super) fn ahead<'b>(
+    pub(super) fn ahead<'b, S: Coordinate>(
         &mut self,
-        body: &'b mut Body<K::Scalar>,
+        body: &'b mut Body<S>,
         part: usize,
         partner: Partner,
-    ) -> ControlFlow<(), Side<'b, K::Source<'b>>> {
-        let mut side = body.side(self.kind, self.origin, part);
+    ) -> ControlFlow<(), Side<'b, S>> {
+        let mut side = body.side(&self.needs, self.origin, part);
         self.refit_ahead(&mut side, partner)?;
         ControlFlow::Continue(side)
     }
 
     /// Does what comes before the descent: the same for a query and for what is done early. Breaks if it is interrupted.
-    fn refit_ahead(
+    fn refit_ahead<S: Coordinate>(
         &mut self,
-        side: &mut Side<'_, K::Source<'_>>,
+        side: &mut Side<'_, S>,
         partner: Partner,
     ) -> ControlFlow<()> {
         let lists = &mut self.scratch.wide_nodes[0];
@@ -203,9 +194,9 @@ where
         self.refit
             .ahead(&mut side.refitted(), partner, lists, statistics);
         let itself = partner == Partner::Itself;
-        if itself && !K::HAS_RUNS && side.boxes.are_nodes_complete() {
+        if itself && self.needs.triangles() && side.boxes.are_nodes_complete() {
             // Every leaf is going to meet at least itself.
-            let reached = &mut self.scratch.reached;
+            let [reached, _] = &mut self.scratch.reached;
             self.refit
                 .all_leaves(&mut side.refitted(), reached, statistics);
         }

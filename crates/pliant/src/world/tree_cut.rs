@@ -5,7 +5,7 @@ use super::body::Body;
 use crate::geometry::{Bounds, Origin};
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
-use crate::queries::{Intersections, Kind};
+use crate::queries::OF_SHAPES;
 use crate::tree::BoxSource;
 use std::ops::Range;
 
@@ -33,7 +33,7 @@ impl<S: Coordinate> Body<S> {
         };
         let parts = self.parts_of_cut(level);
         let valid = self.parts.all().flat_map(|part| {
-            let boxes = part.boxes(Intersections::<S>::BOX_SET);
+            let boxes = part.boxes(OF_SHAPES);
             boxes.map_or_else(
                 || vec![false; part.tree.starts_of_cut(level).len()],
                 |boxes| part.tree.valid_in_cut(level, boxes, version),

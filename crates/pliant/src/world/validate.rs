@@ -4,7 +4,7 @@ use super::body::Body;
 use crate::geometry::{Origin, Shape};
 use crate::kernels::Coordinate;
 use crate::options::Options;
-use crate::queries::{Intersections, Kind, VertexTriangleCandidates};
+use crate::queries::{OF_MOTIONS, OF_SHAPES};
 use crate::tree::{Grown, Swept};
 
 impl<S: Coordinate> Body<S> {
@@ -31,10 +31,10 @@ impl<S: Coordinate> Body<S> {
             let triangles = part.triangles.start as usize..part.triangles.end as usize;
             let tree = &part.tree;
             tree.validate(&self.order, triangles, options.partition)?;
-            if let Some(boxes) = part.boxes(Intersections::<S>::BOX_SET) {
+            if let Some(boxes) = part.boxes(OF_SHAPES) {
                 tree.validate_boxes(boxes, &from)?;
             }
-            if let Some(boxes) = part.boxes(VertexTriangleCandidates::<S>::BOX_SET) {
+            if let Some(boxes) = part.boxes(OF_MOTIONS) {
                 let source = Grown {
                     source: Swept { from, to },
                     distance: boxes.grown_by(),

@@ -15,13 +15,12 @@ mod near_boxes;
 mod runs;
 mod vertex_triangle;
 
-use super::LeafTest;
-use crate::geometry::{Bounds, Real, Shape};
+use super::{LeafTest, Leaves, Needs, OF_MOTIONS, Reach};
+use crate::geometry::{Bounds, Real};
 use crate::ids::TreeVertex;
 use crate::kernels::gaps::Limits;
 use crate::kernels::{Buffer, Coordinate};
 use crate::statistics::Statistics;
-use crate::tree::{Grown, Swept};
 pub(crate) use edge_edge::EdgeEdgeCandidates;
 pub(crate) use groups::Groups;
 pub(crate) use near_boxes::{NearBoxes, NearElements, Which};
@@ -91,14 +90,13 @@ impl Margin {
         self.grown_by
     }
 
-    pub(crate) fn source<'s, S>(
-        self,
-        from: Shape<'s, S>,
-        to: Option<Shape<'s, S>>,
-    ) -> Grown<Swept<'s, S>> {
-        Grown {
-            source: Swept { from, to },
-            distance: self.grown_by,
+    /// Runs of triangles, whose elements are looked at, along their motions.
+    fn needs(self, which: Which) -> Needs {
+        Needs {
+            box_set: OF_MOTIONS,
+            leaves: Leaves::Runs(which),
+            grows_by: Some(self.grown_by),
+            reach: Some(Reach::End),
         }
     }
 

@@ -2,13 +2,12 @@
 
 use super::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use super::{Margin, Which, groups, keep};
-use crate::geometry::{Shape, larger};
+use crate::geometry::larger;
 use crate::hits::VertexTriangle;
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Buffer, Coordinate, dispatch};
-use crate::queries::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves};
+use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
 use crate::statistics::Statistics;
-use crate::tree::{Grown, Swept};
 use std::marker::PhantomData;
 
 /// Vertices and triangles whose boxes are near each other, of one body or of two: the vertices of either.
@@ -36,28 +35,20 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
     /// A vertex and a triangle in tree order, the triangle with [`OF_SECOND`] or without.
     type TreeHit = [u32; 2];
     type Buffers = ();
-    type Source<'s> = Grown<Swept<'s, S>>;
 
-    const BOX_SET: BoxSetNumber = 1;
-    const LEAVES: Leaves = Leaves::Runs(Which::VerticesAndTriangles);
-    const HOLDS_MOTIONS: bool = true;
-
-    fn grows_by(&self) -> Option<f32> {
-        Some(self.margin.grown_by)
+    fn needs(&self) -> Needs {
+        self.margin.needs(Which::VerticesAndTriangles)
     }
 
-    fn source<'s>(&self, shape: Shape<'s, S>, end: Option<Shape<'s, S>>) -> Grown<Swept<'s, S>> {
-        self.margin.source(shape, end)
-    }
-
-    fn test_runs(
+    fn test(
         &self,
         leaves: &LeafTest<S>,
-        pairs: &[[u32; 2]],
+        batch: Batch,
         _buffers: &mut (),
         hits: &mut Buffer<[u32; 2]>,
         statistics: &mut Statistics,
     ) {
+        let pairs = batch.runs();
         let before = hits.len();
         for side in 0..2 {
             self.test_side(leaves, side, pairs, hits, statistics);

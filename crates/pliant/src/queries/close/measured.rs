@@ -2,11 +2,10 @@
 
 use super::closest_of;
 use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
-use crate::geometry::Shape;
 use crate::hits::{EdgeEdge, Hit, VertexTriangle};
 use crate::kernels::closest::Corners;
 use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
-use crate::queries::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, Leaves};
+use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use pliant_exact::distance::Closest;
@@ -132,44 +131,20 @@ impl<C: CloseKind> Kind for Measured<C> {
     type Hit = <C::Hit as Measurable>::Close;
     type TreeHit = C::TreeHit;
     type Buffers = ();
-    type Source<'s> = C::Source<'s>;
 
-    const BOX_SET: BoxSetNumber = C::BOX_SET;
-    const LEAVES: Leaves = C::LEAVES;
-    const HOLDS_MOTIONS: bool = C::HOLDS_MOTIONS;
-
-    fn grows_by(&self) -> Option<f32> {
-        self.0.grows_by()
-    }
-
-    fn source<'s>(
-        &self,
-        shape: Shape<'s, C::Scalar>,
-        end: Option<Shape<'s, C::Scalar>>,
-    ) -> C::Source<'s> {
-        self.0.source(shape, end)
+    fn needs(&self) -> Needs {
+        self.0.needs()
     }
 
     fn test(
         &self,
         leaves: &LeafTest<C::Scalar>,
-        candidates: &mut Buffer<Candidate>,
+        batch: Batch,
         buffers: &mut (),
         hits: &mut Buffer<C::TreeHit>,
         statistics: &mut Statistics,
     ) {
-        self.0.test(leaves, candidates, buffers, hits, statistics);
-    }
-
-    fn test_runs(
-        &self,
-        leaves: &LeafTest<C::Scalar>,
-        pairs: &[[u32; 2]],
-        buffers: &mut (),
-        hits: &mut Buffer<C::TreeHit>,
-        statistics: &mut Statistics,
-    ) {
-        self.0.test_runs(leaves, pairs, buffers, hits, statistics);
+        self.0.test(leaves, batch, buffers, hits, statistics);
     }
 
     fn to_caller(&self, ids: &CallerIds, hit: C::TreeHit) -> Self::Hit {

@@ -9,10 +9,9 @@ mod measured;
 mod triangles;
 
 use super::{
-    BoxSetNumber, CallerIds, EdgeEdgeCandidates, Kind, LeafTest, Leaves, Margin,
-    VertexTriangleCandidates,
+    Batch, CallerIds, EdgeEdgeCandidates, Kind, LeafTest, Margin, Needs, VertexTriangleCandidates,
 };
-use crate::geometry::{Points, Real, Shape};
+use crate::geometry::{Points, Real};
 use crate::ids::TreeVertex;
 use crate::kernels::closest::{
     Corners, FourClosest, along_normal, decide_eight, of_edges, of_vertices_and_triangles,
@@ -182,28 +181,15 @@ impl<K: ElementCandidates> Kind for Close<K> {
     type Hit = K::Hit;
     type TreeHit = [u32; 2];
     type Buffers = ();
-    type Source<'s> = K::Source<'s>;
 
-    const BOX_SET: BoxSetNumber = K::BOX_SET;
-    const LEAVES: Leaves = K::LEAVES;
-    const HOLDS_MOTIONS: bool = K::HOLDS_MOTIONS;
-
-    fn grows_by(&self) -> Option<f32> {
-        self.candidates.grows_by()
+    fn needs(&self) -> Needs {
+        self.candidates.needs()
     }
 
-    fn source<'s>(
-        &self,
-        shape: Shape<'s, K::Scalar>,
-        end: Option<Shape<'s, K::Scalar>>,
-    ) -> K::Source<'s> {
-        self.candidates.source(shape, end)
-    }
-
-    fn test_runs(
+    fn test(
         &self,
         leaves: &LeafTest<K::Scalar>,
-        pairs: &[[u32; 2]],
+        batch: Batch,
         buffers: &mut (),
         hits: &mut Buffer<[u32; 2]>,
         statistics: &mut Statistics,
@@ -211,7 +197,7 @@ impl<K: ElementCandidates> Kind for Close<K> {
         let before = hits.len();
         let pairs_before = statistics.pairs;
         self.candidates
-            .test_runs(leaves, pairs, buffers, hits, statistics);
+            .test(leaves, batch, buffers, hits, statistics);
         let exact = &mut statistics.exact_decisions;
         let new = hits.tail_mut(before);
         let kept = dispatch!(leaves.instructions, i => self.keep(i, leaves, new, exact));

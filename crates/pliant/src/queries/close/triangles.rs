@@ -13,11 +13,10 @@ use crate::ids::TreeTriangle;
 use crate::kernels::closest::{TwoClosest, apart_along, of_triangles};
 use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
-    BoxSetNumber, CallerIds, Candidate, Intersections, Kind, LeafTest, Leaves, Margin,
+    Batch, CallerIds, Candidate, Intersections, Kind, LeafTest, Margin, Needs, OF_GROWN_SHAPES,
 };
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
-use crate::tree::{Grown, Swept};
 use pliant_exact::Triangle;
 use pliant_exact::barycentric;
 use pliant_exact::distance::{
@@ -239,28 +238,24 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
     type Hit = Pair;
     type TreeHit = Candidate;
     type Buffers = ();
-    type Source<'s> = Grown<Swept<'s, S>>;
 
-    const BOX_SET: BoxSetNumber = 2;
-    const LEAVES: Leaves = Leaves::Triangles;
-
-    fn grows_by(&self) -> Option<f32> {
-        Some(self.margin.grown_by())
-    }
-
-    /// Of the type of candidates, so that nothing that makes boxes is compiled for this kind alone.
-    fn source<'s>(&self, shape: Shape<'s, S>, _: Option<Shape<'s, S>>) -> Grown<Swept<'s, S>> {
-        self.margin.source(shape, None)
+    fn needs(&self) -> Needs {
+        Needs {
+            box_set: OF_GROWN_SHAPES,
+            grows_by: Some(self.margin.grown_by()),
+            ..Needs::TRIANGLES
+        }
     }
 
     fn test(
         &self,
         leaves: &LeafTest<S>,
-        candidates: &mut Buffer<Candidate>,
+        batch: Batch,
         (): &mut (),
         hits: &mut Buffer<Candidate>,
         statistics: &mut Statistics,
     ) {
+        let candidates = batch.triangles();
         let before = hits.len();
         dispatch!(leaves.instructions, i => {
             for &[a, b] in candidates.as_slice() {

@@ -7,8 +7,8 @@
 mod earliest;
 
 use super::close::{ElementCandidates, corners_at};
-use super::{BoxSetNumber, CallerIds, Kind, LeafTest, Leaves, Reach};
-use crate::geometry::{Real, Shape};
+use super::{Batch, CallerIds, Kind, LeafTest, Needs, Reach};
+use crate::geometry::Real;
 use crate::hits::{EdgeEdge, Hit, VertexTriangle};
 use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
@@ -114,32 +114,18 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
     type TreeHit = TimedHit;
     /// Candidates.
     type Buffers = Buffer<[u32; 2]>;
-    type Source<'s> = K::Source<'s>;
 
-    const BOX_SET: BoxSetNumber = K::BOX_SET;
-    const LEAVES: Leaves = K::LEAVES;
-    const HOLDS_MOTIONS: bool = true;
-
-    fn reach(&self) -> Reach {
-        self.reach
+    fn needs(&self) -> Needs {
+        Needs {
+            reach: Some(self.reach),
+            ..self.candidates.needs()
+        }
     }
 
-    fn grows_by(&self) -> Option<f32> {
-        self.candidates.grows_by()
-    }
-
-    fn source<'s>(
-        &self,
-        shape: Shape<'s, K::Scalar>,
-        end: Option<Shape<'s, K::Scalar>>,
-    ) -> K::Source<'s> {
-        self.candidates.source(shape, end)
-    }
-
-    fn test_runs(
+    fn test(
         &self,
         leaves: &LeafTest<K::Scalar>,
-        pairs: &[[u32; 2]],
+        batch: Batch,
         candidates: &mut Buffer<[u32; 2]>,
         hits: &mut Buffer<TimedHit>,
         statistics: &mut Statistics,
@@ -147,7 +133,7 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
         let before = *statistics;
         candidates.clear();
         self.candidates
-            .test_runs(leaves, pairs, &mut (), candidates, statistics);
+            .test(leaves, batch, &mut (), candidates, statistics);
         // Of impacts, not of candidates.
         statistics.pairs = before.pairs;
         statistics.exact_decisions = before.exact_decisions;

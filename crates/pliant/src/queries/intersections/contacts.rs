@@ -5,10 +5,9 @@
 use super::eight::{self, Undecided};
 use super::{Candidate, Intersections, Kind};
 use crate::contacts::{Contact, ContactKind};
-use crate::geometry::Shape;
 use crate::held::Held;
 use crate::kernels::{Buffer, Coordinate};
-use crate::queries::{BoxSetNumber, CallerIds, LeafTest, Leaves};
+use crate::queries::{Batch, CallerIds, LeafTest, Needs};
 use crate::statistics::Statistics;
 use pliant_exact::contact_kind;
 
@@ -48,25 +47,21 @@ impl<S: Coordinate> Kind for Contacts<S> {
     type Hit = Contact;
     type TreeHit = TreeContact;
     type Buffers = ContactBuffers;
-    type Source<'s> = Shape<'s, S>;
 
-    const BOX_SET: BoxSetNumber = Intersections::<S>::BOX_SET;
-    const LEAVES: Leaves = Leaves::Triangles;
-
-    fn source<'s>(&self, shape: Shape<'s, S>, end: Option<Shape<'s, S>>) -> Shape<'s, S> {
-        self.intersections.source(shape, end)
+    fn needs(&self) -> Needs {
+        Needs::TRIANGLES
     }
 
     fn test(
         &self,
         leaves: &LeafTest<S>,
-        candidates: &mut Buffer<Candidate>,
+        batch: Batch,
         ContactBuffers { undecided, pairs }: &mut ContactBuffers,
         hits: &mut Buffer<TreeContact>,
         statistics: &mut Statistics,
     ) {
         pairs.clear();
-        let crossing = eight::decide(leaves, candidates, undecided, pairs, statistics);
+        let crossing = eight::decide(leaves, batch.triangles(), undecided, pairs, statistics);
         let all = pairs.as_slice();
         statistics.pairs -= all.len() as u64;
         for (place, &pair) in all.iter().enumerate() {

@@ -8,9 +8,8 @@ mod eight;
 
 pub(crate) use contacts::Contacts;
 
-use super::{BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, Leaves};
+use super::{Batch, CallerIds, Candidate, Kind, LeafTest, Needs};
 use crate::Pair;
-use crate::geometry::Shape;
 use crate::kernels::{Buffer, Coordinate};
 use crate::statistics::Statistics;
 use eight::Undecided;
@@ -31,24 +30,20 @@ impl<S: Coordinate> Kind for Intersections<S> {
     type Hit = Pair;
     type TreeHit = Candidate;
     type Buffers = Undecided;
-    type Source<'s> = Shape<'s, S>;
 
-    const BOX_SET: BoxSetNumber = 0;
-    const LEAVES: Leaves = Leaves::Triangles;
-
-    fn source<'s>(&self, shape: Shape<'s, S>, _: Option<Shape<'s, S>>) -> Shape<'s, S> {
-        shape
+    fn needs(&self) -> Needs {
+        Needs::TRIANGLES
     }
 
     fn test(
         &self,
         leaves: &LeafTest<S>,
-        candidates: &mut Buffer<Candidate>,
+        batch: Batch,
         undecided: &mut Undecided,
         hits: &mut Buffer<Candidate>,
         statistics: &mut Statistics,
     ) {
-        eight::decide(leaves, candidates, undecided, hits, statistics);
+        eight::decide(leaves, batch.triangles(), undecided, hits, statistics);
     }
 
     #[inline]

@@ -16,7 +16,7 @@ use crate::held::{self, Held};
 use crate::ids::{BlockId, LeafId, WideNodeId};
 use crate::kernels::{BoxLanes, QuantizedLanes};
 pub(crate) use lanes::{NodeLanes, of_degree};
-pub(crate) use source::{BoxSource, Grown, Swept, Version};
+pub(crate) use source::{BoxSource, Grown, Source, Swept, Version, of_source};
 
 /// The boxes of up to eight triangles.
 pub(crate) type Block = BoxLanes<BLOCK_LANES>;

@@ -39,11 +39,6 @@ pub(crate) trait BoxSource: Sync {
     /// The shape that the body has now.
     fn shape(&self) -> &Shape<'_, Self::Scalar>;
 
-    /// The shape that it has at the end of a motion, if boxes hold that too.
-    fn end(&self) -> Option<&Shape<'_, Self::Scalar>> {
-        None
-    }
-
     fn version(&self) -> Version;
 
     /// The box over a run of vertices and some others; there is one at least.
@@ -118,11 +113,6 @@ impl<B: BoxSource> BoxSource for Grown<B> {
         self.source.shape()
     }
 
-    #[inline(always)]
-    fn end(&self) -> Option<&Shape<'_, B::Scalar>> {
-        self.source.end()
-    }
-
     fn version(&self) -> Version {
         Version {
             grown_by: self.distance.to_bits(),
@@ -165,11 +155,6 @@ impl<S: Coordinate> BoxSource for Swept<'_, S> {
         &self.from
     }
 
-    #[inline(always)]
-    fn end(&self) -> Option<&Shape<'_, S>> {
-        self.to.as_ref()
-    }
-
     fn version(&self) -> Version {
         Version {
             second: self.to.map_or(0, |to| to.epoch),
@@ -210,6 +195,67 @@ impl<S: Coordinate> BoxSource for Swept<'_, S> {
             Some(to) => from.union(&to.plainly(vertices)),
             None => from,
         }
+    }
+}
+
+/// What a set of boxes of one body is made of: the shape; or the shape and perhaps the end of a motion, grown.
+///
+/// Whoever makes boxes matches on it once a batch, with `of_source`.
+#[derive(Clone, Copy)]
+pub(crate) enum Source<'s, S> {
+    Shape(Shape<'s, S>),
+    Grown(Grown<Swept<'s, S>>),
+}
+
+/// Compiles an expression for every source.
+macro_rules! of_source {
+    ($source:expr, $it:ident => $body:expr) => {
+        match $source {
+            $crate::tree::Source::Shape($it) => $body,
+            $crate::tree::Source::Grown($it) => $body,
+        }
+    };
+}
+pub(crate) use of_source;
+
+impl<'s, S: Coordinate> Source<'s, S> {
+    /// Boxes that are grown hold the end of a motion, if there is one.
+    pub(crate) fn new(
+        shape: Shape<'s, S>,
+        end: Option<Shape<'s, S>>,
+        grows_by: Option<f32>,
+    ) -> Self {
+        match grows_by {
+            None => Self::Shape(shape),
+            Some(distance) => Self::Grown(Grown {
+                source: Swept {
+                    from: shape,
+                    to: end,
+                },
+                distance,
+            }),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn shape(&self) -> &Shape<'s, S> {
+        match self {
+            Self::Shape(shape) => shape,
+            Self::Grown(grown) => &grown.source.from,
+        }
+    }
+
+    /// The shape at the end of a motion, if boxes hold that too.
+    #[inline]
+    pub(crate) fn end(&self) -> Option<&Shape<'s, S>> {
+        match self {
+            Self::Shape(_) => None,
+            Self::Grown(grown) => grown.source.to.as_ref(),
+        }
+    }
+
+    pub(crate) fn version(&self) -> Version {
+        of_source!(self, source => source.version())
     }
 }
 

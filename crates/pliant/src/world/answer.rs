@@ -1,0 +1,201 @@
+//! What the tasks of a query of one kind find, and where it goes: what stands behind the doors `Tasks` and `LeafWork`.
+
+use crate::held::{self, Held};
+use crate::kernels::{Buffer, Coordinate};
+use crate::queries::{Batch, Kind, LeafTest, LeafWork};
+use crate::statistics::Statistics;
+use crate::threads::Executor;
+use crate::traversal::{Collector, Sink, Task, TaskWork, Tasks};
+use std::ops::ControlFlow;
+
+/// With so many hits a task shows them to a collector, or stops until a visitor has seen them: what all tasks have found takes little memory.
+const MOST_HITS: usize = 2048;
+
+/// The tasks of a kind, kept from query to query.
+#[derive(Debug)]
+pub(super) struct TaskList<K: Kind> {
+    tasks: Vec<(Task, Found<K>)>,
+    /// How many of them, from the first on, are in use.
+    used: usize,
+    /// The hit at which a query stopped, in tree order.
+    pub(super) broke_at: Option<K::TreeHit>,
+}
+
+/// What a task has found.
+#[derive(Debug)]
+struct Found<K: Kind> {
+    buffers: K::Buffers,
+    /// In tree order.
+    hits: Buffer<K::TreeHit>,
+    /// The same hits as the caller numbers things.
+    of_caller: Vec<K::Hit>,
+    /// Whether a collector does not take any more.
+    are_too_many: bool,
+    statistics: Statistics,
+}
+
+/// A query on its way.
+pub(super) struct Answer<'q, 's, K: Kind> {
+    kind: &'q K,
+    list: &'q mut TaskList<K>,
+    sink: Sink<'s, K::Hit>,
+}
+
+impl<'q, 's, K: Kind> Answer<'q, 's, K> {
+    pub(super) fn new(kind: &'q K, list: &'q mut TaskList<K>, sink: Sink<'s, K::Hit>) -> Self {
+        list.broke_at = None;
+        Self { kind, list, sink }
+    }
+
+    pub(super) fn kind(&self) -> &'q K {
+        self.kind
+    }
+}
+
+impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K>
+where
+    K::Scalar: Coordinate,
+{
+    fn wants_all(&self) -> bool {
+        self.sink.collector().is_some()
+    }
+
+    fn begin(&mut self, most: usize) {
+        let TaskList { tasks, used, .. } = &mut *self.list;
+        // They are left as they were where a visitor stopped, or panicked.
+        for (task, found) in &mut tasks[..*used] {
+            task.clear();
+            found.clear();
+        }
+        tasks.resize_with(most.max(tasks.len()), Default::default);
+        *used = 1;
+    }
+
+    fn use_all(&mut self, count: usize) {
+        self.list.used = count;
+    }
+
+    #[inline]
+    fn one(&mut self, number: usize) -> &mut Task {
+        &mut self.list.tasks[number].0
+    }
+
+    fn run(&mut self, executor: Executor, count: usize, work: TaskWork<K::Scalar>) {
+        let (kind, collector) = (self.kind, self.sink.collector());
+        executor.run(&mut self.list.tasks[..count], |_, (task, found)| {
+            let mut bound = Bound {
+                kind,
+                collector,
+                found,
+            };
+            work(task, &mut bound);
+        });
+    }
+
+    fn show(&mut self, count: usize, statistics: &mut Statistics) -> ControlFlow<()> {
+        let TaskList {
+            tasks, broke_at, ..
+        } = &mut *self.list;
+        let tasks = &tasks[..count];
+        for (_, found) in tasks {
+            *statistics += found.statistics;
+        }
+        for (_, found) in tasks {
+            if found.are_too_many {
+                return ControlFlow::Break(());
+            }
+            if let Sink::Visitor(visitor) = &mut self.sink
+                && let ControlFlow::Break(place) = visitor(&found.of_caller)
+            {
+                *broke_at = Some(found.hits.as_slice()[place]);
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// What one task has found, with the kind that decides what it finds next.
+struct Bound<'q, K: Kind> {
+    kind: &'q K,
+    collector: Option<Collector<'q, K::Hit>>,
+    found: &'q mut Found<K>,
+}
+
+impl<K: Kind> LeafWork<K::Scalar> for Bound<'_, K> {
+    fn clear(&mut self) {
+        self.found.clear();
+    }
+
+    fn test(&mut self, leaves: &LeafTest<K::Scalar>, batch: Batch) {
+        let Found {
+            buffers,
+            hits,
+            of_caller,
+            statistics,
+            ..
+        } = &mut *self.found;
+        self.kind.test(leaves, batch, buffers, hits, statistics);
+        let new = &hits.as_slice()[of_caller.len()..];
+        self.kind.to_callers(leaves, &leaves.ids, new, of_caller);
+        if !self.has_room() {
+            self.hand_over();
+        }
+    }
+
+    fn has_room(&self) -> bool {
+        self.found.hits.len() < MOST_HITS && !self.found.are_too_many
+    }
+
+    fn hand_over(&mut self) {
+        let found = &mut *self.found;
+        if let Some(collector) = self.collector
+            && !found.of_caller.is_empty()
+        {
+            found.are_too_many |= collector(&found.of_caller).is_break();
+            found.hits.clear();
+            found.of_caller.clear();
+        }
+    }
+}
+
+impl<K: Kind> Found<K> {
+    /// Forgets what was found.
+    fn clear(&mut self) {
+        self.hits.clear();
+        self.of_caller.clear();
+        self.are_too_many = false;
+        self.statistics = Statistics::default();
+    }
+}
+
+impl<K: Kind> Default for Found<K> {
+    fn default() -> Self {
+        Self {
+            buffers: K::Buffers::default(),
+            hits: Buffer::default(),
+            of_caller: Vec::new(),
+            are_too_many: false,
+            statistics: Statistics::default(),
+        }
+    }
+}
+
+impl<K: Kind> Default for TaskList<K> {
+    fn default() -> Self {
+        Self {
+            tasks: Vec::new(),
+            used: 0,
+            broke_at: None,
+        }
+    }
+}
+
+impl<K: Kind> Held for TaskList<K> {
+    fn held(&self) -> usize {
+        let of_tasks = self.tasks.iter().map(|(task, found)| {
+            task.held() + found.buffers.held() + found.hits.held() + held::list(&found.of_caller)
+        });
+        held::list(&self.tasks) + of_tasks.sum::<usize>()
+    }
+}

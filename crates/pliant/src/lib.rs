@@ -59,7 +59,9 @@
 //! of the paper is.
 //!
 //! ```text
-//! world         bodies, their shapes, motions and edits; the one place where the phases meet
+//! world         what users call: bodies, their shapes and motions, questions
+//! collide       a query on its way: which bodies meet, pair by pair; where the phases meet
+//! bodies        a body: its mesh, trees and shape; edits, and how trees are mended
 //! mesh          what the caller said, how a tree orders it, its edges; what an edit makes of it
 //! geometry      f32 or f64 coordinates, boxes in f32, rounded outward
 //! tree          nodes of degree 2, 4, 8, and sets of their boxes; building: by shape, by mesh, balanced
@@ -73,8 +75,10 @@
 //! reference     slow and obviously right
 //! ```
 
+mod bodies;
 mod broad_phase;
 mod close_pairs;
+mod collide;
 mod contacts;
 mod edit;
 mod error;
@@ -89,6 +93,7 @@ mod options;
 mod pair_impacts;
 mod queries;
 pub mod reference;
+mod selection;
 mod sort;
 mod statistics;
 mod threads;
@@ -97,6 +102,7 @@ mod tree;
 mod update;
 mod world;
 
+pub use bodies::{NodeBox, TreeShape};
 pub use close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, ClosestFeatures};
 pub use contacts::{Contact, ContactKind};
 pub use edit::{Edit, Edited};
@@ -110,11 +116,9 @@ pub use options::{BroadPhase, Degree, Options, Partition, Update};
 #[doc(hidden)]
 pub use pair_impacts::pair_impacts;
 pub use pair_impacts::{edge_edge_impacts, vertex_triangle_impacts};
+pub use selection::Selection;
 pub use statistics::Statistics;
-pub use world::{
-    FreeStep, Fused, InContact, Interruptible, NodeBox, Piece, Query, Scalar, Selection, TreeShape,
-    World,
-};
+pub use world::{FreeStep, Fused, InContact, Interruptible, Piece, Query, Scalar, World};
 
 /// Exact decisions on single points and triangles, for who asks about shapes beside a world.
 pub mod exact {

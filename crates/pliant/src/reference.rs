@@ -519,7 +519,7 @@ fn corners<S: Scalar>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],
 ) -> Result<Vec<Triangle>, Error> {
-    crate::world::validate_body(triangles, positions).map_err(|kind| Error { body: None, kind })?;
+    crate::bodies::validate(triangles, positions).map_err(|kind| Error { body: None, kind })?;
     let corner = |vertex: u32| positions[vertex as usize].map(Scalar::to_f64);
     Ok(triangles
         .iter()

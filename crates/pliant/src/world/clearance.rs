@@ -6,8 +6,11 @@
 //!
 //! A distance is off by at most 2^-30 of itself: what is given is d / 2 less 2^-29 of it.
 
-use super::{BodyId, Scalar, Selection, World};
+use super::handle::World;
+use super::scalar::Scalar;
 use crate::error::Error;
+use crate::ids::BodyId;
+use crate::selection::Selection;
 use crate::threads::Question;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -24,55 +27,91 @@ fn half_of(distance: f64) -> f64 {
 /// For each body, of each vertex half the least distance so far.
 type Clearances = BTreeMap<BodyId, Vec<f64>>;
 
-pub(super) fn clearance<S: Scalar>(
-    world: &mut World<S>,
-    of: Selection,
-    cut_off: f64,
-    question: Option<Question>,
-) -> Result<Clearances, Error> {
-    let mut clearances = Clearances::new();
-    let mut corners: BTreeMap<BodyId, (Vec<[u32; 3]>, Vec<[u32; 2]>)> = BTreeMap::new();
-    for body in of.bodies(world) {
-        let vertices = world.vertex_count(body)?;
-        clearances.insert(body, vec![half_of(cut_off); vertices]);
-        let mesh = (world.triangles(body)?.to_vec(), world.edges(body)?.to_vec());
-        corners.insert(body, mesh);
+/// How far vertices may go.
+impl<S: Scalar> World<S> {
+    /// How far each vertex may move before anything can touch: of the selection's bodies one number for each vertex, at most half of
+    /// `cut_off`.
+    ///
+    /// It is half the least distance of the vertices and triangles, and edges and edges, that the vertex is a corner of and that have no
+    /// vertex in common, as [`close_vertex_triangle_pairs`](Self::close_vertex_triangle_pairs) looks at them; rounded down by at most
+    /// 1e-6 of itself and 1e-323, and 0 where something touches. If every vertex moves less than that, in whatever direction, none of these pairs
+    /// touches, on the way or at the end. The pairs that filters or vertex groups keep apart do not count.
+    ///
+    /// Cost: that of both queries for close pairs within `cut_off`.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// let mut world = World::<f64>::new();
+    /// let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 0.5], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// let clearance = world.clearance(Selection::World, 2.0)?;
+    /// assert!(clearance[&leaf][0] <= 0.25 && clearance[&leaf][0] > 0.249_999);
+    /// assert!(clearance[&leaf][1] > 0.999_999);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    pub fn clearance(
+        &mut self,
+        of: Selection,
+        cut_off: f64,
+    ) -> Result<BTreeMap<BodyId, Vec<f64>>, Error> {
+        self.find_clearance(of, cut_off, None)
     }
-    let mut take = |body: BodyId, vertices: &[u32], distance: f64| {
-        let Some(of_body) = clearances.get_mut(&body) else {
-            return;
-        };
-        for &vertex in vertices {
-            let least = &mut of_body[vertex as usize];
-            *least = least.min(half_of(distance));
-        }
-    };
 
-    let close = world.close_vertex_triangle_pairs(of, cut_off);
-    let close = close.interrupt(question);
-    let _ = close.visit_some(|close| {
-        for close in close {
-            let pair = close.pair;
-            take(pair.vertex_body, &[pair.vertex], close.distance);
-            if let Some((triangles, _)) = corners.get(&pair.triangle_body) {
-                let corners = &triangles[pair.triangle as usize];
-                take(pair.triangle_body, corners, close.distance);
-            }
+    /// [`World::clearance`].
+    pub(super) fn find_clearance(
+        &mut self,
+        of: Selection,
+        cut_off: f64,
+        question: Option<Question>,
+    ) -> Result<Clearances, Error> {
+        let mut clearances = Clearances::new();
+        let mut corners: BTreeMap<BodyId, (Vec<[u32; 3]>, Vec<[u32; 2]>)> = BTreeMap::new();
+        for body in self.bodies_of(of) {
+            let vertices = self.vertex_count(body)?;
+            clearances.insert(body, vec![half_of(cut_off); vertices]);
+            let mesh = (self.triangles(body)?.to_vec(), self.edges(body)?.to_vec());
+            corners.insert(body, mesh);
         }
-        ControlFlow::<()>::Continue(())
-    })?;
-    let close = world.close_edge_edge_pairs(of, cut_off);
-    let close = close.interrupt(question);
-    let _ = close.visit_some(|close| {
-        for close in close {
-            let pair = close.pair;
-            for (body, edge) in [(pair.body_a, pair.edge_a), (pair.body_b, pair.edge_b)] {
-                if let Some((_, edges)) = corners.get(&body) {
-                    take(body, &edges[edge as usize], close.distance);
+        let mut take = |body: BodyId, vertices: &[u32], distance: f64| {
+            let Some(of_body) = clearances.get_mut(&body) else {
+                return;
+            };
+            for &vertex in vertices {
+                let least = &mut of_body[vertex as usize];
+                *least = least.min(half_of(distance));
+            }
+        };
+
+        let close = self.close_vertex_triangle_pairs(of, cut_off);
+        let close = close.interrupt(question);
+        let _ = close.visit_some(|close| {
+            for close in close {
+                let pair = close.pair;
+                take(pair.vertex_body, &[pair.vertex], close.distance);
+                if let Some((triangles, _)) = corners.get(&pair.triangle_body) {
+                    let corners = &triangles[pair.triangle as usize];
+                    take(pair.triangle_body, corners, close.distance);
                 }
             }
-        }
-        ControlFlow::<()>::Continue(())
-    })?;
-    Ok(clearances)
+            ControlFlow::<()>::Continue(())
+        })?;
+        let close = self.close_edge_edge_pairs(of, cut_off);
+        let close = close.interrupt(question);
+        let _ = close.visit_some(|close| {
+            for close in close {
+                let pair = close.pair;
+                for (body, edge) in [(pair.body_a, pair.edge_a), (pair.body_b, pair.edge_b)] {
+                    if let Some((_, edges)) = corners.get(&body) {
+                        take(body, &edges[edge as usize], close.distance);
+                    }
+                }
+            }
+            ControlFlow::<()>::Continue(())
+        })?;
+        Ok(clearances)
+    }
 }

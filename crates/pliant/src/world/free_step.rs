@@ -5,9 +5,13 @@
 //! of that is a contact of the step. Elements that are within the distance are not kept from coming
 //! nearer; where they touch, not from going through each other.
 
-use super::{BodyId, Query, Scalar, Selection, World};
+use super::handle::World;
+use super::query::Query;
+use super::scalar::Scalar;
 use crate::error::Error;
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
+use crate::ids::BodyId;
+use crate::selection::Selection;
 use crate::threads::Question;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -38,6 +42,59 @@ pub enum InContact {
 }
 
 impl<S: Scalar> World<S> {
+    /// How far everything may go on its way to the end of a motion and stay further apart than
+    /// `min_distance`, a time t from 0 to 1 to call [`advance_motion`](Self::advance_motion) with;
+    /// and what that number does not say. `t` is what [`collision_free_step`](Self::collision_free_step)
+    /// gives, and promises what that does.
+    ///
+    /// It promises nothing for what is in contact at the start. Surfaces that are through each other
+    /// meet on every way out, so `t` may be small for no other reason. Elements that touch may go through
+    /// each other; those that are nearer than `min_distance` are kept from touching, not from coming
+    /// nearer. [`begins_in_contact`](FreeStep::begins_in_contact) names the first such pair:
+    ///
+    /// - triangles that intersect in the shape of now, of those that
+    ///   [`intersections`](Self::intersections) looks at, unless all six vertices are of one
+    ///   [group](Self::set_vertex_groups);
+    /// - if there are none, elements at most `min_distance` apart, of those that
+    ///   [`vertex_triangle_impacts`](Self::vertex_triangle_impacts) and
+    ///   [`edge_edge_impacts`](Self::edge_edge_impacts) look at; with a `min_distance` of 0, that touch.
+    ///
+    /// Both are decided exactly, and touching counts. So a world in which no pair is named, and which is
+    /// advanced by such steps alone, never has one, unless groups of vertices let it. What is not found
+    /// are triangles that share a vertex of the mesh and are through each other beyond it.
+    ///
+    /// A mesh with edges shorter than `min_distance` is always that near to itself: see whether it is
+    /// [`InContact::Triangles`], or ask with a smaller one. Elements further apart than `min_distance` by
+    /// a thousandth of it or less are in no contact, but may stop the step at 0.
+    ///
+    /// Without any motion there is nowhere to go, and `t` is 1: [`moves`](FreeStep::moves) is false then.
+    ///
+    /// ```
+    /// # use pliant::{Selection, World};
+    /// # let mut world = World::<f64>::new();
+    /// # let floor = world.add(&[[0, 1, 2]], &[[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]])?;
+    /// # let leaf = world.add(&[[0, 1, 2]], &[[0.0, 0.0, 2.0], [1.0, 0.0, 3.0], [0.0, 1.0, 3.0]])?;
+    /// world.set_motion(leaf, &[[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])?;
+    /// let step = world.free_step(Selection::Everything, 0.0)?;
+    /// assert!(step.moves && step.begins_in_contact.is_none());
+    /// assert!(step.t > 0.6 && step.t < 2.0 / 3.0);
+    /// world.advance_motion(step.t)?;
+    /// assert!(world.intersections(Selection::Everything).first()?.is_none());
+    /// assert!(!world.free_step(Selection::Everything, 0.0)?.moves);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: that of [`collision_free_step`](Self::collision_free_step), of both queries for close pairs
+    /// within `min_distance`, and of the first intersection. [`statistics`](Self::statistics) are those
+    /// of the first alone.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Query`].
+    pub fn free_step(&mut self, of: Selection, min_distance: f64) -> Result<FreeStep, Error> {
+        self.find_free_step(of, min_distance, None)
+    }
+
     /// [`World::free_step`].
     pub(super) fn find_free_step(
         &mut self,
@@ -47,11 +104,9 @@ impl<S: Scalar> World<S> {
     ) -> Result<FreeStep, Error> {
         let begins_in_contact = self.first_in_contact(of, min_distance, question)?;
         // Last, so that statistics are those of the step.
-        let t = self
-            .engine
-            .collision_free_step(of, min_distance, question)?;
-        let bodies = of.bodies(self);
-        let mut are_moving = bodies.into_iter().map(|body| self.engine.is_moving(body));
+        let t = self.verbs.collision_free_step(of, min_distance, question)?;
+        let bodies = self.bodies_of(of).into_iter();
+        let mut are_moving = bodies.map(|body| Ok(self.state().body(body)?.is_moving()));
         let moves = are_moving.try_fold(false, |any, moves| Ok(any || moves?))?;
         Ok(FreeStep {
             t,
@@ -92,7 +147,7 @@ impl<S: Scalar> World<S> {
         question: Option<Question>,
     ) -> Result<Option<Pair>, Error> {
         let mut groups = BTreeMap::new();
-        for body in of.bodies(self) {
+        for body in self.bodies_of(of) {
             groups.insert(
                 body,
                 (self.triangles(body)?.to_vec(), self.vertex_groups(body)?),

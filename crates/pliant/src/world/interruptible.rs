@@ -1,10 +1,14 @@
 //! Questions with one answer, and what else takes long, that may be ended early.
 
-use super::{BodyId, FreeStep, Scalar, Selection, World, clearance};
+use super::free_step::FreeStep;
+use super::handle::World;
+use super::scalar::Scalar;
 use crate::close_pairs::CloseTriangles;
 use crate::edit::Edited;
 use crate::error::Error;
+use crate::ids::BodyId;
 use crate::impacts::Impact;
+use crate::selection::Selection;
 use crate::threads::Question;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -21,6 +25,34 @@ pub struct Interruptible<'w, S: Scalar> {
     pub(super) question: Question<'w>,
 }
 
+/// What may be ended early.
+impl<S: Scalar> World<S> {
+    /// This world, for a question with one answer that is to end early, with an error, when `question` says so. What
+    /// [`Query::interrupt_if`] says of queries holds of these.
+    ///
+    /// ```
+    /// # use pliant::{ErrorKind, World};
+    /// use std::time::{Duration, Instant};
+    ///
+    /// # let mut world = World::<f32>::new();
+    /// # let [robot, wall] = [0.0, 1.0].map(|z| world.add(&[[0, 1, 2]], &[[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]]).unwrap());
+    /// let end = Instant::now() + Duration::from_secs(1);
+    /// let is_late = || Instant::now() > end;
+    /// let nearest = world.interruptible(&is_late).distance(robot, wall, 9.0)?;
+    /// # assert_eq!(nearest.unwrap().distance, 1.0);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    pub fn interruptible<'w>(
+        &'w mut self,
+        question: &'w (dyn Fn() -> bool + Sync),
+    ) -> Interruptible<'w, S> {
+        Interruptible {
+            world: self,
+            question,
+        }
+    }
+}
+
 impl<S: Scalar> Interruptible<'_, S> {
     /// [`World::distance`](crate::World::distance).
     ///
@@ -33,8 +65,8 @@ impl<S: Scalar> Interruptible<'_, S> {
         b: BodyId,
         cut_off: f64,
     ) -> Result<Option<CloseTriangles>, Error> {
-        let engine = &mut self.world.engine;
-        engine.distance([a, b], cut_off, Some(self.question))
+        let verbs = &mut self.world.verbs;
+        verbs.distance([a, b], cut_off, Some(self.question))
     }
 
     /// [`World::nearest_body`](crate::World::nearest_body).
@@ -43,8 +75,8 @@ impl<S: Scalar> Interruptible<'_, S> {
     ///
     /// See [`Interruptible`].
     pub fn nearest_body(self, body: BodyId, cut_off: f64) -> Result<Option<CloseTriangles>, Error> {
-        let engine = &mut self.world.engine;
-        engine.nearest_body(body, cut_off, Some(self.question))
+        let verbs = &mut self.world.verbs;
+        verbs.nearest_body(body, cut_off, Some(self.question))
     }
 
     /// [`World::first_impact`](crate::World::first_impact).
@@ -53,8 +85,8 @@ impl<S: Scalar> Interruptible<'_, S> {
     ///
     /// See [`Interruptible`].
     pub fn first_impact(self, of: Selection, width: f64) -> Result<Option<Impact>, Error> {
-        let engine = &mut self.world.engine;
-        engine.first_impact(of, width, Some(self.question))
+        let verbs = &mut self.world.verbs;
+        verbs.first_impact(of, width, Some(self.question))
     }
 
     /// [`World::collision_free_step`](crate::World::collision_free_step).
@@ -63,8 +95,8 @@ impl<S: Scalar> Interruptible<'_, S> {
     ///
     /// See [`Interruptible`].
     pub fn collision_free_step(self, of: Selection, min_distance: f64) -> Result<f64, Error> {
-        let engine = &mut self.world.engine;
-        engine.collision_free_step(of, min_distance, Some(self.question))
+        let verbs = &mut self.world.verbs;
+        verbs.collision_free_step(of, min_distance, Some(self.question))
     }
 
     /// [`World::free_step`](crate::World::free_step).
@@ -87,7 +119,7 @@ impl<S: Scalar> Interruptible<'_, S> {
         of: Selection,
         cut_off: f64,
     ) -> Result<BTreeMap<BodyId, Vec<f64>>, Error> {
-        clearance::clearance(self.world, of, cut_off, Some(self.question))
+        self.world.find_clearance(of, cut_off, Some(self.question))
     }
 
     /// [`World::weld`](crate::World::weld), until it is known what is welded; nothing has changed if it is ended.

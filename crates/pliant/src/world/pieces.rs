@@ -1,6 +1,7 @@
 //! Bodies from one and one from bodies: components, split, fuse, weld. All of it is said with the calls that anybody has.
 
-use super::{Scalar, World};
+use super::handle::World;
+use super::scalar::Scalar;
 use crate::edit::Edited;
 use crate::error::{Error, ErrorKind};
 use crate::ids::BodyId;
@@ -30,6 +31,111 @@ pub struct Fused {
 }
 
 impl<S: Scalar> World<S> {
+    /// For each triangle of a body its component, shape (m,): two are in one if they share a vertex, or hang together through others that
+    /// do. Components are numbered from 0 in the order of their first triangles; an empty number has [`u32::MAX`].
+    ///
+    /// Cost: O(m + n).
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(alias = "connected_components")]
+    pub fn components(&self, body: BodyId) -> Result<Vec<u32>, Error> {
+        self.find_components(body)
+    }
+
+    /// Makes a body of each component, but of the largest, which stays what it is with all its numbers: that with the most triangles, of
+    /// several the first. Returns the new bodies in the order of their first triangles; none, and nothing has changed, if all hangs together.
+    ///
+    /// What they have from the body: filter, loose box, vertex groups, and whom it [ignores](Self::ignore); if it ignores itself, the
+    /// pieces ignore each other and it. So [`Everything`](crate::Selection::Everything) finds what it found. A motion of the body ends, as
+    /// by [`apply`](Self::apply). Vertices that no triangle uses stay with it.
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let at = |x: f32| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]];
+    /// let body = world.add(&[[0, 1, 2], [3, 4, 5]], &[at(0.0), at(5.0)].concat())?;
+    /// let pieces = world.split(body)?;
+    /// assert_eq!(pieces[0].triangles, [1]);
+    /// assert_eq!(pieces[0].vertices, [3, 4, 5]);
+    /// assert_eq!(world.positions(pieces[0].body)?, at(5.0));
+    /// assert_eq!(world.live_triangles(body)?, [true, false]);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(m + n), and building the trees of the pieces.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`TooManyBodies`](crate::ErrorKind::TooManyBodies), and nothing has changed.
+    pub fn split(&mut self, body: BodyId) -> Result<Vec<Piece>, Error> {
+        self.split_apart(body)
+    }
+
+    /// Puts the triangles and vertices of a second body behind those of a first, and removes the second. Says which numbers they have now.
+    ///
+    /// The first keeps its numbers, its filter and whom it [ignores](Self::ignore); vertices keep their groups. The loose box is then one
+    /// around both if both had one, else there is none. Motions of either end, as by [`apply`](Self::apply). Nothing is welded: see
+    /// [`weld`](Self::weld).
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// let mut world = World::<f32>::new();
+    /// let at = |x: f32| [[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]];
+    /// let a = world.add(&[[0, 1, 2]], &at(0.0))?;
+    /// let b = world.add(&[[0, 1, 2]], &at(5.0))?;
+    /// let fused = world.fuse(a, b)?;
+    /// assert_eq!(fused.triangles, [1]);
+    /// assert_eq!(fused.vertices, [3, 4, 5]);
+    /// assert_eq!(world.bodies().len(), 1);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: building a tree for what comes; for both, if the second has more than a sixteenth of the triangles of the first.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`SameBody`](crate::ErrorKind::SameBody), [`TooLarge`](crate::ErrorKind::TooLarge); nothing has changed.
+    #[doc(alias = "merge")]
+    pub fn fuse(&mut self, a: BodyId, b: BodyId) -> Result<Fused, Error> {
+        self.fuse_with(a, b)
+    }
+
+    /// Makes boundary edges one where they coincide: where the ends of one are, one by one, at most a tolerance from those of another, in
+    /// the unit of the positions, decided exactly. Of vertices that become one the lowest stays where it is, the others go. A boundary edge is
+    /// one that exactly one triangle has.
+    ///
+    /// Vertices that coincide are not welded where no edges do, and never two corners of one triangle. Says what has changed; nothing, if
+    /// nothing coincides.
+    ///
+    /// ```
+    /// use pliant::World;
+    ///
+    /// // Two triangles, each with vertices of its own.
+    /// let mut world = World::<f32>::new();
+    /// let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let body = world.add(&[[0, 1, 2], [3, 4, 5]], &square)?;
+    /// let edited = world.weld(body, 0.0)?;
+    /// assert_eq!(edited.removed_vertices, [3, 4]);
+    /// assert_eq!(world.triangles(body)?, [[0, 1, 2], [0, 2, 5]]);
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(m log m), however many are within the tolerance; where not all of these may become one, as often as there are edges that they
+    /// come to.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody); [`BadDistance`](crate::ErrorKind::BadDistance) if the tolerance is not a finite number that is at
+    /// least 0.
+    #[doc(alias = "stitch")]
+    pub fn weld(&mut self, body: BodyId, tolerance: f64) -> Result<Edited, Error> {
+        self.weld_unless(body, tolerance, None)
+    }
+
     /// [`World::components`].
     pub(super) fn find_components(&self, body: BodyId) -> Result<Vec<u32>, Error> {
         let triangles = self.triangles(body)?;

@@ -1,82 +1,13 @@
 //! A query on its way: who is asked about, how much is wanted of it, and what may end it early.
 
-use super::Selection;
+use crate::collide::{Ask, Request};
 use crate::contacts::{Contact, ContactKind};
-use crate::error::{Error, ErrorKind};
+use crate::error::Error;
 use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
-use crate::queries::Margin;
+use crate::selection::Selection;
 use crate::threads::Question;
-use crate::traversal::Visitor;
-use pliant_exact::motion::Grid;
 use std::fmt;
 use std::ops::ControlFlow;
-
-/// How wide intervals of times may be, if nothing is said.
-const WIDTH: f64 = 1e-6;
-
-/// What a query is asked with.
-#[derive(Clone, Copy)]
-pub(crate) struct Request<'q> {
-    pub(super) of: Selection,
-    /// The most hits that a list may have.
-    pub(super) most: usize,
-    pub(super) question: Option<Question<'q>>,
-    /// Of candidates, the margin round each element; of close pairs, how far they may be apart; else 0.
-    pub(super) within: f64,
-    /// Of impacts, how wide the intervals of times may be; else nothing.
-    pub(super) width: f64,
-    /// Of contacts, the one kind that is asked for; else nothing.
-    pub(super) only: Option<ContactKind>,
-}
-
-impl Request<'_> {
-    /// Of all hits, with nothing said but of whom.
-    pub(super) fn new(of: Selection) -> Self {
-        Self {
-            of,
-            most: usize::MAX,
-            question: None,
-            within: 0.0,
-            width: WIDTH,
-            only: None,
-        }
-    }
-
-    /// The margin that is asked for.
-    pub(super) fn margin(&self) -> Result<Margin, Error> {
-        let radius = self.within;
-        if radius.is_finite() && radius >= 0.0 {
-            return Ok(Margin::new(radius));
-        }
-        Err(ErrorKind::BadMargin { radius }.of_query())
-    }
-
-    /// The grid of times that is asked for.
-    pub(super) fn grid(&self) -> Result<Grid, Error> {
-        let width = self.width;
-        if width.is_finite() && width >= 0.0 {
-            return Ok(Grid::new(width));
-        }
-        Err(ErrorKind::BadWidth { width }.of_query())
-    }
-
-    /// The distance that is asked for.
-    pub(super) fn distance(&self) -> Result<f64, Error> {
-        let distance = self.within;
-        if distance.is_finite() && distance >= 0.0 {
-            return Ok(distance);
-        }
-        Err(ErrorKind::BadDistance { distance }.of_query())
-    }
-}
-
-/// Answers queries of one kind.
-pub(crate) trait Ask<H> {
-    fn all(&mut self, request: &Request) -> Result<&[H], Error>;
-    fn first(&mut self, request: &Request) -> Result<Option<H>, Error>;
-    fn visit(&mut self, request: &Request, visitor: Visitor<H>) -> Result<(), Error>;
-    fn prepare(&mut self, request: &Request) -> Result<(), Error>;
-}
 
 /// A question that was put to a [`World`](crate::World), and waits to be told how much is wanted: [`all`](Self::all) hits,
 /// the [`first`](Self::first), or a [`visit`](Self::visit) to one after the other.
@@ -94,14 +25,14 @@ pub(crate) trait Ask<H> {
 ///   [`BadDistance`](crate::ErrorKind::BadDistance) if the distance is.
 #[must_use = "a query does nothing until it is asked for all, for the first, or to visit"]
 pub struct Query<'w, H> {
-    engine: &'w mut dyn Ask<H>,
+    asked: &'w mut dyn Ask<H>,
     request: Request<'w>,
 }
 
 impl<'w, H: Copy> Query<'w, H> {
-    pub(super) fn new(engine: &'w mut dyn Ask<H>, of: Selection) -> Self {
+    pub(super) fn new(asked: &'w mut dyn Ask<H>, of: Selection) -> Self {
         Self {
-            engine,
+            asked,
             request: Request::new(of),
         }
     }
@@ -159,7 +90,7 @@ impl<'w, H: Copy> Query<'w, H> {
     ///
     /// See [`Query`].
     pub fn all(self) -> Result<&'w [H], Error> {
-        self.engine.all(&self.request)
+        self.asked.all(&self.request)
     }
 
     /// Some hit, if there is one. Much cheaper than all where there are many.
@@ -171,7 +102,7 @@ impl<'w, H: Copy> Query<'w, H> {
     ///
     /// See [`Query`].
     pub fn first(self) -> Result<Option<H>, Error> {
-        self.engine.first(&self.request)
+        self.asked.first(&self.request)
     }
 
     /// Shows `visit` every hit once, until it breaks; returns what it broke with. The order is deterministic, not sorted.
@@ -202,7 +133,7 @@ impl<'w, H: Copy> Query<'w, H> {
         mut visit: impl FnMut(H) -> ControlFlow<B>,
     ) -> Result<ControlFlow<B>, Error> {
         let mut answer = ControlFlow::Continue(());
-        self.engine.visit(&self.request, &mut |found| {
+        self.asked.visit(&self.request, &mut |found| {
             for (place, &hit) in found.iter().enumerate() {
                 if let ControlFlow::Break(value) = visit(hit) {
                     answer = ControlFlow::Break(value);
@@ -225,7 +156,7 @@ impl<'w, H: Copy> Query<'w, H> {
         mut visit: impl FnMut(&[H]) -> ControlFlow<B>,
     ) -> Result<ControlFlow<B>, Error> {
         let mut answer = ControlFlow::Continue(());
-        self.engine.visit(&self.request, &mut |found| {
+        self.asked.visit(&self.request, &mut |found| {
             if !found.is_empty()
                 && let ControlFlow::Break(value) = visit(found)
             {
@@ -245,7 +176,7 @@ impl<'w, H: Copy> Query<'w, H> {
     ///
     /// See [`Query`].
     pub fn prepare(self) -> Result<(), Error> {
-        self.engine.prepare(&self.request)
+        self.asked.prepare(&self.request)
     }
 }
 

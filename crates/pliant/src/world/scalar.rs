@@ -1,7 +1,8 @@
-//! The two types of coordinates as users name them, and where each gets its engines: here, and nowhere else, everything generic is
+//! The two types of coordinates as users name them, and where each gets its state: here, and nowhere else, everything generic is
 //! compiled.
 
-use super::engine::{AnyEngine, engine};
+use super::state::State;
+use super::verbs::Verbs;
 use crate::kernels::Coordinate;
 use crate::options::Options;
 use crate::threads::Threads;
@@ -11,7 +12,7 @@ use crate::threads::Threads;
     private_bounds,
     reason = "sealed; what the library needs of it is not for users"
 )]
-pub trait Scalar: sealed::HasEngine + Coordinate {
+pub trait Scalar: sealed::HasVerbs + Coordinate {
     /// The same value; exact.
     fn to_f64(self) -> f64;
 
@@ -20,10 +21,10 @@ pub trait Scalar: sealed::HasEngine + Coordinate {
 }
 
 pub(super) mod sealed {
-    use super::{AnyEngine, Options, Threads};
+    use super::{Coordinate, Options, Threads, Verbs};
 
-    pub(crate) trait HasEngine: Sized {
-        fn engine(options: Options, threads: Threads) -> Box<dyn AnyEngine<Self>>;
+    pub(crate) trait HasVerbs: Coordinate {
+        fn state(options: Options, threads: Threads) -> Box<dyn Verbs<Self>>;
     }
 }
 
@@ -41,9 +42,9 @@ macro_rules! scalar {
             }
         }
 
-        impl sealed::HasEngine for $type {
-            fn engine(options: Options, threads: Threads) -> Box<dyn AnyEngine<Self>> {
-                engine(options, threads)
+        impl sealed::HasVerbs for $type {
+            fn state(options: Options, threads: Threads) -> Box<dyn Verbs<Self>> {
+                Box::new(State::new(options, threads))
             }
         }
     )*};

@@ -2,14 +2,14 @@
 //!
 //! A list is measured once it is sorted, so that what is sorted is small; visitors are shown what was measured on the way.
 
-use super::BodyId;
 use super::asked::{Asked, Common};
-use super::bodies::Bodies;
-use super::body::Places;
-use super::query::Request;
+use super::request::Request;
+use crate::bodies::Bodies;
+use crate::bodies::Places;
 use crate::error::Error;
 use crate::held::{self, Held};
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
+use crate::ids::BodyId;
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{CloseKind, Measurable, Measured};
 use crate::threads::{Executor, Interrupt};
@@ -19,7 +19,7 @@ use crate::traversal::Visitor;
 const JOB: usize = 1024;
 
 /// Two things whose corners are known to bodies.
-pub(super) trait InBodies: Measurable {
+pub(crate) trait InBodies: Measurable {
     /// Which bodies the first and the second are of.
     fn bodies(&self) -> [BodyId; 2];
 
@@ -87,7 +87,7 @@ impl InBodies for Pair {
 
 /// What a world keeps for close pairs of one kind.
 #[derive(Debug)]
-pub(super) struct AskedClose<C: CloseKind> {
+pub(crate) struct AskedClose<C: CloseKind> {
     lists: Asked<C>,
     visits: Asked<Measured<C>>,
     measured: Vec<<C::Hit as Measurable>::Close>,
@@ -105,7 +105,7 @@ impl<C: CloseKind> Default for AskedClose<C> {
 
 impl<C: CloseKind<Hit: InBodies>> AskedClose<C> {
     /// All that are close, sorted.
-    pub(super) fn all(
+    pub(crate) fn all(
         &mut self,
         kind: &Measured<C>,
         common: &mut Common<C::Scalar>,
@@ -124,7 +124,7 @@ impl<C: CloseKind<Hit: InBodies>> AskedClose<C> {
     }
 
     /// Shows every one once, until the visitor breaks.
-    pub(super) fn visit(
+    pub(crate) fn visit(
         &mut self,
         kind: &Measured<C>,
         common: &mut Common<C::Scalar>,

@@ -1,10 +1,10 @@
 //! One pair of bodies, or one body with itself, in a query of some kind: shapes into tree order, upper levels refitted, trees
 //! descended. Which bodies, `body_pairs` says.
 
-use super::bodies::Bodies;
-use super::body::Body;
 use super::body_pairs::BodyPair;
-use super::decay::Work;
+use crate::bodies::Bodies;
+use crate::bodies::Body;
+use crate::bodies::Work;
 use crate::geometry::Origin;
 use crate::kernels::Coordinate;
 use crate::queries::{Leaves, Needs};
@@ -17,17 +17,17 @@ use std::ops::ControlFlow;
 const SAYS_NOTHING: u64 = 64;
 
 /// What a query needs besides bodies.
-pub(super) struct Step<'q> {
-    pub(super) needs: Needs,
-    pub(super) refit: Refit<'q>,
-    pub(super) origin: Origin,
-    pub(super) scratch: &'q mut Scratch,
-    pub(super) statistics: &'q mut Statistics,
+pub(crate) struct Step<'q> {
+    pub(crate) needs: Needs,
+    pub(crate) refit: Refit<'q>,
+    pub(crate) origin: Origin,
+    pub(crate) scratch: &'q mut Scratch,
+    pub(crate) statistics: &'q mut Statistics,
 }
 
 impl Step<'_> {
     /// Shows what two bodies, or one and itself, do to each other. Breaks if the sink does, or if it is interrupted.
-    pub(super) fn meet<S: Coordinate>(
+    pub(crate) fn meet<S: Coordinate>(
         &mut self,
         bodies: &mut Bodies<S>,
         [a, b]: BodyPair,
@@ -41,7 +41,7 @@ impl Step<'_> {
     }
 
     /// Two different bodies.
-    pub(super) fn meet_another<S: Coordinate>(
+    pub(crate) fn meet_another<S: Coordinate>(
         &mut self,
         both: [&mut Body<S>; 2],
         tasks: &mut dyn Tasks<S>,
@@ -69,7 +69,7 @@ impl Step<'_> {
     }
 
     /// One body with itself.
-    pub(super) fn meet_itself<S: Coordinate>(
+    pub(crate) fn meet_itself<S: Coordinate>(
         &mut self,
         body: &mut Body<S>,
         tasks: &mut dyn Tasks<S>,
@@ -137,7 +137,7 @@ impl Step<'_> {
     }
 
     /// Does for a body, early, what a query of it does before it descends.
-    pub(super) fn prepare<S: Coordinate>(
+    pub(crate) fn prepare<S: Coordinate>(
         &mut self,
         body: &mut Body<S>,
         partner: Partner,
@@ -153,7 +153,7 @@ impl Step<'_> {
     }
 
     /// Brings a body into the order of its trees, and makes the boxes of its elements if the kind reads those. Breaks if it is interrupted.
-    pub(super) fn bring_body_into_tree_order<S: Coordinate>(
+    pub(crate) fn bring_body_into_tree_order<S: Coordinate>(
         &mut self,
         body: &mut Body<S>,
     ) -> ControlFlow<()> {
@@ -172,7 +172,7 @@ impl Step<'_> {
     }
 
     /// A part of a body that was brought into tree order, with the upper levels of its boxes. Breaks if it is interrupted.
-    pub(super) fn ahead<'b, S: Coordinate>(
+    pub(crate) fn ahead<'b, S: Coordinate>(
         &mut self,
         body: &'b mut Body<S>,
         part: usize,

@@ -1,7 +1,7 @@
 //! A body's tree cut at a level: how it divides the triangles, and the boxes of its parts.
 
-use super::NodeBox;
 use super::body::Body;
+use super::debug_view::NodeBox;
 use crate::geometry::{Bounds, Origin};
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
@@ -11,7 +11,7 @@ use std::ops::Range;
 
 impl<S: Coordinate> Body<S> {
     /// For each triangle, as the caller numbers them, the part it is in.
-    pub(super) fn tree_cut(&self, level: u32) -> Vec<u32> {
+    pub(crate) fn tree_cut(&self, level: u32) -> Vec<u32> {
         let order = self.order.triangle_order();
         let mut part_of = vec![u32::MAX; self.triangle_numbers()];
         for (part, triangles) in (0..).zip(self.parts_of_cut(level)) {
@@ -25,7 +25,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// The box of every part.
-    pub(super) fn tree_boxes(&self, level: u32, origin: Origin) -> Vec<NodeBox<S>> {
+    pub(crate) fn tree_boxes(&self, level: u32, origin: Origin) -> Vec<NodeBox<S>> {
         let positions = self.stored_positions();
         let version = {
             let points = self.in_tree_order();

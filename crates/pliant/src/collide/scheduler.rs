@@ -5,10 +5,10 @@
 //! order in which bodies meet, so neither do the counters. A pair that is much of all the work is met by all threads together.
 
 use super::answer::{Answer, TaskList};
-use super::bodies::Bodies;
-use super::body::Body;
 use super::body_pairs::BodyPair;
 use super::step::Step;
+use crate::bodies::Bodies;
+use crate::bodies::Body;
 use crate::held::{self, Held};
 use crate::ids::Place;
 use crate::kernels::Coordinate;
@@ -31,7 +31,7 @@ const PARTS: usize = 4;
 
 /// Buffers, kept from query to query.
 #[derive(Debug)]
-pub(super) struct Scheduler<K: Kind> {
+pub(crate) struct Scheduler<K: Kind> {
     workers: Vec<Worker<K>>,
     /// The places of the bodies of pairs that are met by all threads, and of those that are met by one.
     large: Vec<BodyPair>,
@@ -70,7 +70,7 @@ impl<K: Kind> Default for Worker<K> {
 }
 
 /// Whether pairs of bodies are worth it.
-pub(super) fn is_worth_it<S: Coordinate>(
+pub(crate) fn is_worth_it<S: Coordinate>(
     executor: Executor,
     bodies: &Bodies<S>,
     pairs: &[BodyPair],
@@ -88,7 +88,7 @@ fn triangles_of<S: Coordinate>(bodies: &Bodies<S>, pairs: &[BodyPair]) -> usize 
 
 impl<K: Kind> Scheduler<K> {
     /// Meets all pairs of bodies, unless it is interrupted or there are too many hits for the collector.
-    pub(super) fn meet(
+    pub(crate) fn meet(
         &mut self,
         step: &mut Step,
         answer: &mut Answer<K>,

@@ -11,10 +11,10 @@ use crate::tree::{NeighboursBuilder, Tree, TreeBuilder};
 use std::collections::BTreeMap;
 
 /// How its triangles are divided.
-pub(super) type Rule = Box<dyn Split + Send + Sync>;
+pub(crate) type Rule = Box<dyn Split + Send + Sync>;
 
 /// The mesh that a tree is built of: that of the body, but for what was edited since.
-pub(super) struct MeshThen {
+pub(crate) struct MeshThen {
     vertices: usize,
     /// The corners then of all triangles that were edited since, as the caller numbers them; no corners of those that are new.
     edited: BTreeMap<u32, [u32; 3]>,
@@ -22,14 +22,14 @@ pub(super) struct MeshThen {
 
 impl MeshThen {
     /// That of now, of so many vertices.
-    pub(super) fn new(vertices: usize) -> Self {
+    pub(crate) fn new(vertices: usize) -> Self {
         Self {
             vertices,
             edited: BTreeMap::new(),
         }
     }
 
-    pub(super) fn vertices(&self) -> usize {
+    pub(crate) fn vertices(&self) -> usize {
         self.vertices
     }
 
@@ -40,7 +40,7 @@ impl MeshThen {
     }
 
     /// What is another triangle now, by number.
-    pub(super) fn changed(&self, now: &[[u32; 3]]) -> Vec<Changed> {
+    pub(crate) fn changed(&self, now: &[[u32; 3]]) -> Vec<Changed> {
         let edited = self.edited.iter();
         let both = edited.map(|(&triangle, &then)| (triangle, [then, now[triangle as usize]]));
         both.filter(|(_, [then, now])| then != now).collect()
@@ -48,14 +48,14 @@ impl MeshThen {
 }
 
 /// A tree that is being built.
-pub(super) struct Mending {
+pub(crate) struct Mending {
     mesh: MeshThen,
     stage: Stage,
 }
 
 /// The midpoint of a triangle in the shape of now, by its place among those whose midpoints are asked for, and its corners as the caller
 /// numbers vertices.
-pub(super) type MidpointOf<'m> = &'m dyn Fn(usize, [u32; 3]) -> [f64; 3];
+pub(crate) type MidpointOf<'m> = &'m dyn Fn(usize, [u32; 3]) -> [f64; 3];
 
 enum Stage {
     /// The midpoints of these triangles, as the caller numbers them, are looked up, for a balanced tree of some degree and size of leaves.
@@ -79,7 +79,7 @@ const ONCE_MORE: usize = 1;
 
 impl Mending {
     /// A balanced tree of these triangles, of some degree and size of leaves.
-    pub(super) fn balanced(
+    pub(crate) fn balanced(
         mesh: MeshThen,
         numbers: Vec<u32>,
         (degree, leaf_size): (usize, u32),
@@ -90,13 +90,13 @@ impl Mending {
     }
 
     /// By a rule for so many triangles, which have these numbers.
-    pub(super) fn by_rule(mesh: MeshThen, planner: Planner<Rule>, numbers: Vec<u32>) -> Self {
+    pub(crate) fn by_rule(mesh: MeshThen, planner: Planner<Rule>, numbers: Vec<u32>) -> Self {
         let stage = Stage::Dividing(planner, numbers);
         Self { mesh, stage }
     }
 
     /// Triangles of the body are edited.
-    pub(super) fn note(&mut self, changed: &[Changed]) {
+    pub(crate) fn note(&mut self, changed: &[Changed]) {
         for &(triangle, [then, _]) in changed {
             self.mesh.edited.entry(triangle).or_insert(then);
         }
@@ -104,7 +104,7 @@ impl Mending {
 
     /// Goes on, with the corners that all triangles have now. Whether which triangles share a vertex is to be found, too, is asked when it
     /// comes to that.
-    pub(super) fn advance(
+    pub(crate) fn advance(
         mut self,
         now: &[[u32; 3]],
         midpoint_of: MidpointOf,
@@ -118,12 +118,12 @@ impl Mending {
         self
     }
 
-    pub(super) fn is_done(&self) -> bool {
+    pub(crate) fn is_done(&self) -> bool {
         matches!(self.stage, Stage::Done(..))
     }
 
     /// The mesh that the tree is of, its order and the tree, if they are done.
-    pub(super) fn finish(self) -> Option<(MeshThen, Order, Tree)> {
+    pub(crate) fn finish(self) -> Option<(MeshThen, Order, Tree)> {
         match self.stage {
             Stage::Done(order, tree) => Some((self.mesh, order, tree)),
             _ => None,

@@ -22,9 +22,9 @@ const SHARED: usize = 4 * JOB;
 
 /// A body of so many triangles, or vertices, or fewer, takes memory when somebody looks at it: among many small ones most are never
 /// looked at. Larger ones take it when they are added, because a query may not go on for long before it asks whether to stop.
-pub(super) const SMALL: usize = 1 << 8;
+pub(crate) const SMALL: usize = 1 << 8;
 
-pub(super) struct Positions<S> {
+pub(crate) struct Positions<S> {
     len: usize,
     /// The shape of now, if it is in the caller's order. Nothing in a body that was looked at in every shape so far.
     callers: Vec<[S; 3]>,
@@ -49,15 +49,15 @@ enum InOrder {
 }
 
 /// A new shape that was checked and waits to be committed.
-pub(super) struct Staged<S> {
+pub(crate) struct Staged<S> {
     /// Of all its vertices, used or not.
-    pub(super) bounds: Bounds<S>,
+    pub(crate) bounds: Bounds<S>,
     is_copied: bool,
 }
 
 impl<S: Coordinate> Positions<S> {
     /// Of a new body, as the caller orders them.
-    pub(super) fn new(positions: &[[S; 3]]) -> Self {
+    pub(crate) fn new(positions: &[[S; 3]]) -> Self {
         Self {
             len: positions.len(),
             callers: positions.to_vec(),
@@ -71,13 +71,13 @@ impl<S: Coordinate> Positions<S> {
         }
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.len
     }
 
     /// Checks a new shape, as long as the old, and copies it aside if that is the way it will go; `None` if a coordinate is out of
     /// range.
-    pub(super) fn stage(
+    pub(crate) fn stage(
         &mut self,
         instructions: Instructions,
         executor: Executor,
@@ -112,7 +112,7 @@ impl<S: Coordinate> Positions<S> {
     }
 
     /// The new shape that was staged is that of now.
-    pub(super) fn commit(
+    pub(crate) fn commit(
         &mut self,
         staged: &Staged<S>,
         instructions: Instructions,
@@ -131,7 +131,7 @@ impl<S: Coordinate> Positions<S> {
 
     /// Brings the shape into tree order, which all that makes boxes and decides candidates needs, because a query is going to look at
     /// it. Returns false, and nothing has changed, if it was interrupted.
-    pub(super) fn bring_into_tree_order(
+    pub(crate) fn bring_into_tree_order(
         &mut self,
         instructions: Instructions,
         executor: Executor,
@@ -165,13 +165,13 @@ impl<S: Coordinate> Positions<S> {
 
     /// In tree order; was brought into it.
     #[inline]
-    pub(super) fn in_tree_order(&self) -> &Points<S> {
+    pub(crate) fn in_tree_order(&self) -> &Points<S> {
         debug_assert_ne!(self.order, InOrder::Callers);
         &self.trees
     }
 
     /// As the caller orders vertices.
-    pub(super) fn in_callers_order(&self, order: &Order) -> Cow<'_, [[S; 3]]> {
+    pub(crate) fn in_callers_order(&self, order: &Order) -> Cow<'_, [[S; 3]]> {
         if matches!(self.order, InOrder::Callers | InOrder::Both) {
             return Cow::Borrowed(&self.callers);
         }
@@ -187,7 +187,7 @@ impl<S: Coordinate> Positions<S> {
 
     /// One of them.
     #[inline]
-    pub(super) fn get(&self, vertex: TreeVertex, order: &[u32]) -> [S; 3] {
+    pub(crate) fn get(&self, vertex: TreeVertex, order: &[u32]) -> [S; 3] {
         if self.order == InOrder::Callers {
             self.callers[order[vertex.index()] as usize]
         } else {
@@ -196,7 +196,7 @@ impl<S: Coordinate> Positions<S> {
     }
 
     /// Vertices come behind all others, in either order.
-    pub(super) fn push(&mut self, new: &[[S; 3]]) {
+    pub(crate) fn push(&mut self, new: &[[S; 3]]) {
         if matches!(self.order, InOrder::Callers | InOrder::Both) {
             self.callers.extend_from_slice(new);
         }
@@ -207,7 +207,7 @@ impl<S: Coordinate> Positions<S> {
     }
 
     /// A vertex is somewhere else.
-    pub(super) fn place(&mut self, vertex: CallerVertex, number: TreeVertex, position: [S; 3]) {
+    pub(crate) fn place(&mut self, vertex: CallerVertex, number: TreeVertex, position: [S; 3]) {
         if matches!(self.order, InOrder::Callers | InOrder::Both) {
             self.callers[vertex.index()] = position;
         }
@@ -217,7 +217,7 @@ impl<S: Coordinate> Positions<S> {
     }
 
     /// Numbers in tree order are others.
-    pub(super) fn follow(&mut self, moved: &Moved) {
+    pub(crate) fn follow(&mut self, moved: &Moved) {
         if self.order == InOrder::Callers {
             return;
         }
@@ -232,14 +232,14 @@ impl<S: Coordinate> Positions<S> {
     }
 
     /// A vertex has a number at the end of tree order too: what is at the other stays where it is until the next shape.
-    pub(super) fn follow_to_the_end(&mut self, slot: TreeVertex) {
+    pub(crate) fn follow_to_the_end(&mut self, slot: TreeVertex) {
         if self.order != InOrder::Callers {
             self.trees.push(self.trees.get(slot));
         }
     }
 
     /// Tree order is going to be another than `order`.
-    pub(super) fn forget_tree_order(&mut self, order: &Order) {
+    pub(crate) fn forget_tree_order(&mut self, order: &Order) {
         if let Cow::Owned(callers) = self.in_callers_order(order) {
             self.callers = callers;
         }

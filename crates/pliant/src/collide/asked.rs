@@ -1,12 +1,12 @@
 //! What a world keeps for one kind of query, and how one is answered: all that is found, or shown to a sink until it breaks.
 
 use super::answer::{Answer, TaskList};
-use super::bodies::Bodies;
 use super::body_pairs::BodyPairs;
 use super::origin::FloatingOrigin;
-use super::query::Request;
+use super::request::Request;
 use super::scheduler::{Scheduler, is_worth_it};
 use super::step::Step;
+use crate::bodies::Bodies;
 use crate::error::{Error, ErrorKind};
 use crate::held::{self, Held};
 use crate::hits::{Hit, Numbered};
@@ -22,25 +22,25 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What queries of every kind work on: all of a world but what single kinds keep.
-pub(super) struct Common<S> {
-    pub(super) options: Options,
-    pub(super) instructions: Instructions,
-    pub(super) threads: Threads,
-    pub(super) bodies: Bodies<S>,
-    pub(super) body_pairs: BodyPairs,
-    pub(super) origin: FloatingOrigin,
+pub(crate) struct Common<S> {
+    pub(crate) options: Options,
+    pub(crate) instructions: Instructions,
+    pub(crate) threads: Threads,
+    pub(crate) bodies: Bodies<S>,
+    pub(crate) body_pairs: BodyPairs,
+    pub(crate) origin: FloatingOrigin,
     /// Buffers of the descent.
-    pub(super) scratch: Scratch,
+    pub(crate) scratch: Scratch,
     /// The work of the last query.
-    pub(super) statistics: Statistics,
+    pub(crate) statistics: Statistics,
     /// The work that was done early since the last query.
-    pub(super) done_early: Statistics,
+    pub(crate) done_early: Statistics,
 }
 
 /// Buffers of one kind, kept from query to query.
 #[derive(Debug)]
-pub(super) struct Asked<K: Kind> {
-    pub(super) tasks: TaskList<K>,
+pub(crate) struct Asked<K: Kind> {
+    pub(crate) tasks: TaskList<K>,
     scheduler: Scheduler<K>,
     sorter: Sorter<K::Hit>,
     /// Hits that are more than their numbers, of every thread; the first of these lists is that of all in the end.
@@ -63,7 +63,7 @@ where
     K::Scalar: Coordinate,
 {
     /// All hits, sorted.
-    pub(super) fn all(
+    pub(crate) fn all(
         &mut self,
         kind: &K,
         common: &mut Common<K::Scalar>,
@@ -137,7 +137,7 @@ where
     }
 
     /// All hits, sorted; for kinds whose hits are more than their numbers.
-    pub(super) fn all_listed(
+    pub(crate) fn all_listed(
         &mut self,
         kind: &K,
         common: &mut Common<K::Scalar>,
@@ -162,7 +162,7 @@ where
     }
 
     /// Goes through all candidates of a kind that keeps to itself what it finds.
-    pub(super) fn search(
+    pub(crate) fn search(
         &mut self,
         kind: &K,
         common: &mut Common<K::Scalar>,
@@ -174,7 +174,7 @@ where
     }
 
     /// Shows every hit once, until the visitor breaks.
-    pub(super) fn visit(
+    pub(crate) fn visit(
         &mut self,
         kind: &K,
         common: &mut Common<K::Scalar>,
@@ -201,7 +201,7 @@ where
 
 impl<S: Coordinate> Common<S> {
     /// The threads that work on a query.
-    pub(super) fn executor<'q>(&'q mut self, interrupt: &'q Interrupt<'q>) -> Executor<'q> {
+    pub(crate) fn executor<'q>(&'q mut self, interrupt: &'q Interrupt<'q>) -> Executor<'q> {
         Executor {
             threads: self.threads.here(),
             interrupt,
@@ -209,7 +209,7 @@ impl<S: Coordinate> Common<S> {
     }
 
     /// At the beginning of every query.
-    pub(super) fn begin(&mut self, request: &Request) -> Result<(), Error> {
+    pub(crate) fn begin(&mut self, request: &Request) -> Result<(), Error> {
         self.bodies.validate(request.of)?;
         self.settle_origin();
         self.statistics = std::mem::take(&mut self.done_early);
@@ -256,7 +256,7 @@ impl<S: Coordinate> Common<S> {
     }
 
     /// Does early what a query would do first: finds the bodies that may meet and refits the upper levels of their trees.
-    pub(super) fn prepare(&mut self, needs: Needs, request: &Request) -> Result<(), Error> {
+    pub(crate) fn prepare(&mut self, needs: Needs, request: &Request) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
         self.bodies.validate(request.of)?;
         self.settle_origin();
@@ -281,7 +281,7 @@ impl<S: Coordinate> Common<S> {
     }
 
     /// At the end of every query: if it was interrupted, nothing that it left half done is believed.
-    pub(super) fn end(&mut self, interrupt: &Interrupt) -> Result<(), Error> {
+    pub(crate) fn end(&mut self, interrupt: &Interrupt) -> Result<(), Error> {
         if !interrupt.is_set() {
             return Ok(());
         }
@@ -292,14 +292,14 @@ impl<S: Coordinate> Common<S> {
         Err(ErrorKind::Interrupted.of_query())
     }
 
-    pub(super) fn settle_origin(&mut self) {
+    pub(crate) fn settle_origin(&mut self) {
         if self.origin.settle(&mut self.bodies.list) {
             self.body_pairs.forget();
         }
     }
 
     /// A body has a new shape or box.
-    pub(super) fn note_movement(&mut self) {
+    pub(crate) fn note_movement(&mut self) {
         self.origin.note_movement();
         self.body_pairs.forget();
     }

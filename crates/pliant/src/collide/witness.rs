@@ -5,11 +5,11 @@
 //! no box is made, and the shapes are not even brought into tree order. Whether there is a pair does not depend on it; which
 //! one it is does.
 
-use super::BodyId;
-use super::body::Body;
+use crate::bodies::Body;
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
 use crate::hits::Pair;
+use crate::ids::BodyId;
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
 use crate::queries::{CallerIds, Candidate, Intersections, Kind};
@@ -20,23 +20,23 @@ use std::collections::BTreeMap;
 
 /// The last answers, by the bodies asked for; a body with itself is asked for twice.
 #[derive(Debug, Default)]
-pub(super) struct Witnesses {
+pub(crate) struct Witnesses {
     answers: BTreeMap<[BodyId; 2], Candidate>,
     /// The bodies of the last answer for the whole world, and for the whole world and each body with itself.
-    pub(super) of_world: [Option<[BodyId; 2]>; 2],
+    pub(crate) of_world: [Option<[BodyId; 2]>; 2],
 }
 
 impl Witnesses {
-    pub(super) fn get(&self, bodies: [BodyId; 2]) -> Option<Candidate> {
+    pub(crate) fn get(&self, bodies: [BodyId; 2]) -> Option<Candidate> {
         self.answers.get(&bodies).copied()
     }
 
-    pub(super) fn keep(&mut self, bodies: [BodyId; 2], answer: Candidate) {
+    pub(crate) fn keep(&mut self, bodies: [BodyId; 2], answer: Candidate) {
         self.answers.insert(bodies, answer);
     }
 
     /// A body is removed, or its triangles have a new order.
-    pub(super) fn forget(&mut self, body: BodyId) {
+    pub(crate) fn forget(&mut self, body: BodyId) {
         self.answers.retain(|bodies, _| !bodies.contains(&body));
         for of_world in &mut self.of_world {
             *of_world = of_world.filter(|bodies| !bodies.contains(&body));
@@ -46,7 +46,7 @@ impl Witnesses {
 
 /// A pair that intersects among the neighbours of a pair, of two bodies or of one with itself: on either side the one, its leaf,
 /// the leaves beside it. In tree order, as everything here.
-pub(super) fn near<S: Coordinate>(
+pub(crate) fn near<S: Coordinate>(
     both: [&Body<S>; 2],
     last: Candidate,
     interrupt: &Interrupt,
@@ -58,7 +58,7 @@ pub(super) fn near<S: Coordinate>(
 }
 
 /// Two triangles of two bodies, or of one, as the caller numbers them.
-pub(super) fn pair_of<S: Coordinate>(both: [&Body<S>; 2], found: Candidate) -> Pair {
+pub(crate) fn pair_of<S: Coordinate>(both: [&Body<S>; 2], found: Candidate) -> Pair {
     let ids = CallerIds {
         edges: [&[]; 2],
         bodies: both.map(|body| body.id),

@@ -17,7 +17,7 @@ const FEWEST: f64 = 256.0;
 
 /// What looking at a body cost, and what a fresh tree would look at.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Work {
+pub(crate) struct Work {
     /// Pairs of nodes that were looked at.
     node_pairs: u64,
     /// And of triangles.
@@ -37,7 +37,7 @@ impl Work {
     }
 
     /// Of two bodies.
-    pub(super) fn of_two(node_pairs: u64, candidates: u64) -> Self {
+    pub(crate) fn of_two(node_pairs: u64, candidates: u64) -> Self {
         Self {
             node_pairs,
             candidates,
@@ -47,7 +47,7 @@ impl Work {
     }
 
     /// Of a body of so many triangles with itself.
-    pub(super) fn of_one(node_pairs: u64, candidates: u64, triangles: usize) -> Self {
+    pub(crate) fn of_one(node_pairs: u64, candidates: u64, triangles: usize) -> Self {
         Self {
             node_pairs,
             candidates,
@@ -60,18 +60,18 @@ impl Work {
 
 /// Pairs of nodes that a fresh tree would have spared.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spared {
+pub(crate) struct Spared {
     /// Since this one was built.
-    pub(super) since_built: f64,
+    pub(crate) since_built: f64,
     /// In the last shape alone.
-    pub(super) in_last_shape: f64,
+    pub(crate) in_last_shape: f64,
     /// Of all pairs of nodes and of triangles that were looked at in the last shape.
-    pub(super) looked_at: f64,
+    pub(crate) looked_at: f64,
 }
 
 /// What queries did with the tree of a body since it was built.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Decay {
+pub(crate) struct Decay {
     /// In the shape of now, or in the last in which somebody looked.
     last: Work,
     epoch: u64,
@@ -86,7 +86,7 @@ pub(super) struct Decay {
 
 impl Decay {
     /// A body was looked at, in a shape of some number; its tree was hardly edited since it was built, or was.
-    pub(super) fn note(&mut self, work: Work, epoch: u64, is_hardly_edited: bool) {
+    pub(crate) fn note(&mut self, work: Work, epoch: u64, is_hardly_edited: bool) {
         if self.epoch != epoch {
             self.settle();
             self.epoch = epoch;
@@ -129,13 +129,13 @@ impl Decay {
     }
 
     /// How many pairs of nodes are looked at for one that a fresh tree would; 1 before anything is known.
-    pub(super) fn quality(&self) -> f64 {
+    pub(crate) fn quality(&self) -> f64 {
         let expected = self.expected();
         expected.map_or(1.0, |expected| self.last.node_pairs as f64 / expected)
     }
 
     /// What a fresh tree would have spared by now. A shape is over.
-    pub(super) fn spared(&mut self) -> Spared {
+    pub(crate) fn spared(&mut self) -> Spared {
         let looked_at = self.last.all();
         let before = self.spared;
         self.settle();
@@ -147,7 +147,7 @@ impl Decay {
     }
 
     /// The tree is another, of the same kind: the factors stay.
-    pub(super) fn begin_anew(&mut self) {
+    pub(crate) fn begin_anew(&mut self) {
         self.last = Work::default();
         self.spared = 0.0;
     }

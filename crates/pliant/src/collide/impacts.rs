@@ -7,10 +7,9 @@
 //! motion to the rounded shape is another one; it is decided whether anything meets on that, exactly, and if so a shorter step is tried.
 //! What meets at the start of a motion is no contact of the step.
 
-use super::Selection;
 use super::asked::{Asked, Common};
-use super::body::Body;
-use super::query::Request;
+use super::request::Request;
+use crate::bodies::Body;
 use crate::error::Error;
 use crate::held::Held;
 use crate::impacts::Impact;
@@ -19,6 +18,7 @@ use crate::queries::{
     Earliest, EdgeEdgeCandidates, First, Impacts, Kind, LIMIT, Margin, Reach,
     VertexTriangleCandidates,
 };
+use crate::selection::Selection;
 use crate::statistics::Statistics;
 use pliant_exact::motion::Grid;
 use std::ops::ControlFlow;
@@ -47,7 +47,7 @@ const PARTS: [f64; 9] = [
 
 /// Which elements are looked at.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum OfKind {
+pub(crate) enum OfKind {
     Both,
     VerticesAndTriangles,
     Edges,
@@ -55,9 +55,9 @@ pub(super) enum OfKind {
 
 /// What a world keeps for impacts of either kind.
 #[derive(Debug)]
-pub(super) struct AskedImpacts<S: Coordinate> {
-    pub(super) vertex_triangle: Asked<Impacts<VertexTriangleCandidates<S>>>,
-    pub(super) edge_edge: Asked<Impacts<EdgeEdgeCandidates<S>>>,
+pub(crate) struct AskedImpacts<S: Coordinate> {
+    pub(crate) vertex_triangle: Asked<Impacts<VertexTriangleCandidates<S>>>,
+    pub(crate) edge_edge: Asked<Impacts<EdgeEdgeCandidates<S>>>,
 }
 
 impl<S: Coordinate> Default for AskedImpacts<S> {
@@ -72,7 +72,7 @@ impl<S: Coordinate> Default for AskedImpacts<S> {
 impl<S: Coordinate> AskedImpacts<S> {
     /// The first contact of a motion: which elements it is of, and when. Of several at one time that of a vertex and a triangle; the first
     /// in order.
-    pub(super) fn first_contact(
+    pub(crate) fn first_contact(
         &mut self,
         common: &mut Common<S>,
         request: &Request,
@@ -122,7 +122,7 @@ impl<S: Coordinate> AskedImpacts<S> {
     }
 
     /// A time up to which everything may go: see [`World::collision_free_step`](crate::World::collision_free_step).
-    pub(super) fn free_step(
+    pub(crate) fn free_step(
         &mut self,
         common: &mut Common<S>,
         request: &Request,

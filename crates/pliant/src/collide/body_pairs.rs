@@ -3,8 +3,7 @@
 //! Pairs come in batches, each found when the one before has met, so many bodies in one place cost time and no memory, and a query that
 //! ends early has not looked for pairs that it does not need. If one batch holds all pairs it is kept for as long as nothing moves.
 
-use super::Selection;
-use super::bodies::Bodies;
+use crate::bodies::Bodies;
 use crate::broad_phase::{BroadPhase, Overlap};
 use crate::error::Error;
 use crate::geometry::{Aabb, Origin};
@@ -13,10 +12,11 @@ use crate::ids::{Place, Rank};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options;
 use crate::queries::BodyBoxes;
+use crate::selection::Selection;
 use crate::threads::Interrupt;
 
 /// Two bodies by their places, or one twice: a body with itself.
-pub(super) type BodyPair = [Place; 2];
+pub(crate) type BodyPair = [Place; 2];
 
 /// Pairs of a batch, or of the bodies if there are more of these, times [`PAIRS_A_BODY`]; and those of one body more.
 const BATCH: usize = 1 << 16;
@@ -24,7 +24,7 @@ const PAIRS_A_BODY: usize = 4;
 
 /// The batches of one query, and what is kept from query to query.
 #[derive(Debug)]
-pub(super) struct BodyPairs {
+pub(crate) struct BodyPairs {
     broad_phase: BroadPhase,
     /// Of every body, by its rank: its exact box, and the one that the broad phase works with, which is the loose one if there is one.
     exact: Vec<Aabb>,
@@ -59,7 +59,7 @@ enum Next {
 }
 
 impl BodyPairs {
-    pub(super) fn new(rule: options::BroadPhase) -> Self {
+    pub(crate) fn new(rule: options::BroadPhase) -> Self {
         Self {
             broad_phase: BroadPhase::new(rule),
             exact: Vec::new(),
@@ -74,19 +74,19 @@ impl BodyPairs {
     }
 
     /// A body has moved, or a filter has changed.
-    pub(super) fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.holds_for = None;
     }
 
     /// The body of a rank is gone, and those after it are one rank higher.
-    pub(super) fn remove(&mut self, rank: Rank) {
+    pub(crate) fn remove(&mut self, rank: Rank) {
         self.broad_phase.remove(rank);
         self.forget();
     }
 
     /// Begins with the pairs of a selection whose boxes overlap: bodies with themselves first, for which all their boxes are refitted,
     /// and then different bodies; each in the order of ids.
-    pub(super) fn begin<S: Coordinate>(
+    pub(crate) fn begin<S: Coordinate>(
         &mut self,
         of: Selection,
         bodies: &Bodies<S>,
@@ -128,7 +128,7 @@ impl BodyPairs {
     }
 
     /// The next batch of the query that has begun, which may be empty; none after the last. Interrupted, it is the last.
-    pub(super) fn next<S: Coordinate>(
+    pub(crate) fn next<S: Coordinate>(
         &mut self,
         bodies: &Bodies<S>,
         instructions: Instructions,

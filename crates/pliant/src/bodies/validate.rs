@@ -10,7 +10,7 @@ use crate::tree::{Grown, Swept};
 impl<S: Coordinate> Body<S> {
     /// Checks the structure of the tree, and that each box that claims to be valid is the box over the vertices below it as they
     /// are now. A sentence says what is wrong.
-    pub(super) fn validate(&self, options: &Options, origin: Origin) -> Result<(), String> {
+    pub(crate) fn validate(&self, options: &Options, origin: Origin) -> Result<(), String> {
         let positions = self.in_tree_order();
         let from = self.shape(&positions, origin);
         let end = self.end_in_tree_order();

@@ -36,26 +36,26 @@ const MUCH: usize = 8;
 
 impl<S: Coordinate> Body<S> {
     /// An edit of the mesh of now, of a world, without steps.
-    pub(super) fn begin_edit(&self, world: u64) -> Edit<S> {
+    pub(crate) fn begin_edit(&self, world: u64) -> Edit<S> {
         let counts = [self.vertex_count(), self.triangle_numbers()];
         Edit::new((world, self.id, self.meshes), counts)
     }
 
     /// Whether a triangle in tree order was taken out of the mesh.
     #[inline]
-    pub(super) fn is_gone(&self, triangle: TreeTriangle) -> bool {
+    pub(crate) fn is_gone(&self, triangle: TreeTriangle) -> bool {
         let edits = self.edits.as_ref();
         edits.is_some_and(|edits| edits.gone.has(triangle.0))
     }
 
     /// Whether a number is that of a triangle, for each.
-    pub(super) fn live_triangles(&self) -> Vec<bool> {
+    pub(crate) fn live_triangles(&self) -> Vec<bool> {
         let triangles = self.topology.triangles().iter();
         triangles.map(|&corners| corners != EMPTY).collect()
     }
 
     /// Whether a number is that of a vertex, for each.
-    pub(super) fn live_vertices(&self) -> Vec<bool> {
+    pub(crate) fn live_vertices(&self) -> Vec<bool> {
         let is_empty = |vertex| {
             let edits = self.edits.as_ref();
             edits.is_some_and(|edits| edits.empty.has(vertex))
@@ -65,14 +65,14 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Whether a triangle or a vertex is gone whose number was not used again.
-    pub(super) fn has_empty_numbers(&self) -> bool {
+    pub(crate) fn has_empty_numbers(&self) -> bool {
         let edits = self.edits.as_deref();
         self.topology.live_count() < self.triangle_numbers()
             || edits.is_some_and(|edits| edits.empty.count() > 0)
     }
 
     /// Makes all changes of an edit; or leaves the body as it is and says what was wrong.
-    pub(super) fn apply(&mut self, edit: &Edit<S>, options: &Options) -> Result<Edited, ErrorKind> {
+    pub(crate) fn apply(&mut self, edit: &Edit<S>, options: &Options) -> Result<Edited, ErrorKind> {
         if edit.mesh != self.meshes {
             return Err(ErrorKind::OutdatedEdit);
         }
@@ -92,7 +92,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Gives the body another mesh and its shape; or leaves it as it is and says what was wrong. What is equal by number stays.
-    pub(super) fn set_mesh(
+    pub(crate) fn set_mesh(
         &mut self,
         triangles: &[[u32; 3]],
         positions: &[[S; 3]],
@@ -347,7 +347,7 @@ impl<S: Coordinate> Body<S> {
     /// Vertices that lose their last triangle go to the end of tree order, and leave orphans. These stand where
     /// vertices do that are near them in the tree, each where another does: boxes over nothing but orphans are as large as others, and
     /// no more of them are in one place.
-    pub(super) fn leave_orphans(&mut self, changed: &[Changed]) {
+    pub(crate) fn leave_orphans(&mut self, changed: &[Changed]) {
         let used = self.order.used_vertices();
         let Some(edits) = &mut self.edits else {
             return;
@@ -399,7 +399,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Puts triangles behind all others, in a part with those last ones that are not much larger.
-    pub(super) fn append(&mut self, mut coming: Vec<u32>, options: &Options) {
+    pub(crate) fn append(&mut self, mut coming: Vec<u32>, options: &Options) {
         let Some(edits) = &mut self.edits else {
             return;
         };
@@ -478,7 +478,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Checks that every triangle is in the trees once, with the corners that it has.
-    pub(super) fn validate_edits(&self) -> Result<(), String> {
+    pub(crate) fn validate_edits(&self) -> Result<(), String> {
         let mut seen = vec![false; self.triangle_numbers()];
         for place in (0..self.triangle_count() as u32).map(TreeTriangle) {
             if self.is_gone(place) {

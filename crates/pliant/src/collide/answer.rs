@@ -13,12 +13,12 @@ const MOST_HITS: usize = 2048;
 
 /// The tasks of a kind, kept from query to query.
 #[derive(Debug)]
-pub(super) struct TaskList<K: Kind> {
+pub(crate) struct TaskList<K: Kind> {
     tasks: Vec<(Task, Found<K>)>,
     /// How many of them, from the first on, are in use.
     used: usize,
     /// The hit at which a query stopped, in tree order.
-    pub(super) broke_at: Option<K::TreeHit>,
+    pub(crate) broke_at: Option<K::TreeHit>,
 }
 
 /// What a task has found.
@@ -35,19 +35,19 @@ struct Found<K: Kind> {
 }
 
 /// A query on its way.
-pub(super) struct Answer<'q, 's, K: Kind> {
+pub(crate) struct Answer<'q, 's, K: Kind> {
     kind: &'q K,
     list: &'q mut TaskList<K>,
     sink: Sink<'s, K::Hit>,
 }
 
 impl<'q, 's, K: Kind> Answer<'q, 's, K> {
-    pub(super) fn new(kind: &'q K, list: &'q mut TaskList<K>, sink: Sink<'s, K::Hit>) -> Self {
+    pub(crate) fn new(kind: &'q K, list: &'q mut TaskList<K>, sink: Sink<'s, K::Hit>) -> Self {
         list.broke_at = None;
         Self { kind, list, sink }
     }
 
-    pub(super) fn kind(&self) -> &'q K {
+    pub(crate) fn kind(&self) -> &'q K {
         self.kind
     }
 }

@@ -1,20 +1,21 @@
 //! The bodies of a world, and which of them may meet.
 
 use super::body::Body;
-use super::{BodyId, Selection};
 use crate::error::{Error, ErrorKind};
 use crate::held::{self, Held};
+use crate::ids::BodyId;
 use crate::ids::{Place, Rank};
 use crate::kernels::Coordinate;
+use crate::selection::Selection;
 use std::collections::BTreeSet;
 
-pub(super) struct Bodies<S> {
+pub(crate) struct Bodies<S> {
     /// In no order that matters: a removed body's place is taken by the last. Each in memory of its own, so that a list that grows holds no
     /// room for bodies that are not there.
-    pub(super) list: Vec<Box<Body<S>>>,
+    pub(crate) list: Vec<Box<Body<S>>>,
     /// By rank: the ids in order, and where the bodies stand in the list.
-    pub(super) ids: Vec<BodyId>,
-    pub(super) places: Vec<Place>,
+    pub(crate) ids: Vec<BodyId>,
+    pub(crate) places: Vec<Place>,
     next_id: Option<u32>,
     /// Pairs of bodies that do not meet in queries of the whole world, each pair in both orders.
     ignored: BTreeSet<(BodyId, BodyId)>,
@@ -34,12 +35,12 @@ impl<S> Default for Bodies<S> {
 
 impl<S: Coordinate> Bodies<S> {
     /// The id of the next body.
-    pub(super) fn next_id(&self) -> Result<BodyId, ErrorKind> {
+    pub(crate) fn next_id(&self) -> Result<BodyId, ErrorKind> {
         self.next_id.map(BodyId).ok_or(ErrorKind::TooManyBodies)
     }
 
     /// No body added from now on has an id below this one; with none, no other can be added. Ids never go back.
-    pub(super) fn skip_ids(&mut self, next: Option<u32>) {
+    pub(crate) fn skip_ids(&mut self, next: Option<u32>) {
         self.next_id = match (self.next_id, next) {
             (Some(now), Some(next)) => Some(now.max(next)),
             _ => None,
@@ -47,7 +48,7 @@ impl<S: Coordinate> Bodies<S> {
     }
 
     /// The same bodies once more.
-    pub(super) fn copy(&self) -> Self {
+    pub(crate) fn copy(&self) -> Self {
         Self {
             list: self.list.iter().map(|body| Box::new(body.copy())).collect(),
             ids: self.ids.clone(),
@@ -58,7 +59,7 @@ impl<S: Coordinate> Bodies<S> {
     }
 
     /// Adds a body that has the next id.
-    pub(super) fn push(&mut self, body: Body<S>) {
+    pub(crate) fn push(&mut self, body: Body<S>) {
         self.next_id = body.id.0.checked_add(1);
         self.ids.push(body.id);
         self.places.push(Place(self.list.len() as u32));
@@ -66,7 +67,7 @@ impl<S: Coordinate> Bodies<S> {
     }
 
     /// Removes a body. Returns the rank that it had; those after it are one rank higher now.
-    pub(super) fn remove(&mut self, id: BodyId) -> Result<Rank, Error> {
+    pub(crate) fn remove(&mut self, id: BodyId) -> Result<Rank, Error> {
         let rank = self.rank(id)?;
         self.ids.remove(rank.index());
         let place = self.places.remove(rank.index());
@@ -93,26 +94,26 @@ impl<S: Coordinate> Bodies<S> {
     }
 
     /// Where a body stands in the list.
-    pub(super) fn place(&self, id: BodyId) -> Result<Place, Error> {
+    pub(crate) fn place(&self, id: BodyId) -> Result<Place, Error> {
         Ok(self.places[self.rank(id)?.index()])
     }
 
     /// All bodies in the order of their ids.
-    pub(super) fn in_order(&self) -> impl Iterator<Item = &Body<S>> {
+    pub(crate) fn in_order(&self) -> impl Iterator<Item = &Body<S>> {
         self.places.iter().map(|place| &*self.list[place.index()])
     }
 
-    pub(super) fn get(&self, id: BodyId) -> Result<&Body<S>, Error> {
+    pub(crate) fn get(&self, id: BodyId) -> Result<&Body<S>, Error> {
         Ok(&self.list[self.place(id)?.index()])
     }
 
-    pub(super) fn get_mut(&mut self, id: BodyId) -> Result<&mut Body<S>, Error> {
+    pub(crate) fn get_mut(&mut self, id: BodyId) -> Result<&mut Body<S>, Error> {
         let place = self.place(id)?;
         Ok(&mut self.list[place.index()])
     }
 
     /// The bodies at two different places.
-    pub(super) fn two(&mut self, places: [Place; 2]) -> [&mut Body<S>; 2] {
+    pub(crate) fn two(&mut self, places: [Place; 2]) -> [&mut Body<S>; 2] {
         let places = places.map(Place::index);
         let both = self.list.get_disjoint_mut(places);
         let [a, b] = both.expect("two different places of bodies");
@@ -120,29 +121,29 @@ impl<S: Coordinate> Bodies<S> {
     }
 
     /// From now on two bodies, or one with itself, do not meet.
-    pub(super) fn ignore(&mut self, a: BodyId, b: BodyId) {
+    pub(crate) fn ignore(&mut self, a: BodyId, b: BodyId) {
         self.ignored.extend([(a, b), (b, a)]);
     }
 
     /// Takes that back.
-    pub(super) fn meet_again(&mut self, a: BodyId, b: BodyId) {
+    pub(crate) fn meet_again(&mut self, a: BodyId, b: BodyId) {
         self.ignored.remove(&(a, b));
         self.ignored.remove(&(b, a));
     }
 
     /// The pairs of bodies that do not meet, each once, the lower first; sorted.
-    pub(super) fn ignored(&self) -> Vec<[BodyId; 2]> {
+    pub(crate) fn ignored(&self) -> Vec<[BodyId; 2]> {
         let once = self.ignored.iter().filter(|(a, b)| a <= b);
         once.map(|&(a, b)| [a, b]).collect()
     }
 
     /// Whether two bodies, or one and itself, meet in queries of the whole world.
-    pub(super) fn do_meet(&self, a: &Body<S>, b: &Body<S>) -> bool {
+    pub(crate) fn do_meet(&self, a: &Body<S>, b: &Body<S>) -> bool {
         a.may_meet(b) && !self.ignored.contains(&(a.id, b.id))
     }
 
     /// Refuses a selection that names what is not there.
-    pub(super) fn validate(&self, of: Selection) -> Result<(), Error> {
+    pub(crate) fn validate(&self, of: Selection) -> Result<(), Error> {
         match of {
             Selection::World | Selection::Everything => Ok(()),
             Selection::Within(a) => self.place(a).map(|_| ()),

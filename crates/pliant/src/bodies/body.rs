@@ -1,6 +1,5 @@
 //! One body: its mesh, its tree and boxes, the shape it has now, and what it may meet.
 
-use super::BodyId;
 use super::decay::Decay;
 use super::edit_state::EditState;
 use super::mending_state::Mending;
@@ -9,6 +8,7 @@ use super::positions::Positions;
 use crate::error::ErrorKind;
 use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape};
 use crate::held::{self, Held};
+use crate::ids::BodyId;
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{self, Changed, Elements, Order, Topology};
@@ -24,58 +24,58 @@ use std::iter;
 use std::sync::OnceLock;
 
 /// A body with its tree, of degree `N`.
-pub(super) struct Body<S> {
-    pub(super) id: BodyId,
-    pub(super) topology: Topology,
-    pub(super) order: Order,
+pub(crate) struct Body<S> {
+    pub(crate) id: BodyId,
+    pub(crate) topology: Topology,
+    pub(crate) order: Order,
     /// The first is over the triangles that were there when it was built, the others over those that came since.
-    pub(super) parts: Parts,
-    pub(super) positions: Positions<S>,
+    pub(crate) parts: Parts,
+    pub(crate) positions: Positions<S>,
     /// Of the vertices that triangles use.
-    pub(super) bounds: Bounds<S>,
+    pub(crate) bounds: Bounds<S>,
     /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other epochs are stale.
-    pub(super) epoch: u64,
+    pub(crate) epoch: u64,
     /// Counts meshes.
-    pub(super) meshes: u64,
+    pub(crate) meshes: u64,
     /// Counts meshes, and orders of a mesh.
-    pub(super) revision: u64,
+    pub(crate) revision: u64,
     /// How much more the tree does than a fresh one would.
-    pub(super) decay: Decay,
+    pub(crate) decay: Decay,
     /// A tree that is to take its place.
-    pub(super) mending: Option<Box<Mending>>,
+    pub(crate) mending: Option<Box<Mending>>,
     membership: u32,
     mask: u32,
-    pub(super) loose: Option<Bounds<S>>,
+    pub(crate) loose: Option<Bounds<S>>,
     /// None before the first.
-    pub(super) motion: Option<Box<Motion<S>>>,
+    pub(crate) motion: Option<Box<Motion<S>>>,
     /// The last number of motions that were forgotten: boxes of one of them are not those of another.
     motions: u64,
     /// Edges, and who owns what, once somebody asks.
-    pub(super) elements: OnceLock<Box<Elements>>,
+    pub(crate) elements: OnceLock<Box<Elements>>,
     /// Whether somebody asked before the tree was exchanged, or another body was made like this one.
     edges_were_known: bool,
     /// None where all vertices meet.
-    pub(super) groups: Option<Box<VertexGroups>>,
+    pub(crate) groups: Option<Box<VertexGroups>>,
     /// Once the mesh is edited.
-    pub(super) edits: Option<Box<EditState<S>>>,
+    pub(crate) edits: Option<Box<EditState<S>>>,
 }
 
 /// The parts of a body: the first, which there always is, and the others.
-pub(super) struct Parts {
-    pub(super) first: Part,
-    pub(super) others: Vec<Part>,
+pub(crate) struct Parts {
+    pub(crate) first: Part,
+    pub(crate) others: Vec<Part>,
 }
 
 impl Parts {
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         1 + self.others.len()
     }
 
-    pub(super) fn all(&self) -> impl Iterator<Item = &Part> {
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Part> {
         iter::once(&self.first).chain(&self.others)
     }
 
-    pub(super) fn all_mut(&mut self) -> impl Iterator<Item = &mut Part> {
+    pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut Part> {
         iter::once(&mut self.first).chain(&mut self.others)
     }
 
@@ -101,7 +101,7 @@ impl Parts {
 const SAMPLED: usize = 16;
 
 /// Where the vertices are going.
-pub(super) struct Motion<S> {
+pub(crate) struct Motion<S> {
     /// The shape at the end, if there is a motion; if not, memory for the next.
     end: Positions<S>,
     /// Of the vertices that triangles use.
@@ -126,9 +126,9 @@ struct Partway<S> {
 }
 
 /// Groups of the caller's vertices, and of all elements in tree order once these are known.
-pub(super) struct VertexGroups {
-    pub(super) callers: Vec<u32>,
-    pub(super) of_elements: Option<Groups>,
+pub(crate) struct VertexGroups {
+    pub(crate) callers: Vec<u32>,
+    pub(crate) of_elements: Option<Groups>,
 }
 
 /// Refuses what no body can be made of.
@@ -151,7 +151,7 @@ pub(crate) fn validate<S: Real>(
 
 /// Refuses coordinates so small that this thread, where subnormal numbers are flushed, would lose them. Costs two products
 /// where they are not.
-pub(super) fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
+pub(crate) fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKind> {
     if denormals_are_kept() {
         return Ok(());
     }
@@ -163,24 +163,24 @@ pub(super) fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKin
 }
 
 #[inline]
-pub(super) fn is_in_range<S: Real>([x, y, z]: [S; 3]) -> bool {
+pub(crate) fn is_in_range<S: Real>([x, y, z]: [S; 3]) -> bool {
     // No early exit: three comparisons without a branch.
     x.is_in_range() & y.is_in_range() & z.is_in_range()
 }
 
 /// Where the corners of a body's elements are, as the caller numbers all of it.
-pub(super) struct Places<'b, S> {
-    pub(super) triangles: &'b [[u32; 3]],
-    pub(super) edges: &'b [[u32; 2]],
+pub(crate) struct Places<'b, S> {
+    pub(crate) triangles: &'b [[u32; 3]],
+    pub(crate) edges: &'b [[u32; 2]],
     /// For each vertex its number in tree order, in which positions are.
-    pub(super) tree_vertices: &'b [TreeVertex],
-    pub(super) positions: &'b Points<S>,
+    pub(crate) tree_vertices: &'b [TreeVertex],
+    pub(crate) positions: &'b Points<S>,
 }
 
 impl<'b, S> Places<'b, S> {
     /// Where a vertex is, with padding.
     #[inline(always)]
-    pub(super) fn corner(&self, vertex: u32) -> &'b [S; 4] {
+    pub(crate) fn corner(&self, vertex: u32) -> &'b [S; 4] {
         self.positions.padded(self.tree_vertices[vertex as usize])
     }
 }
@@ -190,7 +190,7 @@ const OF_FEW: usize = 256;
 
 impl<S: Coordinate> Body<S> {
     /// A body of validated parts; positions in the caller's order.
-    pub(super) fn new(
+    pub(crate) fn new(
         id: BodyId,
         triangles: &[[u32; 3]],
         positions: &[[S; 3]],
@@ -226,7 +226,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// A body like this one, whose boxes are made anew.
-    pub(super) fn copy(&self) -> Self {
+    pub(crate) fn copy(&self) -> Self {
         Self {
             id: self.id,
             topology: self.topology.clone(),
@@ -267,13 +267,13 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Builds the tree anew, on the shape of now.
-    pub(super) fn rebuild(&mut self, options: &Options) {
+    pub(crate) fn rebuild(&mut self, options: &Options) {
         let (order, tree) = build(&self.topology, &self.stored_positions(), options);
         self.exchange_tree(order, tree, &[]);
     }
 
     /// Has another tree from now on, over all triangles in another order, but for some that were changed since these had their order.
-    pub(super) fn exchange_tree(&mut self, order: Order, tree: Tree, changed: &[Changed]) {
+    pub(crate) fn exchange_tree(&mut self, order: Order, tree: Tree, changed: &[Changed]) {
         self.positions.forget_tree_order(&self.order);
         if let Some(motion) = &mut self.motion {
             motion.end.forget_tree_order(&self.order);
@@ -310,7 +310,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// All vertices, in the order in which triangles in tree order first use them.
-    pub(super) fn vertex_order(&self) -> &[u32] {
+    pub(crate) fn vertex_order(&self) -> &[u32] {
         match &self.edits {
             Some(edits) if self.order.orphans().count() > 0 => edits.vertex_order(&self.order),
             _ => self.order.vertex_order(),
@@ -318,22 +318,22 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// How many numbers of triangles there are, empty ones too.
-    pub(super) fn triangle_numbers(&self) -> usize {
+    pub(crate) fn triangle_numbers(&self) -> usize {
         self.topology.triangles().len()
     }
 
     /// How many triangles there are in tree order, with those that were taken out and are still there.
-    pub(super) fn triangle_count(&self) -> usize {
+    pub(crate) fn triangle_count(&self) -> usize {
         self.order.all_corners().len()
     }
 
-    pub(super) fn vertex_count(&self) -> usize {
+    pub(crate) fn vertex_count(&self) -> usize {
         self.positions.len()
     }
 
     /// Brings the shape into tree order, which everything that looks at it needs, and what is looked at of a motion, if it is. Returns
     /// false if it was interrupted.
-    pub(super) fn bring_into_tree_order(
+    pub(crate) fn bring_into_tree_order(
         &mut self,
         reach: Option<Reach>,
         instructions: Instructions,
@@ -356,7 +356,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Whether few triangles or none were edited since the tree was built.
-    pub(super) fn is_hardly_edited(&self) -> bool {
+    pub(crate) fn is_hardly_edited(&self) -> bool {
         let first = self.parts.first.triangles.len();
         let behind = self.order.all_corners().len() - first;
         let gone = self.edits.as_ref().map_or(0, |edits| edits.gone.count());
@@ -364,7 +364,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Finds out which triangles of a part share a vertex, unless that is known.
-    pub(super) fn know_neighbours(&mut self, part: usize, executor: Executor) {
+    pub(crate) fn know_neighbours(&mut self, part: usize, executor: Executor) {
         let part = self.parts.one_mut(part);
         part.know_neighbours(&self.order, executor);
     }
@@ -374,13 +374,13 @@ impl<S: Coordinate> Body<S> {
         self.motion.as_deref().filter(|motion| motion.is_on)
     }
 
-    pub(super) fn is_moving(&self) -> bool {
+    pub(crate) fn is_moving(&self) -> bool {
         self.motion().is_some()
     }
 
     /// Makes the boxes of elements, unless they are those of the shape and the motion of now. Returns false if it was interrupted. The body
     /// was brought into tree order, with its motion.
-    pub(super) fn make_near_boxes(
+    pub(crate) fn make_near_boxes(
         &mut self,
         which: Which,
         reach: Option<Reach>,
@@ -446,31 +446,31 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Of a mesh that is going to be edited: finds out the edges if they have numbers that stay.
-    pub(super) fn remember_edges(&self) {
+    pub(crate) fn remember_edges(&self) {
         if self.edges_were_known {
             self.known_elements();
         }
     }
 
     /// The edges, if they have numbers that stay.
-    pub(super) fn numbered_edges(&self) -> Option<&[[u32; 2]]> {
+    pub(crate) fn numbered_edges(&self) -> Option<&[[u32; 2]]> {
         self.edges_are_known().then(|| self.edges())
     }
 
     /// Numbers the edges as those of another body with this mesh are. Returns false if they are not its edges, or have numbers already.
-    pub(super) fn number_edges(&mut self, edges: &[[u32; 2]]) -> bool {
+    pub(crate) fn number_edges(&mut self, edges: &[[u32; 2]]) -> bool {
         let is_new = !self.edges_are_known() && self.known_elements().is_some();
         let (elements, topology) = (self.elements.get_mut(), &self.topology);
         is_new && elements.is_some_and(|elements| elements.renumber(edges, topology))
     }
 
     /// The edges, as the caller numbers them.
-    pub(super) fn edges(&self) -> &[[u32; 2]] {
+    pub(crate) fn edges(&self) -> &[[u32; 2]] {
         self.known_elements().map_or(&[], Elements::callers)
     }
 
     /// Where the corners of elements are, as the caller numbers them; of a body that was brought into tree order.
-    pub(super) fn places(&self) -> Option<Places<'_, S>> {
+    pub(crate) fn places(&self) -> Option<Places<'_, S>> {
         let elements = self.known_elements()?;
         Some(Places {
             triangles: self.topology.triangles(),
@@ -484,7 +484,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// By how many lengths of an edge vertices move, on the mean of some of both; 0 if there is no motion.
-    pub(super) fn motion_in_edges(&self) -> f64 {
+    pub(crate) fn motion_in_edges(&self) -> f64 {
         let Some(motion) = self.motion() else {
             return 0.0;
         };
@@ -505,7 +505,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Gives every vertex a group; those of one group do not meet, unless it is 0.
-    pub(super) fn set_groups(&mut self, groups: &[u32]) -> Result<(), ErrorKind> {
+    pub(crate) fn set_groups(&mut self, groups: &[u32]) -> Result<(), ErrorKind> {
         if groups.len() != self.vertex_count() {
             return Err(ErrorKind::WrongLength {
                 what: "groups",
@@ -524,7 +524,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// The group of every vertex.
-    pub(super) fn groups(&self) -> Vec<u32> {
+    pub(crate) fn groups(&self) -> Vec<u32> {
         match &self.groups {
             None => vec![0; self.vertex_count()],
             Some(groups) => groups.callers.clone(),
@@ -532,14 +532,14 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// The shape in tree order, whether it was brought into it or not.
-    pub(super) fn in_tree_order(&self) -> Points<S> {
+    pub(crate) fn in_tree_order(&self) -> Points<S> {
         let order = self.order.vertex_order();
         let vertices = (0..order.len() as u32).map(TreeVertex);
         Points::of(vertices.map(|vertex| self.positions.get(vertex, order)))
     }
 
     /// The shape at the end of a motion in tree order, and its epoch, if there is a motion.
-    pub(super) fn end_in_tree_order(&self) -> Option<(Points<S>, u64)> {
+    pub(crate) fn end_in_tree_order(&self) -> Option<(Points<S>, u64)> {
         let motion = self.motion()?;
         let order = self.order.vertex_order();
         let vertices = (0..order.len() as u32).map(TreeVertex);
@@ -548,7 +548,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// The shape, of which `positions` are in tree order.
-    pub(super) fn shape<'s>(&'s self, positions: &'s Points<S>, origin: Origin) -> Shape<'s, S> {
+    pub(crate) fn shape<'s>(&'s self, positions: &'s Points<S>, origin: Origin) -> Shape<'s, S> {
         Shape {
             positions,
             triangles: self.order.all_corners(),
@@ -558,13 +558,13 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// What a query of some kind descends: one part of a body that was brought into tree order.
-    pub(super) fn side(&mut self, needs: &Needs, origin: Origin, part: usize) -> Side<'_, S> {
+    pub(crate) fn side(&mut self, needs: &Needs, origin: Origin, part: usize) -> Side<'_, S> {
         let (parts, rest) = self.parts_and_rest();
         rest.side(needs, origin, parts.one_mut(part))
     }
 
     /// Two different parts of it, the one with the lower number first.
-    pub(super) fn two_sides(
+    pub(crate) fn two_sides(
         &mut self,
         needs: &Needs,
         origin: Origin,
@@ -595,18 +595,18 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// All boxes are stale: some may have been left half made.
-    pub(super) fn forget_boxes(&mut self) {
+    pub(crate) fn forget_boxes(&mut self) {
         self.parts.all_mut().for_each(Part::forget_boxes);
     }
 
     /// Boxes made so far are stale, though the shape is the same: the origin moved.
-    pub(super) fn origin_moved(&mut self) {
+    pub(crate) fn origin_moved(&mut self) {
         self.epoch += 1;
     }
 
     /// The corners of a triangle, whether the shape was brought into tree order or not; exact.
     #[inline]
-    pub(super) fn corners_now(&self, triangle: TreeTriangle) -> [[f64; 3]; 3] {
+    pub(crate) fn corners_now(&self, triangle: TreeTriangle) -> [[f64; 3]; 3] {
         let order = self.order.vertex_order();
         // Loops, which are compiled into their callers where closures may not be.
         let mut corners = [[0.0; 3]; 3];
@@ -618,32 +618,32 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// The corners of a triangle, with padding; of a body that was brought into tree order.
-    pub(super) fn padded_corners(&self, triangle: TreeTriangle) -> [&[S; 4]; 3] {
+    pub(crate) fn padded_corners(&self, triangle: TreeTriangle) -> [&[S; 4]; 3] {
         let positions = self.positions.in_tree_order();
         let corners = self.order.corners(triangle);
         corners.map(|vertex| positions.padded(vertex))
     }
 
     /// The exact extent, in the caller's coordinates.
-    pub(super) fn bounds(&self) -> Bounds<S> {
+    pub(crate) fn bounds(&self) -> Bounds<S> {
         self.bounds
     }
 
     /// The box of the body, as a kind of query needs it.
     #[inline]
-    pub(super) fn box_for(&self, boxes: BodyBoxes, origin: Origin) -> Aabb {
+    pub(crate) fn box_for(&self, boxes: BodyBoxes, origin: Origin) -> Aabb {
         let motion = self.motion().filter(|_| boxes.hold_motions);
         let bounds = motion.map_or(self.bounds, |motion| self.bounds.union(&motion.bounds));
         boxes.of(bounds.to_box(origin))
     }
 
     /// The loose box, if there is one.
-    pub(super) fn loose_box(&self, origin: Origin) -> Option<Aabb> {
+    pub(crate) fn loose_box(&self, origin: Origin) -> Option<Aabb> {
         self.loose.map(|loose| loose.to_box(origin))
     }
 
     /// Validates a new shape and takes it over; or leaves the body as it is and says what was wrong. A motion ends.
-    pub(super) fn set_positions(
+    pub(crate) fn set_positions(
         &mut self,
         instructions: Instructions,
         executor: Executor,
@@ -670,7 +670,7 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Validates a shape that the body is going to have, and begins a motion to it, in place of any other.
-    pub(super) fn set_motion(
+    pub(crate) fn set_motion(
         &mut self,
         instructions: Instructions,
         executor: Executor,
@@ -707,14 +707,14 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// Ends a motion whose vertices are not those of the body any more.
-    pub(super) fn forget_motion(&mut self) {
+    pub(crate) fn forget_motion(&mut self) {
         if let Some(motion) = self.motion.take() {
             self.motions = motion.epochs;
         }
     }
 
     /// The end of a motion is the shape of now.
-    pub(super) fn finish_motion(&mut self) {
+    pub(crate) fn finish_motion(&mut self) {
         if let Some(motion) = self.motion.as_mut().filter(|motion| motion.is_on) {
             std::mem::swap(&mut self.positions, &mut motion.end);
             self.bounds = motion.bounds;
@@ -725,7 +725,7 @@ impl<S: Coordinate> Body<S> {
 
     /// Of the way of a motion the part `t`, from 0 to 1, is gone: the shape is there, and the motion has ended. It is made in a list that
     /// is kept from call to call.
-    pub(super) fn advance_motion(
+    pub(crate) fn advance_motion(
         &mut self,
         instructions: Instructions,
         executor: Executor,
@@ -754,18 +754,18 @@ impl<S: Coordinate> Body<S> {
     }
 
     /// The shape at the end of a motion as the caller orders vertices, if there is a motion.
-    pub(super) fn end_positions(&self) -> Option<Cow<'_, [[S; 3]]>> {
+    pub(crate) fn end_positions(&self) -> Option<Cow<'_, [[S; 3]]>> {
         let motion = self.motion()?;
         Some(self.without_empty_ones(motion.end.in_callers_order(&self.order)))
     }
 
     /// The shape as the caller orders vertices; those that are empty are nowhere.
-    pub(super) fn positions(&self) -> Cow<'_, [[S; 3]]> {
+    pub(crate) fn positions(&self) -> Cow<'_, [[S; 3]]> {
         self.without_empty_ones(self.stored_positions())
     }
 
     /// The shape as the caller orders vertices; those that are empty are somewhere.
-    pub(super) fn stored_positions(&self) -> Cow<'_, [[S; 3]]> {
+    pub(crate) fn stored_positions(&self) -> Cow<'_, [[S; 3]]> {
         self.positions.in_callers_order(&self.order)
     }
 
@@ -782,26 +782,26 @@ impl<S: Coordinate> Body<S> {
         positions
     }
 
-    pub(super) fn set_filter(&mut self, membership: u32, mask: u32) {
+    pub(crate) fn set_filter(&mut self, membership: u32, mask: u32) {
         (self.membership, self.mask) = (membership, mask);
     }
 
     /// Membership and mask.
-    pub(super) fn filter(&self) -> (u32, u32) {
+    pub(crate) fn filter(&self) -> (u32, u32) {
         (self.membership, self.mask)
     }
 
     /// The box that holds it in every pose, if it has one.
-    pub(super) fn loose(&self) -> Option<Bounds<S>> {
+    pub(crate) fn loose(&self) -> Option<Bounds<S>> {
         self.loose
     }
 
     /// Whether the masks of two bodies, or of one and itself, let them meet.
-    pub(super) fn may_meet(&self, other: &Self) -> bool {
+    pub(crate) fn may_meet(&self, other: &Self) -> bool {
         self.membership & other.mask != 0 && other.membership & self.mask != 0
     }
 
-    pub(super) fn set_loose_box(&mut self, loose: Option<Bounds<S>>) -> Result<(), ErrorKind> {
+    pub(crate) fn set_loose_box(&mut self, loose: Option<Bounds<S>>) -> Result<(), ErrorKind> {
         if let Some(loose) = loose {
             let is_box = is_in_range(loose.lo)
                 && is_in_range(loose.hi)
@@ -1022,7 +1022,7 @@ fn build<S: Coordinate>(
 }
 
 /// The plan that the options ask for.
-pub(super) fn divide<S: Real>(
+pub(crate) fn divide<S: Real>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],
     options: &Options,
@@ -1055,7 +1055,7 @@ fn bounds_of<S: Real>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {
 }
 
 /// Refuses positions of which some are outside a loose box, but for vertices that are empty.
-pub(super) fn all_inside<S: Real>(
+pub(crate) fn all_inside<S: Real>(
     loose: &Bounds<S>,
     positions: &[[S; 3]],
     is_empty: impl Fn(u32) -> bool,

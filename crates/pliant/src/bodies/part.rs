@@ -13,29 +13,29 @@ use crate::threads::Executor;
 use crate::tree::{BoxSet, BoxSource, Swept, Tree};
 use std::ops::Range;
 
-pub(super) struct Part {
-    pub(super) tree: Tree,
+pub(crate) struct Part {
+    pub(crate) tree: Tree,
     /// Its run of the triangles in tree order.
-    pub(super) triangles: Range<u32>,
+    pub(crate) triangles: Range<u32>,
     /// They are the first to use vertices from this one on.
-    pub(super) first_vertex: TreeVertex,
+    pub(crate) first_vertex: TreeVertex,
     /// By the number of the set. They are made when a kind of query asks for them; but in a large body the first, of the shape as it is,
     /// is there from the beginning.
     boxes: Vec<Option<BoxSet>>,
     /// Boxes of elements, once somebody asks for those.
-    pub(super) near_boxes: Option<Box<NearBoxes>>,
+    pub(crate) near_boxes: Option<Box<NearBoxes>>,
 }
 
 /// What boxes of elements are made of: the mesh in tree order, the shape, and where it is going.
-pub(super) struct OfElements<'b, S> {
-    pub(super) elements: &'b Elements,
-    pub(super) shape: Shape<'b, S>,
-    pub(super) end: Option<(&'b Points<S>, u64)>,
+pub(crate) struct OfElements<'b, S> {
+    pub(crate) elements: &'b Elements,
+    pub(crate) shape: Shape<'b, S>,
+    pub(crate) end: Option<(&'b Points<S>, u64)>,
 }
 
 impl Part {
     /// Of a tree over these triangles, which are the first to use vertices from `first_vertex` on.
-    pub(super) fn new(tree: Tree, triangles: Range<u32>, first_vertex: TreeVertex) -> Self {
+    pub(crate) fn new(tree: Tree, triangles: Range<u32>, first_vertex: TreeVertex) -> Self {
         let boxes = if triangles.len() > SMALL {
             vec![Some(BoxSet::new(&tree))]
         } else {
@@ -51,7 +51,7 @@ impl Part {
     }
 
     /// The tree, a set of its boxes, which is made if it was never asked for, and the boxes of elements.
-    pub(super) fn for_query(
+    pub(crate) fn for_query(
         &mut self,
         number: BoxSetNumber,
     ) -> (&Tree, &mut BoxSet, Option<&NearBoxes>) {
@@ -64,22 +64,22 @@ impl Part {
     }
 
     /// A set of boxes, if some query asked for it.
-    pub(super) fn boxes(&self, number: BoxSetNumber) -> Option<&BoxSet> {
+    pub(crate) fn boxes(&self, number: BoxSetNumber) -> Option<&BoxSet> {
         self.boxes.get(number)?.as_ref()
     }
 
     /// The same, whose boxes are made anew.
-    pub(super) fn copy(&self) -> Self {
+    pub(crate) fn copy(&self) -> Self {
         Self::new(self.tree.clone(), self.triangles.clone(), self.first_vertex)
     }
 
     /// All boxes are stale: some may have been left half made.
-    pub(super) fn forget_boxes(&mut self) {
+    pub(crate) fn forget_boxes(&mut self) {
         self.boxes.iter_mut().flatten().for_each(BoxSet::forget);
     }
 
     /// Makes the boxes of elements, unless they are those of the shape and the motion of now. Returns false if it was interrupted.
-    pub(super) fn make_near_boxes<S: Coordinate>(
+    pub(crate) fn make_near_boxes<S: Coordinate>(
         &mut self,
         which: Which,
         of: &OfElements<S>,
@@ -105,7 +105,7 @@ impl Part {
 
     /// Which of its triangles share a vertex, for a part that meets itself. A small part behind others is not worth a table, which takes
     /// time by all vertices: corners are compared there.
-    pub(super) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
+    pub(crate) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
         if self.triangles.start == 0 {
             self.tree.know_neighbours(order, executor);
         }

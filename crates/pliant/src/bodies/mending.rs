@@ -37,7 +37,7 @@ const GAIN: f64 = 8.0;
 
 impl<S: Coordinate> Body<S> {
     /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
-    pub(super) fn mend(&mut self, options: &Options) -> bool {
+    pub(crate) fn mend(&mut self, options: &Options) -> bool {
         let spared = self.decay.spared();
         #[expect(
             clippy::cast_sign_loss,

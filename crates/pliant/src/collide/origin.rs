@@ -1,28 +1,28 @@
 //! The point that the boxes of an `f64` world are relative to. It follows the bodies, because the digits of an `f32` are best spent on
 //! their shapes.
 
-use super::body::Body;
+use crate::bodies::Body;
 use crate::geometry::{Bounds, Origin};
 use crate::kernels::Coordinate;
 
 #[derive(Debug, Default)]
-pub(super) struct FloatingOrigin {
+pub(crate) struct FloatingOrigin {
     /// Zero for `f32`.
-    pub(super) point: Origin,
+    pub(crate) point: Origin,
     /// Shapes taken over since the bodies were last looked at.
     moves: usize,
 }
 
 impl FloatingOrigin {
     /// A body has a new shape.
-    pub(super) fn note_movement(&mut self) {
+    pub(crate) fn note_movement(&mut self) {
         self.moves += 1;
     }
 
     /// Moves to the bodies if they have moved away; all boxes are then stale. Returns whether it moved.
     ///
     /// Looking at all bodies costs O(n), so it is done only when as many shapes were taken over as there are bodies.
-    pub(super) fn settle<S: Coordinate>(&mut self, bodies: &mut [Box<Body<S>>]) -> bool {
+    pub(crate) fn settle<S: Coordinate>(&mut self, bodies: &mut [Box<Body<S>>]) -> bool {
         if S::BOXES_ARE_EXACT || self.moves < bodies.len() {
             return false;
         }

@@ -1,6 +1,6 @@
 //! Who is asked about.
 
-use super::{BodyId, Scalar, World};
+use crate::ids::BodyId;
 
 /// Who meets whom in a query. Every kind of query takes every selection.
 ///
@@ -29,15 +29,4 @@ pub enum Selection {
     Between(BodyId, BodyId),
     /// One body with itself, whatever filters say.
     Within(BodyId),
-}
-
-impl Selection {
-    /// The bodies that are asked about, whether they are there or not.
-    pub(super) fn bodies<S: Scalar>(self, world: &World<S>) -> Vec<BodyId> {
-        match self {
-            Self::World | Self::Everything => world.bodies().collect(),
-            Self::Between(a, b) => vec![a, b],
-            Self::Within(a) => vec![a],
-        }
-    }
 }

@@ -8,30 +8,30 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// No place.
-pub(super) const NOWHERE: u32 = u32::MAX;
+pub(crate) const NOWHERE: u32 = u32::MAX;
 
 /// What a body keeps once its mesh is edited.
 #[derive(Clone)]
-pub(super) struct EditState<S> {
+pub(crate) struct EditState<S> {
     /// For each of the caller's triangles its place in tree order.
-    pub(super) places: Vec<u32>,
+    pub(crate) places: Vec<u32>,
     /// For each of the caller's vertices its number in tree order.
-    pub(super) slots: Vec<TreeVertex>,
-    pub(super) at: TrianglesAt,
+    pub(crate) slots: Vec<TreeVertex>,
+    pub(crate) at: TrianglesAt,
     /// Triangles in tree order that were taken out.
-    pub(super) gone: Bits,
+    pub(crate) gone: Bits,
     /// Vertices, as the caller numbers them, that are empty.
-    pub(super) empty: Bits,
+    pub(crate) empty: Bits,
     /// By the caller's number of an alias, the orphans in tree order that stand where it does; some of these may have another by now.
-    pub(super) orphans_of: BTreeMap<u32, Vec<u32>>,
+    pub(crate) orphans_of: BTreeMap<u32, Vec<u32>>,
     /// A shape in which those that are empty are somewhere, kept from shape to shape.
     patched: Vec<[S; 3]>,
     /// All vertices in tree order, once somebody asks and there are orphans.
-    pub(super) without_orphans: OnceLock<Vec<u32>>,
+    pub(crate) without_orphans: OnceLock<Vec<u32>>,
 }
 
 impl<S: Copy> EditState<S> {
-    pub(super) fn new(topology: &Topology, order: &Order) -> Self {
+    pub(crate) fn new(topology: &Topology, order: &Order) -> Self {
         let mut edits = Self {
             places: Vec::new(),
             slots: Vec::new(),
@@ -48,7 +48,7 @@ impl<S: Copy> EditState<S> {
     }
 
     /// All triangles that there are are in this order, and none that was taken out.
-    pub(super) fn find_places(&mut self, order: &Order) {
+    pub(crate) fn find_places(&mut self, order: &Order) {
         self.places.fill(NOWHERE);
         for (place, &triangle) in (0..).zip(order.triangle_order()) {
             self.places[triangle as usize] = place;
@@ -64,7 +64,7 @@ impl<S: Copy> EditState<S> {
     }
 
     /// A triangle has no place any more, if it had one.
-    pub(super) fn take_out(&mut self, triangle: u32) {
+    pub(crate) fn take_out(&mut self, triangle: u32) {
         let place = std::mem::replace(&mut self.places[triangle as usize], NOWHERE);
         if place != NOWHERE {
             self.gone.insert(place);
@@ -72,7 +72,7 @@ impl<S: Copy> EditState<S> {
     }
 
     /// What was taken out, if anything was.
-    pub(super) fn removed<'b>(&'b self, order: &'b Order) -> Option<Removed<'b>> {
+    pub(crate) fn removed<'b>(&'b self, order: &'b Order) -> Option<Removed<'b>> {
         let is_any = self.gone.count() > 0 || order.orphans().count() > 0;
         is_any.then_some(Removed {
             triangles: &self.gone,
@@ -81,7 +81,7 @@ impl<S: Copy> EditState<S> {
     }
 
     /// A shape in which vertices that are empty are where one is that is used.
-    pub(super) fn patch<'p>(&'p mut self, positions: &'p [[S; 3]], order: &Order) -> &'p [[S; 3]] {
+    pub(crate) fn patch<'p>(&'p mut self, positions: &'p [[S; 3]], order: &Order) -> &'p [[S; 3]] {
         if self.empty.count() == 0 || positions.len() != self.slots.len() {
             return positions;
         }
@@ -97,7 +97,7 @@ impl<S: Copy> EditState<S> {
     }
 
     /// All vertices in tree order, without orphans.
-    pub(super) fn vertex_order(&self, order: &Order) -> &[u32] {
+    pub(crate) fn vertex_order(&self, order: &Order) -> &[u32] {
         self.without_orphans.get_or_init(|| {
             let all = (0..).zip(order.vertex_order());
             let vertices = all.filter(|(slot, _)| !order.orphans().has(*slot));
@@ -106,7 +106,7 @@ impl<S: Copy> EditState<S> {
     }
 
     /// Whether a vertex has triangles.
-    pub(super) fn is_used(&self, vertex: u32) -> bool {
+    pub(crate) fn is_used(&self, vertex: u32) -> bool {
         self.at.of(vertex).next().is_some()
     }
 }

@@ -4,15 +4,15 @@
 //! near enough to hold nearer ones. The pair that was nearest the last time is measured before all others: mostly it still
 //! nearly is, and then hardly a box is opened that does not have to be.
 
-use super::BodyId;
 use super::asked::Common;
-use super::body::Body;
 use super::step::Step;
 use super::witness::{Witnesses, pair_of};
+use crate::bodies::Body;
 use crate::close_pairs::CloseTriangles;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Shape;
 use crate::held::{self, Held};
+use crate::ids::BodyId;
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
     BodyBoxes, Candidate, NearestPair, Needs, close, closest_of_triangles, corners_of,
@@ -24,16 +24,16 @@ use std::ops::ControlFlow;
 
 /// What a world keeps for distances.
 #[derive(Debug, Default)]
-pub(super) struct Distances {
+pub(crate) struct Distances {
     scratch: NearestScratch,
     /// The triangles that were nearest the last time.
-    pub(super) last: Witnesses,
+    pub(crate) last: Witnesses,
     /// Of a body that is asked how far it is from all others, these with the gaps of boxes.
-    pub(super) others: Vec<(f64, BodyId)>,
+    pub(crate) others: Vec<(f64, BodyId)>,
 }
 
 /// Lists all others that may meet a body, with the square of the gap of the boxes, the nearest first.
-pub(super) fn others_by_gap<S: Coordinate>(
+pub(crate) fn others_by_gap<S: Coordinate>(
     common: &mut Common<S>,
     id: BodyId,
     listed: &mut Vec<(f64, BodyId)>,
@@ -52,7 +52,7 @@ pub(super) fn others_by_gap<S: Coordinate>(
 }
 
 /// Triangles of two bodies that intersect, with a point in common.
-pub(super) fn in_common<S: Coordinate>(
+pub(crate) fn in_common<S: Coordinate>(
     common: &Common<S>,
     of: [BodyId; 2],
     found: Candidate,
@@ -70,7 +70,7 @@ pub(super) fn in_common<S: Coordinate>(
 
 impl Distances {
     /// The nearest triangles of two bodies that do not intersect.
-    pub(super) fn nearest<S: Coordinate>(
+    pub(crate) fn nearest<S: Coordinate>(
         &mut self,
         common: &mut Common<S>,
         of: [BodyId; 2],
@@ -164,7 +164,7 @@ fn parts_of<S: Coordinate>(
 }
 
 /// Refuses what is no distance. It may be infinite.
-pub(super) fn check(distance: f64) -> Result<(), Error> {
+pub(crate) fn check(distance: f64) -> Result<(), Error> {
     if distance >= 0.0 {
         return Ok(());
     }

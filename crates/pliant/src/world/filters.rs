@@ -1,0 +1,122 @@
+//! Who may meet whom.
+
+use super::handle::World;
+use super::scalar::Scalar;
+use super::state::about;
+use crate::error::Error;
+use crate::geometry::Bounds;
+use crate::ids::BodyId;
+
+/// Who may meet whom.
+impl<S: Scalar> World<S> {
+    /// Says which bodies a body meets in queries of the whole world. Two bodies meet if the membership of each has a bit in
+    /// common with the mask of the other. At first both are all ones. A query that names its bodies does not look at them.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    #[doc(alias = "collision_groups")]
+    pub fn set_filter(&mut self, body: BodyId, membership: u32, mask: u32) -> Result<(), Error> {
+        let body = self.state_mut().common.bodies.get_mut(body)?;
+        body.set_filter(membership, mask);
+        self.state_mut().common.body_pairs.forget();
+        Ok(())
+    }
+
+    /// The membership and the mask of a body, as [`set_filter`](Self::set_filter) says them.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn filter(&self, body: BodyId) -> Result<(u32, u32), Error> {
+        Ok(self.state().body(body)?.filter())
+    }
+
+    /// From now on two bodies do not meet in queries of the whole world, or a body with itself if it is named twice. A query that
+    /// names its bodies does not look at this.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn ignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
+        self.state_mut().body(a)?;
+        self.state_mut().body(b)?;
+        self.state_mut().common.bodies.ignore(a, b);
+        self.state_mut().common.body_pairs.forget();
+        Ok(())
+    }
+
+    /// Takes [`ignore`](Self::ignore) back.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn unignore(&mut self, a: BodyId, b: BodyId) -> Result<(), Error> {
+        self.state_mut().body(a)?;
+        self.state_mut().body(b)?;
+        self.state_mut().common.bodies.meet_again(a, b);
+        self.state_mut().common.body_pairs.forget();
+        Ok(())
+    }
+
+    /// The pairs of bodies that [`ignore`](Self::ignore) keeps apart, each once, the lower id first; sorted.
+    pub fn ignored(&self) -> Vec<[BodyId; 2]> {
+        self.state().common.bodies.ignored()
+    }
+
+    /// Gives every vertex of a body a group, shape (n,): candidates are left out if all their vertices are of one group, in whichever
+    /// bodies they are. Those of group 0, as all are at first, meet all. For vertices that are pinned, or glued together.
+    ///
+    /// They stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. Of the vertices that an [`Edit`] adds, those that
+    /// are split from another have the group of that, the others group 0; what is given for empty vertices is not looked at.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`WrongLength`](crate::ErrorKind::WrongLength).
+    #[doc(alias = "can_vertices_collide")]
+    pub fn set_vertex_groups(&mut self, body: BodyId, groups: &[u32]) -> Result<(), Error> {
+        let found = self.state_mut().common.bodies.get_mut(body)?;
+        found.set_groups(groups).map_err(about(body))
+    }
+
+    /// The group of every vertex of a body.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn vertex_groups(&self, body: BodyId) -> Result<Vec<u32>, Error> {
+        Ok(self.state().body(body)?.groups())
+    }
+
+    /// Gives a body a box, lower and upper corner, that holds it in every pose to come; `None` takes it away.
+    ///
+    /// The broad phase then works with this box, which stands still, and looks at the exact box only where loose boxes
+    /// overlap. Until it is taken away, a position outside it is refused. Worth it for many bodies that move on their spot.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`BadLooseBox`](crate::ErrorKind::BadLooseBox) if a corner is not finite, is
+    /// above `f32::MAX` in magnitude, or the lower one is above the upper one on some axis, and
+    /// [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox) if the body is not inside now.
+    pub fn set_loose_box(
+        &mut self,
+        body: BodyId,
+        corners: Option<([S; 3], [S; 3])>,
+    ) -> Result<(), Error> {
+        let loose = corners.map(|(lo, hi)| Bounds { lo, hi });
+        let found = self.state_mut().common.bodies.get_mut(body)?;
+        found.set_loose_box(loose).map_err(about(body))?;
+        self.state_mut().common.note_movement();
+        Ok(())
+    }
+
+    /// The lower and the upper corner of the box that [`set_loose_box`](Self::set_loose_box) gave to a body; `None` if it has none.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn loose_box(&self, body: BodyId) -> Result<Option<([S; 3], [S; 3])>, Error> {
+        let loose = self.state().body(body)?.loose();
+        Ok(loose.map(|Bounds { lo, hi }| (lo, hi)))
+    }
+}

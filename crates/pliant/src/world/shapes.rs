@@ -1,0 +1,103 @@
+//! Bodies of a world, and the shapes that they have.
+
+use super::handle::World;
+use super::scalar::Scalar;
+use crate::error::{Error, ErrorKind};
+use crate::ids::BodyId;
+use crate::selection::Selection;
+
+/// Bodies, and the shapes that they have.
+impl<S: Scalar> World<S> {
+    /// Adds a body: triangles as corner indices into positions, shape (m, 3) and (n, 3).
+    ///
+    /// Builds its tree on these positions, which need not be special; a rest pose is best. Corners may repeat: a degenerate
+    /// triangle is the segment or point that it is. Vertices that no triangle uses are allowed, and checked like the others.
+    ///
+    /// Cost: O(m log m) for the balanced partition; for the others O(m) a level of the tree.
+    ///
+    /// # Errors
+    ///
+    /// [`NoTriangles`](crate::ErrorKind::NoTriangles), [`VertexOutOfRange`](crate::ErrorKind::VertexOutOfRange),
+    /// [`BadPosition`](crate::ErrorKind::BadPosition), [`NeedsSubnormals`](crate::ErrorKind::NeedsSubnormals),
+    /// [`TooLarge`](crate::ErrorKind::TooLarge) above 2^28 triangles or 2^32 - 1 vertices, and
+    /// [`TooManyBodies`](crate::ErrorKind::TooManyBodies) after 2^32 bodies.
+    #[doc(alias = "insert")]
+    pub fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error> {
+        self.verbs.add(triangles, positions)
+    }
+
+    /// Gives a body a new shape: one position for each of its vertices, shape (n, 3), in the order in which it was added.
+    ///
+    /// The positions are checked, and taken over only if all are good; the body keeps its old shape if not. One pass that copies them;
+    /// or, if a query looked at the shape before, and the body is large or there is one thread, one that checks and one that takes
+    /// them straight into the order of the tree.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody), [`WrongLength`](crate::ErrorKind::WrongLength),
+    /// [`BadPosition`](crate::ErrorKind::BadPosition) for the first coordinate of any vertex, used or not, that is NaN, infinite or above
+    /// `f32::MAX` in magnitude, [`OutsideLooseBox`](crate::ErrorKind::OutsideLooseBox),
+    /// [`NeedsSubnormals`](crate::ErrorKind::NeedsSubnormals) in a thread that flushes subnormal numbers.
+    #[doc(alias = "update_vertices")]
+    #[doc(alias = "refit")]
+    pub fn set_positions(&mut self, body: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
+        self.verbs.set_positions(body, positions)
+    }
+
+    /// Like [`set_positions`](Self::set_positions), but `write` fills a buffer of the world's, shape (n, 3), in the order in
+    /// which the vertices were added, so that the caller needs none of its own. The buffer comes filled with NaN: every
+    /// vertex must be written. The same checked pass then takes the shape over, into the order of the tree.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`set_positions`](Self::set_positions); a coordinate that is NaN, which an unwritten one is, is
+    /// [`NotWritten`](crate::ErrorKind::NotWritten). If `write` panics, the body keeps its shape.
+    pub fn write_positions(
+        &mut self,
+        body: BodyId,
+        write: impl FnOnce(&mut [[S; 3]]),
+    ) -> Result<(), Error> {
+        let vertices = self.vertex_count(body)?;
+        let mut lent = std::mem::take(&mut self.state_mut().lent);
+        lent.clear();
+        lent.resize(vertices, [S::NAN; 3]);
+        write(&mut lent);
+        let moved = self.verbs.set_positions(body, &lent);
+        self.state_mut().lent = lent;
+        moved.map_err(|mut refused| {
+            if let ErrorKind::BadPosition { vertex, position } = refused.kind
+                && position.iter().any(|x| x.is_nan())
+            {
+                refused.kind = ErrorKind::NotWritten { vertex };
+            }
+            refused
+        })
+    }
+
+    /// Removes a body. Its id will not be used again.
+    ///
+    /// # Errors
+    ///
+    /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
+    pub fn remove(&mut self, body: BodyId) -> Result<(), Error> {
+        let common = &mut self.state_mut().common;
+        let rank = common.bodies.remove(body)?;
+        common.body_pairs.remove(rank);
+        self.state_mut().forget_answers(body);
+        Ok(())
+    }
+
+    /// The bodies of a selection, whether they are there or not.
+    pub(super) fn bodies_of(&self, of: Selection) -> Vec<BodyId> {
+        match of {
+            Selection::World | Selection::Everything => self.bodies().collect(),
+            Selection::Between(a, b) => vec![a, b],
+            Selection::Within(a) => vec![a],
+        }
+    }
+
+    /// The bodies of this world, in the order in which they were added.
+    pub fn bodies(&self) -> impl ExactSizeIterator<Item = BodyId> {
+        self.state().common.bodies.ids.iter().copied()
+    }
+}

@@ -1,0 +1,160 @@
+//! What a world holds: bodies, options, and what is kept for each kind of query.
+
+use crate::bodies::{Bodies, Body};
+use crate::collide::{
+    Asked, AskedClose, AskedImpacts, BodyPairs, Common, Distances, FloatingOrigin, Witnesses,
+};
+use crate::error::{Error, ErrorKind};
+use crate::ids::BodyId;
+use crate::kernels::{Coordinate, Instructions};
+use crate::options::Options;
+use crate::queries::{
+    Close, Contacts, EdgeEdgeCandidates, Intersections, NearTriangles, VertexTriangleCandidates,
+};
+use crate::statistics::Statistics;
+use crate::threads::{Executor, Interrupt, Threads};
+use crate::traversal::Scratch;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// How many worlds there were.
+static WORLDS: AtomicU64 = AtomicU64::new(0);
+
+/// All that a world is.
+pub(crate) struct State<S: Coordinate> {
+    pub(super) common: Common<S>,
+    pub(super) intersections: Asked<Intersections<S>>,
+    pub(super) contacts: Asked<Contacts<S>>,
+    pub(super) vertex_triangle: Asked<VertexTriangleCandidates<S>>,
+    pub(super) edge_edge: Asked<EdgeEdgeCandidates<S>>,
+    pub(super) close_vertex_triangle: AskedClose<Close<VertexTriangleCandidates<S>>>,
+    pub(super) close_edge_edge: AskedClose<Close<EdgeEdgeCandidates<S>>>,
+    pub(super) close_triangles: AskedClose<NearTriangles<S>>,
+    pub(super) impacts: AskedImpacts<S>,
+    pub(super) witnesses: Witnesses,
+    pub(super) distances: Distances,
+    /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
+    pub(super) lent: Vec<[S; 3]>,
+    /// Which world it is, among all of the process.
+    pub(super) number: u64,
+}
+
+/// A refusal of a call about a body.
+pub(super) fn about(body: BodyId) -> impl Fn(ErrorKind) -> Error {
+    move |kind| Error {
+        body: Some(body),
+        kind,
+    }
+}
+
+impl<S: Coordinate> State<S> {
+    pub(super) fn new(options: Options, threads: Threads) -> Self {
+        Self {
+            common: Common {
+                options,
+                instructions: Instructions::widest(),
+                threads,
+                bodies: Bodies::default(),
+                body_pairs: BodyPairs::new(options.broad_phase),
+                origin: FloatingOrigin::default(),
+                scratch: Scratch::default(),
+                statistics: Statistics::default(),
+                done_early: Statistics::default(),
+            },
+            intersections: Asked::default(),
+            contacts: Asked::default(),
+            vertex_triangle: Asked::default(),
+            edge_edge: Asked::default(),
+            close_vertex_triangle: AskedClose::default(),
+            close_edge_edge: AskedClose::default(),
+            close_triangles: AskedClose::default(),
+            impacts: AskedImpacts::default(),
+            witnesses: Witnesses::default(),
+            distances: Distances::default(),
+            lent: Vec::new(),
+            number: WORLDS.fetch_add(1, Ordering::Relaxed),
+        }
+    }
+
+    pub(super) fn body(&self, id: BodyId) -> Result<&Body<S>, Error> {
+        self.common.bodies.get(id)
+    }
+
+    /// Changes a body, with the threads that there are; or leaves it as it is and says which body it is about.
+    pub(super) fn change(
+        &mut self,
+        id: BodyId,
+        change: impl FnOnce(&mut Body<S>, Instructions, Executor) -> Result<(), ErrorKind>,
+    ) -> Result<(), Error> {
+        let Common {
+            instructions,
+            threads,
+            bodies,
+            ..
+        } = &mut self.common;
+        let executor = Executor {
+            threads: threads.here(),
+            interrupt: &Interrupt::default(),
+        };
+        let body = bodies.get_mut(id)?;
+        change(body, *instructions, executor).map_err(about(id))
+    }
+
+    /// A body is removed, or its triangles have a new order: what was found of them the last time is nothing any more.
+    pub(super) fn forget_answers(&mut self, id: BodyId) {
+        self.witnesses.forget(id);
+        self.distances.last.forget(id);
+    }
+
+    /// Validates a new shape of a body and takes it over.
+    pub(super) fn move_body(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
+        self.change(id, |body, instructions, executor| {
+            body.set_positions(instructions, executor, positions)
+        })?;
+        self.common.note_movement();
+        self.mend(id)
+    }
+
+    /// Ends the motion of every body that has one. The error is that of the first body whose motion cannot be ended.
+    pub(super) fn end_motions<E>(
+        &mut self,
+        mut end: impl FnMut(&mut Body<S>, Instructions, Executor) -> Result<(), E>,
+    ) -> Result<(), (BodyId, E)> {
+        let Common {
+            options,
+            instructions,
+            threads,
+            bodies,
+            ..
+        } = &mut self.common;
+        let executor = Executor {
+            threads: threads.here(),
+            interrupt: &Interrupt::default(),
+        };
+        let mut ended = Ok(());
+        for place in &bodies.places {
+            let body = &mut bodies.list[place.index()];
+            if !body.is_moving() {
+                continue;
+            }
+            match end(body, *instructions, executor) {
+                Ok(()) if options.mending && body.mend(options) => {
+                    self.witnesses.forget(body.id);
+                    self.distances.last.forget(body.id);
+                }
+                Ok(()) => {}
+                Err(kind) => ended = ended.and(Err((body.id, kind))),
+            }
+        }
+        self.common.note_movement();
+        ended
+    }
+
+    /// A body has a new shape: its tree mends itself, if trees do.
+    fn mend(&mut self, id: BodyId) -> Result<(), Error> {
+        let options = self.common.options;
+        if options.mending && self.common.bodies.get_mut(id)?.mend(&options) {
+            self.forget_answers(id);
+        }
+        Ok(())
+    }
+}

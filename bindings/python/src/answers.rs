@@ -70,6 +70,11 @@ pub(crate) fn copy_of_rows<const K: usize>(
     Ok(array)
 }
 
+/// A number of things, whose name in the singular and in the plural is given.
+pub(crate) fn counted(count: usize, [one, many]: [&str; 2]) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
 /// A class of `_types.py`, which is looked up once: visitors are shown many.
 macro_rules! class {
     ($py:expr, $name:literal) => {{

@@ -159,16 +159,18 @@ pub(crate) fn numbers(given: &Any<'_>, [name, what]: [&str; 2]) -> Result<Vec<u3
     refuse_masks(given, name)?;
     let array = as_numpy(given, name)?;
     let dtype = array.dtype();
-    let bad = |have: String| refused!(BadArray: "{name} {have}; they must be integers from 0 to 4294967295, {what}");
+    let bad = |have: String| {
+        refused!(BadArray:
+            "{name} {have}; they must be integers from 0 to 4294967295, {what}")
+    };
     // numpy takes an empty list for one of floating point numbers.
     if array.shape() == [0] {
         return Ok(Vec::new());
     }
     if array.ndim() != 1 || !matches!(dtype.kind(), b'u' | b'i') {
-        return Err(bad(format!(
-            "have {} dimensions and are of type {dtype}",
-            array.ndim()
-        )));
+        let dimensions = array.ndim();
+        let have = format!("have {dimensions} dimensions and are of type {dtype}");
+        return Err(bad(have));
     }
     let rows: Vec<i128> = array.call_method0(intern!(py, "tolist"))?.extract()?;
     let number = |&number: &i128| u32::try_from(number).map_err(|_| bad(format!("hold {number}")));
@@ -272,10 +274,9 @@ fn as_numpy<'py>(given: &Any<'py>, what: &str) -> Result<Bound<'py, PyUntypedArr
     }
     let array = numpy.call_method1(intern!(py, "from_dlpack"), (given,));
     let array = array.map_err(|error| {
-        let message = format!(
-            "{what} cannot be read by numpy.from_dlpack ({error}); give them in the memory of the processor"
-        );
-        Refused::new("BadArray", message)
+        refused!(BadArray:
+        "{what} cannot be read by numpy.from_dlpack ({error}); give them in the memory of the \
+         processor")
     })?;
     Ok(array.cast_into().map_err(PyErr::from)?)
 }
@@ -320,10 +321,8 @@ fn typed<'py, T: Element>(array: &Bound<'py, PyUntypedArray>) -> Result<Bound<'p
     if let Ok(array) = array.cast::<PyArray2<T>>() {
         return Ok(array.clone());
     }
-    let py = array.py();
-    let required = py
-        .import("numpy")?
-        .call_method1("require", (array, dtype::<T>(py)))?;
+    let numpy = array.py().import("numpy")?;
+    let required = numpy.call_method1("require", (array, dtype::<T>(array.py())))?;
     Ok(required.cast_into().map_err(PyErr::from)?)
 }
 

@@ -1,14 +1,14 @@
 //! Files, frame by frame: what `pliant check --format json` says, as an iterator of frames. The loop is the program's.
 
-use crate::answers::{Any, Rows, named};
+use crate::answers::{Any, Rows, counted, named};
 use crate::error::{Refused, Result, after_checking, alone, alone_with, caught, refused};
 use crate::options::with_threads;
 use crate::signals::interruptible;
 use crate::usd::{self, Raised};
 use numpy::{IntoPyArray, PyArray1};
 use pliant_check::{
-    Baseline, BodyFacts, Error, FirstImpact, Found, Frames, Group, Interval, Life, Place, Settings,
-    Split,
+    Baseline, BodyFacts, BodyThere, Check as Running, Error, FirstImpact, Found, Frames, Group,
+    Interval, Life, Place, Settings, Split,
 };
 use pliant_io::{OpenOptions, shown};
 use pyo3::exceptions::PyUserWarning;
@@ -24,7 +24,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// raises while pairs are looked for, KeyboardInterrupt after Ctrl-C, ends that early; the same frame is then the next one.
 #[pyclass(frozen, module = "pliant")]
 pub(crate) struct Check {
-    running: Mutex<pliant_check::Check>,
+    running: Mutex<Running>,
     /// A frame that was checked and not handed out, for what meets on the way from there was interrupted.
     waiting: Mutex<Option<Checked>>,
     /// One for each path, or for each piece or group that it is split into.
@@ -59,7 +59,7 @@ struct Changed {
 type Checked = (Found, Vec<(u32, Changed)>);
 
 impl Changed {
-    fn of(check: &pliant_check::Check, number: u32) -> Option<Self> {
+    fn of(check: &Running, number: u32) -> Option<Self> {
         let body = check.body(number)?;
         let source = &check.sources()[body.source];
         Some(Self {
@@ -159,11 +159,10 @@ pub(crate) fn check(
 ) -> Result<Check> {
     let group = |(name, bodies): (String, Vec<Name>)| {
         let bodies = bodies.into_iter().map(Name::into_text);
-        bodies
-            .collect::<Result<_, _>>()
-            .map(|bodies| Group { name, bodies })
+        let bodies = bodies.collect::<Result<_>>()?;
+        Ok(Group { name, bodies })
     };
-    let two = |(a, b): (Name, Name)| Ok::<_, Refused>([a.into_text()?, b.into_text()?]);
+    let two = |(a, b): (Name, Name)| Ok([a.into_text()?, b.into_text()?]);
     let settings = Settings {
         itself,
         within,
@@ -171,8 +170,8 @@ pub(crate) fn check(
         swept,
         first,
         split: split.map(split_named).transpose()?,
-        groups: (groups.into_iter().flatten().map(group)).collect::<Result<_, _>>()?,
-        ignore: (ignore.into_iter().flatten().map(two)).collect::<Result<_, _>>()?,
+        groups: (groups.into_iter().flatten().map(group)).collect::<Result<_>>()?,
+        ignore: (ignore.into_iter().flatten().map(two)).collect::<Result<_>>()?,
         baseline: baseline.map(Known::understood).transpose()?,
         skip_degenerate,
         places,
@@ -181,7 +180,7 @@ pub(crate) fn check(
         ..Settings::default()
     };
     let paths = paths.into_iter().map(|path| Name::Path(path).into_text());
-    let paths: Vec<_> = paths.collect::<Result<_, _>>()?;
+    let paths = paths.collect::<Result<Vec<_>>>()?;
     if let Some(pattern) = pliant_io::looks_like_a_series(&paths) {
         let text = format!(
             "{} paths are {0} bodies; if they are frames of one body, give the pattern: \"{}\"",
@@ -209,14 +208,8 @@ pub(crate) fn check(
             pliant_io::open_all(path, &reading)
         }
     };
-    let running = py.detach(|| {
-        caught(|| {
-            Ok(pliant_check::Check::open_each(
-                &paths, &reading, &settings, open,
-            )?)
-        })
-    });
-    let running = raised.rather(running)?;
+    let begin = || Ok(Running::open_each(&paths, &reading, &settings, open)?);
+    let running = raised.rather(py.detach(|| caught(begin)))?;
     let unlike_sizes = running.unlike_sizes().map(|[(large, most), (small, least)]| {
         format!(
             "nothing was found, and the longest side of {} is {most:.3e}, that of {} {least:.3e}: are they of one unit?",
@@ -249,24 +242,21 @@ impl Check {
     }
 
     fn __next__<'py>(&self, py: Python<'py>) -> Result<Option<Any<'py>>> {
-        let next = |running: &mut pliant_check::Check| {
+        let next = |running: &mut Running| {
             let mut waiting = alone(&self.waiting)?;
             if waiting.is_none() {
                 let found = interruptible(|question| running.next_frame_unless(Some(question)))?;
                 *waiting = found.map(|found| {
                     let changed = found.changed.iter();
-                    let meshes =
-                        changed.filter_map(|&body| Some((body, Changed::of(running, body)?)));
-                    let meshes: Vec<_> = meshes.collect();
+                    let mesh = |&body: &u32| Some((body, Changed::of(running, body)?));
+                    let meshes = changed.filter_map(mesh).collect();
                     (found, meshes)
                 });
             }
-            let ask =
-                |question: &(dyn Fn() -> bool + Sync)| running.next_interval_unless(Some(question));
-            let interval = match &*waiting {
-                None => None,
-                Some(_) => interruptible(ask)?,
-            };
+            if waiting.is_none() {
+                return Ok(None);
+            }
+            let interval = interruptible(|question| running.next_interval_unless(Some(question)))?;
             Ok(waiting.take().map(|checked| (checked, interval)))
         };
         let found = alone_with(py, &self.running, next);
@@ -288,10 +278,8 @@ impl Check {
         let kinds = kinds.map(|kinds| -> PyResult<_> {
             named!(py, "Kinds" of kinds: crossing, overlapping, touching)
         });
-        let places = found.places.map(|places| {
-            let places = places.iter().map(|it| place(py, it));
-            PyTuple::new(py, places.collect::<PyResult<Vec<_>>>()?)
-        });
+        let places = found.places;
+        let places = places.map(|places| tuple(py, places.iter().map(|it| place(py, it))));
         let interval = interval.map(|interval| way(py, interval));
         Ok(Some(named!(py, "Frame":
             frame = found.frame, count = found.count, distance = found.distance,
@@ -305,15 +293,12 @@ impl Check {
     #[getter]
     fn places<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyTuple>> {
         let (_, lives) = alone_with(py, &self.running, |running| Ok(running.places()))?;
-        let lives = lives.iter().map(|it| life(py, it));
-        Ok(PyTuple::new(py, lives.collect::<PyResult<Vec<_>>>()?)?)
+        Ok(tuple(py, lives.iter().map(|it| life(py, it)))?)
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {
-        let bodies = self.bodies.bind(py).len();
-        let bodies = format!("{bodies} {}", if bodies == 1 { "body" } else { "bodies" });
-        let frames = self.frame_count;
-        let frames = format!("{frames} {}", if frames == 1 { "frame" } else { "frames" });
+        let bodies = counted(self.bodies.bind(py).len(), ["body", "bodies"]);
+        let frames = counted(self.frame_count, ["frame", "frames"]);
         format!("<pliant.Check of {bodies}, {frames}>")
     }
 }
@@ -391,7 +376,7 @@ fn range_of_frames(frames: &Bound<'_, PyRange>) -> Result<Frames> {
 }
 
 /// What is known of the bodies before the first frame is checked.
-fn facts<'py>(py: Python<'py>, check: &pliant_check::Check) -> PyResult<Bound<'py, PyTuple>> {
+fn facts<'py>(py: Python<'py>, check: &Running) -> PyResult<Bound<'py, PyTuple>> {
     let faces = check.sources().iter().map(|source| {
         let faces = source.faces();
         faces.map(|faces| faces.to_vec().into_pyarray(py))
@@ -402,7 +387,15 @@ fn facts<'py>(py: Python<'py>, check: &pliant_check::Check) -> PyResult<Bound<'p
         let faces = faces[body.source].as_ref();
         fact(py, body, faces, welded)
     });
-    PyTuple::new(py, facts.collect::<PyResult<Vec<_>>>()?)
+    tuple(py, facts)
+}
+
+/// A tuple of what is made one by one.
+fn tuple<'py>(
+    py: Python<'py>,
+    made: impl Iterator<Item = PyResult<Any<'py>>>,
+) -> PyResult<Bound<'py, PyTuple>> {
+    PyTuple::new(py, made.collect::<PyResult<Vec<_>>>()?)
 }
 
 /// What is known of one.
@@ -442,14 +435,13 @@ fn way(py: Python<'_>, interval: Interval) -> PyResult<Any<'_>> {
 
 /// A place of a frame.
 fn place<'py>(py: Python<'py>, place: &Place) -> PyResult<Any<'py>> {
-    let bodies = place.bodies.iter();
-    let bodies = bodies.map(|it| -> PyResult<_> {
+    let there = |it: &BodyThere| -> PyResult<_> {
         named!(py, "BodyThere" of it: body, triangles, first_triangle)
-    });
+    };
     named!(py, "Place":
         number = place.number, count = place.count,
         first_pair = <(u32, u32, u32, u32)>::from(place.first_pair),
-        bodies = PyTuple::new(py, bodies.collect::<PyResult<Vec<_>>>()?)?,
+        bodies = tuple(py, place.bodies.iter().map(there))?,
         lower = <(f64, f64, f64)>::from(place.lower),
         upper = <(f64, f64, f64)>::from(place.upper))
 }

@@ -5,7 +5,7 @@
 //! to take it, may be another by then; and Rust may not be lent memory that changes at all. So numpy copies the numbers, each is
 //! read once, and Rust is lent the copy. Which of the numbers that were there meanwhile it holds is not known, nor promised.
 
-use crate::error::{Refused, Result};
+use crate::error::{Result, refused};
 use numpy::{Element, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods, dtype};
 use pyo3::prelude::*;
 use pyo3::types::PySlice;
@@ -83,10 +83,8 @@ fn fill<'py, T: Element, U: Element>(
     own: &Bound<'py, PyArray2<T>>,
 ) -> Result<Copied<'py, T>> {
     let _reading = given.try_readonly().map_err(|_| {
-        Refused::new(
-            "BadArray",
-            "another extension module is writing to the array; call again when it has ended",
-        )
+        refused!(BadArray:
+            "another extension module is writing to the array; call again when it has ended")
     })?;
     given.copy_to(own)?;
     let copied = own.try_readonly().map_err(PyErr::from)?;

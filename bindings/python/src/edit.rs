@@ -68,9 +68,7 @@ impl AnyEdit {
             (AnyWorld::F32(world), Self::F32(edit)) => world.apply(edit)?,
             (AnyWorld::F64(world), Self::F64(edit)) => world.apply(edit)?,
             _ => {
-                let body = with_edit!(self, edit => edit.body());
-                let kind = ErrorKind::OutdatedEdit;
-                let body = Some(body);
+                let (body, kind) = (Some(self.body()), ErrorKind::OutdatedEdit);
                 return Err(Error { body, kind }.into());
             }
         })
@@ -93,19 +91,15 @@ impl AnyEdit {
 ///     new = edit.split_vertex(0, [1])     # triangle 1 is torn off at vertex 0
 ///     world.apply(edit)
 #[pyclass(frozen, module = "pliant")]
-pub(crate) struct Edit {
-    edit: Mutex<AnyEdit>,
-}
+pub(crate) struct Edit(Mutex<AnyEdit>);
 
 impl Edit {
     pub(crate) fn new(edit: AnyEdit) -> Self {
-        Self {
-            edit: Mutex::new(edit),
-        }
+        Self(Mutex::new(edit))
     }
 
     pub(crate) fn with<T>(&self, work: impl FnOnce(&mut AnyEdit) -> Result<T>) -> Result<T> {
-        work(&mut *alone(&self.edit)?)
+        work(&mut *alone(&self.0)?)
     }
 
     /// What is refused of arrays is about the body.

@@ -6,7 +6,7 @@
 use pliant::{BodyId, ErrorKind};
 use pliant_io::Reason;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::IntoPyDict;
 use std::fmt::{Debug, Display};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, MutexGuard, TryLockError};
@@ -28,10 +28,10 @@ pub(crate) enum Refused {
 }
 
 /// A fact about a refusal.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, IntoPyObject)]
 pub(crate) enum Fact {
     Number(i128),
-    Position([f64; 3]),
+    Position((f64, f64, f64)),
     Text(String),
 }
 
@@ -51,7 +51,7 @@ facts! {
     usize, number => Self::Number(number as i128);
     u32, number => Self::Number(number.into());
     BodyId, body => Self::Number(body.0.into());
-    [f64; 3], position => Self::Position(position);
+    [f64; 3], position => Self::Position(position.into());
     String, text => Self::Text(text);
     &str, text => Self::Text(text.to_owned());
 }
@@ -228,7 +228,7 @@ impl From<Refused> for PyErr {
                 message,
                 facts,
             } => Python::attach(|py| {
-                raised(py, &kind, &message, &facts).unwrap_or_else(|instead| instead)
+                raised(py, &kind, &message, facts).unwrap_or_else(|instead| instead)
             }),
         }
     }
@@ -238,16 +238,9 @@ fn raised(
     py: Python<'_>,
     kind: &str,
     message: &str,
-    facts: &[(&'static str, Fact)],
+    facts: Vec<(&'static str, Fact)>,
 ) -> PyResult<PyErr> {
-    let named = PyDict::new(py);
-    for (name, fact) in facts {
-        match fact {
-            Fact::Number(number) => named.set_item(name, number)?,
-            Fact::Position(position) => named.set_item(name, PyTuple::new(py, position)?)?,
-            Fact::Text(text) => named.set_item(name, text)?,
-        }
-    }
+    let named = facts.into_py_dict(py)?;
     let class = py.import("pliant._types")?.getattr("Error")?;
     let error = class.call((message, kind), Some(&named))?;
     Ok(PyErr::from_value(error))
@@ -270,8 +263,7 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref().copied());
         let text = text.unwrap_or("no reason was given");
-        let message = format!("a panic, which is a bug of pliant; please report it: {text}");
-        Err(Refused::new("Broken", message))
+        Err(refused!(Broken: "a panic, which is a bug of pliant; please report it: {text}"))
     })
 }
 
@@ -280,14 +272,12 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
 /// Another call that is under way, of another thread or of this one with a visitor, is not waited for.
 pub(crate) fn alone<S>(mutex: &Mutex<S>) -> Result<MutexGuard<'_, S>> {
     mutex.try_lock().map_err(|taken| match taken {
-        TryLockError::WouldBlock => Refused::new(
-            "Busy",
-            "in use by another thread, or by the visitor or the write_positions that asks; one call at a time: give each \
-             thread its own, and let a visitor keep what it is shown until the visit has ended",
-        ),
-        TryLockError::Poisoned(_) => Refused::new(
-            "Broken",
-            "an earlier call ended in a panic, which is a bug of pliant; please report it, and go on with a new one",
-        ),
+        TryLockError::WouldBlock => refused!(Busy:
+            "in use by another thread, or by the visitor or the write_positions that asks; one \
+             call at a time: give each thread its own, and let a visitor keep what it is shown \
+             until the visit has ended"),
+        TryLockError::Poisoned(_) => refused!(Broken:
+            "an earlier call ended in a panic, which is a bug of pliant; please report it, and go \
+             on with a new one"),
     })
 }

@@ -26,10 +26,9 @@
 //! | `check.rs` | files, frame by frame |
 //! | `../python/pliant/` | the package: what is easier said in Python (named tuples, the exception), and the types |
 //!
-//! What always holds: the interpreter lock is released while anything is computed; only the calls of a visitor,
-//! and looks for signals, take it back. A
-//! world or a check is in use by one call at a time, and another is refused, not left waiting, so that nothing here can wait
-//! for ever.
+//! What always holds: the interpreter lock is released while anything is computed; only the calls
+//! of a visitor, and looks for signals, take it back. A world or a check is in use by one call at a
+//! time, and another is refused, not left waiting, so that nothing here can wait for ever.
 
 mod answers;
 mod arrays;

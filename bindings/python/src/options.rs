@@ -1,6 +1,6 @@
 //! The keyword arguments of a world, by the names and values of the program's flags.
 
-use crate::error::{Refused, Result};
+use crate::error::{Result, refused};
 use pliant::{BroadPhase, Degree, Options, Partition, Update};
 use pyo3::prelude::*;
 use std::num::NonZeroU32;
@@ -49,20 +49,20 @@ impl Keywords {
             2 => Degree::Two,
             4 => Degree::Four,
             8 => Degree::Eight,
-            other => return Err(bad(format!("degree is {other}; it can be 2, 4 or 8"))),
+            other => return Err(refused!(BadOption: "degree is {other}; it can be 2, 4 or 8")),
         };
         options.partition = named("partition", &self.partition, PARTITIONS)?;
         options.leaf_size = at_least_one("leaf_size", self.leaf_size)?;
         options.update = named("update", &self.update, UPDATES)?;
         if let Some(given) = self.level {
             let Update::Hybrid { level, .. } = &mut options.update else {
-                return Err(bad(
-                    "level is the hybrid update's; it goes with update=\"hybrid\"",
-                ));
+                return Err(refused!(BadOption:
+                    "level is the hybrid update's; it goes with update=\"hybrid\""));
             };
-            let wanted = u32::try_from(given)
-                .map_err(|_| bad(format!("level is {given}; the root is 0, and below it 1")))?;
-            *level = Some(wanted);
+            let wanted = u32::try_from(given).ok();
+            *level = Some(wanted.ok_or_else(
+                || refused!(BadOption: "level is {given}; the root is 0, and below it 1"),
+            )?);
         }
         options.broad_phase = named("broad", &self.broad, BROAD_PHASES)?;
         options.threads = with_threads(self.threads)?.threads;
@@ -76,19 +76,15 @@ pub(crate) fn with_threads(threads: i64) -> Result<Options> {
     let mut options = Options::default();
     options.threads = at_least_one("threads", threads)?
         .try_into()
-        .map_err(|_| bad("threads is larger than this machine can count"))?;
+        .map_err(|_| refused!(BadOption: "threads is larger than this machine can count"))?;
     Ok(options)
 }
 
 fn at_least_one(name: &str, given: i64) -> Result<NonZeroU32> {
-    u32::try_from(given)
-        .ok()
-        .and_then(NonZeroU32::new)
-        .ok_or_else(|| {
-            bad(format!(
-                "{name} is {given}; it must be at least 1, and below 2^32"
-            ))
-        })
+    let number = u32::try_from(given).ok().and_then(NonZeroU32::new);
+    number.ok_or_else(
+        || refused!(BadOption: "{name} is {given}; it must be at least 1, and below 2^32"),
+    )
 }
 
 fn named<T: Copy>(option: &str, given: &str, names: &Names<T>) -> Result<T> {
@@ -96,10 +92,6 @@ fn named<T: Copy>(option: &str, given: &str, names: &Names<T>) -> Result<T> {
     found.map(|&(_, value)| value).ok_or_else(|| {
         let names: Vec<_> = names.iter().map(|(name, _)| format!("{name:?}")).collect();
         let names = names.join(", ");
-        bad(format!("{option} is {given:?}; it can be one of {names}"))
+        refused!(BadOption: "{option} is {given:?}; it can be one of {names}")
     })
-}
-
-fn bad(message: impl Into<String>) -> Refused {
-    Refused::new("BadOption", message)
 }

@@ -1,6 +1,6 @@
 //! `World` as Python sees it: the Rust library's, method by method.
 
-use crate::answers::{Any, Column, Owned, Rows, named};
+use crate::answers::{Any, Column, Owned, Rows, counted, named};
 use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedMesh};
 use crate::edit::{self, AnyEdit, Edit};
 use crate::error::{Refused, Result};
@@ -642,7 +642,7 @@ impl World {
     fn __repr__(&self, py: Python<'_>) -> Result<String> {
         self.state.with(py, |state| {
             let bodies = with_world!(&state.world, world => world.bodies().len());
-            let bodies = format!("{bodies} {}", if bodies == 1 { "body" } else { "bodies" });
+            let bodies = counted(bodies, ["body", "bodies"]);
             Ok(match state.precision() {
                 None => "<pliant.World, no body yet>".to_owned(),
                 Some(Precision::F32) => format!("<pliant.World of float32, {bodies}>"),

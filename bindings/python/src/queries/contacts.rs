@@ -3,8 +3,6 @@
 use crate::answers::{Any, Column, Rows, class};
 use crate::error::Result;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
-use crate::selection::Selection;
-use crate::state::Shared;
 use pliant::{Contact, ContactKind, Scalar};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

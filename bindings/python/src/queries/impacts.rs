@@ -4,8 +4,6 @@
 use crate::answers::{Any, Column, Rows, class};
 use crate::error::Result;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
-use crate::selection::Selection;
-use crate::state::Shared;
 use pliant::{EdgeEdgeImpact, Scalar, VertexTriangleImpact};
 use pyo3::prelude::*;
 

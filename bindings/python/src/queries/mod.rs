@@ -2,7 +2,8 @@
 //!
 //! A kind is a file here. It says what is asked of a world (a [`Kind`]), what each type of hit that
 //! the library finds becomes in Python (a [`Hit`]), and what help says of the class, which
-//! [`query_class`] makes: pyo3 has no generic ones.
+//! [`query_class`] makes: pyo3 has no generic ones. Besides, a new kind needs its `mod` below, its
+//! class in `lib.rs`, and the methods of `World` that ask it.
 
 use crate::answers::Any;
 use crate::error::Result;
@@ -198,7 +199,11 @@ macro_rules! query_class {
         pub(crate) struct $name($crate::queries::Question<$kind>);
 
         impl $name {
-            pub(crate) fn new(world: &Shared, of: Selection, kind: $kind) -> Self {
+            pub(crate) fn new(
+                world: &$crate::state::Shared,
+                of: $crate::selection::Selection,
+                kind: $kind,
+            ) -> Self {
                 let world = world.clone();
                 Self($crate::queries::Question { world, of, kind })
             }
@@ -216,20 +221,13 @@ macro_rules! query_class {
 
             $(#[$all])*
             #[pyo3(signature = (*, at_most=None))]
-            fn all<'py>(
-                &self,
-                py: Python<'py>,
-                at_most: Option<usize>,
-            ) -> Result<Any<'py>> {
+            fn all<'py>(&self, py: Python<'py>, at_most: Option<usize>) -> Result<Any<'py>> {
                 let most = at_most.unwrap_or(usize::MAX);
                 Ok(self.0.ask(py, $crate::queries::All(most))?(py)?)
             }
 
             $(#[$first])*
-            fn first<'py>(
-                &self,
-                py: Python<'py>,
-            ) -> Result<Option<Any<'py>>> {
+            fn first<'py>(&self, py: Python<'py>) -> Result<Option<Any<'py>>> {
                 let hit = self.0.ask(py, $crate::queries::First)?;
                 Ok(hit.map(|hit| hit(py)).transpose()?)
             }

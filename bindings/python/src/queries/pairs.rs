@@ -3,8 +3,6 @@
 use crate::answers::{Any, class, copy_of_rows};
 use crate::error::Result;
 use crate::queries::{Each, Hit, Kind, Want, Wanted, query_class};
-use crate::selection::Selection;
-use crate::state::Shared;
 use numpy::PyArray2;
 use pliant::{EdgeEdge, Pair, Scalar, VertexTriangle};
 use pyo3::prelude::*;

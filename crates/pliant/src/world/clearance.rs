@@ -52,7 +52,7 @@ impl<S: Scalar> World<S> {
     ///
     /// # Errors
     ///
-    /// Those of [`Query`].
+    /// Those of [`Query`](crate::Query).
     pub fn clearance(
         &mut self,
         of: Selection,

@@ -67,7 +67,7 @@ impl<S: Scalar> World<S> {
     /// Gives every vertex of a body a group, shape (n,): candidates are left out if all their vertices are of one group, in whichever
     /// bodies they are. Those of group 0, as all are at first, meet all. For vertices that are pinned, or glued together.
     ///
-    /// They stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. Of the vertices that an [`Edit`] adds, those that
+    /// They stay with the body until [`set_mesh`](Self::set_mesh) gives it another mesh. Of the vertices that an [`Edit`](crate::Edit) adds, those that
     /// are split from another have the group of that, the others group 0; what is given for empty vertices is not looked at.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// `S` is the type of the coordinates, `f32` or `f64`. Moving a body is [`set_positions`](Self::set_positions); there is
 /// nothing else to call: every query brings up to date what it touches, and none can answer for old positions.
 ///
-/// A call that is refused returns an [`Error`] and leaves the world as it was.
+/// A call that is refused returns an [`Error`](crate::Error) and leaves the world as it was.
 pub struct World<S: Scalar> {
     pub(super) verbs: Box<dyn Verbs<S>>,
 }

@@ -28,7 +28,7 @@ pub struct Interruptible<'w, S: Scalar> {
 /// What may be ended early.
 impl<S: Scalar> World<S> {
     /// This world, for a question with one answer that is to end early, with an error, when `question` says so. What
-    /// [`Query::interrupt_if`] says of queries holds of these.
+    /// [`Query::interrupt_if`](crate::Query::interrupt_if) says of queries holds of these.
     ///
     /// ```
     /// # use pliant::{ErrorKind, World};

@@ -10,7 +10,7 @@ use crate::tree::Tree;
 
 /// What a body is, and what its tree looks like.
 impl<S: Scalar> World<S> {
-    /// The triangles of a body as they were added and edited, shape (m, 3): three times [`u32::MAX`] for a number that an [`Edit`] has left
+    /// The triangles of a body as they were added and edited, shape (m, 3): three times [`u32::MAX`] for a number that an [`Edit`](crate::Edit) has left
     /// empty.
     ///
     /// # Errors
@@ -37,7 +37,7 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.edges())
     }
 
-    /// The shape that a body has now: the positions that it was given last; NaN for vertices that an [`Edit`] has left empty.
+    /// The shape that a body has now: the positions that it was given last; NaN for vertices that an [`Edit`](crate::Edit) has left empty.
     ///
     /// # Errors
     ///
@@ -46,7 +46,7 @@ impl<S: Scalar> World<S> {
         Ok(self.state().body(body)?.positions().into_owned())
     }
 
-    /// How many triangles a body has: of numbers, those left empty by an [`Edit`] counted with the others.
+    /// How many triangles a body has: of numbers, those left empty by an [`Edit`](crate::Edit) counted with the others.
     ///
     /// # Errors
     ///
@@ -117,7 +117,7 @@ impl<S: Scalar> World<S> {
     /// For each triangle of a body, the part it is in when the tree is cut at a level: its node of that level, or its leaf, if
     /// that is above. Parts are numbered from 0 in the order of the tree, so that parts with close numbers are close in the
     /// tree. Level 0 is one part, level 1 the children of the root, [`TreeShape::depth`] and all
-    /// levels below it the leaves. What an [`Edit`] adds is in trees of its own, each of which is cut at the level, in parts behind the
+    /// levels below it the leaves. What an [`Edit`](crate::Edit) adds is in trees of its own, each of which is cut at the level, in parts behind the
     /// others. A number that is left empty is in part [`u32::MAX`].
     ///
     /// # Errors

@@ -118,7 +118,7 @@ impl<S: Scalar> World<S> {
     /// How much more the tree of a body does than a fresh one would, estimated from what queries for triangles did in the shape of now: pairs
     /// of nodes that were looked at, for one that a fresh tree would look at. 1 before a query says anything, or where little was looked at.
     ///
-    /// The first queries after the body was added tell what a fresh tree does. With [`Options::mending`] trees that have decayed are built
+    /// The first queries after the body was added tell what a fresh tree does. With [`Options::mending`](crate::Options::mending) trees that have decayed are built
     /// anew, a part of the work whenever the body has a new shape (by [`set_positions`](Self::set_positions) or the end of a motion), as
     /// soon as that would have paid by now; a tree along the mesh ([`Partition::Connectivity`](crate::Partition::Connectivity)) is not, for
     /// it would be the same again.

@@ -3,16 +3,16 @@
 near, what is close, when things meet and meshes that change have records of their own, of which the newest are taken, `near-DATE.json`,
 `close-DATE.json`, `when-DATE.json` and `change-DATE.json`, and what the comparisons with other libraries printed.
 
-cargo run --release -- bench all --json benchmarks/records/DATE.json > benchmarks/records/DATE.txt
-cargo run --release -- bench near --json benchmarks/records/near-DATE.json > benchmarks/records/near-DATE.txt
+cargo run --release --features peers -- bench all --json benchmarks/records/DATE.json > benchmarks/records/DATE.txt
+cargo run --release --features peers -- bench near --json benchmarks/records/near-DATE.json > benchmarks/records/near-DATE.txt
 target/ipctk/bin/python benchmarks/compare_with_ipctk.py > benchmarks/records/ipctk-DATE.txt
-cargo run --release -- bench when --json benchmarks/records/when-DATE.json > benchmarks/records/when-DATE.txt
+cargo run --release --features peers -- bench when --json benchmarks/records/when-DATE.json > benchmarks/records/when-DATE.txt
 target/ipctk/bin/python benchmarks/compare_impacts_with_ipctk.py > benchmarks/records/impacts-ipctk-DATE.txt
-cargo run --release -- bench close --json benchmarks/records/close-DATE.json > benchmarks/records/close-DATE.txt
+cargo run --release --features peers -- bench close --json benchmarks/records/close-DATE.json > benchmarks/records/close-DATE.txt
 target/ipctk/bin/python benchmarks/compare_close_with_ipctk.py > benchmarks/records/close-ipctk-DATE.txt
 target/ipctk/bin/python benchmarks/compare_distance_with_fcl.py > benchmarks/records/close-fcl-DATE.txt
-cargo run --release -- bench change --rounds 1 --json benchmarks/records/change-DATE.json > benchmarks/records/change-DATE.txt
-cargo run --release -p pliant-bench --example edits > benchmarks/records/edits-DATE.txt
+cargo run --release --features peers -- bench change --rounds 1 --json benchmarks/records/change-DATE.json > benchmarks/records/change-DATE.txt
+cargo run --release -p pliant-bench --features peers --example edits > benchmarks/records/edits-DATE.txt
 python3 benchmarks/results.py DATE
 """
 
@@ -340,7 +340,7 @@ says so:
 |---|---|---|
 {change_found}
 
-Single edits, and the step after many ([record](records/{edits.name}), `cargo run --release -p pliant-bench --example edits`). The aims were 1 ms for
+Single edits, and the step after many ([record](records/{edits.name}), `cargo run --release -p pliant-bench --features peers --example edits`). The aims were 1 ms for
 a cut, faster than obvhs and 100 times faster than building anew; and 1.15 for the step after ten thousand edits:
 
 ```text
@@ -416,7 +416,7 @@ def beside_fcl():
 def table_of_the_readme(record, date):
     lines = [
         f"Milliseconds a step, update and query, one thread of an {record.machine['processor']}, {date}; all methods with the same exact decision and equal",
-        "pair lists (`cargo run --release -- bench peers`).",
+        "pair lists (`cargo run --release --features peers -- bench peers`).",
         "",
         "| | pliant | " + " | ".join(PEERS.values()) + " | times faster than the fastest of them |",
         "|---|---|---|---|---|---|",

@@ -674,7 +674,7 @@ test('what is double clicked comes into the middle', { skip }, async () => {
 });
 
 test('experiments: a page with several contests', { skip }, async () => {
-  pliant('bench', 'experiment-1', '--small', '--rounds', '1', '--report', 'bench.html', '--svg', 'charts');
+  pliant('bench', 'splits', '--small', '--rounds', '1', '--report', 'bench.html', '--svg', 'charts');
   const { page, state, close } = await open('bench.html');
   assert.equal(await page.locator('#plays option').count(), 3);
   for (const contest of [0, 1, 2]) {

@@ -1,8 +1,8 @@
 //! How long it takes to build: `World::add` with default options beside parry3d's `TriMesh`, at equal size.
 //!
 //! ```sh
-//! cargo run --release -p pliant-bench --example building                     # up to 1.3 million triangles
-//! cargo run --release -p pliant-bench --example building -- cloth:10008338   # any scene, any of its sizes; some gigabytes
+//! cargo run --release -p pliant-bench --features peers --example building    # up to 1.3 million triangles
+//! cargo run --release -p pliant-bench --features peers --example building -- cloth:10008338 # any scene, any of its sizes; some gigabytes
 //! ```
 //!
 //! The two take turns, so that a machine that is slow for a while is slow for both. Timed is the whole public call: for pliant

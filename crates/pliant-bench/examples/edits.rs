@@ -1,7 +1,7 @@
 //! What edits cost: a cut of some hundred triangles in a large body, beside building anew and obvhs; and the step after ten thousand.
 //!
 //! ```sh
-//! cargo run --release -p pliant-bench --example edits
+//! cargo run --release -p pliant-bench --features peers --example edits
 //! ```
 //!
 //! What an edit costs is the call of `apply` and what the next query takes longer than the same query before it. A triangle that is cut

@@ -1,8 +1,8 @@
 //! Bytes a triangle: what a library keeps for bodies that move, with all that a step needs, beside what others keep.
 //!
 //! ```sh
-//! cargo run --release -p pliant-bench --example memory                       # 20,480 and 1,310,720 triangles a body
-//! cargo run --release -p pliant-bench --example memory -- cloth:79202        # any scene, any of its sizes
+//! cargo run --release -p pliant-bench --features peers --example memory      # 20,480 and 1,310,720 triangles a body
+//! cargo run --release -p pliant-bench --features peers --example memory -- cloth:79202 # any scene, any of its sizes
 //! ```
 //!
 //! Counted is the live heap of one thread, by an allocator that counts: built, then four steps of the scene, and at each of

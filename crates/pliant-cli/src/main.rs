@@ -66,7 +66,7 @@ Examples:
   pliant check walk.npz --count              how many pairs in each frame
   pliant check fox.glb --clip Run            an animation of a glTF file
   pliant convert fox.glb fox.npz             the same in another format
-  pliant bench experiment-1                  the paper's figure 3
+  pliant bench table-1                       the paper's table 1
 
 `pliant VERB --help` has more. Exit code 0: nothing intersects, or nothing was asked. 1: something does. 2: it could not be done.";
 

@@ -1,24 +1,32 @@
-//! All experiments: the one place to add one.
+//! The experiments of a build: the one place to add one.
 
-use super::{
-    Experiment, bodies, change, close, cloth, degenerate, degrees, experiment_1, experiment_3,
-    levels, near, peers, splits, table_1, when,
-};
+use super::{Experiment, bodies, degrees, levels, splits, table_1, when};
+#[cfg(feature = "peers")]
+use super::{change, close, cloth, degenerate, experiment_1, experiment_3, near, peers};
 
-/// All experiments, in the order in which `all` runs them.
-pub const EXPERIMENTS: [Experiment; 14] = [
+/// The experiments of this build, in the order of [`titles::TITLES`](super::titles::TITLES): without the feature `peers`, those that
+/// need no other library.
+pub const EXPERIMENTS: &[Experiment] = &[
+    #[cfg(feature = "peers")]
     experiment_1::EXPERIMENT,
     table_1::EXPERIMENT,
+    #[cfg(feature = "peers")]
     experiment_3::EXPERIMENT,
     degrees::EXPERIMENT,
     splits::EXPERIMENT,
     levels::EXPERIMENT,
     bodies::EXPERIMENT,
+    #[cfg(feature = "peers")]
     cloth::EXPERIMENT,
+    #[cfg(feature = "peers")]
     degenerate::EXPERIMENT,
+    #[cfg(feature = "peers")]
     peers::EXPERIMENT,
+    #[cfg(feature = "peers")]
     near::EXPERIMENT,
+    #[cfg(feature = "peers")]
     close::EXPERIMENT,
     when::EXPERIMENT,
+    #[cfg(feature = "peers")]
     change::EXPERIMENT,
 ];

@@ -1,7 +1,7 @@
 //! "For simulations with up to approximately 100 bodies, the naive brute force technique ... performs very well" (paper, 3.4):
 //! brute force against sweep and prune from 10 to 10,000 bodies, and where they cross; and the tree of bodies, which is not in the paper.
 
-use super::{Experiment, Form, Planned, ours, truth, window};
+use super::{Experiment, Form, Planned, ours, titles, truth, window};
 use crate::contest::{Contender, Contest, Query};
 use crate::motion::Motion;
 use crate::record::{Claim, ContestRecord, Verdict};
@@ -10,8 +10,8 @@ use pliant::BroadPhase;
 use pliant_scenes::Scene;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "bodies",
-    about: "brute force, sweep and prune, a tree; 10 to 10,000 bodies",
+    name: titles::BODIES.name,
+    about: titles::BODIES.about,
     plan,
     claims,
 };

@@ -4,7 +4,7 @@
 //! and removal. `shuffle` and `remesh` also have a fresh tree for every query, whose building is not counted; `tear` the same
 //! shapes without edits.
 
-use super::{Experiment, Form, Planned, whole};
+use super::{Experiment, Form, Planned, titles, whole};
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::exact;
 use crate::method::Method;
@@ -15,8 +15,8 @@ use pliant::Options;
 use pliant_scenes::ChangingScene;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "change",
-    about: "meshes that change: cut, torn, fused, remeshed; trees that decay",
+    name: titles::CHANGE.name,
+    about: titles::CHANGE.about,
     plan,
     claims,
 };

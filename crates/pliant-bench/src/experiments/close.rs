@@ -5,15 +5,15 @@
 //! that are at most so far apart, and candidates are those whose boxes are.
 
 use super::lines::{Line, planned};
-use super::{DEFAULT, Experiment, Form, Planned, STEPS, every, factor_claim};
+use super::{DEFAULT, Experiment, Form, Planned, STEPS, every, factor_claim, titles};
 use crate::contest::{Contender, Contest, Query};
 use crate::methods::{AllBoxes, FarParry, NearSweep, Ours};
 use crate::record::{Claim, ContestRecord, Verdict};
 use pliant::Options;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "close",
-    about: "close pairs over candidates, and distances, with parry3d",
+    name: titles::CLOSE.name,
+    about: titles::CLOSE.about,
     plan,
     claims,
 };

@@ -3,14 +3,14 @@
 
 use super::{
     DEFAULT, Experiment, Form, HYBRID, OBVHS_1, OBVHS_4, PARRY, Planned, contenders, every,
-    on_scene, scene, window,
+    on_scene, scene, titles, window,
 };
 use crate::contest::{Contest, Query};
 use crate::record::{Claim, ContestRecord, Verdict};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "cloth",
-    about: "a folding sheet of 79,202 triangles with itself",
+    name: titles::CLOTH.name,
+    about: titles::CLOTH.about,
     plan,
     claims,
 };

@@ -4,7 +4,7 @@
 
 use super::{
     DEFAULT, Experiment, Form, HYBRID, OBVHS_4, PARRY, Planned, contenders, every, factor_claim,
-    scene, truth, window,
+    scene, titles, truth, window,
 };
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::moller;
@@ -13,8 +13,8 @@ use crate::motion::{Motion, MotionBody, Placed};
 use crate::record::{Claim, ContestRecord, Verdict};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "degenerate",
-    about: "coplanar grids that slide; spheres 10^4 from the origin",
+    name: titles::DEGENERATE.name,
+    about: titles::DEGENERATE.about,
     plan,
     claims,
 };

@@ -3,15 +3,15 @@
 
 use super::{
     BERGEN_LOCAL, BERGEN_LOCAL_8, BERGEN_WORLD, BERGEN_WORLD_8, Experiment, Form, Planned,
-    contender, every, factor_claim, on_scene, ours, scene,
+    contender, every, factor_claim, on_scene, ours, scene, titles,
 };
 use crate::contest::{Contender, Query};
 use crate::record::{Claim, ContestRecord};
 use pliant::Degree;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "degrees",
-    about: "trees of degree 2, 4 and 8, ours and van den Bergen's",
+    name: titles::DEGREES.name,
+    about: titles::DEGREES.about,
     plan,
     claims,
 };

@@ -4,15 +4,15 @@
 use super::{
     BERGEN_LOCAL, BERGEN_LOCAL_8, BERGEN_WORLD, BERGEN_WORLD_8, BOTTOM_UP, BRUTE_FORCE, BUCKETS_3,
     BUCKETS_4, BUCKETS_5, DEFAULT, Experiment, FLAT_SWEEP, Form, HYBRID, OBVHS_1, OBVHS_4, PARRY,
-    Planned, SMITH, TOP_DOWN, contenders, every, factor_claim, on_scene, scene,
+    Planned, SMITH, TOP_DOWN, contenders, every, factor_claim, on_scene, scene, titles,
 };
 use crate::contest::Query;
 use crate::record::{Claim, ContestRecord, Verdict};
 use crate::time::duration;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "experiment-1",
-    about: "figure 3: two spheres of 20,480 triangles, all and first pairs",
+    name: titles::EXPERIMENT_1.name,
+    about: titles::EXPERIMENT_1.about,
     plan,
     claims,
 };

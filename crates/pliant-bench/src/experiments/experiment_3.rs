@@ -4,14 +4,14 @@
 use super::response::with_response;
 use super::{
     BERGEN_LOCAL, BERGEN_WORLD, BOTTOM_UP, DEFAULT, Experiment, Form, HYBRID, OBVHS_4, PARRY,
-    Planned, contenders, every, factor_claim, scene, truth, windows,
+    Planned, contenders, every, factor_claim, scene, titles, truth, windows,
 };
 use crate::contest::{Contest, Query};
 use crate::record::{Claim, ContestRecord};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "experiment-3",
-    about: "figure 4: 27 bodies of 5,120 triangles that hit each other",
+    name: titles::EXPERIMENT_3.name,
+    about: titles::EXPERIMENT_3.about,
     plan,
     claims,
 };

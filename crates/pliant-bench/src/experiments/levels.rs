@@ -1,7 +1,7 @@
 //! "We initially update the n / 2 first levels bottom-up, which we have found to be an efficient choice" (paper, 3.3): the
 //! hybrid's level from 0 to n.
 
-use super::{Experiment, Form, Planned, every, on_scene, ours, scene};
+use super::{Experiment, Form, Planned, every, on_scene, ours, scene, titles};
 use crate::contest::{Contender, Query};
 use crate::record::{Claim, ContestRecord, Verdict};
 use pliant::{Options, Update, World};
@@ -9,8 +9,8 @@ use pliant_scenes::Scene;
 use std::num::NonZeroU32;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "levels",
-    about: "the hybrid's level from 0 (top-down) to n (bottom-up)",
+    name: titles::LEVELS.name,
+    about: titles::LEVELS.about,
     plan,
     claims,
 };

@@ -5,20 +5,30 @@
 
 mod all;
 mod bodies;
+#[cfg(feature = "peers")]
 mod change;
+#[cfg(feature = "peers")]
 mod close;
+#[cfg(feature = "peers")]
 mod cloth;
+#[cfg(feature = "peers")]
 mod degenerate;
 mod degrees;
+#[cfg(feature = "peers")]
 mod experiment_1;
+#[cfg(feature = "peers")]
 mod experiment_3;
 mod levels;
 mod lines;
+#[cfg(feature = "peers")]
 mod near;
+#[cfg(feature = "peers")]
 mod peers;
+#[cfg(feature = "peers")]
 mod response;
 mod splits;
 mod table_1;
+pub mod titles;
 mod when;
 
 pub use all::EXPERIMENTS;
@@ -26,9 +36,9 @@ pub use all::EXPERIMENTS;
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::exact;
 use crate::method::Method;
-use crate::methods::{
-    BruteForce, BucketTree, Frame, Obvhs, Ours, Parry, Smith, Sweep, VanDenBergen,
-};
+use crate::methods::{BruteForce, BucketTree, Frame, Ours, Smith, Sweep, VanDenBergen};
+#[cfg(feature = "peers")]
+use crate::methods::{Obvhs, Parry};
 use crate::motion::Motion;
 use crate::record::{Claim, ContestRecord, ExperimentRecord, Verdict, Window};
 use pliant::{Degree, Options, Update};
@@ -128,8 +138,11 @@ const BUCKETS_4: &str = "BucketTree, depth 4";
 const BUCKETS_5: &str = "BucketTree, depth 5";
 const FLAT_SWEEP: &str = "flat sweep";
 const BRUTE_FORCE: &str = "brute force over boxes";
+#[cfg(feature = "peers")]
 const PARRY: &str = "parry3d";
+#[cfg(feature = "peers")]
 const OBVHS_1: &str = "obvhs, 1 a leaf";
+#[cfg(feature = "peers")]
 const OBVHS_4: &str = "obvhs, 4 a leaf";
 
 /// The library in a configuration.
@@ -159,8 +172,11 @@ fn contender(label: &'static str) -> Contender {
         BUCKETS_5 => Contender::new(label, BucketTree::new(5, exact)),
         FLAT_SWEEP => Contender::new(label, Sweep::new(exact)),
         BRUTE_FORCE => Contender::new(label, BruteForce::new(exact)),
+        #[cfg(feature = "peers")]
         PARRY => Contender::new(label, Parry::new(exact)),
+        #[cfg(feature = "peers")]
         OBVHS_1 => Contender::new(label, Obvhs::new(1, exact)),
+        #[cfg(feature = "peers")]
         OBVHS_4 => Contender::new(label, Obvhs::new(4, exact)),
         _ => ours(label, |_| ()),
     }

@@ -4,15 +4,17 @@
 //! found that are within it, each has a margin of half of it. *Swept*: margin 0, from each step the stated part of the way to the next one.
 
 use super::lines::{Line, planned};
-use super::{DEFAULT, Experiment, Form, OBVHS_1, OBVHS_4, PARRY, Planned, STEPS, factor_claim};
+use super::{
+    DEFAULT, Experiment, Form, OBVHS_1, OBVHS_4, PARRY, Planned, STEPS, factor_claim, titles,
+};
 use crate::contest::{Contender, Contest, Query};
 use crate::methods::{NearObvhs, NearParry, NearSweep, Ours};
 use crate::record::{Claim, ContestRecord, Verdict};
 use pliant::{Options, Update};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "near",
-    about: "what is near, with parry3d and obvhs with grown boxes",
+    name: titles::NEAR.name,
+    about: titles::NEAR.about,
     plan,
     claims,
 };

@@ -5,7 +5,7 @@
 
 use super::{
     DEFAULT, Experiment, Form, OBVHS_1, OBVHS_4, PARRY, Planned, contender, every, factor_claim,
-    on_scene, scene, window,
+    on_scene, scene, titles, window,
 };
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::exact;
@@ -15,8 +15,8 @@ use crate::record::{Claim, ContestRecord, Verdict, Window};
 use pliant::{Options, Update, World};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "peers",
-    about: "spheres, a crowd and a cloth, with parry3d, obvhs and the floor",
+    name: titles::PEERS.name,
+    about: titles::PEERS.about,
     plan,
     claims,
 };

@@ -2,14 +2,16 @@
 //! average collision detection time per time step is typically between zero to 10 percent better for the mesh connectivity
 //! trees" (4). And the balanced tree, which the paper does not have.
 
-use super::{DEFAULT, Experiment, Form, HYBRID, Planned, contender, every, on_scene, ours, scene};
+use super::{
+    DEFAULT, Experiment, Form, HYBRID, Planned, contender, every, on_scene, ours, scene, titles,
+};
 use crate::contest::{Contender, Query};
 use crate::record::{Claim, ContestRecord, Verdict};
 use pliant::Partition;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "splits",
-    about: "trees cut at the centre, at the mean, along the mesh, equally",
+    name: titles::SPLITS.name,
+    about: titles::SPLITS.about,
     plan,
     claims,
 };

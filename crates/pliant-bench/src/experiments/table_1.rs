@@ -1,15 +1,15 @@
 //! Table 1 of the paper: the two spheres at seven sizes, at first contact and at the worst step; then on to sizes of today.
 
 use super::{
-    DEFAULT, Experiment, Form, HYBRID, Planned, contenders, every, on_scene, scene, window,
+    DEFAULT, Experiment, Form, HYBRID, Planned, contenders, every, on_scene, scene, titles, window,
 };
 use crate::contest::{Contest, Query};
 use crate::record::{Claim, ContestRecord, Verdict};
 use crate::time::duration;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "table-1",
-    about: "table 1: two spheres, of 1,280 to 1,310,720 triangles",
+    name: titles::TABLE_1.name,
+    about: titles::TABLE_1.about,
     plan,
     claims,
 };

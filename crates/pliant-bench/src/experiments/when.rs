@@ -5,7 +5,7 @@
 //! What a candidate costs is the time of all impacts less that of showing all candidates to a visitor who counts them, over their number.
 
 use super::lines::{Line, planned};
-use super::{DEFAULT, Experiment, Form, Planned, STEPS};
+use super::{DEFAULT, Experiment, Form, Planned, STEPS, titles};
 use crate::contest::{Contender, Contest, Query};
 use crate::decision::exact;
 use crate::methods::{Everywhere, NearSweep, Ours, Precision};
@@ -13,8 +13,8 @@ use crate::record::{Claim, ContestRecord, Verdict};
 use pliant::Options;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
-    name: "when",
-    about: "what meets on its way, over candidates and intersections",
+    name: titles::WHEN.name,
+    about: titles::WHEN.about,
     plan,
     claims,
 };

@@ -144,6 +144,7 @@ impl Elements {
 
     /// By how much boxes of triangles are to be larger on every side so that no candidate is missed: a little more than the margin, as
     /// they are rounded.
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "peers ask it"))]
     pub(super) fn grown_by(&self) -> f32 {
         (self.radius * 1.001) as f32
     }
@@ -185,6 +186,7 @@ impl Elements {
 
     /// Finds what is near among the elements that belong to two triangles, of two bodies in order or of one.
     #[inline]
+    #[cfg_attr(not(feature = "peers"), expect(dead_code, reason = "peers ask it"))]
     pub(super) fn meet(&mut self, bodies: [usize; 2], triangles: [u32; 2]) {
         for side in 0..2 {
             let [a, b] = [bodies[side], bodies[1 - side]];

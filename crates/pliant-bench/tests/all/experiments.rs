@@ -2,6 +2,7 @@
 
 use pliant_bench::contest::{Contender, Contest, Query};
 use pliant_bench::decision::exact;
+use pliant_bench::experiments::titles::TITLES;
 use pliant_bench::experiments::{EXPERIMENTS, Form};
 use pliant_bench::machine::this_machine;
 use pliant_bench::method::{Counters, Method, Pair};
@@ -256,15 +257,25 @@ fn a_wrong_method_is_found_out_and_not_timed() {
 
 #[test]
 fn experiments_have_names_of_their_own() {
-    let mut names: Vec<_> = EXPERIMENTS
-        .iter()
-        .map(|experiment| experiment.name)
-        .collect();
+    let mut names: Vec<_> = TITLES.iter().map(|title| title.name).collect();
     names.sort_unstable();
     names.dedup();
-    assert_eq!(names.len(), EXPERIMENTS.len());
+    assert_eq!(names.len(), TITLES.len());
     assert_eq!(
         serde_json::to_value(Verdict::DoesNotHoldToday).unwrap(),
         "does-not-hold-today"
     );
+}
+
+#[test]
+fn a_build_has_every_experiment_that_it_can_have() {
+    let with_peers = cfg!(feature = "peers");
+    let could = TITLES
+        .iter()
+        .filter(|title| with_peers || !title.with_peers)
+        .map(|title| (title.name, title.about));
+    let has = EXPERIMENTS
+        .iter()
+        .map(|experiment| (experiment.name, experiment.about));
+    assert!(could.eq(has));
 }

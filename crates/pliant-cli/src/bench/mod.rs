@@ -9,6 +9,7 @@ use crate::terminal::{print_all, progress};
 use anyhow::bail;
 use clap::Args;
 use indicatif::ProgressStyle;
+use pliant_bench::experiments::titles::{TITLES, Title};
 use pliant_bench::experiments::{EXPERIMENTS, Experiment, Form};
 use pliant_bench::machine::this_machine;
 use pliant_bench::record::Record;
@@ -47,39 +48,60 @@ const RECORD: &str = r#"{"format":1,"machine":{"processor":"#;
 
 const EXAMPLES: &str = "\
 Examples:
-  pliant bench cloth --small --rounds 1        what there is to see, in seconds
-  pliant bench experiment-1                    the paper's figure 3
-  pliant bench peers --rounds 9                medians of more rounds
-  pliant bench all --quiet --json record.json  on a quiet machine, as a record";
+  pliant bench splits --small --rounds 1           what there is to see, in seconds
+  pliant bench table-1                             the paper's table 1
+  pliant bench degrees --rounds 9                  medians of more rounds
+  pliant bench levels --quiet --json record.json   on a quiet machine, as a record";
+
+/// Whether other libraries take part in it that this program was built without.
+fn is_missing(title: &Title) -> bool {
+    EXPERIMENTS
+        .iter()
+        .all(|experiment| experiment.name != title.name)
+}
 
 fn experiments_help() -> String {
-    let lines = EXPERIMENTS
-        .iter()
-        .map(|experiment| format!("  {:<14}{}\n", experiment.name, experiment.about));
-    format!(
-        "Experiments:\n{}  {:<14}everything\n\n{EXAMPLES}",
-        lines.collect::<String>(),
-        "all"
-    )
+    let line = |mark, name, about| format!("{mark} {name:<14}{about}\n");
+    let mut lines = String::new();
+    for title in &TITLES {
+        let mark = if is_missing(title) { '*' } else { ' ' };
+        lines += &line(mark, title.name, title.about);
+    }
+    let any_missing = TITLES.iter().any(is_missing);
+    let mark = if any_missing { '*' } else { ' ' };
+    lines += &line(mark, "all", "everything");
+    if any_missing {
+        lines += "\n* with other libraries, which this program was built without; with them:\n";
+        lines += "  cargo run --release --features peers -- bench peers\n";
+    }
+    format!("Experiments:\n{lines}\n{EXAMPLES}")
 }
 
 /// Runs experiments and prints what was found.
 pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
-    let chosen: Vec<&Experiment> = EXPERIMENTS
+    let asked: Vec<&Title> = TITLES
         .iter()
-        .filter(|experiment| arguments.name == "all" || arguments.name == experiment.name)
+        .filter(|title| arguments.name == "all" || arguments.name == title.name)
         .collect();
-    if chosen.is_empty() {
-        let names: Vec<_> = EXPERIMENTS
-            .iter()
-            .map(|experiment| experiment.name)
-            .collect();
+    if asked.is_empty() {
+        let names: Vec<_> = TITLES.iter().map(|title| title.name).collect();
         bail!(
             "there is no experiment \"{}\"; there are {} and all",
             shown(&arguments.name),
             names.join(", ")
         );
     }
+    if asked.iter().any(|title| is_missing(title)) {
+        bail!(
+            "other libraries take part in {0}, which this program was built without; build it with \
+             them: `cargo run --release --features peers -- bench {0}`",
+            arguments.name
+        );
+    }
+    let chosen: Vec<&Experiment> = EXPERIMENTS
+        .iter()
+        .filter(|experiment| asked.iter().any(|title| title.name == experiment.name))
+        .collect();
     let over = arguments.over;
     if let Some(file) = &arguments.json {
         // Before hours are spent: can it be written?

@@ -214,7 +214,7 @@ fn asked(path: &Path, name: &str) -> Vec<Said> {
         &["convert", "flat.obj", "out.obj", "--frames", name],
         &["run", name],
         &["bench", name],
-        &["bench", "cloth", "--json", &format!("{name}/a.json")],
+        &["bench", "splits", "--json", &format!("{name}/a.json")],
         &["completions", name],
         &["man", &format!("flat.obj/{name}")],
         &[name],

@@ -20,13 +20,13 @@ const WAYS: [(&[&str], &[&str]); 7] = [
     (&["run", "--steps", "1", "--png", "out.png"], &["out.png"]),
     (
         &[
-            "bench", "cloth", "--small", "--rounds", "1", "--json", "out.json",
+            "bench", "degrees", "--small", "--rounds", "1", "--json", "out.json",
         ],
         &["out.json"],
     ),
     (
         &[
-            "bench", "cloth", "--small", "--rounds", "1", "--report", "out.html",
+            "bench", "degrees", "--small", "--rounds", "1", "--report", "out.html",
         ],
         &["out.html"],
     ),
@@ -76,7 +76,7 @@ fn charts_are_not_written_over_what_is_there() {
     let folder = meshes();
     let path = folder.path();
     let command = [
-        "bench", "cloth", "--small", "--rounds", "1", "--quiet", "--svg", "charts",
+        "bench", "degrees", "--small", "--rounds", "1", "--quiet", "--svg", "charts",
     ];
     assert_eq!(pliant(path, &command).code, 0);
     assert_eq!(pliant(path, &command).code, 0);

@@ -205,8 +205,8 @@ fn every_error_says_what_to_do_next() {
         ("check a.obj --hits x.obj", "must end in .vtp or .vtu"),
         ("check a.obj --hits no/x.vtp", "make its folder first"),
         ("bench experiment-2", "there are experiment-1"),
-        ("bench cloth --json no/x.json", "make its folder first"),
-        ("bench cloth --json .", "name a file in it"),
+        ("bench splits --json no/x.json", "make its folder first"),
+        ("bench splits --json .", "name a file in it"),
         ("completions ksh", "[possible values: bash"),
         ("man a.obj", "choose another name"),
     ]);
@@ -352,7 +352,7 @@ fn quiet_is_quiet() {
         "run --steps 2 -q --format json",
         "check a.obj --quiet",
         "convert a.obj b.stl --quiet",
-        "bench cloth --small --rounds 1 --quiet",
+        "bench degrees --small --rounds 1 --quiet",
     ] {
         let said = in_folder(&line.split_whitespace().collect::<Vec<_>>());
         assert_eq!(

@@ -34,7 +34,7 @@ const CALLS: [&[&str]; 5] = [
     ],
     &["check", "a.obj"],
     &["check", "a.obj", "--format", "json"],
-    &["bench", "degenerate", "--small", "--rounds", "1"],
+    &["bench", "degrees", "--small", "--rounds", "1"],
 ];
 
 #[test]

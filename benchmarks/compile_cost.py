@@ -6,15 +6,19 @@ depend on what else the machine does. Fails if an aim is missed.
     benchmarks/compile_cost.py rebuild                    a six-line program, compiled again after one changed line
     benchmarks/compile_cost.py tests [--before COMMIT]    `cargo test --workspace` from nothing, compiling and running
     benchmarks/compile_cost.py size [--before COMMIT]     the program, as built and stripped
+    benchmarks/compile_cost.py table [--before COMMIT]    what there is to compile of the library and the program, and how long it takes
     benchmarks/compile_cost.py all [--before COMMIT]
 
 `tests` and `size` have an aim only beside an earlier commit, which is then taken out of git and measured in the same way: minutes.
+`table` has none. Its code lines are those of crates/pliant/src and, where there is one, crates/pliant-exact/src, without blank lines,
+comments and what only tests compile; its lines of LLVM are those that `cargo llvm-lines` counts: of functions, before any optimisation.
 `--exclude PACKAGE` leaves a package of the workspace out of the tests, of both. Everything is made in a temporary folder, which goes
 away; nothing in the checkout's target folder is used or changed. Needs Python 3.10, cargo, on a system with getrusage; and git.
 """
 
 import argparse
 import os
+import re
 import resource
 import shutil
 import statistics
@@ -101,7 +105,7 @@ def check(what, found, most, unit):
         failed.append(what)
 
 
-def run(command, folder, target=None):
+def run(command, folder, target=None, with_errors=False):
     """Processor time of a command and of everything that it starts, and what it printed. Ends the script if the command fails."""
     environment = dict(os.environ)
     if target:
@@ -113,7 +117,8 @@ def run(command, folder, target=None):
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, command))} failed:\n{done.stdout[-4000:]}\n{done.stderr[-4000:]}")
-    return (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime), done.stdout
+    seconds = (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime)
+    return seconds, done.stdout + (done.stderr if with_errors else "")
 
 
 def make_crate(folder, name, main, profiles=""):
@@ -242,7 +247,88 @@ def size(temporary, arguments):
             check(f"{what} against {arguments.before}", new / old, SIZE_AT_MOST, "")
 
 
-COSTS = {"simulator": simulator, "rebuild": rebuild, "tests": tests, "size": size}
+# What is no code though it may look like it: comments, strings, characters. Those of several lines go on over them.
+NO_CODE = re.compile(
+    r"""//[^\n]* | /\*.*?\*/ | r(\#*)".*?"\1 | "(?:\\.|[^"\\])*" | '(?:\\[^']*'|[^'\\]') """, re.DOTALL | re.VERBOSE
+)
+
+
+def only_code(text):
+    """Code with its comments blank, and something plain for each string and character."""
+    return NO_CODE.sub(lambda it: re.sub(r"[^\n]", " " if it[0].startswith(("//", "/*")) else "_", it[0]), text)
+
+
+def end_of_item(code, at):
+    """Where an item, a field or a variant ends: behind its braces, or at the end of its line of code."""
+    ends = ";" if re.match(r"\s*(pub(\([^)]*\))?\s+)?(const|fn|mod|static|type|unsafe|use)\b", code[at:]) else ";,"
+    depth = 0
+    for place in range(at, len(code)):
+        depth += (code[place] in "([{") - (code[place] in ")]}")
+        if depth == 0 and (code[place] == "}" or code[place] in ends):
+            return place + 1
+    return len(code)
+
+
+def sources(folder):
+    """Code of every file below a folder, without what only tests compile."""
+    found, for_tests = {}, set()
+    for path in sorted(folder.rglob("*.rs")):
+        code = only_code(path.read_text())
+        while (at := code.find("#[cfg(test)]")) >= 0:
+            end = end_of_item(code, at + len("#[cfg(test)]"))
+            if module := re.search(r"\bmod\s+(\w+);$", code[at:end]):
+                inside = path.parent if path.stem in ("lib", "mod") else path.with_suffix("")
+                for_tests.add(inside / module[1])
+            code = code[:at] + code[end:]
+        found[path] = code
+    is_for_tests = lambda path: any(module in [path.with_suffix(""), *path.parents] for module in for_tests)
+    return [code for path, code in found.items() if not is_for_tests(path)]
+
+
+def table(temporary, arguments):
+    def measure(name, folder):
+        target = temporary / f"table-target-{name}"
+        engine = [code for crate in ("pliant", "pliant-exact") for code in sources(folder / "crates" / crate / "src")]
+        figures = {"code lines of the engine": sum(1 for code in engine for line in code.splitlines() if line.strip())}
+        functions = (code[it.start() : end_of_item(code, it.start())] for code in engine for it in re.finditer(r"\bfn \w", code))
+        figures["functions over 70 lines"] = sum(function.count("\n") >= 70 for function in functions)
+
+        def build(what, *options):
+            seconds, said = run(["cargo", "build", "--release", *options], folder, target, with_errors=True)
+            figures[f"{what}: seconds"] = round(seconds)
+            figures[f"{what}: crates"] = len(re.findall(r"^ *Compiling ", said, re.MULTILINE))
+
+        build("cargo build --release -p pliant", "-p", "pliant")
+        llvm = ["--emit=llvm-ir", "-Cno-prepopulate-passes", "-Cpasses=name-anon-globals", "-Ccodegen-units=1"]
+        run(["cargo", "rustc", "-p", "pliant", "--lib", "--release", "--", *llvm], folder, target)
+        lines = copies = 0
+        is_inside = False
+        for path in (target / "release/deps").glob("pliant-*.ll"):
+            with path.open() as text:
+                for line in text:
+                    if is_inside := is_inside or line.startswith("define "):
+                        lines += 1
+                        copies += line.startswith("define ") and "7descend" in line
+                        is_inside = line != "}\n"
+        figures |= {"compiled copies of `descend`": copies, "lines of LLVM of the library": lines}
+        shutil.rmtree(target)
+        build("cargo build --release", *([] if "default-members" in (folder / "Cargo.toml").read_text() else ["-p", "pliant-cli"]))
+        program = target / "release/pliant"
+        if shutil.which("strip"):
+            run(["strip", program], folder)
+            figures["the program, stripped: bytes"] = program.stat().st_size
+        shutil.rmtree(target)
+        return figures
+
+    print("table: what there is to compile; seconds are of processor time, from nothing", flush=True)
+    now = measure("now", CHECKOUT)
+    before = measure("before", taken_out(arguments.before, temporary)) if arguments.before else {}
+    for what, figure in now.items():
+        earlier = f"{before[what]:>12,}" if what in before else ""
+        print(f"    {what:<45}{earlier}{figure:>12,}")
+
+
+COSTS = {"simulator": simulator, "rebuild": rebuild, "tests": tests, "size": size, "table": table}
 
 
 def main():

@@ -564,9 +564,17 @@ fn lives<S: Scalar>(
 }
 
 #[test]
-fn every_list_is_that_of_the_reference() {
+fn every_list_is_that_of_the_reference_f32() {
     lives::<f32>(0..60, (1, 3), 0.0, |x| x as f32, |x| x as f32);
+}
+
+#[test]
+fn every_list_is_that_of_the_reference_f64() {
     lives::<f64>(60..120, (1, 3), 0.0, |x| x, |x| x);
+}
+
+#[test]
+fn every_list_is_that_of_the_reference_far_away_with_threads() {
     lives::<f32>(120..140, (3, 3), 1000.0, |x| x as f32, |x| x as f32);
     lives::<f64>(140..180, (3, 3), 1e7, |x| x, |x| x);
 }

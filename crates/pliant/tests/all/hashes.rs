@@ -4,7 +4,7 @@
 //! Whatever changes a pair, on purpose, in another configuration or on another machine, is noticed. A new choice (a number of
 //! threads, an instruction set) is one more line in `axes`.
 
-use crate::common::{TrianglesOf, is_thorough};
+use crate::common::{TrianglesOf, combinations, covering, covers_every_pair, is_thorough};
 use pliant::{
     BodyId, BroadPhase, Degree, Instructions, Options, Partition, Scalar, Selection, Update, World,
     reference,
@@ -90,7 +90,7 @@ fn instructions(case: &mut Case, instructions: Instructions, doubles: bool) {
     (case.instructions, case.doubles) = (Some(instructions), doubles);
 }
 
-/// All ways of each choice. Every combination is tried.
+/// All ways of each choice. Every two ways of two choices are tried together; every combination if tests are thorough.
 fn axes() -> Vec<Vec<Change>> {
     vec![
         vec![
@@ -180,25 +180,25 @@ fn hybrid(level: u32, at_once: u32) -> Update {
     }
 }
 
-/// One case in so many of what can be chosen together, and all of what is chosen alone. Each choice comes up
-/// if that number has no factor in common with how many there are of a kind.
-fn cases(every: usize) -> Vec<Case> {
-    let changed = |case: &Case, (name, change): &Change| {
-        let mut case = case.clone();
+/// How many ways there are of each choice.
+fn sizes() -> Vec<usize> {
+    axes().iter().map(Vec::len).collect()
+}
+
+/// These combinations of what can be chosen together, and all of what is chosen alone.
+fn cases(combinations: &[Vec<usize>]) -> Vec<Case> {
+    let changed = |mut case: Case, (name, change): &Change| {
         change(&mut case);
         case.name = format!("{} {name}", case.name);
         case
     };
-    let combined = |cases: Vec<Case>, axis: Vec<Change>| -> Vec<Case> {
-        cases
-            .iter()
-            .flat_map(|case| axis.iter().map(|change| changed(case, change)))
-            .collect()
-    };
-    let together = axes().into_iter().fold(vec![Case::default()], combined);
-    let mut cases: Vec<Case> = together.into_iter().step_by(every).collect();
-    cases.extend(ALONE.iter().map(|change| changed(&Case::default(), change)));
-    cases
+    let axes = axes();
+    let together = combinations.iter().map(|ways| {
+        let chosen = axes.iter().zip(ways).map(|(axis, &way)| &axis[way]);
+        chosen.fold(Case::default(), changed)
+    });
+    let alone = ALONE.iter().map(|change| changed(Case::default(), change));
+    together.chain(alone).collect()
 }
 
 /// FNV-1a, 64 bits, over the bytes of each number, least first.
@@ -446,31 +446,28 @@ fn hash<S: Scalar>(
     (fnv.0, count)
 }
 
-/// One case in so many is tried where each takes long, unless all are asked for.
-const ONE_IN: usize = 5;
-
-fn one_in() -> usize {
-    if is_thorough() { 1 } else { ONE_IN }
-}
-
-/// Asks in one case of so many, and compares with what is committed. Two threads share the cases: the longest test is not left alone at
-/// the end.
-fn are_the_committed_ones<T: PartialEq + Debug + Sync>(
-    (name, committed): (&str, T),
-    every: usize,
+/// Asks in every case that is tried, and compares with what is committed.
+fn are_the_committed_ones<T: PartialEq + Debug + Send>(
+    name: &str,
+    committed: T,
     narrow: impl Fn(&Case, &Scene, &[Shapes]) -> T + Sync,
     wide: impl Fn(&Case, &Scene, &[Shapes]) -> T + Sync,
-) -> Result<(), String> {
+) {
     let of_scene = COMMITTED.iter().find(|scene| scene.0 == name);
     let &(_, triangles, steps, ..) = of_scene.unwrap();
     let scene = Scene::new(name, Some(triangles), Scene::DEFAULT_SEED).unwrap();
     let steps: Vec<Shapes> = steps.iter().map(|&step| shapes(&scene, step)).collect();
-    let check = |case: &Case| {
+    let tried = if is_thorough() {
+        combinations(&sizes())
+    } else {
+        covering(&sizes())
+    };
+    for case in cases(&tried) {
         let ask = || {
             if case.doubles {
-                wide(case, &scene, &steps)
+                wide(&case, &scene, &steps)
             } else {
-                narrow(case, &scene, &steps)
+                narrow(&case, &scene, &steps)
             }
         };
         let found = if case.flushed {
@@ -479,66 +476,62 @@ fn are_the_committed_ones<T: PartialEq + Debug + Sync>(
         } else {
             ask()
         };
-        if found != committed {
-            return Err(format!("{name},{}: {found:#x?}", case.name));
-        }
-        Ok(())
+        assert!(found == committed, "{name},{}: {found:#x?}", case.name);
+    }
+}
+
+/// Tests that compare what is found in a scene with what is committed: one a scene, so that all cores have work to the end.
+macro_rules! of_each_scene {
+    ($($test:ident: $committed:ident, $hash:ident;)*) => {
+        $(of_each_scene! { $test: $committed, $hash; spheres crowd arms gather cloth })*
     };
-    let cases = cases(every);
-    let (first, second) = cases.split_at(cases.len() / 2);
-    std::thread::scope(|scope| {
-        let first = scope.spawn(|| first.iter().try_for_each(check));
-        let second = second.iter().try_for_each(check);
-        first.join().unwrap().and(second)
-    })
+    ($test:ident: $committed:ident, $hash:ident; $($scene:ident)*) => {
+        mod $test {
+            $(#[test]
+            fn $scene() {
+                let name = stringify!($scene);
+                let committed = super::$committed(name);
+                super::are_the_committed_ones(
+                    name,
+                    committed,
+                    |case, scene, steps| super::$hash(case, scene, steps, |x| x),
+                    |case, scene, steps| super::$hash(case, scene, steps, f64::from),
+                );
+            })*
+
+            #[test]
+            fn every_scene_has_a_test() {
+                let names = super::COMMITTED.map(|scene| scene.0);
+                assert_eq!(names, [$(stringify!($scene)),*]);
+            }
+        }
+    };
 }
 
-#[test]
-fn pairs_are_the_committed_ones_in_every_case() {
-    let wrong = COMMITTED.map(|(name, _, _, hash_committed, count)| {
-        let narrow = |case: &Case, scene: &Scene, steps: &[Shapes]| hash(case, scene, steps, |x| x);
-        let wide =
-            |case: &Case, scene: &Scene, steps: &[Shapes]| hash(case, scene, steps, f64::from);
-        are_the_committed_ones((name, (hash_committed, count)), 1, narrow, wide)
-    });
-    assert_eq!(wrong, COMMITTED.map(|_| Ok(())));
+of_each_scene! {
+    pairs_are_the_committed_ones: committed_pairs, hash;
+    what_is_near_is_the_committed: committed_near, near_hash;
+    what_is_close_is_the_committed_with_all_figures: committed_close, close_hash;
+    what_meets_is_the_committed: committed_meeting, meet_hash;
 }
 
-#[test]
-fn what_is_near_is_the_committed() {
-    let wrong = NEAR.map(|(name, hash_committed, count)| {
-        let narrow =
-            |case: &Case, scene: &Scene, steps: &[Shapes]| near_hash(case, scene, steps, |x| x);
-        let wide =
-            |case: &Case, scene: &Scene, steps: &[Shapes]| near_hash(case, scene, steps, f64::from);
-        are_the_committed_ones((name, (hash_committed, count)), one_in(), narrow, wide)
-    });
-    assert_eq!(wrong, NEAR.map(|_| Ok(())));
+fn committed_pairs(name: &str) -> (u64, usize) {
+    let scene = COMMITTED.iter().find(|scene| scene.0 == name).unwrap();
+    (scene.3, scene.4)
 }
 
-#[test]
-fn what_is_close_is_the_committed_with_all_figures() {
-    let wrong = CLOSE.map(|committed| {
-        let narrow =
-            |case: &Case, scene: &Scene, steps: &[Shapes]| close_hash(case, scene, steps, |x| x);
-        let wide = |case: &Case, scene: &Scene, steps: &[Shapes]| {
-            close_hash(case, scene, steps, f64::from)
-        };
-        are_the_committed_ones(committed, one_in(), narrow, wide)
-    });
-    assert_eq!(wrong, CLOSE.map(|_| Ok(())));
+fn committed_near(name: &str) -> (u64, usize) {
+    let scene = NEAR.iter().find(|scene| scene.0 == name).unwrap();
+    (scene.1, scene.2)
 }
 
-#[test]
-fn what_meets_is_the_committed() {
-    let wrong = MEET.map(|(name, hash_committed, count)| {
-        let narrow =
-            |case: &Case, scene: &Scene, steps: &[Shapes]| meet_hash(case, scene, steps, |x| x);
-        let wide =
-            |case: &Case, scene: &Scene, steps: &[Shapes]| meet_hash(case, scene, steps, f64::from);
-        are_the_committed_ones((name, (hash_committed, count)), one_in(), narrow, wide)
-    });
-    assert_eq!(wrong, MEET.map(|_| Ok(())));
+fn committed_close(name: &str) -> (u64, usize, u64) {
+    CLOSE.iter().find(|scene| scene.0 == name).unwrap().1
+}
+
+fn committed_meeting(name: &str) -> (u64, usize) {
+    let scene = MEET.iter().find(|scene| scene.0 == name).unwrap();
+    (scene.1, scene.2)
 }
 
 /// What no tree has touched; the scenes of many bodies take too long for it.
@@ -683,12 +676,10 @@ fn the_committed_close_pairs_are_those_of_the_reference() {
 
 #[test]
 fn a_case_is_every_combination() {
-    let some = cases(ONE_IN);
-    for (choice, _) in axes().into_iter().flatten().chain(ALONE) {
-        let has_it = |case: &Case| format!("{} ", case.name).contains(&format!(" {choice} "));
-        assert!(some.iter().any(has_it), "{choice}");
-    }
-    let cases = cases(1);
+    let some = covering(&sizes());
+    assert!(covers_every_pair(&sizes(), &some));
+    assert_eq!(cases(&some).len(), some.len() + ALONE.len());
+    let cases = cases(&combinations(&sizes()));
     assert_eq!(cases.len(), 3 * 4 * 4 * 3 * 2 + ALONE.len());
     let named = |name: &str| cases.iter().filter(|c| c.name.contains(name)).count();
     assert_eq!((named("f64"), named("degree 4")), (148, 96));

@@ -335,17 +335,25 @@ fn live<S: Scalar>(options: Options, seed: u32, from_f64: fn(f64) -> S) {
     }
 }
 
-#[test]
-fn every_configuration_gives_the_impacts_of_the_reference() {
+fn lives<S: Scalar>(first_seed: u64, of: fn(f64) -> S) {
     let configurations: Vec<Options> = every_configuration();
-    for seed in 0..40 {
-        let mut options = configurations[seed as usize * 7 % configurations.len()];
-        if seed % 4 == 3 {
+    for life in 0..40 {
+        let mut options = configurations[life as usize * 7 % configurations.len()];
+        if life % 4 == 3 {
             options.threads = NonZeroUsize::new(3).unwrap();
         }
-        live::<f64>(options, seed, |x| x);
-        live::<f32>(options, seed + 1000, |x| x as f32);
+        live::<S>(options, first_seed + life, of);
     }
+}
+
+#[test]
+fn every_configuration_gives_the_impacts_of_the_reference_f32() {
+    lives::<f32>(1000, |x| x as f32);
+}
+
+#[test]
+fn every_configuration_gives_the_impacts_of_the_reference_f64() {
+    lives::<f64>(0, |x| x);
 }
 
 /// Points of a triangle and a vertex above it, closer and closer.

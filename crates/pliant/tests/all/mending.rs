@@ -98,39 +98,60 @@ fn scene(name: &str, size: usize) -> ChangingScene {
     ChangingScene::new(name, Some(size), ChangingScene::DEFAULT_SEED).unwrap()
 }
 
-#[test]
-fn mended_worlds_answer_like_others() {
-    let all = every_configuration();
-    for (place, name) in (0..).zip(ChangingScene::NAMES) {
-        let size = match name {
-            "tear" => 2 * 30 * 30,
-            "shuffle" => 8 * 1024,
-            _ => 1280,
-        };
-        let scene = scene(name, size);
-        let mut options = all[17 * place % all.len()];
-        let mut plain = Player::new(&scene, options);
-        options.mending = true;
-        let mut mended = Player::new(&scene, options);
-        let mut default = Options::default();
-        default.mending = true;
-        let mut default = Player::new(&scene, default);
-        let mut exchanged = 0;
-        let mut revision = 0;
-        for step in 1..=scene.steps().min(220) {
-            let expected = plain.step(&scene, step);
-            assert_eq!(mended.step(&scene, step), expected, "{name}, {step}");
-            assert_eq!(default.step(&scene, step), expected, "{name}, {step}");
-            if step % 20 == 0 {
-                mended.world.validate().unwrap();
-                default.world.validate().unwrap();
+/// A module of tests, one a scene, so that all cores have work to the end.
+macro_rules! of_each_scene {
+    ($check:ident) => {
+        of_each_scene! { $check: cut tear fuse shuffle remesh }
+    };
+    ($check:ident: $($scene:ident)*) => {
+        mod $check {
+            $(#[test]
+            fn $scene() {
+                super::$check(stringify!($scene));
+            })*
+
+            #[test]
+            fn every_scene_has_a_test() {
+                assert_eq!(super::ChangingScene::NAMES, [$(stringify!($scene)),*]);
             }
-            let now = default.world.mesh_revision(default.ids[0]).unwrap();
-            exchanged += u32::from(now != revision && scene.events(step).is_empty());
-            revision = now;
         }
-        assert!(name != "shuffle" || exchanged > 0);
+    };
+}
+
+of_each_scene!(mended_worlds_answer_like_others);
+
+fn mended_worlds_answer_like_others(name: &str) {
+    let all = every_configuration();
+    let place = ChangingScene::NAMES.iter().position(|it| *it == name);
+    let place = place.unwrap();
+    let size = match name {
+        "tear" => 2 * 30 * 30,
+        "shuffle" => 8 * 1024,
+        _ => 1280,
+    };
+    let scene = scene(name, size);
+    let mut options = all[17 * place % all.len()];
+    let mut plain = Player::new(&scene, options);
+    options.mending = true;
+    let mut mended = Player::new(&scene, options);
+    let mut default = Options::default();
+    default.mending = true;
+    let mut default = Player::new(&scene, default);
+    let mut exchanged = 0;
+    let mut revision = 0;
+    for step in 1..=scene.steps().min(220) {
+        let expected = plain.step(&scene, step);
+        assert_eq!(mended.step(&scene, step), expected, "{name}, {step}");
+        assert_eq!(default.step(&scene, step), expected, "{name}, {step}");
+        if step % 20 == 0 {
+            mended.world.validate().unwrap();
+            default.world.validate().unwrap();
+        }
+        let now = default.world.mesh_revision(default.ids[0]).unwrap();
+        exchanged += u32::from(now != revision && scene.events(step).is_empty());
+        revision = now;
     }
+    assert!(name != "shuffle" || exchanged > 0);
 }
 
 /// A body that is given other meshes while its tree is being built: with fewer triangles, and with more again.
@@ -160,20 +181,17 @@ fn meshes_may_change_while_a_tree_is_built() {
     }
 }
 
-/// Triangles and vertices come and go at every step while trees are built and exchanged; edges keep their numbers. In as many lives as
-/// `LIVES` says, in other configurations.
-#[test]
-fn edits_go_on_while_a_tree_is_built() {
+/// Triangles and vertices come and go at every step while trees are built and exchanged; edges keep their numbers. In as many lives
+/// as `LIVES` says, or one, each in another configuration.
+fn edits_go_on(partition: Partition, first_seed: u64) {
     let scene = scene("shuffle", 8 * 1024);
-    let lives: usize = std::env::var("LIVES").map_or(3, |lives| lives.parse().unwrap());
-    let partitions = [Partition::Balanced, Partition::Centre, Partition::Mean];
+    let lives: usize = std::env::var("LIVES").map_or(1, |lives| lives.parse().unwrap());
     let mut exchanged = 0;
     for life in 0..lives {
-        let partition = partitions[life % 3];
         let of_kind = every_configuration().into_iter();
         let mut of_kind = of_kind.filter(|it| it.partition == partition).cycle();
-        let mut options = of_kind.nth(life / 3).unwrap();
-        let mut random = Lcg(life as u64);
+        let mut options = of_kind.nth(life).unwrap();
+        let mut random = Lcg(first_seed + 3 * life as u64);
         let mut plain = World::<f32>::with_options(options);
         options.mending = true;
         let mut mended = World::<f32>::with_options(options);
@@ -258,6 +276,21 @@ fn edits_go_on_while_a_tree_is_built() {
     assert!(exchanged > 2 * lives as u64);
 }
 
+#[test]
+fn edits_go_on_while_a_balanced_tree_is_built() {
+    edits_go_on(Partition::Balanced, 0);
+}
+
+#[test]
+fn edits_go_on_while_a_tree_cut_at_the_centre_is_built() {
+    edits_go_on(Partition::Centre, 1);
+}
+
+#[test]
+fn edits_go_on_while_a_tree_cut_at_the_mean_is_built() {
+    edits_go_on(Partition::Mean, 2);
+}
+
 /// Pairs of nodes, all counted.
 fn node_pairs(player: &Player) -> u64 {
     player.world.statistics().node_pairs
@@ -290,37 +323,36 @@ fn a_mended_tree_does_little_more_than_a_fresh_one() {
     assert!(sums[0] > 5 * sums[2] && sums[1] < 2 * sums[2], "{sums:?}");
 }
 
+of_each_scene!(decay_is_said_within_a_quarter_of_what_is_measured);
+
 /// Of the scenes at their own size: on smaller ones candidates are most of what there is.
-#[test]
-fn decay_is_said_within_a_quarter_of_what_is_measured() {
+fn decay_is_said_within_a_quarter_of_what_is_measured(name: &str) {
     let every = if is_thorough() { 20 } else { 60 };
-    for name in ChangingScene::NAMES {
-        let scene = ChangingScene::new(name, None, ChangingScene::DEFAULT_SEED).unwrap();
-        let mut plain = Player::new(&scene, Options::default());
-        let mut fresh = Player::new(&scene, Options::default());
-        for step in 1..=scene.steps() {
-            let is_looked_at = step % every == 1;
-            if !is_looked_at && scene.events(step).is_empty() {
-                continue;
-            }
-            let pairs = plain.step(&scene, step);
-            fresh.step(&scene, step);
-            if !is_looked_at {
-                continue;
-            }
-            for &id in &fresh.ids {
-                // A body that another took in is no more.
-                let _ = fresh.world.rebuild(id);
-            }
-            let found = fresh.world.intersections(Selection::Everything).all();
-            assert_eq!(found.unwrap(), pairs);
-            let measured = node_pairs(&plain) as f64 / node_pairs(&fresh) as f64;
-            let ids = plain.ids.iter();
-            let said = ids.filter_map(|&id| plain.world.tree_quality(id).ok());
-            for said in said {
-                println!("{name}, {step}: {measured:.2} times, said to be {said:.2}");
-                assert!((said / measured - 1.0).abs() < 0.25);
-            }
+    let scene = ChangingScene::new(name, None, ChangingScene::DEFAULT_SEED).unwrap();
+    let mut plain = Player::new(&scene, Options::default());
+    let mut fresh = Player::new(&scene, Options::default());
+    for step in 1..=scene.steps() {
+        let is_looked_at = step % every == 1;
+        if !is_looked_at && scene.events(step).is_empty() {
+            continue;
+        }
+        let pairs = plain.step(&scene, step);
+        fresh.step(&scene, step);
+        if !is_looked_at {
+            continue;
+        }
+        for &id in &fresh.ids {
+            // A body that another took in is no more.
+            let _ = fresh.world.rebuild(id);
+        }
+        let found = fresh.world.intersections(Selection::Everything).all();
+        assert_eq!(found.unwrap(), pairs);
+        let measured = node_pairs(&plain) as f64 / node_pairs(&fresh) as f64;
+        let ids = plain.ids.iter();
+        let said = ids.filter_map(|&id| plain.world.tree_quality(id).ok());
+        for said in said {
+            println!("{name}, {step}: {measured:.2} times, said to be {said:.2}");
+            assert!((said / measured - 1.0).abs() < 0.25);
         }
     }
 }

@@ -5,6 +5,7 @@
 use pliant::{
     BodyId, BroadPhase, Degree, Options, Pair, Partition, Scalar, Selection, Update, World,
 };
+use std::collections::BTreeSet;
 use std::num::NonZeroU32;
 
 /// How much of something long a test goes through: all of it if the environment variable THOROUGH is set, else one part in so many.
@@ -24,46 +25,113 @@ pub(crate) struct Motion {
     pub(crate) frames: Vec<Vec<[f32; 3]>>,
 }
 
-/// Every degree, partition, leaf size, update and broad phase.
-pub(crate) fn every_configuration() -> Vec<Options> {
+/// How many values each choice has that a configuration is made of: degree, partition, leaf size, update, broad phase.
+pub(crate) const CHOICES: [usize; 5] = [3, 4, 4, 6, 3];
+
+/// The configuration with these values of the five choices.
+fn configuration(values: &[usize]) -> Options {
+    let &[degree, partition, leaf_size, update, broad_phase] = values else {
+        panic!("five choices")
+    };
     let hybrid = |level, at_once| Update::Hybrid {
         level,
         levels_at_once: NonZeroU32::new(at_once).unwrap(),
     };
-    let mut all = Vec::new();
-    for degree in [Degree::Two, Degree::Four, Degree::Eight] {
-        for partition in [
-            Partition::Centre,
-            Partition::Mean,
-            Partition::Balanced,
-            Partition::Connectivity,
-        ] {
-            for leaf_size in [1, 3, 8, 20] {
-                for update in [
-                    Update::BottomUp,
-                    Update::TopDown,
-                    Update::HYBRID,
-                    hybrid(Some(1), 2),
-                    hybrid(Some(99), 1),
-                    hybrid(None, 9),
-                ] {
-                    // Sweep and prune and the tree take turns: what they find does not depend on the rest.
-                    let turn = all.len() / 2 % 2;
-                    let another = [BroadPhase::SweepAndPrune, BroadPhase::Tree][turn];
-                    for broad_phase in [BroadPhase::BruteForce, another] {
-                        let mut options = Options::default();
-                        options.degree = degree;
-                        options.partition = partition;
-                        options.leaf_size = NonZeroU32::new(leaf_size).unwrap();
-                        options.update = update;
-                        options.broad_phase = broad_phase;
-                        all.push(options);
-                    }
-                }
-            }
-        }
+    let mut options = Options::default();
+    options.degree = [Degree::Two, Degree::Four, Degree::Eight][degree];
+    options.partition = [
+        Partition::Centre,
+        Partition::Mean,
+        Partition::Balanced,
+        Partition::Connectivity,
+    ][partition];
+    options.leaf_size = NonZeroU32::new([1, 3, 8, 20][leaf_size]).unwrap();
+    options.update = [
+        Update::BottomUp,
+        Update::TopDown,
+        Update::HYBRID,
+        hybrid(Some(1), 2),
+        hybrid(Some(99), 1),
+        hybrid(None, 9),
+    ][update];
+    options.broad_phase = [
+        BroadPhase::BruteForce,
+        BroadPhase::SweepAndPrune,
+        BroadPhase::Tree,
+    ][broad_phase];
+    options
+}
+
+/// Every degree, partition, leaf size and update, each with brute force and with another broad phase.
+pub(crate) fn every_configuration() -> Vec<Options> {
+    let with_two = |(place, values): (usize, Vec<usize>)| {
+        // Sweep and prune and the tree take turns: what they find does not depend on the rest.
+        [0, 1 + place % 2].map(|broad_phase| configuration(&[&values[..], &[broad_phase]].concat()))
+    };
+    let combinations = combinations(&CHOICES[..4]).into_iter().enumerate();
+    combinations.flat_map(with_two).collect()
+}
+
+/// Some configurations, in which every pair of values of two choices occurs; or every one there is, if tests are thorough.
+pub(crate) fn covering_configurations() -> Vec<Options> {
+    if is_thorough() {
+        return every_configuration();
     }
-    all
+    let covering = covering(&CHOICES).into_iter();
+    covering.map(|values| configuration(&values)).collect()
+}
+
+/// All combinations of a value of each choice, the last of which changes fastest.
+pub(crate) fn combinations(choices: &[usize]) -> Vec<Vec<usize>> {
+    let combination = |mut number: usize| {
+        let mut values = vec![0; choices.len()];
+        for (value, size) in values.iter_mut().zip(choices).rev() {
+            *value = number % size;
+            number /= size;
+        }
+        values
+    };
+    (0..choices.iter().product()).map(combination).collect()
+}
+
+/// Pairs of values that a combination has: of which two choices, and which values.
+pub(crate) fn value_pairs(values: &[usize]) -> impl Iterator<Item = [usize; 4]> {
+    let two = (0..values.len()).flat_map(move |a| (a + 1..values.len()).map(move |b| [a, b]));
+    two.map(|[a, b]| [a, b, values[a], values[b]])
+}
+
+/// A covering array: a few combinations, in which every two choices have every pair of their values.
+///
+/// Most faults show with one value or with two together (Kuhn, Wallace and Gallo 2004). Each combination is one
+/// that has the most of the pairs that are missing still.
+pub(crate) fn covering(choices: &[usize]) -> Vec<Vec<usize>> {
+    let all = combinations(choices);
+    let mut missing: BTreeSet<[usize; 4]> = all.iter().flat_map(|it| value_pairs(it)).collect();
+    let mut chosen = Vec::new();
+    while !missing.is_empty() {
+        let has_missing = |values: &&Vec<usize>| {
+            let pairs = value_pairs(values);
+            pairs.filter(|pair| missing.contains(pair)).count()
+        };
+        let best = all.iter().rev().max_by_key(has_missing).unwrap();
+        for pair in value_pairs(best) {
+            missing.remove(&pair);
+        }
+        chosen.push(best.clone());
+    }
+    chosen
+}
+
+/// Whether every two of these choices have every pair of their values among the combinations.
+pub(crate) fn covers_every_pair(choices: &[usize], combinations: &[Vec<usize>]) -> bool {
+    let sizes = choices.iter().enumerate();
+    let mut two = sizes
+        .clone()
+        .flat_map(|a| sizes.clone().skip(a.0 + 1).map(move |b| [a, b]));
+    two.all(|[(a, &of_a), (b, &of_b)]| {
+        let mut pairs = (0..of_a).flat_map(|i| (0..of_b).map(move |j| [i, j]));
+        pairs.all(|pair| combinations.iter().any(|it| [it[a], it[b]] == pair))
+    })
 }
 
 /// The same values, exactly.

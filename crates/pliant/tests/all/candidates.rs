@@ -580,7 +580,13 @@ fn every_list_is_that_of_the_reference_far_away_with_threads() {
 }
 
 #[test]
-fn coordinates_as_large_and_as_small_as_there_are() {
+fn coordinates_as_small_as_there_are() {
+    lives::<f64>(230..245, (1, 6), 0.0, |x| x * 1e-300, |x| x);
+    lives::<f32>(245..260, (1, 6), 0.0, |x| (x * 1e-41) as f32, |x| x as f32);
+}
+
+#[test]
+fn coordinates_as_large_as_there_are() {
     lives::<f64>(
         200..215,
         (1, 6),
@@ -595,8 +601,6 @@ fn coordinates_as_large_and_as_small_as_there_are() {
         |x| (x * 1e37).clamp(-3e38, 3e38) as f32,
         |x| x as f32,
     );
-    lives::<f64>(230..245, (1, 6), 0.0, |x| x * 1e-300, |x| x);
-    lives::<f32>(245..260, (1, 6), 0.0, |x| (x * 1e-41) as f32, |x| x as f32);
     lives::<f64>(
         260..275,
         (1, 6),

@@ -1,7 +1,7 @@
 //! Impacts: every configuration gives those of the plain reference, with the same intervals, in lives of worlds; the first is the exactly
 //! earliest; steps that are free of collision are, and are long enough.
 
-use crate::common::{Lcg, every_configuration, sheet};
+use crate::common::{Lcg, every_configuration, share, sheet};
 use pliant::reference::{self, Moving};
 use pliant::{
     BodyId, EdgeEdge, EdgeEdgeImpact, ErrorKind, Impact, Options, Scalar, Selection,
@@ -335,9 +335,9 @@ fn live<S: Scalar>(options: Options, seed: u32, from_f64: fn(f64) -> S) {
     }
 }
 
-fn lives<S: Scalar>(first_seed: u64, of: fn(f64) -> S) {
+fn lives<S: Scalar>(first_seed: u32, of: fn(f64) -> S) {
     let configurations: Vec<Options> = every_configuration();
-    for life in 0..40 {
+    for life in 0..share(40, 2) as u32 {
         let mut options = configurations[life as usize * 7 % configurations.len()];
         if life % 4 == 3 {
             options.threads = NonZeroUsize::new(3).unwrap();

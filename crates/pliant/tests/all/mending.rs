@@ -167,7 +167,7 @@ fn meshes_may_change_while_a_tree_is_built() {
     let id = plain.add(triangles, &first).unwrap();
     mended.add(triangles, &first).unwrap();
     let mut positions = Vec::new();
-    for step in 1..=scene.steps() / 2 {
+    for step in 1..=scene.steps() / if is_thorough() { 2 } else { 4 } {
         scene.positions(0, step, &mut positions);
         let count = triangles.len() - 7 * (step % 3) as usize;
         for world in [&mut plain, &mut mended] {
@@ -298,7 +298,7 @@ fn node_pairs(player: &Player) -> u64 {
 
 #[test]
 fn a_mended_tree_does_little_more_than_a_fresh_one() {
-    let scene = scene("shuffle", 20 * 1024);
+    let scene = scene("shuffle", if is_thorough() { 20 } else { 8 } * 1024);
     let mut options = Options::default();
     let mut plain = Player::new(&scene, options);
     options.mending = true;

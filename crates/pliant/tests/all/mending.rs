@@ -296,31 +296,48 @@ fn node_pairs(player: &Player) -> u64 {
     player.world.statistics().node_pairs
 }
 
+/// On a smaller scene trees decay less.
 #[test]
 fn a_mended_tree_does_little_more_than_a_fresh_one() {
-    let scene = scene("shuffle", if is_thorough() { 20 } else { 8 } * 1024);
+    let scene = scene("shuffle", 20 * 1024);
     let mut options = Options::default();
     let mut plain = Player::new(&scene, options);
     options.mending = true;
     let mut mended = Player::new(&scene, options);
-    let mut moved = Player::new(&scene, options);
-    moved.is_moved = true;
     let mut fresh = Player::new(&scene, options);
+    let every = if is_thorough() { 1 } else { 2 };
     let mut sums = [0; 3];
     for step in 1..=scene.steps() {
-        plain.step(&scene, step);
         mended.step(&scene, step);
-        moved.step(&scene, step);
+        if step % every > 0 {
+            // What the others do at a step does not depend on those before.
+            continue;
+        }
+        plain.step(&scene, step);
         fresh.world.rebuild(fresh.ids[0]).unwrap();
         fresh.step(&scene, step);
         let work = [&plain, &mended, &fresh].map(node_pairs);
-        assert_eq!(node_pairs(&moved), work[1], "step {step}");
         for (sum, work) in sums.iter_mut().zip(work) {
             *sum += work;
         }
     }
     println!("pairs of nodes, plain, mended and fresh: {sums:?}");
     assert!(sums[0] > 5 * sums[2] && sums[1] < 2 * sums[2], "{sums:?}");
+}
+
+#[test]
+fn a_mended_tree_does_the_same_where_shapes_are_ends_of_motions() {
+    let scene = scene("shuffle", if is_thorough() { 20 } else { 8 } * 1024);
+    let mut options = Options::default();
+    options.mending = true;
+    let mut mended = Player::new(&scene, options);
+    let mut moved = Player::new(&scene, options);
+    moved.is_moved = true;
+    for step in 1..=scene.steps() {
+        mended.step(&scene, step);
+        moved.step(&scene, step);
+        assert_eq!(node_pairs(&moved), node_pairs(&mended), "step {step}");
+    }
 }
 
 of_each_scene!(decay_is_said_within_a_quarter_of_what_is_measured);

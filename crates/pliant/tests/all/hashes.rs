@@ -449,7 +449,7 @@ fn hash<S: Scalar>(
 /// Asks in every case that is tried, and compares with what is committed.
 fn are_the_committed_ones<T: PartialEq + Debug + Send>(
     name: &str,
-    committed: T,
+    committed: &T,
     narrow: impl Fn(&Case, &Scene, &[Shapes]) -> T + Sync,
     wide: impl Fn(&Case, &Scene, &[Shapes]) -> T + Sync,
 ) {
@@ -476,7 +476,7 @@ fn are_the_committed_ones<T: PartialEq + Debug + Send>(
         } else {
             ask()
         };
-        assert!(found == committed, "{name},{}: {found:#x?}", case.name);
+        assert!(found == *committed, "{name},{}: {found:#x?}", case.name);
     }
 }
 
@@ -493,7 +493,7 @@ macro_rules! of_each_scene {
                 let committed = super::$committed(name);
                 super::are_the_committed_ones(
                     name,
-                    committed,
+                    &committed,
                     |case, scene, steps| super::$hash(case, scene, steps, |x| x),
                     |case, scene, steps| super::$hash(case, scene, steps, f64::from),
                 );

@@ -239,6 +239,7 @@ impl ContestRecord {
 
     /// The fastest of some peers over a window, and how many times faster `ours` is; none if all
     /// are missing.
+    #[cfg(feature = "peers")]
     pub(crate) fn fastest<'a>(
         &self,
         ours: &str,

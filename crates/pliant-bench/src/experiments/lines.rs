@@ -49,6 +49,7 @@ impl<Q> Line<Q> {
     }
 
     /// The same at other steps.
+    #[cfg(feature = "peers")]
     pub(super) fn at(self, steps: impl IntoIterator<Item = u32>) -> Self {
         Self {
             steps: steps.into_iter().collect(),
@@ -57,6 +58,7 @@ impl<Q> Line<Q> {
     }
 
     /// The same with so many triangles a body in full form.
+    #[cfg(feature = "peers")]
     pub(super) fn of(self, triangles: usize) -> Self {
         Self {
             triangles: [triangles, self.triangles[1]],

@@ -34,8 +34,63 @@ pub(crate) fn entries<T>(count: usize) -> usize {
     count * size_of::<T>() * 3 / 2
 }
 
+/// Bytes of a list of plain things; the compiler sees that they hold none.
+pub(crate) fn plain<T>(things: &Vec<T>) -> usize {
+    const { assert!(!std::mem::needs_drop::<T>(), "these hold memory") };
+    list(things)
+}
+
+/// Implements `Held` for a type: the sum over those of its fields that hold memory.
+///
+/// A field with `[]` behind it is a list of plain things; any other is `Held` itself. What no field says is a closure at the end.
+macro_rules! held {
+    (@$this:ident $field:tt []) => {
+        $crate::held::plain(&$this.$field)
+    };
+    (@$this:ident $field:tt) => {
+        $crate::held::Held::held(&$this.$field)
+    };
+    (
+        $name:ident $(<$parameter:ident>)?:
+        $($field:tt $([$($nothing:tt)?])?),+ $(; |$it:ident| $more:expr)?
+    ) => {
+        impl $(<$parameter>)? $crate::held::Held for $name $(<$parameter>)? {
+            fn held(&self) -> usize {
+                let this = self;
+                $(let $it = self;)?
+                0 $(+ $crate::held::held!(@this $field $([$($nothing)?])?))+ $(+ $more)?
+            }
+        }
+    };
+}
+pub(crate) use held;
+
 impl Held for () {
     fn held(&self) -> usize {
         0
+    }
+}
+
+impl<T: Held> Held for Option<T> {
+    fn held(&self) -> usize {
+        within(self)
+    }
+}
+
+impl<T: Held> Held for Box<T> {
+    fn held(&self) -> usize {
+        boxes([self])
+    }
+}
+
+impl<T: Held> Held for Vec<T> {
+    fn held(&self) -> usize {
+        lists(self)
+    }
+}
+
+impl<T: Held, const N: usize> Held for [T; N] {
+    fn held(&self) -> usize {
+        within(self)
     }
 }

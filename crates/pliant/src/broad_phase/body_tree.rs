@@ -11,7 +11,7 @@
 
 use super::Overlap;
 use crate::geometry::{Aabb, Bounds};
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::Rank;
 use crate::kernels::{BoxLanes, Instructions, dispatch};
 
@@ -176,12 +176,5 @@ fn cut_in_halves(bodies: &mut [Rank], child: usize, centres: &[[f32; 3]]) {
     cut_in_halves(high, child, centres);
 }
 
-impl Held for BodyTree {
-    fn held(&self) -> usize {
-        held::list(&self.order)
-            + held::list(&self.levels)
-            + self.levels.iter().map(held::list).sum::<usize>()
-            + held::list(&self.open)
-            + held::list(&self.centres)
-    }
-}
+held!(BodyTree: order[], open[], centres[]; |tree| held::list(&tree.levels)
+    + tree.levels.iter().map(held::list).sum::<usize>());

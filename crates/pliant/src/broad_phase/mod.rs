@@ -9,7 +9,7 @@ mod brute_force;
 mod sweep_and_prune;
 
 use crate::geometry::Aabb;
-use crate::held::Held;
+use crate::held::held;
 use crate::ids::Rank;
 use crate::kernels::Instructions;
 use crate::threads::Interrupt;
@@ -114,11 +114,7 @@ impl BroadPhase {
     }
 }
 
-impl Held for BroadPhase {
-    fn held(&self) -> usize {
-        self.sweep.held() + self.tree.held()
-    }
-}
+held!(BroadPhase: sweep, tree);
 
 #[cfg(test)]
 mod tests {

@@ -18,7 +18,7 @@
 
 use super::Overlap;
 use crate::geometry::Aabb;
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::Rank;
 use crate::threads::Interrupt;
 use std::cmp::Ordering;
@@ -334,15 +334,8 @@ fn interval_overlaps(ends: &[End]) -> usize {
     overlaps
 }
 
-impl Held for SweepAndPrune {
-    fn held(&self) -> usize {
-        let pairs = [&self.pairs, &self.new, &self.gone, &self.next];
-        self.axes.iter().map(held::list).sum::<usize>()
-            + pairs.map(held::list).iter().sum::<usize>()
-            + held::list(&self.listed_as)
-            + held::list(&self.open)
-    }
-}
+held!(SweepAndPrune: pairs[], new[], gone[], next[], listed_as[], open[];
+    |sweep| sweep.axes.iter().map(held::list).sum::<usize>());
 
 #[cfg(test)]
 mod tests {

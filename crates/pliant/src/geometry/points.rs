@@ -1,7 +1,7 @@
 //! Points side by side in memory, laid out so that one is read as four numbers at once.
 
 use super::{Bounds, Real};
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::TreeVertex;
 
 /// Points in a row that have bounds of their own.
@@ -96,8 +96,4 @@ impl<S> Points<S> {
     }
 }
 
-impl<S> Held for Points<S> {
-    fn held(&self) -> usize {
-        held::list(&self.points) + held::list(&self.bounds)
-    }
-}
+held!(Points<S>: points[], bounds[]);

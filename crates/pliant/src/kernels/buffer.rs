@@ -3,22 +3,13 @@
 //! How many bits a mask has cannot be predicted, and a wrong guess costs as much as ten items. So items are written four at a
 //! time whether there are so many or not, none included, and the length is then set by the number of bits.
 
-use crate::held::{self, Held};
+use crate::held::held;
 
 /// A list with room for the items of one more mask behind its end.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Buffer<T> {
     items: Vec<T>,
     len: usize,
-}
-
-impl<T> Default for Buffer<T> {
-    fn default() -> Self {
-        Self {
-            items: Vec::new(),
-            len: 0,
-        }
-    }
 }
 
 /// The bits of a mask.
@@ -179,11 +170,7 @@ impl<T: Copy> Room<'_, T> {
     }
 }
 
-impl<T> Held for Buffer<T> {
-    fn held(&self) -> usize {
-        held::list(&self.items)
-    }
-}
+held!(Buffer<T>: items[]);
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,6 @@
 //! A set of numbers, a bit each.
 
-use crate::held::{self, Held};
+use crate::held::held;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bits {
@@ -53,11 +53,7 @@ impl Bits {
     }
 }
 
-impl Held for Bits {
-    fn held(&self) -> usize {
-        held::list(&self.words)
-    }
-}
+held!(Bits: words[]);
 
 #[cfg(test)]
 mod tests {

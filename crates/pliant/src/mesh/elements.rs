@@ -9,7 +9,7 @@
 mod follow;
 
 use super::{Order, Topology};
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
 pub(crate) use follow::Changed;
 use follow::EdgeIndex;
@@ -231,22 +231,8 @@ pub(super) fn edges_of(&[a, b, c]: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> 
     three.map(|[a, b]| [a.min(b), a.max(b)])
 }
 
-impl Held for Elements {
-    fn held(&self) -> usize {
-        held::list(&self.callers)
-            + held::list(&self.ends)
-            + held::list(&self.numbers)
-            + held::list(&self.firsts)
-            + self
-                .tree_vertices
-                .get()
-                .map_or(0, |all| size_of_val(&**all))
-            + self
-                .index
-                .as_ref()
-                .map_or(0, |index| size_of::<EdgeIndex>() + index.held())
-    }
-}
+held!(Elements: callers[], ends[], numbers[], firsts[], index;
+    |elements| elements.tree_vertices.get().map_or(0, |all| size_of_val(&**all)));
 
 #[cfg(test)]
 mod tests {

@@ -9,7 +9,7 @@
 //! triangles that were taken out have for a corner. It stands where some vertex does that is used, its alias.
 
 use super::{Bits, Topology};
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{CallerTriangle, CallerVertex, TreeTriangle, TreeVertex};
 use crate::threads::Budget;
 use std::ops::Range;
@@ -243,20 +243,9 @@ impl OrderBuilder {
     }
 }
 
-impl Held for OrderBuilder {
-    fn held(&self) -> usize {
-        self.order.held() + held::list(&self.tree_vertices)
-    }
-}
+held!(OrderBuilder: order, tree_vertices[]);
 
-impl Held for Order {
-    fn held(&self) -> usize {
-        held::list(&self.corners)
-            + held::list(&self.triangles)
-            + held::list(&self.vertices)
-            + self.orphans.held()
-    }
-}
+held!(Order: corners[], triangles[], vertices[], orphans);
 
 #[cfg(test)]
 mod tests {

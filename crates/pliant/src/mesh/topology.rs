@@ -3,7 +3,7 @@
 //! Numbers stay as they are: a triangle that is taken out leaves its number empty.
 
 use crate::ErrorKind;
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{CallerTriangle, CallerVertex};
 
 /// With more triangles than this, numbers of nodes would not fit 32 bits.
@@ -123,11 +123,7 @@ pub(crate) fn share_a_vertex<V: Copy + PartialEq>(a: [V; 3], b: [V; 3]) -> bool 
     shared
 }
 
-impl Held for Topology {
-    fn held(&self) -> usize {
-        held::list(&self.triangles)
-    }
-}
+held!(Topology: triangles[]);
 
 #[cfg(test)]
 mod tests {

@@ -2,7 +2,7 @@
 //! triangles at its corners.
 
 use super::topology::EMPTY;
-use crate::held::{self, Held};
+use crate::held::held;
 
 /// The end of a list.
 const END: u32 = u32::MAX;
@@ -76,11 +76,7 @@ impl TrianglesAt {
     }
 }
 
-impl Held for TrianglesAt {
-    fn held(&self) -> usize {
-        held::list(&self.first) + held::list(&self.next)
-    }
-}
+held!(TrianglesAt: first[], next[]);
 
 #[cfg(test)]
 mod tests {

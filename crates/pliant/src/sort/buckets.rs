@@ -9,7 +9,7 @@
 //!
 //! No two keys are equal: of equal ones some would be missing.
 
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::kernels::{Instructions, Simd, dispatch, ranks};
 use crate::threads::Executor;
 use std::ops::Range;
@@ -34,7 +34,7 @@ pub(super) struct Buckets {
     long: Lists<u64>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Lists<R> {
     /// The keys of a part by their buckets, as far as those do not say what they are.
     rests: Vec<R>,
@@ -44,7 +44,7 @@ struct Lists<R> {
     scratch: Vec<Scratch<R>>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Scratch<R> {
     /// A bucket of all parts.
     bucket: Vec<R>,
@@ -494,44 +494,11 @@ fn cut<'k, R, T>(
     scratch.iter_mut().enumerate().map(run).collect()
 }
 
-impl<R> Default for Lists<R> {
-    fn default() -> Self {
-        Self {
-            rests: Vec::new(),
-            ends: Vec::new(),
-            scratch: Vec::new(),
-        }
-    }
-}
+held!(Buckets: short, long);
 
-impl<R> Default for Scratch<R> {
-    fn default() -> Self {
-        Self {
-            bucket: Vec::new(),
-            bitmap: Vec::new(),
-            summary: Vec::new(),
-            inner: Vec::new(),
-        }
-    }
-}
+held!(Lists<R>: rests[], ends[], scratch);
 
-impl Held for Buckets {
-    fn held(&self) -> usize {
-        self.short.held() + self.long.held()
-    }
-}
-
-impl<R> Held for Lists<R> {
-    fn held(&self) -> usize {
-        held::list(&self.rests) + held::list(&self.ends) + held::lists(&self.scratch)
-    }
-}
-
-impl<R> Held for Scratch<R> {
-    fn held(&self) -> usize {
-        let inner = self.inner.iter();
-        let of_inner = inner.map(|(rests, ends)| held::list(rests) + held::list(ends));
-        let bitmaps = held::list(&self.bitmap) + held::list(&self.summary);
-        held::list(&self.bucket) + bitmaps + held::list(&self.inner) + of_inner.sum::<usize>()
-    }
-}
+held!(Scratch<R>: bucket[], bitmap[], summary[];
+    |scratch| held::list(&scratch.inner)
+        + scratch.inner.iter().map(|(rests, ends)| held::list(rests) + held::list(ends))
+            .sum::<usize>());

@@ -1,7 +1,7 @@
 //! What one thread has found, as keys: of so many bits as its largest numbers need; or as hits, where these are too many.
 
 use super::packing::Packing;
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::hits::Hit;
 
 /// Keys, or hits in place of them.
@@ -97,8 +97,4 @@ impl<T: Hit> Keys<T> {
     }
 }
 
-impl<T> Held for Keys<T> {
-    fn held(&self) -> usize {
-        held::list(&self.packed) + held::list(&self.hits)
-    }
-}
+held!(Keys<T>: packed[], hits[]);

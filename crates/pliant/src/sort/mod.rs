@@ -9,7 +9,7 @@ mod buckets;
 mod keys;
 mod packing;
 
-use crate::held::{self, Held};
+use crate::held::{Held, held};
 use crate::hits::{Hit, Numbered};
 use crate::kernels::Instructions;
 use crate::threads::{Executor, PerThread};
@@ -92,11 +92,7 @@ impl<T> Sorter<T> {
     }
 }
 
-impl<T> Held for Sorter<T> {
-    fn held(&self) -> usize {
-        held::list(&self.hits) + self.keys.held_by(Held::held) + self.buckets.held()
-    }
-}
+held!(Sorter<T>: hits[], buckets; |sorter| sorter.keys.held_by(Held::held));
 
 #[cfg(test)]
 mod tests {

@@ -5,15 +5,9 @@ use crate::held;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Things, one of which is each thread's own.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct PerThread<T> {
     things: Vec<Mutex<T>>,
-}
-
-impl<T> Default for PerThread<T> {
-    fn default() -> Self {
-        Self { things: Vec::new() }
-    }
 }
 
 impl<T: Default> PerThread<T> {

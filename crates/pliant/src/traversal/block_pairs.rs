@@ -4,7 +4,7 @@
 //! triangles those that share no vertex are mostly apart. So all pairs of blocks are compared by quantized boxes first: mostly nothing is
 //! left. Nothing here knows what is done with candidates, nor the degree of the trees: it is compiled once.
 
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::BlockId;
 use crate::kernels::{Buffer, Instructions, QuantizedRows, Simd, dispatch, overlap_mask};
 use crate::mesh::Order;
@@ -289,8 +289,4 @@ fn overlapping<I: Simd>(
     }
 }
 
-impl Held for BlockTests {
-    fn held(&self) -> usize {
-        self.compared.held() + held::list(&self.crowded) + self.candidates.held()
-    }
-}
+held!(BlockTests: compared, crowded[], candidates);

@@ -3,7 +3,7 @@
 use super::context::{Budget, Context};
 use super::task::{Tasks, are_free, left_out};
 use super::tree_pair::TreePair;
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::{NodeId, WideNodeId};
 use crate::kernels::{Buffer, Coordinate};
 use crate::queries::Needs;
@@ -390,11 +390,5 @@ fn refit_leaves<S: Coordinate>(
     }
 }
 
-impl Held for Scratch {
-    fn held(&self) -> usize {
-        self.wide_nodes.iter().map(held::list).sum::<usize>()
-            + held::within(&self.reached)
-            + self.reserve.held()
-            + held::list(&self.distributed)
-    }
-}
+held!(Scratch: reached, reserve, distributed[];
+    |scratch| scratch.wide_nodes.iter().map(held::list).sum::<usize>());

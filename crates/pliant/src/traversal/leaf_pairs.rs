@@ -6,7 +6,7 @@
 
 use super::block_pairs::{BlockPair, BlockTests, Boxes, OneBody};
 use super::context::Context;
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::BlockId;
 use crate::kernels::Coordinate;
 use crate::queries::{Batch, LeafTest, LeafWork};
@@ -266,8 +266,4 @@ fn block_pairs(
     cursor
 }
 
-impl Held for LeafTests {
-    fn held(&self) -> usize {
-        held::list(&self.block_pairs) + held::list(&self.runs) + self.blocks.held()
-    }
-}
+held!(LeafTests: block_pairs[], runs[], blocks);

@@ -14,7 +14,7 @@
 
 use super::tree_pair::{Side, TreePair};
 use crate::geometry::{Aabb, Shape};
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::{BlockId, LeafId, NodeId, WideNodeId};
 use crate::kernels::{Coordinate, dispatch, near_mask};
 use crate::queries::Candidate;
@@ -208,14 +208,8 @@ fn near_triangles<S: Coordinate>(
     triangles.sort_unstable_by(|(a, _), (b, _)| a.total_cmp(b));
 }
 
-impl Held for NearestScratch {
-    fn held(&self) -> usize {
-        held::list(&self.stack)
-            + held::list(&self.triangles)
-            + self.reached.held()
-            + self.lists.iter().map(held::list).sum::<usize>()
-    }
-}
+held!(NearestScratch: stack[], triangles[], reached;
+    |scratch| scratch.lists.iter().map(held::list).sum::<usize>());
 
 #[cfg(test)]
 mod tests {

@@ -7,7 +7,7 @@ use super::context::Context;
 use super::leaf_pairs::{Cursor, LeafTests};
 use super::tree_pair::{Side, TreePair};
 use super::walk::{Rules, Walk};
-use crate::held::Held;
+use crate::held::held;
 use crate::kernels::Coordinate;
 use crate::queries::{LeafWork, Needs};
 use crate::statistics::Statistics;
@@ -201,8 +201,4 @@ impl Task {
     }
 }
 
-impl Held for Task {
-    fn held(&self) -> usize {
-        self.walk.held() + self.tests.held()
-    }
-}
+held!(Task: walk, tests);

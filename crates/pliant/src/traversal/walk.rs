@@ -3,7 +3,7 @@
 //! It knows no kind of query, only trees and boxes.
 
 use super::context::Budget;
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::kernels::Instructions;
 use crate::threads::Interrupt;
 use crate::tree::{BoxedTree, NodePair, Worklists, expand};
@@ -104,11 +104,4 @@ impl Walk {
     }
 }
 
-impl Held for Walk {
-    fn held(&self) -> usize {
-        held::list(&self.batch)
-            + held::within(&self.stale)
-            + self.found.held()
-            + held::within(&self.reached)
-    }
-}
+held!(Walk: batch[], stale, found, reached);

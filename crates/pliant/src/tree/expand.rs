@@ -1,7 +1,7 @@
 //! What a pair of nodes becomes: pairs of their children that overlap, or a pair of leaves.
 
 use super::{BoxSet, Child, Neighbours, STRICT_UPPER, Tree, of_degree};
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{LeafId, NodeId};
 use crate::kernels::{BoxLanes, Buffer, Instructions, Simd, dispatch, overlap_mask};
 
@@ -202,11 +202,7 @@ fn columns_of(mask: u64) -> u8 {
         .fold(0, |columns, row| columns | row)
 }
 
-impl Held for Worklists {
-    fn held(&self) -> usize {
-        self.nodes.held() + self.leaves.held() + held::within(&self.reached)
-    }
-}
+held!(Worklists: nodes, leaves, reached);
 
 #[cfg(test)]
 mod tests {

@@ -5,7 +5,7 @@
 //! below them need be looked for. That is asked only of meshes with crowded blocks: see `neighbours`.
 
 use super::{Child, Leaves, WideNode};
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{TreeTriangle, WideNodeId};
 use crate::mesh::Order;
 
@@ -55,11 +55,7 @@ fn in_both(a: Common, b: Common) -> Common {
     a.map(|vertex| if b.contains(&vertex) { vertex } else { NONE })
 }
 
-impl Held for Fans {
-    fn held(&self) -> usize {
-        held::list(&self.0)
-    }
-}
+held!(Fans: 0[]);
 
 #[cfg(test)]
 mod tests {

@@ -2,7 +2,7 @@
 //! neighbours are looked for.
 
 use super::{BLOCK_LANES, Leaves};
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{BlockId, LeafId, TreeVertex};
 use crate::mesh::Order;
 use crate::threads::Budget;
@@ -146,14 +146,7 @@ fn for_each_corner(
     true
 }
 
-impl Held for LanesAtVertices {
-    fn held(&self) -> usize {
-        held::list(&self.starts)
-            + held::list(&self.blocks)
-            + held::list(&self.lanes)
-            + held::list(&self.last)
-    }
-}
+held!(LanesAtVertices: starts[], blocks[], lanes[], last[]);
 
 #[cfg(test)]
 mod tests {

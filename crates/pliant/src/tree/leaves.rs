@@ -3,7 +3,7 @@
 //! With one triangle a leaf, as in the paper, the leaf's box is the triangle's, and nothing else is kept. With more, each leaf
 //! owns as many *blocks* of up to eight triangles as it needs: triangles whose boxes lie side by side (`BoxSet`).
 
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{BlockId, LeafId, TreeTriangle};
 use crate::mesh::TriangleRun;
 use std::ops::Range;
@@ -182,8 +182,4 @@ impl FirstsOfBlocks<'_> {
     }
 }
 
-impl Held for Leaves {
-    fn held(&self) -> usize {
-        held::list(&self.runs) + held::list(&self.first_triangles) + held::list(&self.counts)
-    }
-}
+held!(Leaves: runs[], first_triangles[], counts[]);

@@ -26,7 +26,7 @@ mod validate;
 mod vertex_sets;
 mod wide_node;
 
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{NodeId, TreeTriangle, TreeVertex, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::{Budget, Executor};
@@ -229,14 +229,7 @@ impl TreeBuilder {
     }
 }
 
-impl Held for TreeBuilder {
-    fn held(&self) -> usize {
-        held::list(&self.wide_nodes)
-            + held::list(&self.level_starts)
-            + self.vertices.held()
-            + self.leaves.held()
-    }
-}
+held!(TreeBuilder: wide_nodes[], level_starts[], vertices, leaves);
 
 /// The structure of a tree, without what hangs on it.
 #[derive(Clone, Copy)]
@@ -256,13 +249,4 @@ impl<'t> Nodes<'t> {
     }
 }
 
-impl Held for Tree {
-    fn held(&self) -> usize {
-        let neighbours = self.neighbours.as_deref();
-        held::list(&self.wide_nodes)
-            + held::list(&self.level_starts)
-            + self.vertices.held()
-            + self.leaves.held()
-            + neighbours.map_or(0, |it| size_of::<Neighbours>() + it.held())
-    }
-}
+held!(Tree: wide_nodes[], level_starts[], vertices, leaves, neighbours);

@@ -15,7 +15,7 @@
 use super::fans::Fans;
 use super::lanes_at_vertices::LanesAtVertices;
 use super::{BLOCK_LANES, Leaves, WideNode};
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{BlockId, LeafId, TreeTriangle, WideNodeId};
 use crate::kernels::{Simd, find_lane};
 use crate::mesh::Order;
@@ -299,11 +299,7 @@ impl NeighboursBuilder {
     }
 }
 
-impl Held for NeighboursBuilder {
-    fn held(&self) -> usize {
-        self.at_vertices.held() + self.of_blocks.held() + held::list(&self.list)
-    }
-}
+held!(NeighboursBuilder: at_vertices, of_blocks, list[]);
 
 /// The neighbours of leaves, each a block, as those of the wide nodes that hold nothing but leaves. Wide nodes are numbered as their
 /// leaves are, so what is later there is later here.
@@ -344,17 +340,9 @@ fn lists_of_wide_nodes(
     lists
 }
 
-impl Held for LaneLists {
-    fn held(&self) -> usize {
-        held::list(&self.starts) + held::list(&self.others) + held::list(&self.masks)
-    }
-}
+held!(LaneLists: starts[], others[], masks[]);
 
-impl Held for Neighbours {
-    fn held(&self) -> usize {
-        self.of_blocks.held() + self.of_wide_nodes.held() + self.fans.held()
-    }
-}
+held!(Neighbours: of_blocks, of_wide_nodes, fans);
 
 #[cfg(test)]
 mod tests {

@@ -11,7 +11,7 @@
 //! Paper, 3.3: "we update the node's AABB by traversing the shared vertices of the faces in the node".
 
 use super::build::Plan;
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::TreeVertex;
 use crate::kernels::extent::TWELVE;
 use crate::mesh::Order;
@@ -160,14 +160,7 @@ impl VertexSetsBuilder {
     }
 }
 
-impl Held for VertexSetsBuilder {
-    fn held(&self) -> usize {
-        self.all.held()
-            + held::list(&self.used_before)
-            + held::list(&self.earlier)
-            + held::list(&self.seen_by)
-    }
-}
+held!(VertexSetsBuilder: all, used_before[], earlier[], seen_by[]);
 
 impl VertexSets {
     /// The number of nodes.
@@ -212,8 +205,4 @@ impl VertexSets {
     }
 }
 
-impl Held for VertexSets {
-    fn held(&self) -> usize {
-        held::list(&self.sets) + held::list(&self.border)
-    }
-}
+held!(VertexSets: sets[], border[]);

@@ -1,6 +1,6 @@
 //! What a traversal has reached and is to be refitted: wide nodes, or leaves, each once however often it was reached.
 
-use crate::held::{self, Held};
+use crate::held::held;
 
 /// A set of numbers that are near each other: a bit for each.
 #[derive(Debug)]
@@ -124,11 +124,7 @@ impl DirtySet {
     }
 }
 
-impl Held for DirtySet {
-    fn held(&self) -> usize {
-        held::list(&self.bits)
-    }
-}
+held!(DirtySet: bits[]);
 
 #[cfg(test)]
 mod tests {

@@ -5,7 +5,7 @@
 //! to one that was taken out. What comes belongs to the triangles that come, behind all others.
 
 use super::{Elements, NO_EDGE, UNSEEN};
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::{CallerTriangle, TreeTriangle};
 use crate::mesh::{Bits, Order, Topology, TrianglesAt};
 use std::collections::{BTreeMap, BTreeSet};
@@ -225,11 +225,4 @@ impl Elements {
     }
 }
 
-impl Held for EdgeIndex {
-    fn held(&self) -> usize {
-        held::list(&self.of_triangles)
-            + held::list(&self.tree_edges)
-            + held::entries::<u32>(self.free.len())
-            + self.gone.held()
-    }
-}
+held!(EdgeIndex: of_triangles[], tree_edges[], gone; |index| held::entries::<u32>(index.free.len()));

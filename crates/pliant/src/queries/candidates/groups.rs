@@ -3,7 +3,7 @@
 //! Two vertices of one group do not meet; those of group 0 meet all. A pair of elements is left out only if every vertex of the one is
 //! kept from every vertex of the other: if all of them are of one group. So each element has a group, that of all its vertices or 0.
 
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::TreeVertex;
 use crate::mesh::{Elements, Order};
 
@@ -49,8 +49,4 @@ pub(super) fn meet(a: u32, b: u32) -> bool {
     a == 0 || a != b
 }
 
-impl Held for Groups {
-    fn held(&self) -> usize {
-        held::list(&self.vertices) + held::list(&self.edges) + held::list(&self.triangles)
-    }
-}
+held!(Groups: vertices[], edges[], triangles[]);

@@ -2,7 +2,7 @@
 
 use super::groups::Groups;
 use super::runs::{Ends, RunBoxes};
-use crate::held::Held;
+use crate::held::held;
 use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{Elements, TriangleRun};
@@ -71,11 +71,4 @@ impl NearBoxes {
     }
 }
 
-impl Held for NearBoxes {
-    fn held(&self) -> usize {
-        let vertices = self.vertices.as_ref().map_or(0, Held::held);
-        let triangles = self.triangles.as_ref().map_or(0, Held::held);
-        let edges = self.edges.as_ref().map_or(0, Held::held);
-        vertices + triangles + edges
-    }
-}
+held!(NearBoxes: vertices, triangles, edges);

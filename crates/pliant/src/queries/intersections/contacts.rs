@@ -5,7 +5,7 @@
 use super::eight::{self, Undecided};
 use super::{Candidate, Intersections, Kind};
 use crate::contacts::{Contact, ContactKind};
-use crate::held::Held;
+use crate::held::held;
 use crate::kernels::{Buffer, Coordinate};
 use crate::queries::{Batch, CallerIds, LeafTest, Needs};
 use crate::statistics::Statistics;
@@ -90,8 +90,4 @@ impl<S: Coordinate> Kind for Contacts<S> {
     }
 }
 
-impl Held for ContactBuffers {
-    fn held(&self) -> usize {
-        self.undecided.held() + self.pairs.held()
-    }
-}
+held!(ContactBuffers: undecided, pairs);

@@ -12,7 +12,7 @@
 
 use super::{Candidate, LeafTest};
 use crate::geometry::Shape;
-use crate::held::Held;
+use crate::held::held;
 use crate::ids::TreeVertex;
 use crate::kernels::{Buffer, Coordinate, Corners, Simd, dispatch, signs};
 use crate::statistics::Statistics;
@@ -217,8 +217,4 @@ fn by_lines<I: Simd, S: Coordinate>(
     keep(&candidates, !decided & lanes, uncertain);
 }
 
-impl Held for Undecided {
-    fn held(&self) -> usize {
-        self.crossing.held() + self.uncertain.held()
-    }
-}
+held!(Undecided: crossing, uncertain);

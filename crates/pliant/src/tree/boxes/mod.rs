@@ -12,7 +12,7 @@ mod lanes;
 mod source;
 
 use super::{BLOCK_LANES, Tree};
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::{BlockId, LeafId, WideNodeId};
 use crate::kernels::{BoxLanes, QuantizedLanes};
 pub(crate) use lanes::{NodeLanes, of_degree};
@@ -304,12 +304,5 @@ impl<'b> LeavesMut<'b> {
     }
 }
 
-impl Held for BoxSet {
-    fn held(&self) -> usize {
-        of_degree!(&self.nodes, nodes => held::list(nodes))
-            + held::list(&self.node_stamps)
-            + held::list(&self.blocks)
-            + held::list(&self.leaf_stamps)
-            + held::list(&self.quantized.blocks)
-    }
-}
+held!(BoxSet: node_stamps[], blocks[], leaf_stamps[];
+    |set| of_degree!(&set.nodes, nodes => held::list(nodes)) + held::list(&set.quantized.blocks));

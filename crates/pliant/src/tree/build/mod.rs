@@ -14,7 +14,7 @@ mod balanced;
 mod connectivity;
 mod initial_shape;
 
-use crate::held::{self, Held};
+use crate::held::{self, Held, held};
 use crate::threads::Budget;
 pub(crate) use balanced::Balanced;
 pub(crate) use connectivity::Connectivity;
@@ -188,11 +188,7 @@ impl Split for Box<dyn Split + Send + Sync> {
     }
 }
 
-impl Held for Plan {
-    fn held(&self) -> usize {
-        held::list(&self.order) + held::list(&self.parts)
-    }
-}
+held!(Plan: order[], parts[]);
 
 impl<R: Split> Held for Planner<R> {
     fn held(&self) -> usize {

@@ -42,7 +42,8 @@ pub(crate) fn plain<T>(things: &Vec<T>) -> usize {
 
 /// Implements `Held` for a type: the sum over those of its fields that hold memory.
 ///
-/// A field with `[]` behind it is a list of plain things; any other is `Held` itself. What no field says is a closure at the end.
+/// A field with `[]` behind it is a list of plain things; any other is `Held` itself.
+/// What no field says is a closure at the end.
 macro_rules! held {
     (@$this:ident $field:tt []) => {
         $crate::held::plain(&$this.$field)

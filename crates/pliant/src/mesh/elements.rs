@@ -10,7 +10,7 @@ mod follow;
 
 use super::{Order, Topology};
 use crate::held::held;
-use crate::ids::{CallerVertex, TreeTriangle, TreeVertex};
+use crate::ids::{TreeTriangle, TreeVertex};
 pub(crate) use follow::Changed;
 use follow::EdgeIndex;
 use std::ops::Range;
@@ -37,112 +37,67 @@ pub(crate) struct Elements {
 /// The ends of a number that no edge has.
 pub(crate) const NO_EDGE: [u32; 2] = [u32::MAX; 2];
 
-/// So many triangles are gone through before it is asked whether somebody wants to stop.
-const UNINTERRUPTED: usize = 1 << 14;
-
 /// The number of no edge: there are fewer.
 const UNSEEN: u32 = u32::MAX;
+
+/// So many triangles are gone through before it is asked whether somebody wants to stop.
+const UNINTERRUPTED: usize = 1 << 14;
 
 impl Elements {
     /// Of a mesh in tree order; `None` if `stop` said so on the way. Linear, but for the edges at one vertex, which are sorted.
     pub(crate) fn new(topology: &Topology, order: &Order, stop: &dyn Fn() -> bool) -> Option<Self> {
-        let triangles = topology.triangles();
-        let vertices = topology.vertex_count();
-        // By their lower end: how many there are, then where the next one goes.
-        let mut next = vec![0_u32; vertices + 1];
-        for some in triangles.chunks(UNINTERRUPTED) {
-            for [low, _] in some.iter().flat_map(edges_of) {
-                next[low as usize + 1] += 1;
-            }
-            if stop() {
-                return None;
-            }
-        }
-        for vertex in 0..vertices {
-            next[vertex + 1] += next[vertex];
-        }
-        let count = next[vertices] as usize;
-        let mut higher = vec![0_u32; count];
-        for some in triangles.chunks(UNINTERRUPTED) {
-            for [low, high] in some.iter().flat_map(edges_of) {
-                let place = &mut next[low as usize];
-                higher[*place as usize] = high;
-                *place += 1;
-            }
-            if stop() {
-                return None;
-            }
-        }
-        // Where those of a vertex went ends where those of the next began; what is left of them are edges, each once.
-        let mut callers = Vec::with_capacity(count / 2 + 1);
-        let mut first_of_vertex = Vec::with_capacity(vertices + 1);
-        let mut start = 0;
-        for vertex in 0..vertices {
-            first_of_vertex.push(callers.len() as u32);
-            let end = next[vertex] as usize;
-            let others = &mut higher[start..end];
-            others.sort_unstable();
-            let mut last = None;
-            for &mut other in others {
-                if last != Some(other) {
-                    callers.push([vertex as u32, other]);
-                }
-                last = Some(other);
-            }
-            start = end;
-            if vertex % UNINTERRUPTED == 0 && stop() {
-                return None;
-            }
-        }
-        first_of_vertex.push(callers.len() as u32);
-        drop((next, higher));
-        callers.shrink_to_fit();
+        let callers = CallersEdges::new(topology, stop)?;
+        let mut elements = Self {
+            callers: Vec::new(),
+            ends: Vec::with_capacity(callers.edges.len()),
+            numbers: Vec::with_capacity(callers.edges.len()),
+            firsts: Vec::with_capacity(topology.triangles().len() + 1),
+            tree_vertices: OnceLock::new(),
+            index: None,
+        };
+        elements.give_to_triangles(&callers, order, stop)?;
+        elements.callers = callers.edges;
+        Some(elements)
+    }
 
-        let mut seen = vec![UNSEEN; callers.len()];
-        let mut ends = Vec::with_capacity(callers.len());
-        let mut numbers = Vec::with_capacity(callers.len());
-        let mut firsts = Vec::with_capacity(triangles.len() + 1);
+    /// Gives every edge to the first triangle in tree order that has it, and says what belongs to
+    /// each. `None` if `stop` said so.
+    fn give_to_triangles(
+        &mut self,
+        callers: &CallersEdges,
+        order: &Order,
+        stop: &dyn Fn() -> bool,
+    ) -> Option<()> {
+        let mut is_given = vec![false; callers.edges.len()];
         let mut used = 0;
         for (at, corners) in order.all_corners().iter().enumerate() {
-            firsts.push([used, ends.len() as u32]);
+            self.firsts.push([used, self.ends.len() as u32]);
             for corner in corners {
                 used = used.max(corner.0 + 1);
             }
-            let triangle = corners.map(|vertex| order.caller_vertex(vertex));
+            let triangle = corners.map(|vertex| order.caller_vertex(vertex).0);
             for [i, j] in [[0, 1], [1, 2], [2, 0]] {
-                let (CallerVertex(low), CallerVertex(high)) = if triangle[i] < triangle[j] {
-                    (triangle[i], triangle[j])
-                } else {
-                    (triangle[j], triangle[i])
-                };
                 // An orphan is called what its alias is.
                 let is_orphan = |corner: usize| order.orphans().has(corners[corner].0);
-                if low == high || is_orphan(i) || is_orphan(j) {
+                if triangle[i] == triangle[j] || is_orphan(i) || is_orphan(j) {
                     continue;
                 }
-                let [first, end] = [0, 1].map(|next| first_of_vertex[low as usize + next] as usize);
-                let number = first + callers[first..end].partition_point(|edge| edge[1] < high);
                 // A triangle that was taken out may have had edges of its own.
-                let is_edge = callers.get(number) == Some(&[low, high]);
-                if is_edge && seen[number] == UNSEEN {
-                    seen[number] = ends.len() as u32;
-                    ends.push([corners[i], corners[j]]);
-                    numbers.push(number as u32);
+                let Some(number) = callers.number_of([triangle[i], triangle[j]]) else {
+                    continue;
+                };
+                if !is_given[number] {
+                    is_given[number] = true;
+                    self.ends.push([corners[i], corners[j]]);
+                    self.numbers.push(number as u32);
                 }
             }
             if at % UNINTERRUPTED == 0 && stop() {
                 return None;
             }
         }
-        firsts.push([used, ends.len() as u32]);
-        Some(Self {
-            callers,
-            ends,
-            numbers,
-            firsts,
-            tree_vertices: OnceLock::new(),
-            index: None,
-        })
+        self.firsts.push([used, self.ends.len() as u32]);
+        Some(())
     }
 
     /// The edges in the caller's order.
@@ -201,6 +156,99 @@ impl Elements {
     pub(crate) fn caller_edges(&self) -> &[u32] {
         &self.numbers
     }
+}
+
+/// The edges of a mesh in the caller's order, each once, while elements are made.
+struct CallersEdges {
+    edges: Vec<[u32; 2]>,
+    /// For each vertex the first edge of which it is the lower end; and how many edges there are.
+    first_of_vertex: Vec<u32>,
+}
+
+impl CallersEdges {
+    /// `None` if `stop` said so on the way.
+    fn new(topology: &Topology, stop: &dyn Fn() -> bool) -> Option<Self> {
+        let vertices = topology.vertex_count();
+        let mut next = counted_by_lower_end(topology, stop)?;
+        let mut higher = higher_ends(topology, &mut next, stop)?;
+        // Where those of a vertex went ends where those of the next began; what is left of them are
+        // edges, each once.
+        let mut edges = Vec::with_capacity(higher.len() / 2 + 1);
+        let mut first_of_vertex = Vec::with_capacity(vertices + 1);
+        let mut start = 0;
+        for vertex in 0..vertices {
+            first_of_vertex.push(edges.len() as u32);
+            let end = next[vertex] as usize;
+            let others = &mut higher[start..end];
+            others.sort_unstable();
+            let mut last = None;
+            for &mut other in others {
+                if last != Some(other) {
+                    edges.push([vertex as u32, other]);
+                }
+                last = Some(other);
+            }
+            start = end;
+            if vertex % UNINTERRUPTED == 0 && stop() {
+                return None;
+            }
+        }
+        first_of_vertex.push(edges.len() as u32);
+        drop((next, higher));
+        edges.shrink_to_fit();
+        Some(Self {
+            edges,
+            first_of_vertex,
+        })
+    }
+
+    /// The number of the edge with these ends, if there is one.
+    #[inline]
+    fn number_of(&self, [a, b]: [u32; 2]) -> Option<usize> {
+        let [low, high] = [a.min(b), a.max(b)];
+        let ends = [0, 1].map(|next| self.first_of_vertex[low as usize + next] as usize);
+        let [first, end] = ends;
+        let number = first + self.edges[first..end].partition_point(|edge| edge[1] < high);
+        (self.edges.get(number) == Some(&[low, high])).then_some(number)
+    }
+}
+
+/// Where the sides with each lower end begin, if sides are put in the order of these ends.
+///
+/// One side is two corners of a triangle. Behind the last place is the number of sides.
+fn counted_by_lower_end(topology: &Topology, stop: &dyn Fn() -> bool) -> Option<Vec<u32>> {
+    let vertices = topology.vertex_count();
+    let mut starts = vec![0_u32; vertices + 1];
+    for some in topology.triangles().chunks(UNINTERRUPTED) {
+        for [low, _] in some.iter().flat_map(edges_of) {
+            starts[low as usize + 1] += 1;
+        }
+        if stop() {
+            return None;
+        }
+    }
+    for vertex in 0..vertices {
+        starts[vertex + 1] += starts[vertex];
+    }
+    Some(starts)
+}
+
+/// The higher ends of all sides, in the order of the lower ones.
+///
+/// `next` is where the next with each lower end goes.
+fn higher_ends(topology: &Topology, next: &mut [u32], stop: &dyn Fn() -> bool) -> Option<Vec<u32>> {
+    let mut higher = vec![0_u32; next.last().map_or(0, |&count| count as usize)];
+    for some in topology.triangles().chunks(UNINTERRUPTED) {
+        for [low, high] in some.iter().flat_map(edges_of) {
+            let place = &mut next[low as usize];
+            higher[*place as usize] = high;
+            *place += 1;
+        }
+        if stop() {
+            return None;
+        }
+    }
+    Some(higher)
 }
 
 /// Some triangles in a row, in tree order.

@@ -225,4 +225,5 @@ impl Elements {
     }
 }
 
-held!(EdgeIndex: of_triangles[], tree_edges[], gone; |index| held::entries::<u32>(index.free.len()));
+held!(EdgeIndex: of_triangles[], tree_edges[], gone;
+    |index| held::entries::<u32>(index.free.len()));

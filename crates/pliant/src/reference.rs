@@ -11,7 +11,6 @@ use pliant_exact::Triangle;
 use pliant_exact::distance::{Primitives, are_within_distance};
 use pliant_exact::motion::{self, Grid, first_contact};
 use pliant_exact::reference::{contact_kind, intersect};
-use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 /// The pairs (triangle of a, triangle of b) that intersect, sorted.
@@ -26,23 +25,8 @@ pub fn intersection_pairs<S: Scalar>(
     triangles_b: &[[u32; 3]],
     positions_b: &[[S; 3]],
 ) -> Result<Vec<[u32; 2]>, Error> {
-    let (a, b) = (
-        corners(triangles_a, positions_a)?,
-        corners(triangles_b, positions_b)?,
-    );
-    Ok(pairs_of_two(&a, &b))
-}
-
-fn pairs_of_two(a: &[Triangle], b: &[Triangle]) -> Vec<[u32; 2]> {
-    let mut pairs = Vec::new();
-    for (i, a) in a.iter().enumerate() {
-        for (j, b) in b.iter().enumerate() {
-            if intersect(a, b) {
-                pairs.push([i as u32, j as u32]);
-            }
-        }
-    }
-    pairs
+    let (a, b) = ((triangles_a, positions_a), (triangles_b, positions_b));
+    triangles_that(a, Some(b), |a, b| intersect(a, b).then_some(())).map(without)
 }
 
 /// The pairs (smaller triangle, larger triangle) of one body that intersect and share no vertex, sorted.
@@ -54,20 +38,8 @@ pub fn self_intersection_pairs<S: Scalar>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],
 ) -> Result<Vec<[u32; 2]>, Error> {
-    let all = corners(triangles, positions)?;
-    Ok(pairs_of_one(triangles, &all))
-}
-
-fn pairs_of_one(triangles: &[[u32; 3]], all: &[Triangle]) -> Vec<[u32; 2]> {
-    let mut pairs = Vec::new();
-    for (i, a) in all.iter().enumerate() {
-        for (j, b) in all.iter().enumerate().skip(i + 1) {
-            if !share_a_vertex(triangles[i], triangles[j]) && intersect(a, b) {
-                pairs.push([i as u32, j as u32]);
-            }
-        }
-    }
-    pairs
+    let body = (triangles, positions);
+    triangles_that(body, None, |a, b| intersect(a, b).then_some(())).map(without)
 }
 
 /// The pairs (triangle of a, triangle of b) that intersect, and how, sorted by pair.
@@ -81,11 +53,8 @@ pub fn contacts<S: Scalar>(
     triangles_b: &[[u32; 3]],
     positions_b: &[[S; 3]],
 ) -> Result<Vec<([u32; 2], ContactKind)>, Error> {
-    let (a, b) = (
-        corners(triangles_a, positions_a)?,
-        corners(triangles_b, positions_b)?,
-    );
-    Ok(with_kinds(pairs_of_two(&a, &b), &a, &b))
+    let (a, b) = ((triangles_a, positions_a), (triangles_b, positions_b));
+    triangles_that(a, Some(b), kind_of_contact)
 }
 
 /// The pairs (smaller triangle, larger triangle) of one body that intersect and share no vertex, and how, sorted by pair.
@@ -97,17 +66,11 @@ pub fn self_contacts<S: Scalar>(
     triangles: &[[u32; 3]],
     positions: &[[S; 3]],
 ) -> Result<Vec<([u32; 2], ContactKind)>, Error> {
-    let all = corners(triangles, positions)?;
-    Ok(with_kinds(pairs_of_one(triangles, &all), &all, &all))
+    triangles_that((triangles, positions), None, kind_of_contact)
 }
 
-fn with_kinds(
-    pairs: Vec<[u32; 2]>,
-    a: &[Triangle],
-    b: &[Triangle],
-) -> Vec<([u32; 2], ContactKind)> {
-    let kind = |[i, j]: [u32; 2]| contact_kind(&a[i as usize], &b[j as usize]);
-    pairs.into_iter().map(|pair| (pair, kind(pair))).collect()
+fn kind_of_contact(a: &Triangle, b: &Triangle) -> Option<ContactKind> {
+    intersect(a, b).then(|| contact_kind(a, b))
 }
 
 /// The pairs (triangle of a, triangle of b) that are at most so far apart, sorted, as
@@ -123,19 +86,8 @@ pub fn close_triangle_pairs<S: Scalar>(
     positions_b: &[[S; 3]],
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    let (a, b) = (
-        corners(triangles_a, positions_a)?,
-        corners(triangles_b, positions_b)?,
-    );
-    let mut pairs = Vec::new();
-    for (i, a) in (0..).zip(&a) {
-        for (j, b) in (0..).zip(&b) {
-            if are_close(a, b, distance) {
-                pairs.push([i, j]);
-            }
-        }
-    }
-    Ok(pairs)
+    let (a, b) = ((triangles_a, positions_a), (triangles_b, positions_b));
+    triangles_that(a, Some(b), |a, b| are_close(a, b, distance).then_some(())).map(without)
 }
 
 /// The pairs (smaller triangle, larger triangle) of one body that share no vertex and are at most so far apart, sorted.
@@ -148,12 +100,41 @@ pub fn self_close_triangle_pairs<S: Scalar>(
     positions: &[[S; 3]],
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    let pairs = close_triangle_pairs(triangles, positions, triangles, positions, distance)?;
-    let share = |[i, j]: [u32; 2]| share_a_vertex(triangles[i as usize], triangles[j as usize]);
-    Ok(pairs
-        .into_iter()
-        .filter(|&[i, j]| i < j && !share([i, j]))
-        .collect())
+    let body = (triangles, positions);
+    triangles_that(body, None, |a, b| are_close(a, b, distance).then_some(())).map(without)
+}
+
+/// The triangles of a body, and where its vertices are.
+type Mesh<'m, S> = (&'m [[u32; 3]], &'m [[S; 3]]);
+
+/// The pairs of triangles of two bodies of which `find` finds something, and what.
+///
+/// If there is no other body, the pairs of one: the smaller triangle, then the larger one.
+/// There, triangles that share a vertex are no pair.
+fn triangles_that<S: Scalar, T>(
+    (triangles_a, positions_a): Mesh<S>,
+    other: Option<Mesh<S>>,
+    find: impl Fn(&Triangle, &Triangle) -> Option<T>,
+) -> Result<Vec<([u32; 2], T)>, Error> {
+    let (triangles_b, positions_b) = other.unwrap_or((triangles_a, positions_a));
+    let all_a = corners(triangles_a, positions_a)?;
+    let all_b = corners(triangles_b, positions_b)?;
+    let is_one_body = other.is_none();
+    let mut pairs = Vec::new();
+    for (i, a) in all_a.iter().enumerate() {
+        for (j, b) in all_b.iter().enumerate() {
+            if is_one_body && (j <= i || share_a_vertex(triangles_a[i], triangles_b[j])) {
+                continue;
+            }
+            pairs.extend(find(a, b).map(|found| ([i as u32, j as u32], found)));
+        }
+    }
+    Ok(pairs)
+}
+
+/// The pairs alone.
+fn without<T>(pairs: Vec<([u32; 2], T)>) -> Vec<[u32; 2]> {
+    pairs.into_iter().map(|(pair, _)| pair).collect()
 }
 
 /// Whether two triangles intersect, or any of their elements are at most so far apart.
@@ -219,6 +200,12 @@ impl<S: Scalar> Moving<'_, S> {
         still.box_of(vertices)
     }
 
+    /// The vertices that triangles use, by their numbers.
+    fn vertices(&self) -> Vec<(u32, Vec<u32>)> {
+        let used: BTreeSet<u32> = self.triangles.as_flattened().iter().copied().collect();
+        used.into_iter().map(|it| (it, vec![it])).collect()
+    }
+
     fn group(&self, vertex: u32) -> u32 {
         self.groups.map_or(0, |groups| groups[vertex as usize])
     }
@@ -246,7 +233,7 @@ pub fn vertex_triangle_pairs<S: Scalar>(
     b: &Moving<S>,
     radius: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    vertices_and_triangles(a, b, false, &near(radius))
+    ElementPairs::VerticesAndTriangles.that(a, Some(b), near(radius))
 }
 
 /// The candidates (vertex, triangle) of one body with itself, sorted.
@@ -258,7 +245,7 @@ pub fn self_vertex_triangle_pairs<S: Scalar>(
     body: &Moving<S>,
     radius: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    vertices_and_triangles(body, body, true, &near(radius))
+    ElementPairs::VerticesAndTriangles.that(body, None, near(radius))
 }
 
 /// The pairs (vertex of a, triangle of b) that are at most so far apart, sorted, as
@@ -272,7 +259,7 @@ pub fn close_vertex_triangle_pairs<S: Scalar>(
     b: &Moving<S>,
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    vertices_and_triangles(a, b, false, &close(distance))
+    ElementPairs::VerticesAndTriangles.that(a, Some(b), close(distance))
 }
 
 /// The pairs (vertex, triangle) of one body that are at most so far apart, sorted.
@@ -284,7 +271,7 @@ pub fn self_close_vertex_triangle_pairs<S: Scalar>(
     body: &Moving<S>,
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    vertices_and_triangles(body, body, true, &close(distance))
+    ElementPairs::VerticesAndTriangles.that(body, None, close(distance))
 }
 
 /// Two elements by their numbers, and the interval of times of their first contact.
@@ -301,7 +288,7 @@ pub fn vertex_triangle_impacts<S: Scalar>(
     b: &Moving<S>,
     width: f64,
 ) -> Result<Vec<Timed>, Error> {
-    timed(width, |meet| vertices_and_triangles(a, b, false, meet))
+    ElementPairs::VerticesAndTriangles.that_meet(a, Some(b), width)
 }
 
 /// The pairs (vertex, triangle) of one body that meet on the way, sorted.
@@ -313,7 +300,7 @@ pub fn self_vertex_triangle_impacts<S: Scalar>(
     body: &Moving<S>,
     width: f64,
 ) -> Result<Vec<Timed>, Error> {
-    timed(width, |meet| vertices_and_triangles(body, body, true, meet))
+    ElementPairs::VerticesAndTriangles.that_meet(body, None, width)
 }
 
 /// The pairs (edge of a, edge of b) that meet on the way, sorted, as
@@ -327,7 +314,7 @@ pub fn edge_edge_impacts<S: Scalar>(
     b: &Moving<S>,
     width: f64,
 ) -> Result<Vec<Timed>, Error> {
-    timed(width, |meet| edges_and_edges(a, b, false, meet))
+    ElementPairs::EdgesAndEdges.that_meet(a, Some(b), width)
 }
 
 /// The pairs (smaller edge, larger edge) of one body that meet on the way, sorted.
@@ -339,27 +326,75 @@ pub fn self_edge_edge_impacts<S: Scalar>(
     body: &Moving<S>,
     width: f64,
 ) -> Result<Vec<Timed>, Error> {
-    timed(width, |meet| edges_and_edges(body, body, true, meet))
+    ElementPairs::EdgesAndEdges.that_meet(body, None, width)
 }
 
-/// A test of two elements.
-type Test<'t, S> = &'t dyn Fn(Part<S>, Part<S>) -> bool;
+/// Which elements are looked at in pairs.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum ElementPairs {
+    VerticesAndTriangles,
+    EdgesAndEdges,
+}
 
-/// The pairs that meet, with the intervals that were found on the way.
-fn timed<S: Scalar>(
-    width: f64,
-    pairs_that: impl FnOnce(Test<S>) -> Result<Vec<[u32; 2]>, Error>,
-) -> Result<Vec<Timed>, Error> {
-    let grid = Grid::new(width);
-    let cells = RefCell::new(Vec::new());
-    let pairs = pairs_that(&|a, b| {
-        let cell = elements_in_motion(a, b)
-            .and_then(|moving| first_contact(&moving))
-            .map(|contact| contact.cell(grid));
-        cells.borrow_mut().extend(cell);
-        cell.is_some()
-    })?;
-    Ok(pairs.into_iter().zip(cells.into_inner()).collect())
+impl ElementPairs {
+    /// The pairs of two bodies for which `test` holds; or of one, if there is no other.
+    fn that<S: Scalar>(
+        self,
+        a: &Moving<S>,
+        other: Option<&Moving<S>>,
+        test: impl Fn(Part<S>, Part<S>) -> bool,
+    ) -> Result<Vec<[u32; 2]>, Error> {
+        let found = self.all(a, other, |a, b| test(a, b).then_some(()))?;
+        Ok(without(found))
+    }
+
+    /// The pairs that meet on the way, with the intervals of their first contact.
+    fn that_meet<S: Scalar>(
+        self,
+        a: &Moving<S>,
+        other: Option<&Moving<S>>,
+        width: f64,
+    ) -> Result<Vec<Timed>, Error> {
+        let grid = Grid::new(width);
+        self.all(a, other, |a, b| {
+            let contact = first_contact(&elements_in_motion(a, b)?)?;
+            Some(contact.cell(grid))
+        })
+    }
+
+    /// The pairs of which `find` finds something, and what. Of edges of one body, the smaller edge
+    /// is the first.
+    fn all<S: Scalar, T>(
+        self,
+        a: &Moving<S>,
+        other: Option<&Moving<S>>,
+        find: impl Fn(Part<S>, Part<S>) -> Option<T>,
+    ) -> Result<Vec<([u32; 2], T)>, Error> {
+        let b = other.unwrap_or(a);
+        a.validate()?;
+        b.validate()?;
+        let is_one_body = other.is_none();
+        let (of_a, of_b) = match self {
+            Self::VerticesAndTriangles => (a.vertices(), numbered(b.triangles)),
+            Self::EdgesAndEdges => (numbered(&edges(a.triangles)), numbered(&edges(b.triangles))),
+        };
+        let mut pairs = Vec::new();
+        for (i, one) in &of_a {
+            for (j, another) in &of_b {
+                let is_twice = is_one_body && self == Self::EdgesAndEdges && i >= j;
+                let (one, another) = ((a, &one[..]), (b, &another[..]));
+                if !is_twice && may_meet(one, another, is_one_body) {
+                    pairs.extend(find(one, another).map(|found| ([*i, *j], found)));
+                }
+            }
+        }
+        Ok(pairs)
+    }
+}
+
+/// Elements by their vertices, with their numbers.
+fn numbered<const C: usize>(elements: &[[u32; C]]) -> Vec<(u32, Vec<u32>)> {
+    (0..).zip(elements.iter().map(|it| it.to_vec())).collect()
 }
 
 /// Two elements as the exact decision takes them, if their boxes overlap.
@@ -414,27 +449,6 @@ fn close<S: Scalar>(distance: f64) -> impl Fn(Part<S>, Part<S>) -> bool {
     }
 }
 
-fn vertices_and_triangles<S: Scalar>(
-    a: &Moving<S>,
-    b: &Moving<S>,
-    itself: bool,
-    are_near: Test<S>,
-) -> Result<Vec<[u32; 2]>, Error> {
-    a.validate()?;
-    b.validate()?;
-    let used: BTreeSet<u32> = a.triangles.as_flattened().iter().copied().collect();
-    let mut pairs = Vec::new();
-    for vertex in used {
-        for (triangle, corners) in (0..).zip(b.triangles) {
-            let (one, other) = ((a, &[vertex][..]), (b, &corners[..]));
-            if may_meet(one, other, itself) && are_near(one, other) {
-                pairs.push([vertex, triangle]);
-            }
-        }
-    }
-    Ok(pairs)
-}
-
 /// The candidates (edge of a, edge of b), sorted, as [`World::edge_edge_candidates`](crate::World::edge_edge_candidates) means them.
 ///
 /// # Errors
@@ -445,7 +459,7 @@ pub fn edge_edge_pairs<S: Scalar>(
     b: &Moving<S>,
     radius: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    edges_and_edges(a, b, false, &near(radius))
+    ElementPairs::EdgesAndEdges.that(a, Some(b), near(radius))
 }
 
 /// The candidates (smaller edge, larger edge) of one body with itself, sorted.
@@ -457,7 +471,7 @@ pub fn self_edge_edge_pairs<S: Scalar>(
     body: &Moving<S>,
     radius: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    edges_and_edges(body, body, true, &near(radius))
+    ElementPairs::EdgesAndEdges.that(body, None, near(radius))
 }
 
 /// The pairs (edge of a, edge of b) that are at most so far apart, sorted, as
@@ -471,7 +485,7 @@ pub fn close_edge_edge_pairs<S: Scalar>(
     b: &Moving<S>,
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    edges_and_edges(a, b, false, &close(distance))
+    ElementPairs::EdgesAndEdges.that(a, Some(b), close(distance))
 }
 
 /// The pairs (smaller edge, larger edge) of one body that are at most so far apart, sorted.
@@ -483,28 +497,7 @@ pub fn self_close_edge_edge_pairs<S: Scalar>(
     body: &Moving<S>,
     distance: f64,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    edges_and_edges(body, body, true, &close(distance))
-}
-
-fn edges_and_edges<S: Scalar>(
-    a: &Moving<S>,
-    b: &Moving<S>,
-    itself: bool,
-    are_near: Test<S>,
-) -> Result<Vec<[u32; 2]>, Error> {
-    a.validate()?;
-    b.validate()?;
-    let mut pairs = Vec::new();
-    for (i, edge_a) in (0..).zip(edges(a.triangles)) {
-        for (j, edge_b) in (0..).zip(edges(b.triangles)) {
-            let is_new = !itself || i < j;
-            let (one, other) = ((a, &edge_a[..]), (b, &edge_b[..]));
-            if is_new && may_meet(one, other, itself) && are_near(one, other) {
-                pairs.push([i, j]);
-            }
-        }
-    }
-    Ok(pairs)
+    ElementPairs::EdgesAndEdges.that(body, None, close(distance))
 }
 
 /// Whether two elements, by their vertices, may be near each other: they have no vertex in common, and their groups let them.

@@ -11,12 +11,12 @@ pub(super) struct Context<'q, S> {
     pub(super) pair: &'q TreePair<'q, S>,
     pub(super) instructions: Instructions,
     pub(super) interrupt: &'q Interrupt<'q>,
-    pub(super) budget: Budget,
+    pub(super) limits: TaskLimits,
 }
 
 /// How far a task goes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Budget {
+pub(super) struct TaskLimits {
     /// Pairs of nodes that are taken from the stack at once.
     pub(super) batch: usize,
     /// With so many pairs of leaves on its list, a task tests them.

@@ -1,6 +1,6 @@
 //! The loop of the traversal, the same for two trees and for one, and for every kind of query.
 
-use super::context::{Budget, Context};
+use super::context::{Context, TaskLimits};
 use super::task::{Tasks, are_free, left_out};
 use super::tree_pair::TreePair;
 use crate::held::{self, held};
@@ -86,9 +86,9 @@ impl Sizes {
         blocks: MOST_BEFORE_SHOWN,
     };
 
-    /// A budget of at most so many pairs of leaves.
-    fn budget(&self, leaves: usize) -> Budget {
-        Budget {
+    /// Limits of a task; at most so many pairs of leaves are on its list.
+    fn limits(&self, leaves: usize) -> TaskLimits {
+        TaskLimits {
             batch: self.batch,
             leaf_pairs: self.blocks.min(leaves),
             block_pairs: self.blocks,
@@ -128,11 +128,11 @@ pub(crate) fn descend<S: Coordinate>(
             tasks.use_all(used);
             distribute(tasks, used, scratch);
         }
-        let mut budget = scratch.sizes.budget(most_leaf_pairs);
+        let mut limits = scratch.sizes.limits(most_leaf_pairs);
         if used < most_tasks {
-            budget.stack = ENOUGH_TO_DISTRIBUTE;
+            limits.stack = ENOUGH_TO_DISTRIBUTE;
         }
-        let now = context(refit, needs, pair, budget);
+        let now = context(refit, needs, pair, limits);
         tasks.run(executor, used, &|task, work| task.advance(&now, work));
         // What a task that was not run found before is not to be shown again.
         if executor.is_interrupted() {
@@ -148,15 +148,15 @@ pub(crate) fn descend<S: Coordinate>(
             scratch.sizes.double_blocks();
         } else {
             refit_stale(refit, pair, scratch, statistics);
-            if last || round.leaves >= budget.leaf_pairs * round.working.max(1) {
+            if last || round.leaves >= limits.leaf_pairs * round.working.max(1) {
                 refit_leaves(refit, pair, tasks, used, scratch, statistics);
                 if tasks.wants_all() && executor.are_many() {
                     // The same hits are found in any order.
                     rebalance(tasks, used);
                 }
                 while !are_all_tested(tasks, used) {
-                    let budget = scratch.sizes.budget(most_leaf_pairs);
-                    let now = context(refit, needs, pair, budget);
+                    let limits = scratch.sizes.limits(most_leaf_pairs);
+                    let now = context(refit, needs, pair, limits);
                     tasks.run(executor, used, &|task, work| task.test_some(&now, work));
                     if executor.is_interrupted() {
                         return ControlFlow::Break(());
@@ -251,8 +251,8 @@ fn test_neighbours<S: Coordinate>(
         })
     };
     while are_left(tasks) && !executor.is_interrupted() {
-        let budget = scratch.sizes.budget(usize::MAX);
-        let now = context(refit, needs, pair, budget);
+        let limits = scratch.sizes.limits(usize::MAX);
+        let now = context(refit, needs, pair, limits);
         tasks.run(executor, used, &|task, work| {
             task.test_neighbours(&now, work, neighbours);
         });
@@ -269,14 +269,14 @@ fn context<'q, S>(
     refit: Refit<'q>,
     needs: Needs,
     pair: &'q TreePair<'q, S>,
-    budget: Budget,
+    limits: TaskLimits,
 ) -> Context<'q, S> {
     Context {
         needs,
         pair,
         instructions: refit.instructions,
         interrupt: refit.executor.interrupt,
-        budget,
+        limits,
     }
 }
 

@@ -165,7 +165,7 @@ impl LeafTests {
     }
 
     /// Tests leaves, each a block, that are neighbours, and each with itself: the next of a run of leaves and their later neighbours,
-    /// until as many pairs of leaves were looked at as the budget allows or enough was found. Takes these leaves from the run.
+    /// until as many pairs of leaves were looked at as the limits allow or enough was found. Takes these leaves from the run.
     pub(super) fn test_neighbours<S: Coordinate>(
         &mut self,
         context: &Context<S>,
@@ -177,7 +177,7 @@ impl LeafTests {
         let leaf_test = leaf_test(context);
         let boxes = Boxes::of(side.boxed_tree());
         let quantized = side.boxes.quantized();
-        let most = context.budget.block_pairs;
+        let most = context.limits.block_pairs;
         let mut tested = 0;
         while run.start < run.end && tested < most && work.has_room() && !context.interrupt.is_set()
         {

@@ -115,18 +115,18 @@ impl Task {
         if !are_free(&context.needs, context.pair.sides()) {
             return self.walk(context);
         }
-        let budget = context.budget;
+        let limits = context.limits;
         let mut tested = 0;
-        while tested < budget.block_pairs && work.has_room() && !context.interrupt.is_set() {
+        while tested < limits.block_pairs && work.has_room() && !context.interrupt.is_set() {
             if self.all_tested() {
                 self.forget_leaves();
                 self.walk(context);
             }
-            let blocks = budget.leaf_pairs.min(before_look(&context.needs));
+            let blocks = limits.leaf_pairs.min(before_look(&context.needs));
             self.test(context, work, blocks);
             tested += blocks;
             let stack = self.walk.found.nodes.len();
-            if self.all_tested() && (stack == 0 || stack >= budget.stack) {
+            if self.all_tested() && (stack == 0 || stack >= limits.stack) {
                 break;
             }
         }
@@ -141,7 +141,7 @@ impl Task {
         let rules = Rules {
             instructions: context.instructions,
             interrupt: context.interrupt,
-            budget: context.budget,
+            limits: context.limits,
             left_out: left_out(needs, context.pair),
             is_one_tree: context.pair.is_one_tree(),
             notes_leaves: needs.triangles() && !are_free(needs, sides),
@@ -156,10 +156,10 @@ impl Task {
         work: &mut dyn LeafWork<S>,
     ) {
         work.clear();
-        let budget = context.budget;
-        let blocks = budget.leaf_pairs.min(before_look(&context.needs));
+        let limits = context.limits;
+        let blocks = limits.leaf_pairs.min(before_look(&context.needs));
         let mut tested = 0;
-        while tested < budget.block_pairs
+        while tested < limits.block_pairs
             && work.has_room()
             && !self.all_tested()
             && !context.interrupt.is_set()

@@ -2,7 +2,7 @@
 //!
 //! It knows no kind of query, only trees and boxes.
 
-use super::context::Budget;
+use super::context::TaskLimits;
 use crate::held::held;
 use crate::kernels::Instructions;
 use crate::threads::Interrupt;
@@ -15,7 +15,7 @@ use crate::update::DirtySet;
 pub(super) struct Rules<'q> {
     pub(super) instructions: Instructions,
     pub(super) interrupt: &'q Interrupt<'q>,
-    pub(super) budget: Budget,
+    pub(super) limits: TaskLimits,
     /// Leaves of one tree that are left out.
     pub(super) left_out: Option<&'q Neighbours>,
     /// Whether it is one tree with itself.
@@ -56,7 +56,7 @@ impl Walk {
         let &Rules {
             instructions,
             interrupt,
-            budget,
+            limits,
             left_out,
             is_one_tree,
             notes_leaves,
@@ -75,13 +75,13 @@ impl Walk {
                 reached.clear();
             }
             let stack = self.found.nodes.len();
-            if stack == 0 || stack >= budget.stack || self.found.leaves.len() >= budget.leaf_pairs {
+            if stack == 0 || stack >= limits.stack || self.found.leaves.len() >= limits.leaf_pairs {
                 return;
             }
             if interrupt.is_set() {
                 return;
             }
-            self.found.nodes.take_last(budget.batch, &mut self.batch);
+            self.found.nodes.take_last(limits.batch, &mut self.batch);
             if !complete && self.asks_for_stale(trees) {
                 return;
             }

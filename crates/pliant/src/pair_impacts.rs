@@ -4,7 +4,7 @@
 //! is enough.
 
 use crate::error::{Error, ErrorKind};
-use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
+use crate::kernels::apart::{MovingCorners, apart};
 use crate::kernels::{Instructions, dispatch};
 use crate::threads::Interrupt;
 use crate::world::Scalar;
@@ -113,11 +113,7 @@ pub fn pair_impacts<S: Scalar>(
                 corners.0[which][lane] = corner;
             }
         }
-        let are_apart = dispatch!(instructions, i => if are_edges {
-            edges(i, &corners, 1.0, 0.0)
-        } else {
-            vertices_and_triangles(i, &corners, 1.0, 0.0)
-        });
+        let are_apart = dispatch!(instructions, i => apart(i, are_edges, &corners, 1.0, 0.0));
         for (lane, corners) in eight.iter().enumerate().take(start.len()) {
             if are_apart >> lane & 1 == 1 {
                 all.push(None);

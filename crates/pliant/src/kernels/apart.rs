@@ -58,9 +58,25 @@ struct Polygon<I: Simd> {
     most: [Vectors<I>; 4],
 }
 
-/// Which of eight pairs, a vertex and a triangle each, surely stay further apart than `distance` from the start to `until`, at most 1.
+/// Which of eight pairs surely stay further apart than `distance` up to `until`, at most 1.
+/// All are two edges each, or all are a vertex and a triangle.
 #[inline(always)]
-pub(crate) fn vertices_and_triangles<I: Simd, S: Coordinate>(
+pub(crate) fn apart<I: Simd, S: Coordinate>(
+    i: I,
+    are_edges: bool,
+    corners: &MovingCorners<S>,
+    until: f32,
+    distance: f32,
+) -> u8 {
+    if are_edges {
+        edges(i, corners, until, distance)
+    } else {
+        vertices_and_triangles(i, corners, until, distance)
+    }
+}
+
+#[inline(always)]
+fn vertices_and_triangles<I: Simd, S: Coordinate>(
     i: I,
     corners: &MovingCorners<S>,
     until: f32,
@@ -69,16 +85,15 @@ pub(crate) fn vertices_and_triangles<I: Simd, S: Coordinate>(
     let [a0, b0, c0, a1, b1, c1] =
         S::differences(i, corners, [(1, 0), (2, 0), (3, 0), (5, 4), (6, 4), (7, 4)]);
     // The first corner again in place of a fourth costs little.
-    apart::<I, false>(
+    stays_off::<I, false>(
         &Polygon::new([a0, b0, c0, a0], [a1, b1, c1, a1]),
         until,
         distance,
     )
 }
 
-/// The same of pairs of edges.
 #[inline(always)]
-pub(crate) fn edges<I: Simd, S: Coordinate>(
+fn edges<I: Simd, S: Coordinate>(
     i: I,
     corners: &MovingCorners<S>,
     until: f32,
@@ -98,15 +113,20 @@ pub(crate) fn edges<I: Simd, S: Coordinate>(
             (4, 7),
         ],
     );
-    apart::<I, true>(
+    stays_off::<I, true>(
         &Polygon::new([a0, b0, c0, d0], [a1, b1, c1, d1]),
         until,
         distance,
     )
 }
 
+/// Which of eight polygons surely stay further from the origin than that.
 #[inline(always)]
-fn apart<I: Simd, const ARE_EDGES: bool>(polygon: &Polygon<I>, until: f32, distance: f32) -> u8 {
+fn stays_off<I: Simd, const ARE_EDGES: bool>(
+    polygon: &Polygon<I>,
+    until: f32,
+    distance: f32,
+) -> u8 {
     let i = polygon.start[0][0].token();
     let splat = |x: f32| f32x8::splat(i, x);
     let (zero, until) = (splat(0.0), splat(until));

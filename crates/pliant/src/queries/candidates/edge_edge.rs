@@ -1,30 +1,16 @@
 //! Edges near edges.
 
 use super::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
-use super::{Margin, Which, groups, keep};
+use super::{Candidates, Which, groups, keep};
 use crate::geometry::larger;
 use crate::hits::EdgeEdge;
 use crate::kernels::ring::Ring;
 use crate::kernels::{Buffer, Coordinate, dispatch};
 use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
 use crate::statistics::Statistics;
-use std::marker::PhantomData;
 
 /// Edges whose boxes are near each other.
-#[derive(Debug)]
-pub(crate) struct EdgeEdgeCandidates<S> {
-    margin: Margin,
-    scalar: PhantomData<S>,
-}
-
-impl<S> EdgeEdgeCandidates<S> {
-    pub(crate) fn within(margin: Margin) -> Self {
-        Self {
-            margin,
-            scalar: PhantomData,
-        }
-    }
-}
+pub(crate) type EdgeEdgeCandidates<S> = Candidates<EdgeEdge, S>;
 
 impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
     type Scalar = S;

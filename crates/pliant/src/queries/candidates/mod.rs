@@ -24,7 +24,22 @@ use crate::statistics::Statistics;
 pub(crate) use edge_edge::EdgeEdgeCandidates;
 pub(crate) use groups::Groups;
 pub(crate) use near_boxes::{NearBoxes, NearElements, Which};
+use std::marker::PhantomData;
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
+
+/// Two elements whose boxes are within a margin of each other; `E` is what the caller gets of them.
+#[derive(Debug)]
+pub(crate) struct Candidates<E, S> {
+    margin: Margin,
+    of: PhantomData<(E, S)>,
+}
+
+impl<E, S> Candidates<E, S> {
+    pub(crate) fn within(margin: Margin) -> Self {
+        let of = PhantomData;
+        Self { margin, of }
+    }
+}
 
 /// Keeps those of some pairs of elements that are candidates, and counts them. Bits of two masks say which are possibly near each other
 /// and which surely. `meet`, if there are groups, says whether theirs let them; `holds` decides exactly, and is asked only about others.

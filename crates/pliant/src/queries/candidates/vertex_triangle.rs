@@ -1,30 +1,16 @@
 //! Vertices near triangles.
 
 use super::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
-use super::{Margin, Which, groups, keep};
+use super::{Candidates, Which, groups, keep};
 use crate::geometry::larger;
 use crate::hits::VertexTriangle;
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Buffer, Coordinate, dispatch};
 use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
 use crate::statistics::Statistics;
-use std::marker::PhantomData;
 
 /// Vertices and triangles whose boxes are near each other, of one body or of two: the vertices of either.
-#[derive(Debug)]
-pub(crate) struct VertexTriangleCandidates<S> {
-    margin: Margin,
-    scalar: PhantomData<S>,
-}
-
-impl<S> VertexTriangleCandidates<S> {
-    pub(crate) fn within(margin: Margin) -> Self {
-        Self {
-            margin,
-            scalar: PhantomData,
-        }
-    }
-}
+pub(crate) type VertexTriangleCandidates<S> = Candidates<VertexTriangle, S>;
 
 /// Beside the number of a triangle: the vertex is of the second body. There are fewer triangles than this.
 const OF_SECOND: u32 = 1 << 31;

@@ -100,8 +100,13 @@ fn four_closest<I: Simd, S: Real>(i: I, are_edges: bool, pairs: &[Corners<S>; 4]
 }
 
 /// A pair as exact arithmetic takes it.
-fn primitives<S: Real>(are_edges: bool, corners: &Corners<S>) -> Primitives {
+fn exactly<S: Real>(are_edges: bool, corners: &Corners<S>) -> Primitives {
     let corners = corners.map(|&[x, y, z, _]| [x, y, z].map(Real::to_f64));
+    primitives(are_edges, corners)
+}
+
+/// Two edges by their ends, or a vertex and the corners of a triangle.
+pub(super) fn primitives(are_edges: bool, corners: [[f64; 3]; 4]) -> Primitives {
     if are_edges {
         Primitives::EdgeEdge(corners)
     } else {
@@ -145,7 +150,7 @@ pub(crate) fn closest_of<I: Simd, S: Real>(
         } else if interrupt.is_set() {
             return false;
         } else {
-            closest(&primitives(are_edges, &pairs[lane]))
+            closest(&exactly(are_edges, &pairs[lane]))
         };
         take(lane, &one);
     }
@@ -173,7 +178,7 @@ fn is_close<S: Real>(
         return found.most[0] <= distance;
     }
     *exact_decisions += 1;
-    are_within_distance(&primitives(are_edges, pair), distance)
+    are_within_distance(&exactly(are_edges, pair), distance)
 }
 
 impl<K: ElementCandidates> Kind for Close<K> {

@@ -6,16 +6,16 @@
 
 mod earliest;
 
-use super::close::{ElementCandidates, corners_at};
+use super::close::{ElementCandidates, ElementPair, corners_at, primitives};
 use super::{Batch, CallerIds, Kind, LeafTest, Needs, Reach};
 use crate::geometry::Real;
-use crate::hits::{EdgeEdge, Hit, VertexTriangle};
+use crate::hits::{EdgeEdge, VertexTriangle};
 use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
-use crate::kernels::apart::{MovingCorners, edges, vertices_and_triangles};
+use crate::kernels::apart::{MovingCorners, apart};
 use crate::kernels::{Buffer, Simd, dispatch};
 use crate::statistics::Statistics;
 pub(crate) use earliest::{Earliest, First};
-use pliant_exact::distance::{Primitives, are_within_distance};
+use pliant_exact::distance::are_within_distance;
 use pliant_exact::motion::{Decided, Grid, Moving, distant_until, impact, starts_surely_within};
 
 /// Candidates of a kind that meet during a motion.
@@ -39,8 +39,7 @@ pub(crate) struct TimedHit {
 }
 
 /// Two elements that may meet.
-pub(crate) trait MayMeet: Hit {
-    const ARE_EDGES: bool;
+pub(crate) trait MayMeet: ElementPair {
     type Impact: Copy + std::fmt::Debug + Send + Sync + Into<Impact>;
 
     /// With the cell in which they do.
@@ -48,7 +47,6 @@ pub(crate) trait MayMeet: Hit {
 }
 
 impl MayMeet for VertexTriangle {
-    const ARE_EDGES: bool = false;
     type Impact = VertexTriangleImpact;
 
     #[inline]
@@ -62,7 +60,6 @@ impl MayMeet for VertexTriangle {
 }
 
 impl MayMeet for EdgeEdge {
-    const ARE_EDGES: bool = true;
     type Impact = EdgeEdgeImpact;
 
     #[inline]
@@ -183,11 +180,8 @@ impl<K: ElementCandidates<Hit: MayMeet>> Impacts<K> {
         let until_at_least = (until as f32).next_up().min(1.0);
         let limit = ((self.distance * LIMIT) as f32).next_up();
         let limit = if self.distance == 0.0 { 0.0 } else { limit };
-        let are_apart = if <K::Hit as MayMeet>::ARE_EDGES {
-            edges(i, &corners, until_at_least, limit)
-        } else {
-            vertices_and_triangles(i, &corners, until_at_least, limit)
-        };
+        let are_edges = <K::Hit as ElementPair>::ARE_EDGES;
+        let are_apart = apart(i, are_edges, &corners, until_at_least, limit);
         let mut rest = !are_apart & (0xff >> (8 - candidates.len()));
         while rest != 0 {
             let lane = rest.trailing_zeros() as usize % 8;
@@ -230,11 +224,7 @@ pub(crate) const LIMIT: f64 = 1.002;
 fn approach(moving: &Moving, distance: f64, of_interest: f64) -> (Option<[f64; 2]>, Decided) {
     let until = distant_until(moving, distance, of_interest);
     let [start, _] = moving.corners;
-    let start = if moving.are_edges {
-        Primitives::EdgeEdge(start)
-    } else {
-        Primitives::VertexTriangle(start)
-    };
+    let start = primitives(moving.are_edges, start);
     let is_near =
         || starts_surely_within(moving, distance) || are_within_distance(&start, distance);
     if until > 0.0 || !is_near() {
@@ -276,7 +266,7 @@ fn moving<K: ElementCandidates<Hit: MayMeet>>(
         of_pair[corner / 4][corner % 4] = [x, y, z].map(Real::to_f64);
     }
     Moving {
-        are_edges: <K::Hit as MayMeet>::ARE_EDGES,
+        are_edges: <K::Hit as ElementPair>::ARE_EDGES,
         corners: of_pair,
     }
 }

@@ -18,8 +18,8 @@
 //! of it, where these are a > 0 and b, they are above zero in exact arithmetic; a thousandth less is taken, which is more than the rounding
 //! of times if the gain is at least 2^-12. Smaller gains do not count.
 
-use super::closest::{dot, minus, plus, times};
 use super::coordinate::{Coordinate, CornersOfEight, Vectors};
+use super::vector::{dot, minus, plus, times};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, mask32x8};
 

@@ -38,6 +38,7 @@
 //! the sum of the largest such sums of either triangle; it allows 20 u S too.
 
 use super::Coordinate;
+use super::vector::{Vector, cross, difference, dot, minus, plus, square_of, times};
 use crate::geometry::Real;
 use fearless_simd::prelude::*;
 use fearless_simd::{Select, Simd, f32x8, f64x4};
@@ -103,9 +104,6 @@ impl<I: Simd> Lanes<I> for f32x8<I> {
     /// By 2^-12.
     const NEARER: f32 = 1.0 - f32::from_bits((127 - 12) << 23);
 }
-
-/// Three coordinates of some.
-type Vector<V> = [V; 3];
 
 /// Where some pairs are closest, in registers: as `FourClosest` has it.
 struct Found<V> {
@@ -326,12 +324,8 @@ pub(crate) fn of_triangles<I: Simd, S: Real>(
         let [mut projection, mut largest] = [f64::INFINITY, 0.0_f64];
         for p in a {
             for q in b {
-                let d = [
-                    p[0].to_f64() - q[0].to_f64(),
-                    p[1].to_f64() - q[1].to_f64(),
-                    p[2].to_f64() - q[2].to_f64(),
-                ];
-                projection = projection.min(way[0] * d[0] + way[1] * d[1] + way[2] * d[2]);
+                let d = difference(p, q);
+                projection = projection.min(dot(way, d));
                 largest = largest.max(d[0].abs() + d[1].abs() + d[2].abs());
             }
         }
@@ -386,27 +380,16 @@ pub(crate) fn along_normal<S: Real>(
     are_edges: bool,
     [p, q, r, s]: &Corners<S>,
 ) -> Option<([f64; 3], f64)> {
-    let minus = |p: &[S; 4], q: &[S; 4]| {
-        [
-            p[0].to_f64() - q[0].to_f64(),
-            p[1].to_f64() - q[1].to_f64(),
-            p[2].to_f64() - q[2].to_f64(),
-        ]
-    };
-    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     // Two sides, and all ways from a corner of the second to one of the first.
-    let (e, f, ways) = if are_edges {
-        let ways = [minus(p, r), minus(q, r), minus(p, s), minus(q, s)];
-        (minus(q, p), minus(s, r), ways)
+    let (e, f, between) = if are_edges {
+        let between = [(p, r), (q, r), (p, s), (q, s)];
+        (difference(q, p), difference(s, r), between)
     } else {
-        let ways = [minus(p, q), minus(p, r), minus(p, s), minus(p, s)];
-        (minus(r, q), minus(s, q), ways)
+        let between = [(p, q), (p, r), (p, s), (p, s)];
+        (difference(r, q), difference(s, q), between)
     };
-    let n = [
-        e[1] * f[2] - e[2] * f[1],
-        e[2] * f[0] - e[0] * f[2],
-        e[0] * f[1] - e[1] * f[0],
-    ];
+    let ways = between.map(|(p, q)| difference(p, q));
+    let n = cross(e, f);
     let sum: f64 = [ways[0], e, f].as_flattened().iter().map(|x| x.abs()).sum();
     let length = dot(n, n).sqrt();
     if sum < SMALLEST || length < sum * sum * f64::powi(0.5, 30) {
@@ -422,18 +405,14 @@ pub(crate) fn along_normal<S: Real>(
 /// How far two triangles at least are apart along a direction of length 1, but for less than 2^-40 of it, from the second to the first:
 /// by their corners. Perhaps less than nothing.
 #[inline(always)]
-pub(crate) fn apart_along<S: Real>([x, y, z]: [f64; 3], a: &[&[S; 4]; 3], b: &[&[S; 4]; 3]) -> f64 {
+pub(crate) fn apart_along<S: Real>(direction: [f64; 3], a: &[&[S; 4]; 3], b: &[&[S; 4]; 3]) -> f64 {
     let origin = b[0];
     let [mut least, mut most] = [f64::INFINITY, 0.0_f64];
     let mut largest = [0.0_f64; 2];
     let mut from_origin = |p: &[S; 4], which: usize| {
-        let d = [
-            p[0].to_f64() - origin[0].to_f64(),
-            p[1].to_f64() - origin[1].to_f64(),
-            p[2].to_f64() - origin[2].to_f64(),
-        ];
+        let d = difference(p, origin);
         largest[which] = largest[which].max(d[0].abs() + d[1].abs() + d[2].abs());
-        x * d[0] + y * d[1] + z * d[2]
+        dot(direction, d)
     };
     for p in a {
         least = least.min(from_origin(p, 0));
@@ -520,31 +499,6 @@ fn lanes<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4], which: usize) -> Vecto
     let (ac, bd) = (a.zip_low(c), b.zip_low(d));
     let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));
     [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high)]
-}
-
-#[inline(always)]
-pub(super) fn plus<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
-    [p[0] + q[0], p[1] + q[1], p[2] + q[2]]
-}
-
-#[inline(always)]
-pub(super) fn minus<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
-    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
-}
-
-#[inline(always)]
-pub(super) fn times<I: Simd, V: SimdFloat<I>>(by: V, p: Vector<V>) -> Vector<V> {
-    [by * p[0], by * p[1], by * p[2]]
-}
-
-#[inline(always)]
-pub(super) fn dot<I: Simd, V: SimdFloat<I>>(p: Vector<V>, q: Vector<V>) -> V {
-    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
-}
-
-#[inline(always)]
-fn square_of<I: Simd, V: SimdFloat<I>>(p: Vector<V>) -> V {
-    dot(p, p)
 }
 
 #[cfg(test)]

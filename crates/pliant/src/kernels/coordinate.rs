@@ -4,6 +4,7 @@
 //! one register, their y in the next, their z in a third) are lanes, which is how boxes are kept and how eight decisions are
 //! made at once.
 
+use super::vector::{Vector, minus};
 use crate::geometry::{OUTWARD, Points, Real};
 use crate::ids::TreeVertex;
 use fearless_simd::prelude::*;
@@ -12,35 +13,95 @@ use fearless_simd::{f32x4, f32x8, f64x4};
 /// A coordinate type whose points fit registers of four.
 pub(crate) trait Coordinate: Real {
     /// Four coordinates.
-    type Four<I: Simd>: SimdBase<I, Element = Self>;
+    type Four<I: Simd>: SimdBase<I, Element = Self, Array = [Self; 4]>;
+
+    /// Two rows, each number rounded to the nearest f32.
+    fn rounded<I: Simd>(two: [Self::Four<I>; 2]) -> [f32x4<I>; 2];
+
+    /// Two points relative to the origin, each number rounded to the nearest f64 and then to the
+    /// nearest f32; as they are, where boxes are exact.
+    fn relative<I: Simd>(two: [Self::Four<I>; 2], origin: &[f64; 4]) -> [f32x4<I>; 2];
 
     /// Four numbers from memory: a point and padding.
-    fn load<I: Simd>(i: I, four: &[Self; 4]) -> Self::Four<I>;
+    #[inline(always)]
+    fn load<I: Simd>(i: I, four: &[Self; 4]) -> Self::Four<I> {
+        Self::Four::load_array_ref(i, four)
+    }
 
-    /// The same corners of a box in f32, relative to the origin and rounded outward: lo, hi.
+    /// The corners lo and hi of a box in f32, relative to the origin and rounded outward.
+    #[inline(always)]
     fn outward<I: Simd>(
         lo: Self::Four<I>,
         hi: Self::Four<I>,
         origin: &[f64; 4],
-    ) -> (f32x4<I>, f32x4<I>);
+    ) -> (f32x4<I>, f32x4<I>) {
+        let [lo, hi] = Self::relative([lo, hi], origin);
+        if Self::BOXES_ARE_EXACT {
+            return (lo, hi);
+        }
+        let i = lo.token();
+        // As `Real::round_down` and `round_up` of f64 say, lane by lane.
+        let lo = lo.min(f32x4::splat(i, f32::MAX));
+        let hi = hi.max(f32x4::splat(i, -f32::MAX));
+        (
+            lo - (lo.abs() * OUTWARD + f32::MIN_POSITIVE),
+            hi + (hi.abs() * OUTWARD + f32::MIN_POSITIVE),
+        )
+    }
 
-    /// The same corners of a box in f32, relative to the origin and rounded to the nearest; what is beyond f32 is the largest.
+    /// The same corners, rounded to the nearest; what is beyond f32 is the largest.
+    #[inline(always)]
     fn nearest<I: Simd>(
         lo: Self::Four<I>,
         hi: Self::Four<I>,
         origin: &[f64; 4],
-    ) -> (f32x4<I>, f32x4<I>);
+    ) -> (f32x4<I>, f32x4<I>) {
+        let [lo, hi] = Self::relative([lo, hi], origin);
+        if Self::BOXES_ARE_EXACT {
+            return (lo, hi);
+        }
+        let i = lo.token();
+        let [least, most] = [-f32::MAX, f32::MAX].map(|x| f32x4::splat(i, x));
+        (lo.max(least).min(most), hi.max(least).min(most))
+    }
 
     /// Differences of points as lanes, each coordinate rounded to the nearest f32 (of f64 to the nearest f64 before): for every
     /// (a, b) corner a minus corner b.
+    #[inline(always)]
     fn differences<I: Simd, C: CornersOfEight<Self>, const D: usize>(
         i: I,
         corners: &C,
         of: [(usize, usize); D],
-    ) -> [Vectors<I>; D];
+    ) -> [Vectors<I>; D] {
+        let mut rows = [[f32x8::splat(i, 0.0); 3]; D];
+        for which in 0..D {
+            let (a, b) = of[which];
+            rows[which] = eight_differences(i, |lane| [corners.get(a, lane), corners.get(b, lane)]);
+        }
+        rows
+    }
 
     /// The same of eight rows of four points: point k less point l.
-    fn minus_eight<I: Simd>(i: I, rows: &[[&[Self; 4]; 4]; 8], of: [usize; 2]) -> Vectors<I>;
+    #[inline(always)]
+    fn minus_eight<I: Simd>(i: I, rows: &[[&[Self; 4]; 4]; 8], [k, l]: [usize; 2]) -> Vectors<I> {
+        eight_differences(i, |lane| [rows[lane][k], rows[lane][l]])
+    }
+}
+
+/// The differences of two points each as lanes. They are taken before anything is rounded, because
+/// an f32 may not hold the points.
+#[inline(always)]
+fn eight_differences<'p, I: Simd, S: Coordinate>(
+    i: I,
+    points: impl Fn(usize) -> [&'p [S; 4]; 2],
+) -> Vectors<I> {
+    let mut eight = [f32x4::splat(i, 0.0); 8];
+    for half in 0..4 {
+        let [[p, q], [r, s]] = [points(2 * half), points(2 * half + 1)];
+        let two = [S::load(i, p) - S::load(i, q), S::load(i, r) - S::load(i, s)];
+        [eight[2 * half], eight[2 * half + 1]] = S::rounded(two);
+    }
+    lanes_of(eight)
 }
 
 /// The corners of eight things, up to eight of each.
@@ -66,32 +127,19 @@ impl<S> CornersOfEight<S> for Corners<'_, S> {
 }
 
 /// Eight vectors as lanes: their x, their y, their z.
-pub(crate) type Vectors<I> = [f32x8<I>; 3];
+pub(crate) type Vectors<I> = Vector<f32x8<I>>;
 
 impl Coordinate for f32 {
     type Four<I: Simd> = f32x4<I>;
 
     #[inline(always)]
-    fn load<I: Simd>(i: I, four: &[Self; 4]) -> Self::Four<I> {
-        f32x4::load_array_ref(i, four)
+    fn rounded<I: Simd>(two: [f32x4<I>; 2]) -> [f32x4<I>; 2] {
+        two
     }
 
     #[inline(always)]
-    fn outward<I: Simd>(
-        lo: Self::Four<I>,
-        hi: Self::Four<I>,
-        _origin: &[f64; 4],
-    ) -> (f32x4<I>, f32x4<I>) {
-        (lo, hi)
-    }
-
-    #[inline(always)]
-    fn nearest<I: Simd>(
-        lo: Self::Four<I>,
-        hi: Self::Four<I>,
-        _origin: &[f64; 4],
-    ) -> (f32x4<I>, f32x4<I>) {
-        (lo, hi)
+    fn relative<I: Simd>(two: [f32x4<I>; 2], _origin: &[f64; 4]) -> [f32x4<I>; 2] {
+        two
     }
 
     #[inline(always)]
@@ -113,20 +161,9 @@ impl Coordinate for f32 {
         let mut rows = [[zero; 3]; D];
         for which in 0..D {
             let (a, b) = of[which];
-            for axis in 0..3 {
-                rows[which][axis] = points[a][axis] - points[b][axis];
-            }
+            rows[which] = minus(points[a], points[b]);
         }
         rows
-    }
-
-    #[inline(always)]
-    fn minus_eight<I: Simd>(i: I, rows: &[[&[Self; 4]; 4]; 8], [k, l]: [usize; 2]) -> Vectors<I> {
-        let mut eight = [f32x4::splat(i, 0.0); 8];
-        for lane in 0..8 {
-            eight[lane] = Self::load(i, rows[lane][k]) - Self::load(i, rows[lane][l]);
-        }
-        lanes_of(eight)
     }
 }
 
@@ -134,84 +171,16 @@ impl Coordinate for f64 {
     type Four<I: Simd> = f64x4<I>;
 
     #[inline(always)]
-    fn load<I: Simd>(i: I, four: &[Self; 4]) -> Self::Four<I> {
-        f64x4::load_array_ref(i, four)
+    fn rounded<I: Simd>([p, q]: [f64x4<I>; 2]) -> [f32x4<I>; 2] {
+        let (p, q) = p.narrow(q).split();
+        [p, q]
     }
 
     #[inline(always)]
-    fn outward<I: Simd>(
-        lo: Self::Four<I>,
-        hi: Self::Four<I>,
-        origin: &[f64; 4],
-    ) -> (f32x4<I>, f32x4<I>) {
-        let i = lo.token();
-        let (lo, hi) = relative(lo, hi, origin);
-        // As `Real::round_down` and `round_up` of f64 say, lane by lane.
-        let lo = lo.min(f32x4::splat(i, f32::MAX));
-        let hi = hi.max(f32x4::splat(i, -f32::MAX));
-        (
-            lo - (lo.abs() * OUTWARD + f32::MIN_POSITIVE),
-            hi + (hi.abs() * OUTWARD + f32::MIN_POSITIVE),
-        )
+    fn relative<I: Simd>([p, q]: [f64x4<I>; 2], origin: &[f64; 4]) -> [f32x4<I>; 2] {
+        let origin = f64x4::load_array_ref(p.token(), origin);
+        Self::rounded([p - origin, q - origin])
     }
-
-    #[inline(always)]
-    fn nearest<I: Simd>(
-        lo: Self::Four<I>,
-        hi: Self::Four<I>,
-        origin: &[f64; 4],
-    ) -> (f32x4<I>, f32x4<I>) {
-        let i = lo.token();
-        let (lo, hi) = relative(lo, hi, origin);
-        let [least, most] = [-f32::MAX, f32::MAX].map(|x| f32x4::splat(i, x));
-        (lo.max(least).min(most), hi.max(least).min(most))
-    }
-
-    #[inline(always)]
-    fn differences<I: Simd, C: CornersOfEight<Self>, const D: usize>(
-        i: I,
-        corners: &C,
-        of: [(usize, usize); D],
-    ) -> [Vectors<I>; D] {
-        // In f64, because an f32 may not hold the points.
-        let mut rows = [[f32x8::splat(i, 0.0); 3]; D];
-        for which in 0..D {
-            let (a, b) = of[which];
-            let mut eight = [f32x4::splat(i, 0.0); 8];
-            for half in 0..4 {
-                let mut two = [f64x4::splat(i, 0.0); 2];
-                for next in 0..2 {
-                    let lane = 2 * half + next;
-                    two[next] = f64x4::load_array_ref(i, corners.get(a, lane))
-                        - f64x4::load_array_ref(i, corners.get(b, lane));
-                }
-                (eight[2 * half], eight[2 * half + 1]) = two[0].narrow(two[1]).split();
-            }
-            rows[which] = lanes_of(eight);
-        }
-        rows
-    }
-
-    #[inline(always)]
-    fn minus_eight<I: Simd>(i: I, rows: &[[&[Self; 4]; 4]; 8], [k, l]: [usize; 2]) -> Vectors<I> {
-        let mut eight = [f32x4::splat(i, 0.0); 8];
-        for half in 0..4 {
-            let mut two = [f64x4::splat(i, 0.0); 2];
-            for next in 0..2 {
-                let row = &rows[2 * half + next];
-                two[next] = Self::load(i, row[k]) - Self::load(i, row[l]);
-            }
-            (eight[2 * half], eight[2 * half + 1]) = two[0].narrow(two[1]).split();
-        }
-        lanes_of(eight)
-    }
-}
-
-/// Two corners relative to the origin, each coordinate rounded to the nearest f64 and then to the nearest f32.
-#[inline(always)]
-fn relative<I: Simd>(lo: f64x4<I>, hi: f64x4<I>, origin: &[f64; 4]) -> (f32x4<I>, f32x4<I>) {
-    let origin = f64x4::load_array_ref(lo.token(), origin);
-    (lo - origin).narrow(hi - origin).split()
 }
 
 /// Eight points as lanes: their x, their y, their z.

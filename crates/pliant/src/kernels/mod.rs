@@ -20,6 +20,7 @@
 //! buffer        the lanes set in a mask, written to a list without branches
 //! signs         orientation signs of eight candidates at once, where rounding cannot change them
 //! coordinate    points in registers, and points as lanes
+//! vector        sums and products of vectors, of numbers or of registers
 //! quantized     boxes as bytes, and which of them are surely apart
 //! ```
 
@@ -38,6 +39,7 @@ mod quantized;
 pub(crate) mod ranks;
 pub(crate) mod ring;
 pub(crate) mod signs;
+mod vector;
 
 pub(crate) use boxes::{BoxLanes, near_mask, overlap_mask};
 pub(crate) use buffer::Buffer;

@@ -18,6 +18,7 @@
 //! Coarser than the bound of `pliant_exact`'s filter by the shape of the triangles, but without a second sum for each sign.
 
 use super::coordinate::{Coordinate, Corners, Vectors};
+use super::vector::{cross, dot};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
 
@@ -147,20 +148,6 @@ pub(crate) fn line_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> 
 #[inline(always)]
 fn length<I: Simd>([x, y, z]: Vectors<I>) -> f32x8<I> {
     x.abs().max(y.abs()).max(z.abs())
-}
-
-#[inline(always)]
-fn cross<I: Simd>(a: Vectors<I>, b: Vectors<I>) -> Vectors<I> {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-#[inline(always)]
-fn dot<I: Simd>(a: Vectors<I>, b: Vectors<I>) -> f32x8<I> {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Certainly positive, certainly negative: of n . t and `ROOM` times |e1| |e2| |t|.

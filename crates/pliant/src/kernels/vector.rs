@@ -1,0 +1,57 @@
+//! Vectors of three components, which are numbers or registers of them.
+//!
+//! Sums go from the first component to the last, and nothing is fused: bounds on rounding count on that.
+
+use crate::geometry::Real;
+use std::ops::{Add, Mul, Sub};
+
+/// Three components: one vector, or as many side by side as a register has lanes.
+pub(super) type Vector<V> = [V; 3];
+
+#[inline(always)]
+pub(super) fn plus<V: Copy + Add<Output = V>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
+    [p[0] + q[0], p[1] + q[1], p[2] + q[2]]
+}
+
+#[inline(always)]
+pub(super) fn minus<V: Copy + Sub<Output = V>>(p: Vector<V>, q: Vector<V>) -> Vector<V> {
+    [p[0] - q[0], p[1] - q[1], p[2] - q[2]]
+}
+
+#[inline(always)]
+pub(super) fn times<V: Copy + Mul<Output = V>>(by: V, p: Vector<V>) -> Vector<V> {
+    [by * p[0], by * p[1], by * p[2]]
+}
+
+#[inline(always)]
+pub(super) fn dot<V: Copy + Add<Output = V> + Mul<Output = V>>(p: Vector<V>, q: Vector<V>) -> V {
+    p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+}
+
+#[inline(always)]
+pub(super) fn square_of<V: Copy + Add<Output = V> + Mul<Output = V>>(p: Vector<V>) -> V {
+    dot(p, p)
+}
+
+#[inline(always)]
+pub(super) fn cross<V: Copy + Sub<Output = V> + Mul<Output = V>>(
+    p: Vector<V>,
+    q: Vector<V>,
+) -> Vector<V> {
+    [
+        p[1] * q[2] - p[2] * q[1],
+        p[2] * q[0] - p[0] * q[2],
+        p[0] * q[1] - p[1] * q[0],
+    ]
+}
+
+/// One point less another, in double precision; behind each is padding.
+#[inline(always)]
+pub(super) fn difference<S: Real>(p: &[S; 4], q: &[S; 4]) -> Vector<f64> {
+    minus(position(p), position(q))
+}
+
+#[inline(always)]
+fn position<S: Real>([x, y, z, _]: &[S; 4]) -> Vector<f64> {
+    [x.to_f64(), y.to_f64(), z.to_f64()]
+}

@@ -12,6 +12,9 @@ pub(crate) struct BoxLanes<const N: usize> {
     pub(super) hi: [[f32; N]; 3],
 }
 
+/// As many as a register has lanes: of eight triangles of a leaf, or of eight elements.
+pub(crate) type EightBoxes = BoxLanes<8>;
+
 impl<const N: usize> BoxLanes<N> {
     pub(crate) const EMPTY: Self = Self {
         lo: [[f32::NAN; N]; 3],

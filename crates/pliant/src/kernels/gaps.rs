@@ -14,15 +14,12 @@
 //! 2^-21 m + 2^-120. Sides that were beyond `f32` are off by more: where m is not far below the largest `f32`, no limit is sure.
 
 use super::Coordinate;
-use super::boxes::{BoxLanes, eight};
+use super::boxes::{EightBoxes, eight};
 use super::coordinate::lanes_of;
 use crate::geometry::{Aabb, Points, Real, Shape};
 use crate::ids::TreeVertex;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8, mask32x8, u32x8};
-
-/// Boxes side by side.
-pub(crate) type Eight = BoxLanes<8>;
 
 /// The corners of eight elements that have `C` each, the same corner of all side by side.
 pub(crate) type EightCorners<const C: usize> = [[u32; 8]; C];
@@ -93,7 +90,7 @@ pub(crate) fn of_elements<I: Simd, S: Coordinate, const C: usize>(
     shape: &Shape<S>,
     end: Option<&Points<S>>,
     corners: &EightCorners<C>,
-    lanes: &mut Eight,
+    lanes: &mut EightBoxes,
 ) {
     let zero = f32x4::splat(i, 0.0);
     let (mut lo, mut hi) = ([zero; 8], [zero; 8]);
@@ -135,7 +132,7 @@ impl<I: Simd> Registers<I> {
     }
 
     #[inline(always)]
-    fn new(i: I, lanes: &Eight) -> Self {
+    fn new(i: I, lanes: &EightBoxes) -> Self {
         let mut boxes = Self::none(i);
         for axis in 0..3 {
             boxes.lo[axis] = eight(i, &lanes.lo[axis]);
@@ -169,7 +166,7 @@ impl<I: Simd> Registers<I> {
 
 /// Which lanes are possibly near a box.
 #[inline(always)]
-pub(crate) fn near_box<I: Simd>(i: I, lanes: &Eight, all: &PaddedBox, limits: Limits) -> u64 {
+pub(crate) fn near_box<I: Simd>(i: I, lanes: &EightBoxes, all: &PaddedBox, limits: Limits) -> u64 {
     let gaps = Registers::new(i, lanes).gaps(all.lo, all.hi);
     gaps.simd_le(f32x8::splat(i, limits.possible)).to_bitmask()
 }
@@ -179,9 +176,9 @@ pub(crate) fn near_box<I: Simd>(i: I, lanes: &Eight, all: &PaddedBox, limits: Li
 #[inline(always)]
 pub(crate) fn near_pairs<I: Simd, const A: usize, const B: usize>(
     i: I,
-    (a, corners_a): (&Eight, &EightCorners<A>),
+    (a, corners_a): (&EightBoxes, &EightCorners<A>),
     rows: u32,
-    (b, corners_b): (&Eight, &EightCorners<B>),
+    (b, corners_b): (&EightBoxes, &EightCorners<B>),
     is_one_body: bool,
     limits: Limits,
 ) -> (u64, bool) {
@@ -215,7 +212,7 @@ pub(crate) fn near_pairs<I: Simd, const A: usize, const B: usize>(
 
 /// Which pairs of lanes (i, j) are surely near each other: bit 8 i + j.
 #[inline(always)]
-pub(crate) fn sure_pairs<I: Simd>(i: I, a: &Eight, b: &Eight, limits: Limits) -> u64 {
+pub(crate) fn sure_pairs<I: Simd>(i: I, a: &EightBoxes, b: &EightBoxes, limits: Limits) -> u64 {
     let registers = Registers::new(i, b);
     let mut sure = 0;
     for lane in 0..8 {
@@ -284,7 +281,7 @@ mod tests {
                 let expected = exact[0].are_within(&exact[1], distance);
                 for instructions in Instructions::all() {
                     dispatch!(instructions, i => {
-                        let [mut a, mut b] = [Eight::EMPTY; 2];
+                        let [mut a, mut b] = [EightBoxes::EMPTY; 2];
                         of_elements(i, &shape, None, &lanes[0], &mut a);
                         of_elements(i, &shape, None, &lanes[1], &mut b);
                         let all = [a, b].map(|lanes| lanes.get(0));

@@ -41,7 +41,7 @@ pub(crate) mod ring;
 pub(crate) mod signs;
 mod vector;
 
-pub(crate) use boxes::{BoxLanes, near_mask, overlap_mask};
+pub(crate) use boxes::{BoxLanes, EightBoxes, near_mask, overlap_mask};
 pub(crate) use buffer::Buffer;
 pub(crate) use coordinate::{Coordinate, Corners};
 pub(crate) use copy_checked::{check, copy_checked};

@@ -3,7 +3,8 @@
 //! A ring that is written twice in a row begins, turned by k, at place k. So what is read at place i and at place i + k are eight pairs, and
 //! turns by 1 to n / 2 give all pairs of n elements, with few twice; each element beside eight others takes twice as many comparisons.
 
-use super::gaps::{Eight, EightCorners, Limits, Registers};
+use super::EightBoxes;
+use super::gaps::{EightCorners, Limits, Registers};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, u32x8};
 
@@ -33,7 +34,7 @@ impl<const C: usize> Ring<C> {
     pub(crate) fn fill<'e>(
         &mut self,
         count: usize,
-        eights: impl Iterator<Item = (&'e Eight, &'e EightCorners<C>)> + Clone,
+        eights: impl Iterator<Item = (&'e EightBoxes, &'e EightCorners<C>)> + Clone,
     ) {
         self.count = count.min(MOST_OF_RUN);
         // What is behind the last of the first time is written over the second time.
@@ -120,8 +121,8 @@ mod tests {
     use pliant_oracle::Random;
 
     /// Elements on a lattice, so that gaps are often the margin, and corners of few vertices, so that many are shared.
-    fn eights(random: &mut Random, count: usize) -> Vec<(Eight, EightCorners<2>)> {
-        let mut eights = vec![(Eight::EMPTY, [[0; 8]; 2]); count.div_ceil(8)];
+    fn eights(random: &mut Random, count: usize) -> Vec<(EightBoxes, EightCorners<2>)> {
+        let mut eights = vec![(EightBoxes::EMPTY, [[0; 8]; 2]); count.div_ceil(8)];
         for (place, (boxes, corners)) in (0..).step_by(8).zip(&mut eights) {
             for lane in 0..8 {
                 // What is missing to the last eight is its first again.

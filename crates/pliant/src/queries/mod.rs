@@ -44,7 +44,7 @@ pub(crate) const OF_GROWN_SHAPES: BoxSetNumber = 2;
 pub(crate) struct Needs {
     pub(crate) box_set: BoxSetNumber,
     /// What it is shown of leaves.
-    pub(crate) leaves: Leaves,
+    pub(crate) leaves: Shown,
     /// By how much boxes are larger than those of the shape, on every side; none if they are those of the shape.
     pub(crate) grows_by: Option<f32>,
     /// How far it looks along motions; none if it does not.
@@ -55,14 +55,14 @@ impl Needs {
     /// The shape of now, and triangles whose boxes overlap.
     pub(crate) const TRIANGLES: Self = Self {
         box_set: OF_SHAPES,
-        leaves: Leaves::Triangles,
+        leaves: Shown::Triangles,
         grows_by: None,
         reach: None,
     };
 
     /// Whether it is shown triangles, not runs of them.
     pub(crate) fn triangles(&self) -> bool {
-        self.leaves == Leaves::Triangles
+        self.leaves == Shown::Triangles
     }
 
     /// What boxes of bodies are for it.
@@ -181,12 +181,15 @@ pub(crate) enum Reach {
 
 /// What a kind is shown of leaves that overlap: see [`Batch`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Leaves {
+pub(crate) enum Shown {
     /// Triangles whose boxes overlap.
     Triangles,
     /// The triangles of either leaf, up to eight at a time: not their boxes, but those of elements that belong to them.
     Runs(Which),
 }
+
+/// The name by which `world` knows it.
+pub(crate) use Shown as Leaves;
 
 /// What a test of leaves works with.
 pub(crate) struct LeafTest<'q, S> {

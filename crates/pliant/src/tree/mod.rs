@@ -31,8 +31,8 @@ use crate::ids::{NodeId, TreeTriangle, TreeVertex, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::{Budget, Executor};
 pub(crate) use boxes::{
-    Block, BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodeLanes, NodesMut, Quantized, Source,
-    Swept, Version, of_degree, of_source,
+    BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodeLanes, NodesMut, Quantized, Source, Swept,
+    Version, of_degree, of_source,
 };
 use build::Plan;
 pub(crate) use expand::{BoxedTree, LeafPair, NodePair, Worklists, expand};

@@ -7,8 +7,8 @@
 use super::{DirtySet, Refit, Refitted};
 use crate::ids::{BlockId, LeafId, TreeVertex};
 use crate::kernels::extent::{self, Extent, Four};
-use crate::kernels::{Coordinate, Simd, dispatch};
-use crate::tree::{BLOCK_LANES, Block, BoxSource, Leaves, LeavesMut, of_source};
+use crate::kernels::{Coordinate, EightBoxes, Simd, dispatch};
+use crate::tree::{BLOCK_LANES, BoxSource, Leaves, LeavesMut, of_source};
 use std::ops::Range;
 
 /// Words of 64 leaves in a job: at most some microseconds of work.
@@ -126,7 +126,7 @@ impl LeafRun<'_> {
 pub(super) fn refit_block<I: Simd, B: BoxSource>(
     i: I,
     triangles: &[[TreeVertex; 3]],
-    block: &mut Block,
+    block: &mut EightBoxes,
     source: &B,
 ) -> Extent<I> {
     // What is missing to eight is the last again.

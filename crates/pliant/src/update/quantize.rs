@@ -6,8 +6,8 @@
 
 use super::{Refit, Refitted};
 use crate::ids::{BlockId, LeafId, NodeId};
-use crate::kernels::{Coordinate, FARTHEST, QuantizedLanes, dispatch, quantize};
-use crate::tree::{Block, BoxSet, Child, Quantized, Tree};
+use crate::kernels::{Coordinate, EightBoxes, FARTHEST, QuantizedLanes, dispatch, quantize};
+use crate::tree::{BoxSet, Child, Quantized, Tree};
 
 /// Units in the mean of the longest sides of leaves.
 const UNITS: f32 = 32.0;
@@ -28,7 +28,7 @@ pub(super) fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) 
     quantized.units = units;
     let quantized = &mut quantized.blocks;
     quantized.resize_with(blocks.len(), Default::default);
-    let make = |quantized: &mut [QuantizedLanes], blocks: &[Block]| {
+    let make = |quantized: &mut [QuantizedLanes], blocks: &[EightBoxes]| {
         dispatch!(refit.instructions, i => {
             for (quantized, block) in quantized.iter_mut().zip(blocks) {
                 *quantized = quantize(i, block, units);

@@ -15,7 +15,7 @@ mod near_boxes;
 mod runs;
 mod vertex_triangle;
 
-use super::{LeafTest, Leaves, Needs, OF_MOTIONS, Reach};
+use super::{LeafTest, Needs, OF_MOTIONS, Reach, Shown};
 use crate::geometry::{Bounds, Real};
 use crate::ids::TreeVertex;
 use crate::kernels::gaps::Limits;
@@ -109,7 +109,7 @@ impl Margin {
     fn needs(self, which: Which) -> Needs {
         Needs {
             box_set: OF_MOTIONS,
-            leaves: Leaves::Runs(which),
+            leaves: Shown::Runs(which),
             grows_by: Some(self.grown_by),
             reach: Some(Reach::End),
         }

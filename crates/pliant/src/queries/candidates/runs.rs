@@ -6,9 +6,9 @@
 use crate::geometry::{Aabb, Points, Shape, larger};
 use crate::held::{self, Held};
 use crate::ids::TreeVertex;
-use crate::kernels::gaps::{self, Eight, EightCorners, Limits, PaddedBox};
+use crate::kernels::gaps::{self, EightCorners, Limits, PaddedBox};
 use crate::kernels::ring::{MOST_OF_RUN, Ring};
-use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
+use crate::kernels::{Coordinate, EightBoxes, Instructions, Simd, dispatch};
 use crate::threads::Executor;
 use crate::tree::Version;
 use std::ops::Range;
@@ -54,7 +54,7 @@ impl Run {
 /// Eight elements side by side.
 #[derive(Debug)]
 struct ElementEight<const C: usize> {
-    boxes: Eight,
+    boxes: EightBoxes,
     /// Those that are missing to the last eight of a run are its first again.
     corners: EightCorners<C>,
 }
@@ -78,7 +78,7 @@ impl<const C: usize> RunBoxes<C> {
             // Up to three vertices, or edges, belong to a triangle.
             debug_assert!(elements.len() <= MOST_OF_RUN, "{elements:?}");
             runs.push(Run {
-                hull: Eight::EMPTY.get(0).into(),
+                hull: EightBoxes::EMPTY.get(0).into(),
                 first: eights.len() as u32,
                 start: elements.start,
                 count: elements.len() as u32,
@@ -97,7 +97,7 @@ impl<const C: usize> RunBoxes<C> {
                         corners[which][lane] = of_element[which].0;
                     }
                 }
-                let boxes = Eight::EMPTY;
+                let boxes = EightBoxes::EMPTY;
                 eights.push(ElementEight { boxes, corners });
             }
         }
@@ -187,7 +187,7 @@ fn make_run<I: Simd, S: Coordinate, const C: usize>(
     (shape, end): Ends<S>,
     eights: &mut [ElementEight<C>],
 ) -> Aabb {
-    let mut all = Eight::EMPTY.get(0);
+    let mut all = EightBoxes::EMPTY.get(0);
     for (place, ElementEight { boxes, corners }) in eights.iter_mut().enumerate() {
         gaps::of_elements(i, shape, end, corners, boxes);
         let of_eight = boxes.union();

@@ -11,15 +11,12 @@
 mod lanes;
 mod source;
 
-use super::{BLOCK_LANES, Tree};
+use super::Tree;
 use crate::held::{self, held};
 use crate::ids::{BlockId, LeafId, WideNodeId};
-use crate::kernels::{BoxLanes, QuantizedLanes};
+use crate::kernels::{BoxLanes, EightBoxes, QuantizedLanes};
 pub(crate) use lanes::{NodeLanes, of_degree};
 pub(crate) use source::{BoxSource, Grown, Source, Swept, Version, of_source};
-
-/// The boxes of up to eight triangles.
-pub(crate) type Block = BoxLanes<BLOCK_LANES>;
 
 /// Before every stamp.
 const NEVER: u64 = 0;
@@ -34,7 +31,7 @@ pub(crate) struct BoxSet {
     node_stamps: Vec<u64>,
     /// Of every block the boxes of its triangles, and of every leaf the stamp with which those of all its blocks were made. None where
     /// every leaf is one triangle.
-    blocks: Vec<Block>,
+    blocks: Vec<EightBoxes>,
     leaf_stamps: Vec<u64>,
     /// The stamp with which the nodes of all wide nodes were last made at once, and the triangles of all leaves.
     complete_nodes: u64,
@@ -65,11 +62,11 @@ impl Quantized {
 
 /// The boxes of the triangles of all blocks.
 #[derive(Clone, Copy)]
-pub(crate) struct BlockBoxes<'b>(&'b [Block]);
+pub(crate) struct BlockBoxes<'b>(&'b [EightBoxes]);
 
 impl<'b> BlockBoxes<'b> {
     #[inline(always)]
-    pub(crate) fn of(self, block: BlockId) -> &'b Block {
+    pub(crate) fn of(self, block: BlockId) -> &'b EightBoxes {
         &self.0[block.index()]
     }
 }
@@ -86,7 +83,7 @@ pub(crate) struct LeavesMut<'b> {
     pub(crate) first_leaf: usize,
     pub(crate) stamps: &'b mut [u64],
     pub(crate) first_block: usize,
-    pub(crate) blocks: &'b mut [Block],
+    pub(crate) blocks: &'b mut [EightBoxes],
 }
 
 impl BoxSet {
@@ -99,7 +96,7 @@ impl BoxSet {
             stamp: NEVER + 1,
             nodes: NodeLanes::new(tree.degree, tree.wide_nodes.len()),
             node_stamps: vec![NEVER; tree.wide_nodes.len()],
-            blocks: vec![Block::EMPTY; blocks],
+            blocks: vec![EightBoxes::EMPTY; blocks],
             leaf_stamps: vec![NEVER; leaves],
             complete_nodes: NEVER,
             complete_leaves: NEVER,
@@ -198,7 +195,7 @@ impl BoxSet {
     }
 
     /// The boxes of triangles, and where these are quantized to.
-    pub(crate) fn blocks_and_quantized(&mut self) -> (&[Block], &mut Quantized) {
+    pub(crate) fn blocks_and_quantized(&mut self) -> (&[EightBoxes], &mut Quantized) {
         (&self.blocks, &mut self.quantized)
     }
 
@@ -274,7 +271,7 @@ impl<'b, const N: usize> NodesMut<'b, N> {
 }
 
 impl<'b> LeavesMut<'b> {
-    fn all(stamps: &'b mut [u64], blocks: &'b mut [Block]) -> Self {
+    fn all(stamps: &'b mut [u64], blocks: &'b mut [EightBoxes]) -> Self {
         Self {
             first_leaf: 0,
             stamps,

@@ -9,7 +9,7 @@
 mod follow;
 
 use super::{Order, Topology};
-use crate::held::held;
+use crate::held::{self, held};
 use crate::ids::{TreeTriangle, TreeVertex};
 pub(crate) use follow::Changed;
 use follow::EdgeIndex;
@@ -279,8 +279,9 @@ pub(super) fn edges_of(&[a, b, c]: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> 
     three.map(|[a, b]| [a.min(b), a.max(b)])
 }
 
-held!(Elements: callers[], ends[], numbers[], firsts[], index;
-    |elements| elements.tree_vertices.get().map_or(0, |all| size_of_val(&**all)));
+held!(Elements: callers[], ends[], numbers[], firsts[];
+    |elements| held::boxes(&elements.index)
+        + elements.tree_vertices.get().map_or(0, |all| size_of_val(&**all)));
 
 #[cfg(test)]
 mod tests {

@@ -26,7 +26,7 @@ mod validate;
 mod vertex_sets;
 mod wide_node;
 
-use crate::held::held;
+use crate::held::{self, held};
 use crate::ids::{NodeId, TreeTriangle, TreeVertex, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::{Budget, Executor};
@@ -249,4 +249,5 @@ impl<'t> Nodes<'t> {
     }
 }
 
-held!(Tree: wide_nodes[], level_starts[], vertices, leaves, neighbours);
+held!(Tree: wide_nodes[], level_starts[], vertices, leaves;
+    |tree| held::boxes(&tree.neighbours));

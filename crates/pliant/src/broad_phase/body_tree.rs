@@ -9,7 +9,7 @@
 //! whose boxes overlap its own, in order. Not in the paper, which sweeps and prunes; there a list of all overlapping pairs is kept,
 //! and bodies that move fast are sorted past most others on every axis.
 
-use super::Overlap;
+use super::overlap::Overlap;
 use crate::geometry::{Aabb, Bounds};
 use crate::held::{self, held};
 use crate::ids::Rank;

@@ -1,6 +1,6 @@
 //! Every box against every later one: n (n - 1) / 2 comparisons.
 
-use super::Overlap;
+use super::overlap::Overlap;
 use crate::geometry::Aabb;
 use crate::ids::Rank;
 

@@ -6,6 +6,7 @@
 
 mod body_tree;
 mod brute_force;
+mod overlap;
 mod sweep_and_prune;
 
 use crate::geometry::Aabb;
@@ -14,10 +15,8 @@ use crate::ids::Rank;
 use crate::kernels::Instructions;
 use crate::threads::Interrupt;
 use body_tree::BodyTree;
+pub(crate) use overlap::Overlap;
 use sweep_and_prune::{Outcome, SweepAndPrune};
-
-/// Two bodies whose boxes overlap, the smaller rank first.
-pub(crate) type Overlap = [Rank; 2];
 
 /// Up to so many bodies, comparing all pairs is as good as anything; "approximately 100" (paper, 3.4).
 const MOST_FOR_BRUTE_FORCE: usize = 100;

@@ -16,7 +16,7 @@
 //! sorted list; memory is O(n + pairs). And when a sort exchanges more than a budget (bodies jumped), the lists are sorted
 //! from scratch and swept once along the axis with the fewest overlaps.
 
-use super::Overlap;
+use super::overlap::Overlap;
 use crate::geometry::Aabb;
 use crate::held::{self, held};
 use crate::ids::Rank;

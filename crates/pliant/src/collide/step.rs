@@ -7,7 +7,7 @@ use crate::bodies::Body;
 use crate::bodies::Work;
 use crate::geometry::Origin;
 use crate::kernels::Coordinate;
-use crate::queries::{Leaves, Needs};
+use crate::queries::{Needs, Shown};
 use crate::statistics::Statistics;
 use crate::traversal::{Scratch, Side, Tasks, TreePair, descend};
 use crate::update::{Partner, Refit};
@@ -163,7 +163,7 @@ impl Step<'_> {
         if !body.bring_into_tree_order(reach, instructions, executor) {
             return ControlFlow::Break(());
         }
-        if let Leaves::Runs(which) = self.needs.leaves
+        if let Shown::Runs(which) = self.needs.leaves
             && !body.make_near_boxes(which, reach, self.origin, (instructions, executor))
         {
             return ControlFlow::Break(());

@@ -6,13 +6,14 @@
 //!
 //! Where the mesh is edited, edges keep their numbers: see `follow`.
 
+mod edge_index;
 mod follow;
 
 use super::{Order, Topology};
 use crate::held::{self, held};
 use crate::ids::{TreeTriangle, TreeVertex};
+use edge_index::EdgeIndex;
 pub(crate) use follow::Changed;
-use follow::EdgeIndex;
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -33,12 +34,6 @@ pub(crate) struct Elements {
     /// Once the mesh is edited.
     index: Option<Box<EdgeIndex>>,
 }
-
-/// The ends of a number that no edge has.
-pub(crate) const NO_EDGE: [u32; 2] = [u32::MAX; 2];
-
-/// The number of no edge: there are fewer.
-const UNSEEN: u32 = u32::MAX;
 
 /// So many triangles are gone through before it is asked whether somebody wants to stop.
 const UNINTERRUPTED: usize = 1 << 14;

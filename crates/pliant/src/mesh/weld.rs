@@ -13,7 +13,7 @@ mod classes;
 
 use super::elements::edges_of;
 use super::topology::EMPTY;
-use classes::Classes;
+use classes::{Classes, UNINTERRUPTED};
 use std::ops::Range;
 
 /// What there is to know of positions and a tolerance.
@@ -52,9 +52,6 @@ pub(crate) fn coinciding(
     }
     Some(search.classes.pairs())
 }
-
-/// So many triangles or vertices are gone through before it is asked whether somebody wants to stop.
-const UNINTERRUPTED: usize = 1 << 14;
 
 /// The edges that exactly one triangle has, the smaller end first, sorted. A degenerate triangle has an edge once, however often it runs
 /// along it.

@@ -5,7 +5,7 @@
 //! triangles, from its corners.
 
 use super::refit::{refit_from_children, refit_from_vertices};
-use super::{Refit, Refitted};
+use super::refitted::{Refit, Refitted};
 use crate::ids::WideNodeId;
 use crate::kernels::Coordinate;
 use crate::tree::Child;

@@ -5,8 +5,8 @@
 //! in a body that meets itself it is all, because every leaf meets at least itself. The paper's level n / 2 is for all other cases.
 
 use super::bottom_up::refit_levels;
+use super::refitted::{Partner, Refit, Refitted};
 use super::whole::refit_whole;
-use super::{Partner, Refit, Refitted};
 use crate::Update;
 use crate::ids::WideNodeId;
 use crate::kernels::Coordinate;

@@ -4,7 +4,8 @@
 //! another: on two spheres in contact, half of them. So the triangles get theirs last of all, but in a body that meets itself, where
 //! every leaf meets at least itself: there they are made ahead.
 
-use super::{DirtySet, Refit, Refitted};
+use super::dirty_set::DirtySet;
+use super::refitted::{Refit, Refitted};
 use crate::ids::{BlockId, LeafId, TreeVertex};
 use crate::kernels::extent::{self, Extent, Four};
 use crate::kernels::{Coordinate, EightBoxes, Simd, dispatch};

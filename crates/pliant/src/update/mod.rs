@@ -22,39 +22,15 @@ mod hybrid;
 mod leaves;
 mod quantize;
 mod refit;
+mod refitted;
 mod top_down;
 mod whole;
 
 use crate::ids::WideNodeId;
-use crate::kernels::{Coordinate, Instructions};
-use crate::options::Update;
+use crate::kernels::Coordinate;
 use crate::statistics::Statistics;
-use crate::threads::Executor;
-use crate::tree::{BoxSet, Source, Tree};
 pub(crate) use dirty_set::DirtySet;
-
-/// What a body meets in a query: of how much of its tree boxes are made ahead depends on it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Partner {
-    Another,
-    /// Then every leaf meets at least itself.
-    Itself,
-}
-
-/// How boxes are made.
-#[derive(Clone, Copy)]
-pub(crate) struct Refit<'q> {
-    pub(crate) executor: Executor<'q>,
-    pub(crate) instructions: Instructions,
-    pub(crate) update: Update,
-}
-
-/// A tree, a set of its boxes, and what these are made of.
-pub(crate) struct Refitted<'t, S> {
-    pub(crate) tree: &'t Tree,
-    pub(crate) boxes: &'t mut BoxSet,
-    pub(crate) source: &'t Source<'t, S>,
-}
+pub(crate) use refitted::{Partner, Refit, Refitted};
 
 impl Refit<'_> {
     /// Refits the upper levels, unless they are valid. `wide_nodes` is scratch.

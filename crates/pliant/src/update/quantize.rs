@@ -4,7 +4,7 @@
 //! One unit is for all leaves, a part of their mean length. Leaves that are much longer do not fit and are not told apart from
 //! others; much shorter ones are told apart less often. Either way nothing is missed, for the boxes themselves are asked again.
 
-use super::{Refit, Refitted};
+use super::refitted::{Refit, Refitted};
 use crate::ids::{BlockId, LeafId, NodeId};
 use crate::kernels::{Coordinate, EightBoxes, FARTHEST, QuantizedLanes, dispatch, quantize};
 use crate::tree::{BoxSet, Child, Quantized, Tree};

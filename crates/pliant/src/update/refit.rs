@@ -3,7 +3,7 @@
 //! Wide nodes are stored level by level in the order of their triangles. So a list of them in ascending order is cut into runs, and
 //! each run owns one part of the array: no two jobs write one box.
 
-use super::{Refit, Refitted};
+use super::refitted::{Refit, Refitted};
 use crate::ids::WideNodeId;
 use crate::kernels::extent::{self, Extent};
 use crate::kernels::{BoxLanes, Coordinate, Simd, dispatch};

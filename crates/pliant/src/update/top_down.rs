@@ -4,8 +4,9 @@
 //! variant makes "a specified number of levels in their sub-trees" bottom-up at once.
 
 use super::bottom_up::refit_levels;
+use super::dirty_set::DirtySet;
 use super::refit::refit_from_vertices;
-use super::{DirtySet, Refit, Refitted};
+use super::refitted::{Refit, Refitted};
 use crate::ids::WideNodeId;
 use crate::kernels::Coordinate;
 

@@ -6,7 +6,7 @@
 use super::leaves::refit_block;
 use super::quantize::{is_near_enough, units_of};
 use super::refit::refit_from_children;
-use super::{Refit, Refitted};
+use super::refitted::{Refit, Refitted};
 use crate::ids::{BlockId, WideNodeId};
 use crate::kernels::extent::{self, Extent};
 use crate::kernels::{Coordinate, QuantizedLanes, Simd, dispatch, quantize};

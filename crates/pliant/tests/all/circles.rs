@@ -463,7 +463,6 @@ fn the_bindings_have_no_circle() {
 }
 
 #[test]
-#[ignore = "`world/` has circles still, and two files of `geometry/` are one"]
 fn modules_of_the_library_beside_each_other_are_in_no_circle() {
     let source = workspace().join("crates/pliant/src");
     let said = Crate::read(&source).circles(false);
@@ -471,7 +470,6 @@ fn modules_of_the_library_beside_each_other_are_in_no_circle() {
 }
 
 #[test]
-#[ignore = "some folders of the library use what their own `mod.rs` defines"]
 fn the_library_has_no_circle() {
     let source = workspace().join("crates/pliant/src");
     let said = Crate::read(&source).circles(true);

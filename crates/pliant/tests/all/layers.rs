@@ -286,6 +286,19 @@ fn folders_use_what_stands_below_them() {
 }
 
 #[test]
+fn the_degree_of_trees_is_a_type_in_no_folder_above_them() {
+    let mut found = BTreeSet::new();
+    for (path, code) in files(&source()) {
+        if code.contains("const N: usize") {
+            let inside = path.strip_prefix(source()).unwrap();
+            found.insert(inside.iter().next().unwrap().to_str().unwrap().to_owned());
+        }
+    }
+    let below = ["kernels", "tree", "update"].map(str::to_owned);
+    assert_eq!(found, BTreeSet::from(below));
+}
+
+#[test]
 fn files_beside_each_other_use_each_other_in_no_circle() {
     let mut folders: BTreeMap<PathBuf, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
     for (path, code) in files(&source()) {

@@ -1,7 +1,9 @@
 //! Vertices that become one, and which of them may not: corners of one triangle.
 
-use super::UNINTERRUPTED;
 use std::collections::BTreeSet;
+
+/// So many triangles or vertices are gone through before it is asked whether somebody wants to stop.
+pub(super) const UNINTERRUPTED: usize = 1 << 14;
 
 /// The vertices at some edges, by which of them have become one. Those that share a triangle never do.
 pub(super) struct Classes {

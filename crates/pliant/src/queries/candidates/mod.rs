@@ -7,23 +7,18 @@
 //! The tree has boxes of the same hulls, grown by r, in a set of its own. Every vertex and every edge belongs to one triangle
 //! (`mesh::Elements`), in whose leaf it is looked for; as a leaf's box holds what belongs to it, leaves that hold a candidate are found,
 //! adjacent ones included. So an element pair comes up once, in the one pair of runs of up to eight triangles that its two belong to.
-//! `runs` has the boxes of what belongs to a run, `kernels::gaps` compares them eight at a time, and few are left to exact arithmetic.
+//! `near` has the boxes of what belongs to a run, `kernels::gaps` compares them eight at a time, and few are left to exact arithmetic.
 
 mod edge_edge;
-mod groups;
-mod near_boxes;
-mod runs;
 mod vertex_triangle;
 
-use super::{LeafTest, Needs, OF_MOTIONS, Reach, Shown};
+use super::{LeafTest, Needs, OF_MOTIONS, Reach, Shown, Which};
 use crate::geometry::{Bounds, Real};
 use crate::ids::TreeVertex;
 use crate::kernels::gaps::Limits;
 use crate::kernels::{Buffer, Coordinate};
 use crate::statistics::Statistics;
 pub(crate) use edge_edge::EdgeEdgeCandidates;
-pub(crate) use groups::Groups;
-pub(crate) use near_boxes::{NearBoxes, NearElements, Which};
 use std::marker::PhantomData;
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
 

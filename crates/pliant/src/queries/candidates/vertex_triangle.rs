@@ -1,11 +1,12 @@
 //! Vertices near triangles.
 
-use super::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
-use super::{Candidates, Which, groups, keep};
+use super::{Candidates, keep};
 use crate::geometry::larger;
 use crate::hits::VertexTriangle;
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Buffer, Coordinate, dispatch};
+use crate::queries::near::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
+use crate::queries::near::{Which, groups};
 use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
 use crate::statistics::Statistics;
 

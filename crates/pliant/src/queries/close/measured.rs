@@ -1,6 +1,6 @@
 //! Close pairs that are measured as they are found, for visitors; a list is measured once it is sorted.
 
-use super::closest_of;
+use super::closest::closest_of;
 use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
 use crate::hits::{EdgeEdge, Hit, VertexTriangle};
 use crate::kernels::closest::Corners;

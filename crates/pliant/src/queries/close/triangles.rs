@@ -4,8 +4,8 @@
 //! out as in `intersections`. Each is decided between two proven bounds (`kernels::closest`), and what the distance lies between
 //! by exact arithmetic (`pliant_exact::distance`).
 
+use super::closest::{ACCURACY, half};
 use super::measured::{CloseKind, Measurable};
-use super::{ACCURACY, half};
 use crate::close_pairs::CloseTriangles;
 use crate::geometry::{Real, Shape};
 use crate::hits::Pair;

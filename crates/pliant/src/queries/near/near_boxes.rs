@@ -1,12 +1,12 @@
 //! The boxes of all elements of a body, each kind once somebody asks for it.
 
 use super::groups::Groups;
+use super::removed::Removed;
 use super::runs::{Ends, RunBoxes};
 use crate::held::held;
 use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{Elements, TriangleRun};
-use crate::queries::Removed;
 use crate::threads::Executor;
 use crate::tree::{Leaves, Version};
 
@@ -20,9 +20,9 @@ pub(crate) enum Which {
 /// The boxes of a body's elements.
 #[derive(Debug, Default)]
 pub(crate) struct NearBoxes {
-    pub(super) vertices: Option<RunBoxes<1>>,
-    pub(super) triangles: Option<RunBoxes<3>>,
-    pub(super) edges: Option<RunBoxes<2>>,
+    pub(in crate::queries) vertices: Option<RunBoxes<1>>,
+    pub(in crate::queries) triangles: Option<RunBoxes<3>>,
+    pub(in crate::queries) edges: Option<RunBoxes<2>>,
 }
 
 /// The vertices and edges of a body, and their boxes.

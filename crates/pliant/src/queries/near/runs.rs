@@ -167,13 +167,13 @@ impl<const C: usize> RunBoxes<C> {
     }
 
     /// The largest coordinate, relative to the origin, of any box.
-    pub(super) fn most(&self) -> f32 {
+    pub(in crate::queries) fn most(&self) -> f32 {
         self.most
     }
 
     /// The elements of a run and their boxes.
     #[inline(always)]
-    pub(super) fn run(&self, run: u32) -> ElementRun<'_, C> {
+    pub(in crate::queries) fn run(&self, run: u32) -> ElementRun<'_, C> {
         let run = &self.runs[run as usize];
         let eights = &self.eights[run.eights()];
         ElementRun { run, eights }
@@ -201,22 +201,22 @@ fn make_run<I: Simd, S: Coordinate, const C: usize>(
 }
 
 /// So many pairs of runs are looked at in a row.
-pub(super) const RUNS_AT_ONCE: usize = 32;
+pub(in crate::queries) const RUNS_AT_ONCE: usize = 32;
 
 /// Which runs of two bodies, or of one, are looked at.
 #[derive(Clone, Copy)]
-pub(super) struct RunPairs<'p> {
+pub(in crate::queries) struct RunPairs<'p> {
     /// There are no more than [`RUNS_AT_ONCE`].
-    pub(super) pairs: &'p [[u32; 2]],
+    pub(in crate::queries) pairs: &'p [[u32; 2]],
     /// The place in a pair of the run that comes first here.
-    pub(super) first: usize,
+    pub(in crate::queries) first: usize,
     /// Whether a run is not looked at with itself.
-    pub(super) without_itself: bool,
+    pub(in crate::queries) without_itself: bool,
 }
 
 /// Keeps pairs of runs the boxes of whose elements are possibly near each other.
 #[inline(always)]
-pub(super) fn near_runs<'k, I: Simd, const C: usize, const D: usize>(
+pub(in crate::queries) fn near_runs<'k, I: Simd, const C: usize, const D: usize>(
     i: I,
     (a, b): (&RunBoxes<C>, &RunBoxes<D>),
     runs: RunPairs,
@@ -239,7 +239,7 @@ pub(super) fn near_runs<'k, I: Simd, const C: usize, const D: usize>(
 }
 
 /// The elements of one kind that belong to a run of triangles, and their boxes.
-pub(super) struct ElementRun<'b, const C: usize> {
+pub(in crate::queries) struct ElementRun<'b, const C: usize> {
     run: &'b Run,
     eights: &'b [ElementEight<C>],
 }
@@ -271,7 +271,7 @@ impl<const C: usize> ElementRun<'_, C> {
     /// Shows `found` the pairs of elements, one of either run, that are possibly near each other and those that surely are, as bits
     /// 8 i + j of two masks, behind the numbers of the first elements. Of one body those that have no corner in common.
     #[inline(always)]
-    pub(super) fn compare<I: Simd, const D: usize>(
+    pub(in crate::queries) fn compare<I: Simd, const D: usize>(
         &self,
         i: I,
         other: &ElementRun<'_, D>,
@@ -316,7 +316,7 @@ impl<const C: usize> ElementRun<'_, C> {
 
     /// Shows `found` the pairs of its elements that are possibly near each other and have no corner in common, and whether they surely are.
     #[inline(always)]
-    pub(super) fn compare_within<I: Simd>(
+    pub(in crate::queries) fn compare_within<I: Simd>(
         &self,
         i: I,
         ring: &mut Ring<C>,

@@ -10,9 +10,9 @@ use crate::mesh::{Elements, Order};
 /// The groups of a body's elements, in tree order.
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
-    pub(super) vertices: Vec<u32>,
-    pub(super) edges: Vec<u32>,
-    pub(super) triangles: Vec<u32>,
+    pub(in crate::queries) vertices: Vec<u32>,
+    pub(in crate::queries) edges: Vec<u32>,
+    pub(in crate::queries) triangles: Vec<u32>,
 }
 
 impl Groups {
@@ -45,7 +45,7 @@ impl Groups {
 
 /// Whether elements of these groups meet.
 #[inline(always)]
-pub(super) fn meet(a: u32, b: u32) -> bool {
+pub(in crate::queries) fn meet(a: u32, b: u32) -> bool {
     a == 0 || a != b
 }
 

@@ -1,0 +1,64 @@
+//! The exact extent of points, and the box that holds it.
+
+use super::real::{larger, smaller};
+use super::{Aabb, Real};
+
+/// The point that the boxes of a world are relative to, and padding.
+pub(crate) type Origin = [f64; 4];
+
+/// The exact extent of some points, in the caller's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Bounds<S> {
+    pub(crate) lo: [S; 3],
+    pub(crate) hi: [S; 3],
+}
+
+impl<S: Real> Bounds<S> {
+    pub(crate) const EMPTY: Self = Self {
+        lo: [S::INFINITY; 3],
+        hi: [S::NEG_INFINITY; 3],
+    };
+
+    /// A NaN is passed over.
+    #[inline]
+    pub(crate) fn include(&mut self, point: [S; 3]) {
+        for axis in 0..3 {
+            self.lo[axis] = smaller(self.lo[axis], point[axis]);
+            self.hi[axis] = larger(self.hi[axis], point[axis]);
+        }
+    }
+
+    /// The bounds of both.
+    pub(crate) fn union(mut self, other: &Self) -> Self {
+        for axis in 0..3 {
+            self.lo[axis] = smaller(self.lo[axis], other.lo[axis]);
+            self.hi[axis] = larger(self.hi[axis], other.hi[axis]);
+        }
+        self
+    }
+
+    /// The box that holds these bounds: exact for `f32`, rounded outward for `f64`.
+    #[inline]
+    pub(crate) fn to_box(self, origin: Origin) -> Aabb {
+        Aabb {
+            lo: std::array::from_fn(|axis| self.lo[axis].round_down(origin[axis])),
+            hi: std::array::from_fn(|axis| self.hi[axis].round_up(origin[axis])),
+        }
+    }
+
+    /// Touching counts; nothing overlaps the bounds of nothing.
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        (0..3).all(|axis| self.lo[axis] <= other.hi[axis] && other.lo[axis] <= self.hi[axis])
+    }
+
+    pub(crate) fn holds(&self, point: [S; 3]) -> bool {
+        (0..3).all(|axis| self.lo[axis] <= point[axis] && point[axis] <= self.hi[axis])
+    }
+}
+
+impl Bounds<f64> {
+    /// Whether both are at most so far apart on every axis: exactly.
+    pub(crate) fn are_within(&self, other: &Self, distance: f64) -> bool {
+        pliant_exact::are_boxes_within(&[self.lo, self.hi], &[other.lo, other.hi], distance)
+    }
+}

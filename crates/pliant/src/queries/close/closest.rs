@@ -1,0 +1,98 @@
+//! Where elements are closest: in double precision where that is as near as is promised, else in integers.
+
+use crate::geometry::Real;
+use crate::kernels::Simd;
+use crate::kernels::closest::{
+    Corners, FourClosest, along_normal, of_edges, of_vertices_and_triangles,
+};
+use crate::threads::Interrupt;
+use pliant_exact::distance::{Closest, Primitives, closest};
+
+/// What is promised of distances: 2^-30 of themselves.
+pub(in crate::queries) const ACCURACY: f64 = f64::from_bits((1023 - 30) << 52);
+
+/// Half a distance, or the next larger number: half of the smallest number there is has no number.
+pub(in crate::queries) fn half(distance: f64) -> f64 {
+    let half = distance / 2.0;
+    if 2.0 * half < distance {
+        half.next_up()
+    } else {
+        half
+    }
+}
+
+/// Where four pairs are closest, and between what their distances are.
+#[inline(always)]
+pub(in crate::queries) fn four_closest<I: Simd, S: Real>(
+    i: I,
+    are_edges: bool,
+    pairs: &[Corners<S>; 4],
+) -> FourClosest {
+    if are_edges {
+        of_edges(i, pairs)
+    } else {
+        of_vertices_and_triangles(i, pairs)
+    }
+}
+
+/// Two edges by their ends, or a vertex and the corners of a triangle.
+pub(in crate::queries) fn primitives(are_edges: bool, corners: [[f64; 3]; 4]) -> Primitives {
+    if are_edges {
+        Primitives::EdgeEdge(corners)
+    } else {
+        Primitives::VertexTriangle(corners)
+    }
+}
+
+/// A pair as exact arithmetic takes it.
+pub(in crate::queries) fn exactly<S: Real>(are_edges: bool, corners: &Corners<S>) -> Primitives {
+    let corners = corners.map(|&[x, y, z, _]| [x, y, z].map(Real::to_f64));
+    primitives(are_edges, corners)
+}
+
+/// Shows `take` where the first `count` of four pairs are closest, in their order. If both bounds are as near each other as is promised, it is
+/// what was computed, if need be with the normal for a direction; the few others, slivers and what touches, are measured in integers, which takes long enough to be asked before each
+/// whether to end. Returns false if so.
+#[inline(always)]
+pub(crate) fn closest_of<I: Simd, S: Real>(
+    i: I,
+    are_edges: bool,
+    pairs: &[Corners<S>; 4],
+    count: usize,
+    interrupt: &Interrupt,
+    mut take: impl FnMut(usize, &Closest),
+) -> bool {
+    let found = four_closest(i, are_edges, pairs);
+    for lane in 0..count {
+        let distance = found.distance[lane];
+        let one = if found.most[lane] - found.least[lane] <= ACCURACY * distance {
+            Closest {
+                distance,
+                along: found.along.map(|lanes| lanes[lane]),
+                direction: found.way.map(|lanes| lanes[lane] / distance),
+            }
+        } else if let Some((direction, least)) = along_normal(are_edges, &pairs[lane])
+            && found.most[lane] - least <= ACCURACY * distance
+            && is_the_way(direction, found.way.map(|lanes| lanes[lane]), distance)
+        {
+            Closest {
+                distance,
+                along: found.along.map(|lanes| lanes[lane]),
+                direction,
+            }
+        } else if interrupt.is_set() {
+            return false;
+        } else {
+            closest(&exactly(are_edges, &pairs[lane]))
+        };
+        take(lane, &one);
+    }
+    true
+}
+
+/// Whether the way between points has this direction, as nearly as is promised of its length: of elements that are nearly parallel, points
+/// may be the nearest ones by length and be some way off to the side.
+fn is_the_way(direction: [f64; 3], way: [f64; 3], distance: f64) -> bool {
+    let off = |axis: usize| (direction[axis] * distance - way[axis]).abs();
+    (0..3).all(|axis| off(axis) <= ACCURACY * distance)
+}

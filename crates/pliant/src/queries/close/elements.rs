@@ -1,0 +1,225 @@
+//! Vertices and triangles, and edges, that are at most some distance apart.
+
+use super::closest::{exactly, four_closest, half};
+use super::measured::{CloseKind, ElementPair, Measurable};
+use crate::geometry::{Points, Real};
+use crate::ids::TreeVertex;
+use crate::kernels::closest::{Corners, decide_eight};
+use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
+use crate::queries::{
+    Batch, CallerIds, EdgeEdgeCandidates, Kind, LeafTest, Margin, Needs, VertexTriangleCandidates,
+};
+use crate::statistics::Statistics;
+use pliant_exact::distance::are_within_distance;
+
+/// Candidates of a kind that are at most so far apart.
+#[derive(Debug)]
+pub(crate) struct Close<K> {
+    candidates: K,
+    distance: f64,
+}
+
+impl<K> Close<K> {
+    /// `candidates` makes those of a margin. The distance is finite and at least 0.
+    pub(crate) fn within(distance: f64, candidates: impl Fn(Margin) -> K) -> Self {
+        Self {
+            candidates: candidates(Margin::new(half(distance))),
+            distance,
+        }
+    }
+}
+
+/// A kind of candidates of two elements, which have four corners together.
+pub(crate) trait ElementCandidates:
+    Kind<TreeHit = [u32; 2], Buffers = (), Hit: ElementPair>
+{
+    /// The four corners of a candidate, and of which body each is: vertex, triangle; or both ends of either edge.
+    fn vertices(leaves: &LeafTest<Self::Scalar>, hit: [u32; 2])
+    -> Option<[(usize, TreeVertex); 4]>;
+
+    /// Where they are.
+    #[inline(always)]
+    fn corners<'q>(
+        leaves: &LeafTest<'q, Self::Scalar>,
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, Self::Scalar>> {
+        let positions = leaves.shapes.map(|shape| shape.positions);
+        Some(corners_at(Self::vertices(leaves, hit)?, positions))
+    }
+
+    /// The same in the order in which the caller has them.
+    #[inline(always)]
+    fn callers_corners<'q>(
+        leaves: &LeafTest<'q, Self::Scalar>,
+        _ids: &CallerIds,
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, Self::Scalar>> {
+        Self::corners(leaves, hit)
+    }
+}
+
+/// Where corners are, if vertices of the two bodies are at these positions.
+#[inline(always)]
+pub(in crate::queries) fn corners_at<S>(
+    [a, b, c, d]: [(usize, TreeVertex); 4],
+    positions: [&Points<S>; 2],
+) -> Corners<'_, S> {
+    let at = |(side, vertex): (usize, TreeVertex)| positions[side].padded(vertex);
+    [at(a), at(b), at(c), at(d)]
+}
+
+/// Whether a pair that single precision left undecided is at most so far apart. Counts exact decisions.
+#[cold]
+fn is_close<S: Real>(
+    instructions: Instructions,
+    are_edges: bool,
+    pair: &Corners<S>,
+    distance: f64,
+    exact_decisions: &mut u64,
+) -> bool {
+    let found = dispatch!(instructions, i => four_closest(i, are_edges, &[*pair; 4]));
+    if (found.most[0] <= distance) | (found.least[0] > distance) {
+        return found.most[0] <= distance;
+    }
+    *exact_decisions += 1;
+    are_within_distance(&exactly(are_edges, pair), distance)
+}
+
+impl<K: ElementCandidates> Kind for Close<K> {
+    type Scalar = K::Scalar;
+    type Hit = K::Hit;
+    type TreeHit = [u32; 2];
+    type Buffers = ();
+
+    fn needs(&self) -> Needs {
+        self.candidates.needs()
+    }
+
+    fn test(
+        &self,
+        leaves: &LeafTest<K::Scalar>,
+        batch: Batch,
+        buffers: &mut (),
+        hits: &mut Buffer<[u32; 2]>,
+        statistics: &mut Statistics,
+    ) {
+        let before = hits.len();
+        let pairs_before = statistics.pairs;
+        self.candidates
+            .test(leaves, batch, buffers, hits, statistics);
+        let exact = &mut statistics.exact_decisions;
+        let new = hits.tail_mut(before);
+        let kept = dispatch!(leaves.instructions, i => self.keep(i, leaves, new, exact));
+        hits.truncate(before + kept);
+        statistics.pairs = pairs_before + kept as u64;
+    }
+
+    #[inline]
+    fn to_caller(&self, ids: &CallerIds, hit: [u32; 2]) -> K::Hit {
+        self.candidates.to_caller(ids, hit)
+    }
+}
+
+impl<K: ElementCandidates> CloseKind for Close<K>
+where
+    K::Hit: for<'c> Measurable<Corners<'c, K::Scalar> = Corners<'c, K::Scalar>>,
+{
+    fn callers_corners<'q>(
+        leaves: &LeafTest<'q, K::Scalar>,
+        ids: &CallerIds,
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, K::Scalar>> {
+        K::callers_corners(leaves, ids, hit)
+    }
+}
+
+impl<K: ElementCandidates> Close<K> {
+    /// Moves those of some candidates that are close to the front, in their order; returns how many they are.
+    #[inline(always)]
+    fn keep<I: Simd>(
+        &self,
+        i: I,
+        leaves: &LeafTest<K::Scalar>,
+        candidates: &mut [[u32; 2]],
+        exact: &mut u64,
+    ) -> usize {
+        let are_edges = <K::Hit as ElementPair>::ARE_EDGES;
+        let mut kept = 0;
+        for start in (0..candidates.len()).step_by(8) {
+            let count = (candidates.len() - start).min(8);
+            let mut some = [candidates[start]; 8];
+            some[..count].copy_from_slice(&candidates[start..start + count]);
+            let Some(first) = K::corners(leaves, some[0]) else {
+                return kept;
+            };
+            let mut pairs = [first; 8];
+            for lane in 1..8 {
+                pairs[lane] = K::corners(leaves, some[lane]).unwrap_or(first);
+            }
+            let [mut close, far] = decide_eight(i, are_edges, &pairs, self.distance);
+            // Hardly ever any.
+            let mut rest = !(close | far) & ((1 << count) - 1);
+            while rest != 0 {
+                if leaves.interrupt.is_set() {
+                    return kept;
+                }
+                let lane = rest.trailing_zeros();
+                let (how, pair) = (leaves.instructions, &pairs[lane as usize]);
+                close |= u64::from(is_close(how, are_edges, pair, self.distance, exact)) << lane;
+                rest &= rest - 1;
+            }
+            for (lane, &candidate) in some[..count].iter().enumerate() {
+                candidates[kept] = candidate;
+                kept += (close >> lane & 1) as usize;
+            }
+        }
+        kept
+    }
+}
+
+impl<S: Coordinate> ElementCandidates for VertexTriangleCandidates<S> {
+    #[inline(always)]
+    fn vertices(leaves: &LeafTest<S>, hit: [u32; 2]) -> Option<[(usize, TreeVertex); 4]> {
+        let (side, vertex, triangle) = Self::sides_of(hit);
+        let other = 1 - side;
+        let [a, b, c] = leaves.shapes[other].triangles[triangle.index()];
+        Some([(side, vertex), (other, a), (other, b), (other, c)])
+    }
+}
+
+impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
+    #[inline(always)]
+    fn vertices(leaves: &LeafTest<S>, hit: [u32; 2]) -> Option<[(usize, TreeVertex); 4]> {
+        let [[a0, a1], [b0, b1]] = Self::ends(leaves, hit)?;
+        Some([(0, a0), (0, a1), (1, b0), (1, b1)])
+    }
+
+    fn callers_corners<'q>(
+        leaves: &LeafTest<'q, S>,
+        ids: &CallerIds,
+        hit: [u32; 2],
+    ) -> Option<Corners<'q, S>> {
+        let mut ends = Self::ends(leaves, hit)?;
+        for (ends, order) in ends.iter_mut().zip(ids.orders) {
+            ends.sort_unstable_by_key(|&end| order.caller_vertex(end).0);
+        }
+        let [of_a, of_b] = leaves.shapes.map(|shape| shape.positions);
+        let [a0, a1] = ends[0].map(|end| of_a.padded(end));
+        let [b0, b1] = ends[1].map(|end| of_b.padded(end));
+        Some(if Self::is_swapped(ids, hit) {
+            [b0, b1, a0, a1]
+        } else {
+            [a0, a1, b0, b1]
+        })
+    }
+}
+
+impl<S: Coordinate> EdgeEdgeCandidates<S> {
+    /// The ends of either edge.
+    #[inline(always)]
+    fn ends(leaves: &LeafTest<S>, [a, b]: [u32; 2]) -> Option<[[TreeVertex; 2]; 2]> {
+        let [of_a, of_b] = leaves.elements;
+        let [of_a, of_b] = [of_a?.edges.ends(), of_b?.edges.ends()];
+        Some([of_a[a as usize], of_b[b as usize]])
+    }
+}

@@ -86,7 +86,7 @@ impl<T: Held> Held for Vec<T> {
     }
 }
 
-impl<T: Held, const N: usize> Held for [T; N] {
+impl<T: Held, const LEN: usize> Held for [T; LEN] {
     fn held(&self) -> usize {
         within(self)
     }

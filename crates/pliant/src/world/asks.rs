@@ -1,4 +1,4 @@
-//! The queries of every kind, as a state answers them: the registry of kinds.
+//! The queries of every kind, as a state answers them.
 
 use super::state::State;
 use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
@@ -22,7 +22,9 @@ use std::ops::ControlFlow;
 impl<S: Coordinate> Ask<Pair> for State<S> {
     fn all(&mut self, request: &Request) -> Result<&[Pair], Error> {
         let kind = &Intersections::default();
-        self.intersections.all(kind, &mut self.common, request)
+        self.kinds
+            .intersections
+            .all(kind, &mut self.common, request)
     }
 
     /// Begins with the last answer: see `witness`.
@@ -45,7 +47,7 @@ impl<S: Coordinate> Ask<Pair> for State<S> {
             Selection::Everything => self.witnesses.of_world[1] = bodies,
             Selection::Between(..) | Selection::Within(_) => {}
         }
-        if let (Some(bodies), Some(at)) = (bodies, self.intersections.tasks.broke_at.take()) {
+        if let (Some(bodies), Some(at)) = (bodies, self.kinds.intersections.tasks.broke_at.take()) {
             self.witnesses.keep(bodies, at);
         }
         Ok(found)
@@ -53,7 +55,8 @@ impl<S: Coordinate> Ask<Pair> for State<S> {
 
     fn visit(&mut self, request: &Request, visitor: Visitor<Pair>) -> Result<(), Error> {
         let kind = &Intersections::default();
-        self.intersections
+        self.kinds
+            .intersections
             .visit(kind, &mut self.common, request, visitor)
     }
 
@@ -68,7 +71,7 @@ macro_rules! ask {
         impl<S: Coordinate> Ask<$hit> for State<S> {
             fn all(&mut self, $request: &Request) -> Result<&[$hit], Error> {
                 let kind = &$kind;
-                self.$asked.$all(kind, &mut self.common, $request $(, $numbers)?)
+                self.kinds.$asked.$all(kind, &mut self.common, $request $(, $numbers)?)
             }
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
@@ -77,7 +80,7 @@ macro_rules! ask {
 
             fn visit(&mut self, $request: &Request, visitor: Visitor<$hit>) -> Result<(), Error> {
                 let kind = &$kind;
-                self.$asked.visit(kind, &mut self.common, $request, visitor)
+                self.kinds.$asked.visit(kind, &mut self.common, $request, visitor)
             }
 
             fn prepare(&mut self, $request: &Request) -> Result<(), Error> {
@@ -135,20 +138,25 @@ macro_rules! ask_impacts {
         impl<S: Coordinate> Ask<$hit> for State<S> {
             fn all(&mut self, request: &Request) -> Result<&[$hit], Error> {
                 let kind = Self::all_of(request, $candidates::within)?;
-                self.impacts
+                self.kinds
+                    .impacts
                     .$asked
                     .all_listed(&kind, &mut self.common, request)
             }
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
                 let grid = request.grid()?;
-                let first = self.impacts.first_contact(&mut self.common, request, $of)?;
+                let first = self
+                    .kinds
+                    .impacts
+                    .first_contact(&mut self.common, request, $of)?;
                 Ok(first.and_then(|first| $hit::of(first.in_cell_of(grid))))
             }
 
             fn visit(&mut self, request: &Request, visitor: Visitor<$hit>) -> Result<(), Error> {
                 let kind = Self::all_of(request, $candidates::within)?;
-                self.impacts
+                self.kinds
+                    .impacts
                     .$asked
                     .visit(&kind, &mut self.common, request, visitor)
             }

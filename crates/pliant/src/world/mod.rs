@@ -1,7 +1,7 @@
 //! The world: bodies, their shapes, and the questions that users ask.
 //!
 //! `World` is a `handle` of a `state`. What takes long to compile is behind the trait of `verbs`, which is compiled here, once for `f32`
-//! and once for `f64` (`scalar`); `asks` are the queries of each kind. What users call is a file a topic: `shapes`, `asking` (a `query`),
+//! and once for `f64` (`scalar`); `kinds` is the registry of kinds, `asks` how each is asked. What users call is a file a topic: `shapes`, `asking` (a `query`),
 //! `motion`, `filters`, `meshes` and `pieces`, `looking`, `writing`; `clearance`, `free_step`, and what is `interruptible`.
 
 mod handle;
@@ -30,6 +30,7 @@ mod looking;
 mod writing;
 
 mod asks;
+mod kinds;
 mod query;
 mod scalar;
 mod state;

@@ -1,16 +1,12 @@
 //! What a world holds: bodies, options, and what is kept for each kind of query.
 
+use super::kinds::Kinds;
 use crate::bodies::{Bodies, Body};
-use crate::collide::{
-    Asked, AskedClose, AskedImpacts, BodyPairs, Common, Distances, FloatingOrigin, Witnesses,
-};
+use crate::collide::{BodyPairs, Common, Distances, FloatingOrigin, Witnesses};
 use crate::error::{Error, ErrorKind};
 use crate::ids::BodyId;
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
-use crate::queries::{
-    Close, Contacts, EdgeEdgeCandidates, Intersections, NearTriangles, VertexTriangleCandidates,
-};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, Threads};
 use crate::traversal::Scratch;
@@ -22,14 +18,7 @@ static WORLDS: AtomicU64 = AtomicU64::new(0);
 /// All that a world is.
 pub(crate) struct State<S: Coordinate> {
     pub(super) common: Common<S>,
-    pub(super) intersections: Asked<Intersections<S>>,
-    pub(super) contacts: Asked<Contacts<S>>,
-    pub(super) vertex_triangle: Asked<VertexTriangleCandidates<S>>,
-    pub(super) edge_edge: Asked<EdgeEdgeCandidates<S>>,
-    pub(super) close_vertex_triangle: AskedClose<Close<VertexTriangleCandidates<S>>>,
-    pub(super) close_edge_edge: AskedClose<Close<EdgeEdgeCandidates<S>>>,
-    pub(super) close_triangles: AskedClose<NearTriangles<S>>,
-    pub(super) impacts: AskedImpacts<S>,
+    pub(super) kinds: Kinds<S>,
     pub(super) witnesses: Witnesses,
     pub(super) distances: Distances,
     /// A shape that is not a body's yet: what `write_positions` lends, where `advance_motion` goes.
@@ -60,14 +49,7 @@ impl<S: Coordinate> State<S> {
                 statistics: Statistics::default(),
                 done_early: Statistics::default(),
             },
-            intersections: Asked::default(),
-            contacts: Asked::default(),
-            vertex_triangle: Asked::default(),
-            edge_edge: Asked::default(),
-            close_vertex_triangle: AskedClose::default(),
-            close_edge_edge: AskedClose::default(),
-            close_triangles: AskedClose::default(),
-            impacts: AskedImpacts::default(),
+            kinds: Kinds::default(),
             witnesses: Witnesses::default(),
             distances: Distances::default(),
             lent: Vec::new(),

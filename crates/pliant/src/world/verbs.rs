@@ -2,19 +2,18 @@
 //!
 //! [`World`](super::World) holds a state behind this trait. What is short it does itself, with the state.
 
+use super::kinds::AskAll;
 use super::state::{State, about};
 use crate::bodies::{Body, NodeBox, validate};
 use crate::close_pairs::CloseTriangles;
-use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
 use crate::collide::Ask;
 use crate::collide::{Common, OfKind, Request, check, in_common, others_by_gap};
-use crate::contacts::Contact;
 use crate::edit::{Edit, Edited};
 use crate::error::{Error, ErrorKind};
 use crate::held::{self, Held};
-use crate::hits::{EdgeEdge, Pair, VertexTriangle};
+use crate::hits::Pair;
 use crate::ids::BodyId;
-use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
+use crate::impacts::Impact;
 use crate::kernels::Coordinate;
 use crate::queries::NearestPair;
 use crate::selection::Selection;
@@ -22,19 +21,7 @@ use crate::threads::{Interrupt, Question};
 use std::convert::Infallible;
 
 /// A state, and what it does. What its methods mean is said where [`World`](super::World) has them.
-pub(crate) trait Verbs<S: Coordinate>:
-    Ask<Pair>
-    + Ask<Contact>
-    + Ask<VertexTriangle>
-    + Ask<EdgeEdge>
-    + Ask<CloseVertexTriangle>
-    + Ask<CloseEdgeEdge>
-    + Ask<CloseTriangles>
-    + Ask<VertexTriangleImpact>
-    + Ask<EdgeEdgeImpact>
-    + Send
-    + Sync
-{
+pub(crate) trait Verbs<S: Coordinate>: AskAll {
     fn state(&self) -> &State<S>;
     fn state_mut(&mut self) -> &mut State<S>;
     fn copy(&self) -> Box<dyn Verbs<S>>;
@@ -272,6 +259,7 @@ impl<S: Coordinate> Verbs<S> for State<S> {
         };
         let grid = request.grid()?;
         let first = self
+            .kinds
             .impacts
             .first_contact(&mut self.common, &request, OfKind::Both)?;
         Ok(first.map(|first| first.in_cell_of(grid)))
@@ -288,7 +276,7 @@ impl<S: Coordinate> Verbs<S> for State<S> {
             question,
             ..Request::new(of)
         };
-        self.impacts.free_step(&mut self.common, &request)
+        self.kinds.impacts.free_step(&mut self.common, &request)
     }
 
     fn memory_usage(&self) -> usize {
@@ -302,14 +290,7 @@ impl<S: Coordinate> Verbs<S> for State<S> {
             + bodies.held()
             + body_pairs.held()
             + scratch.held()
-            + self.intersections.held()
-            + self.contacts.held()
-            + self.vertex_triangle.held()
-            + self.edge_edge.held()
-            + self.close_vertex_triangle.held()
-            + self.close_edge_edge.held()
-            + self.close_triangles.held()
-            + self.impacts.held()
+            + self.kinds.held()
             + self.witnesses.held()
             + self.distances.held()
             + held::list(&self.lent)

@@ -7,7 +7,7 @@ use super::part::{OfElements, Part};
 use super::positions::Positions;
 use crate::error::ErrorKind;
 use crate::geometry::{Aabb, Bounds, Origin, Points, Real, Shape};
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::BodyId;
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
@@ -1083,32 +1083,14 @@ fn first_outside<S: Real>(
     error(vertex, positions[vertex].map(S::to_f64))
 }
 
-impl<S> Held for Body<S> {
-    fn held(&self) -> usize {
-        self.topology.held()
-            + self.order.held()
-            + self.parts.first.held()
-            + held::lists(&self.parts.others)
-            + self.positions.held()
-            + self.motion.as_ref().map_or(0, |motion| {
-                let partway = motion.partway.as_ref().map_or(0, |it| it.points.held());
-                size_of::<Motion<S>>() + motion.end.held() + partway
-            })
-            + self
-                .elements
-                .get()
-                .map_or(0, |it| size_of::<Elements>() + it.held())
-            + self
-                .edits
-                .as_ref()
-                .map_or(0, |it| size_of::<EditState<S>>() + it.held())
-            + self
-                .mending
-                .as_ref()
-                .map_or(0, |it| size_of::<Mending>() + it.held())
-            + self.groups.as_ref().map_or(0, |groups| {
-                let of_elements = groups.of_elements.as_ref().map_or(0, Held::held);
-                size_of::<VertexGroups>() + held::list(&groups.callers) + of_elements
-            })
-    }
-}
+held!(Parts: first, others);
+held!(Partway<S>: points);
+held!(Motion<S>: end, partway);
+held!(VertexGroups: callers[], of_elements);
+held!(Body<S>: topology, order, parts, positions; |body| {
+    held::boxes(&body.motion)
+        + held::boxes(body.elements.get())
+        + held::boxes(&body.edits)
+        + held::boxes(&body.mending)
+        + held::boxes(&body.groups)
+});

@@ -1,6 +1,6 @@
 //! What a body keeps once its mesh is edited: where its triangles and vertices are in tree order, and which are there no more.
 
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::TreeVertex;
 use crate::mesh::{Bits, Order, Topology, TrianglesAt};
 use crate::queries::Removed;
@@ -111,16 +111,8 @@ impl<S: Copy> EditState<S> {
     }
 }
 
-impl<S> Held for EditState<S> {
-    fn held(&self) -> usize {
-        held::list(&self.places)
-            + held::list(&self.slots)
-            + self.at.held()
-            + self.gone.held()
-            + self.empty.held()
-            + held::entries::<(u32, Vec<u32>)>(self.orphans_of.len())
-            + self.orphans_of.values().map(held::list).sum::<usize>()
-            + held::list(&self.patched)
-            + self.without_orphans.get().map_or(0, held::list)
-    }
-}
+held!(EditState<S>: places[], slots[], at, gone, empty, patched[]; |edits| {
+    held::entries::<(u32, Vec<u32>)>(edits.orphans_of.len())
+        + edits.orphans_of.values().map(held::list).sum::<usize>()
+        + edits.without_orphans.get().map_or(0, held::list)
+});

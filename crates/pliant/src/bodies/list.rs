@@ -2,7 +2,7 @@
 
 use super::body::Body;
 use crate::error::{Error, ErrorKind};
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::BodyId;
 use crate::ids::{Place, Rank};
 use crate::kernels::Coordinate;
@@ -162,15 +162,11 @@ impl<S: Coordinate> Bodies<S> {
     }
 }
 
-impl<S> Held for Bodies<S> {
-    fn held(&self) -> usize {
-        held::list(&self.list)
-            + held::boxes(&self.list)
-            + held::list(&self.ids)
-            + held::list(&self.places)
-            + held::entries::<(BodyId, BodyId)>(self.ignored.len())
-    }
-}
+held!(Bodies<S>: ids[], places[]; |bodies| {
+    held::list(&bodies.list)
+        + held::boxes(&bodies.list)
+        + held::entries::<(BodyId, BodyId)>(bodies.ignored.len())
+});
 
 #[cfg(test)]
 mod tests {

@@ -4,7 +4,7 @@
 
 use super::positions::SMALL;
 use crate::geometry::{Points, Shape};
-use crate::held::{self, Held};
+use crate::held::{self, held};
 use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{Elements, Order};
@@ -112,14 +112,4 @@ impl Part {
     }
 }
 
-impl Held for Part {
-    fn held(&self) -> usize {
-        self.tree.held()
-            + held::list(&self.boxes)
-            + held::within(self.boxes.iter().flatten())
-            + self
-                .near_boxes
-                .as_ref()
-                .map_or(0, |it| size_of::<NearBoxes>() + it.held())
-    }
-}
+held!(Part: tree, boxes; |part| held::boxes(&part.near_boxes));

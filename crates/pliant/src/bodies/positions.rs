@@ -8,7 +8,7 @@
 //! So a new shape is [staged](Positions::stage) first, which changes nothing that can be seen, and then [committed](Positions::commit).
 
 use crate::geometry::{Bounds, IN_A_ROW, Points};
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{CallerVertex, TreeVertex};
 use crate::kernels::{Coordinate, Instructions, check, copy_checked, gather};
 use crate::mesh::{Moved, Order};
@@ -278,8 +278,4 @@ fn gather_all<S: Coordinate>(
     }
 }
 
-impl<S> Held for Positions<S> {
-    fn held(&self) -> usize {
-        held::list(&self.callers) + held::list(&self.spare) + self.trees.held()
-    }
-}
+held!(Positions<S>: callers[], spare[], trees);

@@ -7,7 +7,7 @@ use crate::bodies::Bodies;
 use crate::broad_phase::{BroadPhase, Overlap};
 use crate::error::Error;
 use crate::geometry::{Aabb, Origin};
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::{Place, Rank};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options;
@@ -211,13 +211,4 @@ impl BodyPairs {
     }
 }
 
-impl Held for BodyPairs {
-    fn held(&self) -> usize {
-        held::list(&self.exact)
-            + held::list(&self.broad)
-            + held::list(&self.row)
-            + held::list(&self.of_world)
-            + held::list(&self.named)
-            + self.broad_phase.held()
-    }
-}
+held!(BodyPairs: exact[], broad[], row[], of_world[], named[], broad_phase);

@@ -11,7 +11,7 @@ use crate::bodies::Body;
 use crate::close_pairs::CloseTriangles;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Shape;
-use crate::held::{self, Held};
+use crate::held::held;
 use crate::ids::BodyId;
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
@@ -171,8 +171,4 @@ pub(crate) fn check(distance: f64) -> Result<(), Error> {
     Err(ErrorKind::BadDistance { distance }.of_query())
 }
 
-impl Held for Distances {
-    fn held(&self) -> usize {
-        self.scratch.held() + self.last.held() + held::list(&self.others)
-    }
-}
+held!(Distances: scratch, last, others[]);

@@ -1,6 +1,7 @@
 //! Vectors of three components, which are numbers or registers of them.
 //!
-//! Sums go from the first component to the last, and nothing is fused: bounds on rounding count on that.
+//! Sums go from the first component to the last, and nothing is fused: bounds on rounding count on
+//! that.
 
 use crate::geometry::Real;
 use std::ops::{Add, Mul, Sub};

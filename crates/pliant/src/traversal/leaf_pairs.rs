@@ -165,7 +165,8 @@ impl LeafTests {
     }
 
     /// Tests leaves, each a block, that are neighbours, and each with itself: the next of a run of leaves and their later neighbours,
-    /// until as many pairs of leaves were looked at as the limits allow or enough was found. Takes these leaves from the run.
+    /// until as many pairs of leaves were looked at as the limits allow or enough was found. Takes
+    /// these leaves from the run.
     pub(super) fn test_neighbours<S: Coordinate>(
         &mut self,
         context: &Context<S>,

@@ -48,10 +48,10 @@ const RECORD: &str = r#"{"format":1,"machine":{"processor":"#;
 
 const EXAMPLES: &str = "\
 Examples:
-  pliant bench splits --small --rounds 1           what there is to see, in seconds
+  pliant bench splits --small --rounds 1           a glimpse, in seconds
   pliant bench table-1                             the paper's table 1
   pliant bench degrees --rounds 9                  medians of more rounds
-  pliant bench levels --quiet --json record.json   on a quiet machine, as a record";
+  pliant bench levels --quiet --json record.json   where it is quiet: a record";
 
 /// Whether other libraries take part in it that this program was built without.
 fn is_missing(title: &Title) -> bool {

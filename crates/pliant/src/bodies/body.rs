@@ -649,13 +649,12 @@ impl<S: Coordinate> Body<S> {
         executor: Executor,
         positions: &[[S; 3]],
     ) -> Result<(), ErrorKind> {
-        let taking = Taking {
-            instructions,
-            executor,
-            order: &self.order,
-            loose: self.loose,
-            empty: self.edits.as_ref().map_or(0, |edits| edits.empty.count()),
-        };
+        let taking = Taking::new(
+            (instructions, executor),
+            &self.order,
+            self.loose,
+            self.edits.as_deref(),
+        );
         let positions = with_empty_ones(&mut self.edits, &self.order, positions);
         self.bounds = taking.take(&mut self.positions, positions)?;
         self.epoch += 1;
@@ -676,13 +675,12 @@ impl<S: Coordinate> Body<S> {
         executor: Executor,
         end: &[[S; 3]],
     ) -> Result<(), ErrorKind> {
-        let taking = Taking {
-            instructions,
-            executor,
-            order: &self.order,
-            loose: self.loose,
-            empty: self.edits.as_ref().map_or(0, |edits| edits.empty.count()),
-        };
+        let taking = Taking::new(
+            (instructions, executor),
+            &self.order,
+            self.loose,
+            self.edits.as_deref(),
+        );
         let stored = (self.motion.is_none()).then(|| self.stored_positions().into_owned());
         let end = with_empty_ones(&mut self.edits, &self.order, end);
         if let Some(motion) = &mut self.motion {
@@ -892,7 +890,22 @@ fn with_empty_ones<'p, S: Coordinate>(
     }
 }
 
-impl<S: Coordinate> Taking<'_, S> {
+impl<'b, S: Coordinate> Taking<'b, S> {
+    fn new(
+        (instructions, executor): (Instructions, Executor<'b>),
+        order: &'b Order,
+        loose: Option<Bounds<S>>,
+        edits: Option<&EditState<S>>,
+    ) -> Self {
+        Self {
+            instructions,
+            executor,
+            order,
+            loose,
+            empty: edits.map_or(0, |edits| edits.empty.count()),
+        }
+    }
+
     /// Validates positions and puts them into a place for as many; or leaves it as it is and says what was wrong. Returns the bounds of
     /// those vertices that triangles use.
     fn take(&self, place: &mut Positions<S>, positions: &[[S; 3]]) -> Result<Bounds<S>, ErrorKind> {

@@ -2,7 +2,7 @@
 //!
 //! Whoever asks may bring a question, "stop now?", which is looked at between jobs and between runs of a long loop: each of these
 //! takes well below ten milliseconds, but for the exceptions that `Query::interrupt_if` names. Once it was answered with yes, every
-//! thread ends what it is at and begins nothing new. What was left half done is then forgotten by the world: see `world/asked.rs`.
+//! thread ends what it is at and begins nothing new. What was left half done is then forgotten by the world: see `collide/asked.rs`.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

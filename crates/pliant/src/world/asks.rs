@@ -65,13 +65,13 @@ impl<S: Coordinate> Ask<Pair> for State<S> {
     }
 }
 
-/// Answers queries of a kind that is made of the request: all of them by this call, with the numbers to sort by where hits are more than those.
+/// Answers queries of a kind that is made of the request; a list of all of them is made by this method of what is kept.
 macro_rules! ask {
-    ($hit:ty, $asked:ident.$all:ident($($numbers:expr)?), |$request:ident| $kind:expr) => {
+    ($hit:ty, $asked:ident.$all:ident, |$request:ident| $kind:expr) => {
         impl<S: Coordinate> Ask<$hit> for State<S> {
             fn all(&mut self, $request: &Request) -> Result<&[$hit], Error> {
                 let kind = &$kind;
-                self.kinds.$asked.$all(kind, &mut self.common, $request $(, $numbers)?)
+                self.kinds.$asked.$all(kind, &mut self.common, $request)
             }
 
             fn first(&mut self, request: &Request) -> Result<Option<$hit>, Error> {
@@ -80,7 +80,9 @@ macro_rules! ask {
 
             fn visit(&mut self, $request: &Request, visitor: Visitor<$hit>) -> Result<(), Error> {
                 let kind = &$kind;
-                self.kinds.$asked.visit(kind, &mut self.common, $request, visitor)
+                self.kinds
+                    .$asked
+                    .visit(kind, &mut self.common, $request, visitor)
             }
 
             fn prepare(&mut self, $request: &Request) -> Result<(), Error> {
@@ -107,28 +109,24 @@ fn first_seen<H: Copy>(
     Ok(found)
 }
 
-ask!(Contact, contacts.all_listed(), |request| Contacts::<S>::of(
+ask!(Contact, contacts.all_listed, |request| Contacts::<S>::of(
     request.only
 ));
-ask!(VertexTriangle, vertex_triangle.all(), |request| {
+ask!(VertexTriangle, vertex_triangle.all, |request| {
     VertexTriangleCandidates::<S>::within(request.margin()?)
 });
-ask!(EdgeEdge, edge_edge.all(), |request| {
+ask!(EdgeEdge, edge_edge.all, |request| {
     EdgeEdgeCandidates::<S>::within(request.margin()?)
 });
-ask!(
-    CloseVertexTriangle,
-    close_vertex_triangle.all(),
-    |request| {
-        let candidates = VertexTriangleCandidates::<S>::within;
-        Measured(Close::within(request.distance()?, candidates))
-    }
-);
-ask!(CloseEdgeEdge, close_edge_edge.all(), |request| {
+ask!(CloseVertexTriangle, close_vertex_triangle.all, |request| {
+    let candidates = VertexTriangleCandidates::<S>::within;
+    Measured(Close::within(request.distance()?, candidates))
+});
+ask!(CloseEdgeEdge, close_edge_edge.all, |request| {
     let candidates = EdgeEdgeCandidates::<S>::within;
     Measured(Close::within(request.distance()?, candidates))
 });
-ask!(CloseTriangles, close_triangles.all(), |request| {
+ask!(CloseTriangles, close_triangles.all, |request| {
     Measured(NearTriangles::<S>::within(request.distance()?))
 });
 

@@ -6,7 +6,7 @@
 //!    exchanged where p would lie below the plane of the other triangle. Then the segments overlap, and the answer is **yes**, if
 //!    and only if neither p1 q1 p2 q2 nor p1 r1 r2 p2 is positively oriented (Guigue and Devillers 2003; two signs instead of
 //!    up to nine).
-//! 3. Where a sign is not certain, `predicates` decide on exact signs.
+//! 3. Where a sign is not certain, `pliant_exact` decides on exact signs.
 //!
 //! The tests compare it with the exact decision on every kind of pair, at every level of instructions.
 

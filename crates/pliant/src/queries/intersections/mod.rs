@@ -1,7 +1,7 @@
-//! Triangles that intersect, as closed sets: exactly, as `predicates` says, on the shape of now.
+//! Triangles that intersect, as closed sets: exactly, as `pliant_exact` says, on the shape of now.
 //!
 //! Within a body, triangles that share a vertex of the mesh are left out: they always touch. `eight` decides candidates side by side on
-//! signs that single precision makes certain, and leaves few to `predicates`. `contacts` tells how pairs intersect, if that is asked.
+//! signs that single precision makes certain, and leaves few to `pliant_exact`. `contacts` tells how pairs intersect, if that is asked.
 
 mod contacts;
 mod eight;

@@ -1,7 +1,7 @@
 //! What the tasks of a query of one kind find, and where it goes: what stands behind the doors `Tasks` and `LeafWork`.
 
-use crate::held::{self, Held};
-use crate::kernels::{Buffer, Coordinate};
+use crate::held::{empty, held};
+use crate::kernels::Buffer;
 use crate::queries::{Batch, Kind, LeafTest, LeafWork};
 use crate::statistics::Statistics;
 use crate::threads::Executor;
@@ -27,8 +27,9 @@ struct Found<K: Kind> {
     buffers: K::Buffers,
     /// In tree order.
     hits: Buffer<K::TreeHit>,
-    /// The same hits as the caller numbers things.
+    /// The same hits as the caller numbers things, for a collector; or as a visitor is shown them.
     of_caller: Vec<K::Hit>,
+    shown: Vec<K::Shown>,
     /// Whether a collector does not take any more.
     are_too_many: bool,
     statistics: Statistics,
@@ -38,11 +39,14 @@ struct Found<K: Kind> {
 pub(crate) struct Answer<'q, 's, K: Kind> {
     kind: &'q K,
     list: &'q mut TaskList<K>,
-    sink: Sink<'s, K::Hit>,
+    sink: SinkOf<'s, K>,
 }
 
+/// Where what a kind finds goes.
+pub(crate) type SinkOf<'s, K> = Sink<'s, <K as Kind>::Hit, <K as Kind>::Shown>;
+
 impl<'q, 's, K: Kind> Answer<'q, 's, K> {
-    pub(crate) fn new(kind: &'q K, list: &'q mut TaskList<K>, sink: Sink<'s, K::Hit>) -> Self {
+    pub(crate) fn new(kind: &'q K, list: &'q mut TaskList<K>, sink: SinkOf<'s, K>) -> Self {
         list.broke_at = None;
         Self { kind, list, sink }
     }
@@ -52,10 +56,7 @@ impl<'q, 's, K: Kind> Answer<'q, 's, K> {
     }
 }
 
-impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K>
-where
-    K::Scalar: Coordinate,
-{
+impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
     fn wants_all(&self) -> bool {
         self.sink.collector().is_some()
     }
@@ -105,7 +106,7 @@ where
                 return ControlFlow::Break(());
             }
             if let Sink::Visitor(visitor) = &mut self.sink
-                && let ControlFlow::Break(place) = visitor(&found.of_caller)
+                && let ControlFlow::Break(place) = visitor(&found.shown)
             {
                 *broke_at = Some(found.hits.as_slice()[place]);
                 return ControlFlow::Break(());
@@ -132,12 +133,19 @@ impl<K: Kind> LeafWork<K::Scalar> for Bound<'_, K> {
             buffers,
             hits,
             of_caller,
+            shown,
             statistics,
             ..
         } = &mut *self.found;
+        let before = hits.len();
         self.kind.test(leaves, batch, buffers, hits, statistics);
-        let new = &hits.as_slice()[of_caller.len()..];
-        self.kind.to_callers(leaves, &leaves.ids, new, of_caller);
+        let new = &hits.as_slice()[before..];
+        if self.collector.is_some() {
+            let kind = self.kind;
+            of_caller.extend(new.iter().map(|&hit| kind.to_caller(&leaves.ids, hit)));
+        } else {
+            self.kind.show(leaves, new, shown);
+        }
         if !self.has_room() {
             self.hand_over();
         }
@@ -164,38 +172,16 @@ impl<K: Kind> Found<K> {
     fn clear(&mut self) {
         self.hits.clear();
         self.of_caller.clear();
+        self.shown.clear();
         self.are_too_many = false;
         self.statistics = Statistics::default();
     }
 }
 
-impl<K: Kind> Default for Found<K> {
-    fn default() -> Self {
-        Self {
-            buffers: K::Buffers::default(),
-            hits: Buffer::default(),
-            of_caller: Vec::new(),
-            are_too_many: false,
-            statistics: Statistics::default(),
-        }
-    }
-}
+empty!(Found<K: Kind>: buffers, hits, of_caller, shown, are_too_many, statistics);
 
-impl<K: Kind> Default for TaskList<K> {
-    fn default() -> Self {
-        Self {
-            tasks: Vec::new(),
-            used: 0,
-            broke_at: None,
-        }
-    }
-}
+held!(Found<K: Kind>: buffers, hits, of_caller[], shown[]);
 
-impl<K: Kind> Held for TaskList<K> {
-    fn held(&self) -> usize {
-        let of_tasks = self.tasks.iter().map(|(task, found)| {
-            task.held() + found.buffers.held() + found.hits.held() + held::list(&found.of_caller)
-        });
-        held::list(&self.tasks) + of_tasks.sum::<usize>()
-    }
-}
+empty!(TaskList<K: Kind>: tasks, used, broke_at);
+
+held!(TaskList<K: Kind>: tasks);

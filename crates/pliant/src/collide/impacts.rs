@@ -11,7 +11,7 @@ use super::asked::{Asked, Common};
 use super::request::Request;
 use crate::bodies::Body;
 use crate::error::Error;
-use crate::held::Held;
+use crate::held::{empty, held};
 use crate::impacts::Impact;
 use crate::kernels::Coordinate;
 use crate::queries::{
@@ -58,15 +58,6 @@ pub(crate) enum OfKind {
 pub(crate) struct AskedImpacts<S: Coordinate> {
     pub(crate) vertex_triangle: Asked<Impacts<VertexTriangleCandidates<S>>>,
     pub(crate) edge_edge: Asked<Impacts<EdgeEdgeCandidates<S>>>,
-}
-
-impl<S: Coordinate> Default for AskedImpacts<S> {
-    fn default() -> Self {
-        Self {
-            vertex_triangle: Asked::default(),
-            edge_edge: Asked::default(),
-        }
-    }
 }
 
 impl<S: Coordinate> AskedImpacts<S> {
@@ -232,7 +223,7 @@ fn is_free<K>(
 ) -> Result<bool, Error>
 where
     K: Kind<Scalar: Coordinate>,
-    Impacts<K>: Kind<Scalar = K::Scalar, Hit: Into<Impact>>,
+    Impacts<K>: Kind<Scalar = K::Scalar, Shown: Into<Impact>>,
 {
     let mut is_free = true;
     asked.visit(kind, common, request, &mut |found| {
@@ -248,8 +239,6 @@ where
     Ok(is_free)
 }
 
-impl<S: Coordinate> Held for AskedImpacts<S> {
-    fn held(&self) -> usize {
-        self.vertex_triangle.held() + self.edge_edge.held()
-    }
-}
+empty!(AskedImpacts<S: Coordinate>: vertex_triangle, edge_edge);
+
+held!(AskedImpacts<S: Coordinate>: vertex_triangle, edge_edge);

@@ -65,6 +65,8 @@ pub(crate) trait Kind: Sync {
     type Scalar: Coordinate;
     /// What it finds, as the caller numbers things.
     type Hit: Copy + std::fmt::Debug + Send + Sync;
+    /// What a visitor is shown of a hit: the hit itself, or what is measured of it on the way.
+    type Shown: Copy + std::fmt::Debug + Send + Sync;
     /// What it finds, in tree order.
     type TreeHit: Copy + Default + std::fmt::Debug + Send + Sync;
     /// What a task keeps for the tests of leaves, from query to query.
@@ -86,18 +88,31 @@ pub(crate) trait Kind: Sync {
     /// A hit as the caller numbers things.
     fn to_caller(&self, ids: &CallerIds, hit: Self::TreeHit) -> Self::Hit;
 
-    /// Appends hits as the caller numbers things to a list.
-    #[inline]
-    fn to_callers(
+    /// Appends what visitors are shown of hits to a list.
+    fn show(
         &self,
-        _leaves: &LeafTest<Self::Scalar>,
-        ids: &CallerIds,
+        leaves: &LeafTest<Self::Scalar>,
         hits: &[Self::TreeHit],
-        of_caller: &mut Vec<Self::Hit>,
-    ) {
-        of_caller.extend(hits.iter().map(|&hit| self.to_caller(ids, hit)));
-    }
+        shown: &mut Vec<Self::Shown>,
+    );
 }
+
+/// In an implementation of `Kind`: visitors are shown hits themselves.
+macro_rules! shows_hits {
+    () => {
+        type Shown = Self::Hit;
+
+        fn show(
+            &self,
+            leaves: &LeafTest<Self::Scalar>,
+            hits: &[Self::TreeHit],
+            shown: &mut Vec<Self::Hit>,
+        ) {
+            shown.extend(hits.iter().map(|&hit| self.to_caller(&leaves.ids, hit)));
+        }
+    };
+}
+pub(crate) use shows_hits;
 
 /// Leaves that overlap, some at a time, as a kind is shown them: what its [`Needs::leaves`] say.
 pub(crate) enum Batch<'b> {

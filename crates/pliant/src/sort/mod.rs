@@ -9,7 +9,7 @@ mod buckets;
 mod keys;
 mod packing;
 
-use crate::held::{Held, held};
+use crate::held::{Held, empty, held};
 use crate::hits::{Hit, Numbered};
 use crate::kernels::Instructions;
 use crate::threads::{Executor, PerThread};
@@ -24,16 +24,6 @@ pub(crate) struct Sorter<T> {
     hits: Vec<T>,
     keys: PerThread<Keys<T>>,
     buckets: Buckets,
-}
-
-impl<T> Default for Sorter<T> {
-    fn default() -> Self {
-        Self {
-            hits: Vec::new(),
-            keys: PerThread::default(),
-            buckets: Buckets::default(),
-        }
-    }
 }
 
 impl<T: Hit> Sorter<T> {
@@ -91,6 +81,8 @@ impl<T> Sorter<T> {
         &self.hits
     }
 }
+
+empty!(Sorter<T>: hits, keys, buckets);
 
 held!(Sorter<T>: hits[], buckets; |sorter| sorter.keys.held_by(Held::held));
 

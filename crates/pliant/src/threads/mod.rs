@@ -179,6 +179,25 @@ impl Executor<'_> {
         jobs.iter().for_each(done);
     }
 
+    /// Does jobs, and shows `done` each as it was left. They are listed only if there are threads for them: a step would allocate that list.
+    pub(crate) fn run_each<J: Send>(
+        &self,
+        jobs: impl Iterator<Item = J>,
+        work: impl Fn(&mut J) + Sync,
+        mut done: impl FnMut(&J),
+    ) {
+        if self.are_many() {
+            let mut jobs: Vec<J> = jobs.collect();
+            self.run(&mut jobs, |_, job| work(job));
+            jobs.iter().for_each(done);
+            return;
+        }
+        for mut job in jobs {
+            self.run(std::slice::from_mut(&mut job), |_, job| work(job));
+            done(&job);
+        }
+    }
+
     /// The same as [`run`](Self::run) for any work: it is compiled for each kind of job, but not for everything that is done with one.
     fn run_any<J: Send>(&self, jobs: &mut [J], work: &(dyn Fn(usize, &mut J) + Sync)) {
         let work: &(dyn Fn(usize, &mut J) + Sync) = &|number, job| {

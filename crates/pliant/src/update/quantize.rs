@@ -28,24 +28,17 @@ pub(super) fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) 
     quantized.units = units;
     let quantized = &mut quantized.blocks;
     quantized.resize_with(blocks.len(), Default::default);
-    let make = |quantized: &mut [QuantizedLanes], blocks: &[EightBoxes]| {
+    let jobs = quantized.chunks_mut(JOB).zip(blocks.chunks(JOB));
+    let make = |(quantized, blocks): &mut (&mut [QuantizedLanes], &[EightBoxes])| {
         dispatch!(refit.instructions, i => {
-            for (quantized, block) in quantized.iter_mut().zip(blocks) {
+            for (quantized, block) in quantized.iter_mut().zip(*blocks) {
                 *quantized = quantize(i, block, units);
             }
         });
     };
-    let parts = quantized.chunks_mut(JOB).zip(blocks.chunks(JOB));
-    if executor.are_many() {
-        let mut jobs: Vec<_> = parts.collect();
-        executor.run(&mut jobs, |_, (quantized, blocks)| make(quantized, blocks));
-    } else {
-        for (quantized, blocks) in parts {
-            if executor.is_interrupted() {
-                return;
-            }
-            make(quantized, blocks);
-        }
+    executor.run_each(jobs, make, |_| {});
+    if executor.is_interrupted() {
+        return;
     }
     set_fits(tree, one.boxes, units);
     one.boxes.complete_quantized();

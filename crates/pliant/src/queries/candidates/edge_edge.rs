@@ -7,7 +7,7 @@ use crate::kernels::ring::Ring;
 use crate::kernels::{Buffer, Coordinate, dispatch};
 use crate::queries::near::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use crate::queries::near::{Which, groups};
-use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
+use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs, shows_hits};
 use crate::statistics::Statistics;
 
 /// Edges whose boxes are near each other.
@@ -19,6 +19,8 @@ impl<S: Coordinate> Kind for EdgeEdgeCandidates<S> {
     /// Edges in tree order.
     type TreeHit = [u32; 2];
     type Buffers = ();
+
+    shows_hits!();
 
     fn needs(&self) -> Needs {
         self.margin.needs(Which::Edges)

@@ -7,7 +7,7 @@ use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Buffer, Coordinate, dispatch};
 use crate::queries::near::runs::{RUNS_AT_ONCE, RunPairs, near_runs};
 use crate::queries::near::{Which, groups};
-use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
+use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs, shows_hits};
 use crate::statistics::Statistics;
 
 /// Vertices and triangles whose boxes are near each other, of one body or of two: the vertices of either.
@@ -22,6 +22,8 @@ impl<S: Coordinate> Kind for VertexTriangleCandidates<S> {
     /// A vertex and a triangle in tree order, the triangle with [`OF_SECOND`] or without.
     type TreeHit = [u32; 2];
     type Buffers = ();
+
+    shows_hits!();
 
     fn needs(&self) -> Needs {
         self.margin.needs(Which::VerticesAndTriangles)

@@ -5,7 +5,7 @@
 //! by exact arithmetic (`pliant_exact::distance`).
 
 use super::closest::{ACCURACY, half};
-use super::measured::{CloseKind, Measurable};
+use super::measured::{Measurable, measure_all};
 use crate::close_pairs::CloseTriangles;
 use crate::geometry::{Real, Shape};
 use crate::hits::Pair;
@@ -236,6 +236,7 @@ fn point<S: Real>(corners: &ThreeCorners<S>, counts: [f64; 3]) -> [f64; 3] {
 impl<S: Coordinate> Kind for NearTriangles<S> {
     type Scalar = S;
     type Hit = Pair;
+    type Shown = CloseTriangles;
     type TreeHit = Candidate;
     type Buffers = ();
 
@@ -278,6 +279,20 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
     fn to_caller(&self, ids: &CallerIds, candidate: Candidate) -> Pair {
         Intersections::<S>::default().to_caller(ids, candidate)
     }
+
+    fn show(&self, leaves: &LeafTest<S>, hits: &[Candidate], shown: &mut Vec<CloseTriangles>) {
+        let [first, second] = leaves.shapes;
+        let order = leaves.ids.orders[0];
+        let of_caller = |[a, b]: Candidate| {
+            let mut corners = [corners_of(first, a), corners_of(second, b)];
+            if leaves.is_one_body && order.caller_triangle(b) < order.caller_triangle(a) {
+                corners.swap(0, 1);
+            }
+            Some((self.to_caller(&leaves.ids, [a, b]), corners))
+        };
+        let (how, interrupt) = (leaves.instructions, leaves.interrupt);
+        dispatch!(how, i => measure_all(i, hits, interrupt, of_caller, |close| shown.push(close)));
+    }
 }
 
 /// Whether two triangles, measured in plain arithmetic, are at most so far apart. Counts exact decisions.
@@ -292,28 +307,6 @@ fn is_within<S: Real>(
     }
     *exact_decisions += 1;
     are_triangles_within(S::PRECISION, &exact(a), &exact(b), distance)
-}
-
-impl<S: Coordinate> CloseKind for NearTriangles<S> {
-    fn callers_corners<'q>(
-        leaves: &LeafTest<'q, S>,
-        ids: &CallerIds,
-        [a, b]: Candidate,
-    ) -> Option<[ThreeCorners<'q, S>; 2]> {
-        let both = [
-            corners_of(leaves.shapes[0], a),
-            corners_of(leaves.shapes[1], b),
-        ];
-        let is_swapped = || {
-            let order = ids.orders[0];
-            order.caller_triangle(b) < order.caller_triangle(a)
-        };
-        Some(if leaves.is_one_body && is_swapped() {
-            [both[1], both[0]]
-        } else {
-            both
-        })
-    }
 }
 
 #[cfg(test)]

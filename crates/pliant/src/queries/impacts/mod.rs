@@ -7,7 +7,7 @@
 mod earliest;
 
 use super::close::{ElementCandidates, ElementPair, corners_at, primitives};
-use super::{Batch, CallerIds, Kind, LeafTest, Needs, Reach};
+use super::{Batch, CallerIds, Kind, LeafTest, Needs, Reach, shows_hits};
 use crate::geometry::Real;
 use crate::hits::{EdgeEdge, VertexTriangle};
 use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
@@ -111,6 +111,8 @@ impl<K: ElementCandidates<Hit: MayMeet>> Kind for Impacts<K> {
     type TreeHit = TimedHit;
     /// Candidates.
     type Buffers = Buffer<[u32; 2]>;
+
+    shows_hits!();
 
     fn needs(&self) -> Needs {
         Needs {

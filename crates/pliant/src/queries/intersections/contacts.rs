@@ -7,7 +7,7 @@ use super::{Candidate, Intersections, Kind};
 use crate::contacts::{Contact, ContactKind};
 use crate::held::held;
 use crate::kernels::{Buffer, Coordinate};
-use crate::queries::{Batch, CallerIds, LeafTest, Needs};
+use crate::queries::{Batch, CallerIds, LeafTest, Needs, shows_hits};
 use crate::statistics::Statistics;
 use pliant_exact::contact_kind;
 
@@ -47,6 +47,8 @@ impl<S: Coordinate> Kind for Contacts<S> {
     type Hit = Contact;
     type TreeHit = TreeContact;
     type Buffers = ContactBuffers;
+
+    shows_hits!();
 
     fn needs(&self) -> Needs {
         Needs::TRIANGLES

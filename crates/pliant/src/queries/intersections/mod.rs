@@ -8,7 +8,7 @@ mod eight;
 
 pub(crate) use contacts::Contacts;
 
-use super::{Batch, CallerIds, Candidate, Kind, LeafTest, Needs};
+use super::{Batch, CallerIds, Candidate, Kind, LeafTest, Needs, shows_hits};
 use crate::Pair;
 use crate::kernels::{Buffer, Coordinate};
 use crate::statistics::Statistics;
@@ -30,6 +30,8 @@ impl<S: Coordinate> Kind for Intersections<S> {
     type Hit = Pair;
     type TreeHit = Candidate;
     type Buffers = Undecided;
+
+    shows_hits!();
 
     fn needs(&self) -> Needs {
         Needs::TRIANGLES

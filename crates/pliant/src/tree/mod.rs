@@ -31,7 +31,7 @@ use crate::ids::{NodeId, TreeTriangle, TreeVertex, WideNodeId};
 use crate::mesh::Order;
 use crate::threads::{Budget, Executor};
 pub(crate) use boxes::{
-    BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodeLanes, NodesMut, Quantized, Source, Swept,
+    BlockBoxes, BoxSet, BoxSource, Grown, LeavesMut, NodeLanes, NodesMut, Over, Quantized, Source,
     Version, of_degree, of_source,
 };
 use build::Plan;

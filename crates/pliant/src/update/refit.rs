@@ -7,7 +7,7 @@ use super::refitted::{Refit, Refitted};
 use crate::ids::WideNodeId;
 use crate::kernels::extent::{self, Extent};
 use crate::kernels::{BoxLanes, Coordinate, Simd, dispatch};
-use crate::tree::{BoxSource, Child, NodesMut, Source, Tree, of_degree, of_source};
+use crate::tree::{BoxSource, Child, NodesMut, Over, Source, Tree, of_degree, of_source};
 
 /// Wide nodes in a job: some microseconds of work.
 const JOB: usize = 16;
@@ -137,7 +137,7 @@ fn refit_one<I: Simd, const N: usize, B: BoxSource>(
     let mut boxes: [Extent<I>; 8] = [extent::nothing(i); 8];
     if let Some(twelves) = tree.vertices.twelves::<N>(first_node) {
         for lane in 0..N {
-            boxes[lane] = source.over_twelve(i, &twelves[lane]);
+            boxes[lane] = source.over(i, Over::Twelve(&twelves[lane]));
         }
         job.store(place, boxes, N);
         return;
@@ -150,11 +150,12 @@ fn refit_one<I: Simd, const N: usize, B: BoxSource>(
             }
             Child::Leaf(leaf) if !tree.leaves.have_blocks() => {
                 let triangle = tree.leaves.first_triangle(leaf);
-                source.over_triangle(i, source.shape().triangles[triangle.index()])
+                let corners = source.shape().triangles[triangle.index()];
+                source.over(i, Over::Triangle(corners))
             }
             _ => {
                 let (run, border) = tree.vertices.run_and_border(first_node + lane);
-                source.over(i, run, border)
+                source.over(i, Over::Run([run.start, run.end], border))
             }
         };
     }

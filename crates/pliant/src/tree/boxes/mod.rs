@@ -16,7 +16,7 @@ use crate::held::{self, held};
 use crate::ids::{BlockId, LeafId, WideNodeId};
 use crate::kernels::{BoxLanes, EightBoxes, QuantizedLanes};
 pub(crate) use lanes::{NodeLanes, of_degree};
-pub(crate) use source::{BoxSource, Grown, Source, Swept, Version, of_source};
+pub(crate) use source::{BoxSource, Grown, Over, Source, Version, of_source};
 
 /// Before every stamp.
 const NEVER: u64 = 0;

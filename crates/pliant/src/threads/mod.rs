@@ -1,66 +1,46 @@
 //! One thread or many: the only folder that names a thread pool.
 //!
-//! Work is cut into jobs by its size, never by the number of threads; every job writes what is its own, and what the jobs have
-//! found is put together in their order. So answers, their order and all counters are the same for any number of threads. Only
-//! jobs whose result depends on no order may be cut as the threads are: those of `conflict_free`, tasks of a descent of which all
-//! hits are wanted, which are then sorted, and runs of what is sorted.
-//!
-//! A step is some dozens of such parts, each shorter than it takes to wake a thread. So threads of a private pool that were woken
-//! stay awake from one part to the next, and a little longer. Each begins with jobs of its own, side by side, and helps others when
-//! these are done: what a thread wrote in one part it is likely to read in the next. The threads of a pool that an application has
-//! lent are not kept awake: they have other things to do. The child of a fork has none of these threads: see [`Threads::here`].
+//! Work is cut into jobs by its size, never by the number of threads; every job writes what is its
+//! own, and what jobs find is put together in their order or sorted. So answers, their order and
+//! counters are the same for any number of threads. A part takes as many threads as its work pays
+//! (`grain`), and the others sleep (`pool`). The child of a fork has none of these threads: see
+//! [`Threads::here`].
 
 mod budget;
 mod conflict_free;
+mod grain;
 mod interrupt;
 mod per_thread;
+mod pool;
+mod record;
 
 pub(crate) use budget::Budget;
+pub(crate) use grain::Grain;
+use grain::threads_for;
 pub(crate) use interrupt::{Interrupt, Question};
 pub(crate) use per_thread::PerThread;
+use pool::Helpers;
+use record::Recorder;
+pub use record::{Clock, RecordedPart};
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
 /// More threads than anyone has.
 const MOST: usize = 256;
-/// How long a thread looks for more to do before it sleeps: longer than what one thread alone does in the middle of a query.
-const AWAKE: Duration = Duration::from_micros(200);
-/// How often a thread that waits looks before it lets others have its core in between.
-const LOOKS: u32 = 100;
 
 /// The threads of a world.
 #[derive(Debug)]
 pub(crate) struct Threads {
     /// The others beside the one that calls; none if that is all.
     helpers: Option<Helpers>,
-}
-
-#[derive(Debug)]
-struct Helpers {
-    pool: Arc<rayon::ThreadPool>,
-    /// The most of them that are used.
-    count: usize,
-    /// How many threads of a private pool are awake; none for a pool that was lent.
-    awake: Option<Arc<AtomicUsize>>,
-    /// The process that has them: the child of a fork has the pool, but none of its threads.
-    process: u32,
-}
-
-impl Drop for Helpers {
-    fn drop(&mut self) {
-        if self.are_elsewhere() {
-            // What a thread of the parent had locked when it forked nobody will unlock. So the pool is left as it is.
-            std::mem::forget(Arc::clone(&self.pool));
-        }
-    }
+    /// Takes the times of jobs, all of which the calling thread does then.
+    recorder: Option<Recorder>,
 }
 
 impl Threads {
     /// The calling thread alone.
     pub(crate) fn one() -> Self {
-        Self { helpers: None }
+        Self::of(None)
     }
 
     /// `count` threads, the calling one included, but not more than [`MOST`]. Where the system gives none, the calling thread does
@@ -79,9 +59,7 @@ impl Threads {
             awake: Some(Arc::default()),
             process: std::process::id(),
         };
-        Self {
-            helpers: pool.and_then(Result::ok).map(helpers),
-        }
+        Self::of(pool.and_then(Result::ok).map(helpers))
     }
 
     /// At most `count` threads, the calling one included; the others are of a pool of the caller's.
@@ -93,9 +71,27 @@ impl Threads {
             awake: None,
             process: std::process::id(),
         };
+        Self::of((count > 0).then_some(helpers))
+    }
+
+    fn of(helpers: Option<Helpers>) -> Self {
         Self {
-            helpers: (count > 0).then_some(helpers),
+            helpers,
+            recorder: None,
         }
+    }
+
+    /// The calling thread alone, which does work cut as for `count` threads and takes its times.
+    pub(crate) fn recorded(count: NonZeroUsize, clock: Clock) -> Self {
+        Self {
+            helpers: None,
+            recorder: Some(Recorder::new(count, clock)),
+        }
+    }
+
+    /// What was recorded since the last call; nothing if nothing is recorded.
+    pub(crate) fn take_record(&self) -> Vec<RecordedPart> {
+        self.recorder.as_ref().map_or_else(Vec::new, Recorder::take)
     }
 
     /// Threads for another world: of the same pool, if that was lent, or else private ones of its own.
@@ -135,16 +131,21 @@ pub(crate) struct Executor<'q> {
 impl Executor<'_> {
     /// Whether there are others than the calling thread.
     pub(crate) fn are_many(&self) -> bool {
-        self.threads.helpers.is_some()
+        self.count() > 1
     }
 
     /// How many threads there are, the calling one included.
     pub(crate) fn count(&self) -> usize {
-        1 + self
-            .threads
-            .helpers
-            .as_ref()
-            .map_or(0, |helpers| helpers.count)
+        let Threads { helpers, recorder } = self.threads;
+        match recorder {
+            Some(recorder) => recorder.count.get(),
+            None => 1 + helpers.as_ref().map_or(0, |helpers| helpers.count),
+        }
+    }
+
+    /// Whether work of so many nanoseconds pays more than one thread, and there are several.
+    pub(crate) fn pays(&self, nanoseconds: u64) -> bool {
+        self.are_many() && threads_for(nanoseconds) > 1
     }
 
     /// Whether to end early. After a yes nothing that was computed can be relied on.
@@ -153,60 +154,85 @@ impl Executor<'_> {
         self.interrupt.is_set()
     }
 
-    /// Does all jobs, or, interrupted, some of them; returns when nothing is under way.
-    pub(crate) fn run<J: Send>(&self, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
-        self.run_any(jobs, &work);
+    /// Does all jobs, or, interrupted, some of them; returns when nothing is under way. All together
+    /// take about so many nanoseconds.
+    pub(crate) fn run<J: Send>(
+        &self,
+        jobs: &mut [J],
+        nanoseconds: u64,
+        work: impl Fn(usize, &mut J) + Sync,
+    ) {
+        self.run_any(jobs, nanoseconds, &work);
     }
 
-    /// Does work as one job, or, where it is worth waking threads, cut into several. `done` is then shown each as it was left.
+    /// Does work as one job, or, where it pays several threads, cut into several. `done` is then shown
+    /// each as it was left.
     pub(crate) fn run_cut<J: Send>(
         &self,
         whole: J,
-        is_worth_it: bool,
+        nanoseconds: u64,
         cut: impl FnOnce(J) -> Vec<J>,
         work: impl Fn(&mut J) + Sync,
         done: impl FnMut(&J),
     ) {
         let (mut alone, mut many);
-        let jobs: &mut [J] = if is_worth_it {
+        let jobs: &mut [J] = if self.pays(nanoseconds) {
             many = cut(whole);
             &mut many
         } else {
             alone = [whole];
             &mut alone
         };
-        self.run(jobs, |_, job| work(job));
+        self.run(jobs, nanoseconds, |_, job| work(job));
         jobs.iter().for_each(done);
     }
 
-    /// Does jobs, and shows `done` each as it was left. They are listed only if there are threads for them: a step would allocate that list.
+    /// Does jobs of a grain, and shows `done` each as it was left. They are listed only if there are
+    /// several threads, for on one a step allocates nothing.
     pub(crate) fn run_each<J: Send>(
         &self,
         jobs: impl Iterator<Item = J>,
+        grain: Grain,
         work: impl Fn(&mut J) + Sync,
         mut done: impl FnMut(&J),
     ) {
         if self.are_many() {
             let mut jobs: Vec<J> = jobs.collect();
-            self.run(&mut jobs, |_, job| work(job));
+            let nanoseconds = grain.nanoseconds * jobs.len() as u64;
+            self.run(&mut jobs, nanoseconds, |_, job| work(job));
             jobs.iter().for_each(done);
             return;
         }
         for mut job in jobs {
-            self.run(std::slice::from_mut(&mut job), |_, job| work(job));
+            self.run(std::slice::from_mut(&mut job), 0, |_, job| work(job));
             done(&job);
         }
     }
 
-    /// The same as [`run`](Self::run) for any work: it is compiled for each kind of job, but not for everything that is done with one.
-    fn run_any<J: Send>(&self, jobs: &mut [J], work: &(dyn Fn(usize, &mut J) + Sync)) {
+    /// The same as [`run`](Self::run) for any work: it is compiled for each kind of job, but not for
+    /// everything that is done with one.
+    fn run_any<J: Send>(
+        &self,
+        jobs: &mut [J],
+        nanoseconds: u64,
+        work: &(dyn Fn(usize, &mut J) + Sync),
+    ) {
         let work: &(dyn Fn(usize, &mut J) + Sync) = &|number, job| {
             if !self.is_interrupted() {
                 work(number, job);
             }
         };
-        match &self.threads.helpers {
-            Some(helpers) if jobs.len() > 1 => helpers.share(jobs, work),
+        let most_threads = threads_for(nanoseconds).min(jobs.len());
+        let threads = most_threads.min(self.count());
+        match self.threads {
+            Threads {
+                recorder: Some(recorder),
+                ..
+            } if jobs.len() > 1 => recorder.run(jobs, most_threads, work),
+            Threads {
+                helpers: Some(helpers),
+                ..
+            } if threads > 1 => helpers.share(jobs, threads, work),
             _ => {
                 for (number, job) in jobs.iter_mut().enumerate() {
                     work(number, job);
@@ -221,125 +247,6 @@ pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Helpers {
-    fn are_elsewhere(&self) -> bool {
-        self.process != std::process::id()
-    }
-
-    /// Does all jobs together with the calling thread.
-    fn share<J: Send>(&self, jobs: &mut [J], work: &(dyn Fn(usize, &mut J) + Sync)) {
-        let helpers = self.count.min(jobs.len() - 1);
-        let size = jobs.len().div_ceil(helpers + 1);
-        let shares: Vec<_> = jobs
-            .chunks_mut(size)
-            .enumerate()
-            .map(|(which, jobs)| {
-                Mutex::new(Share {
-                    first: which * size,
-                    jobs,
-                })
-            })
-            .collect();
-        self.help(helpers, &|own| do_all(&shares, own % shares.len(), work));
-    }
-
-    /// Has so many helpers do something, and the calling thread too; tells each the number of its thread, which is 0 for this one. It knows
-    /// no kind of job: scopes of a pool are much to compile for each.
-    fn help(&self, helpers: usize, work: &(dyn Fn(usize) + Sync)) {
-        self.wake();
-        let done = AtomicUsize::new(0);
-        self.pool.in_place_scope(|scope| {
-            for _ in 0..helpers {
-                scope.spawn(|_| {
-                    work(rayon::current_thread_index().map_or(0, |thread| thread + 1));
-                    done.fetch_add(1, Ordering::Release);
-                });
-            }
-            work(0);
-            // The end of the scope would put this thread to sleep at once.
-            let mut backoff = Backoff::default();
-            while done.load(Ordering::Acquire) < helpers && backoff.waits() {}
-        });
-    }
-
-    /// Has every thread of a private pool look for work from now on, unless they do.
-    fn wake(&self) {
-        let Some(awake) = &self.awake else { return };
-        if awake.load(Ordering::Acquire) > 0 {
-            return;
-        }
-        awake.store(self.pool.current_num_threads(), Ordering::Release);
-        let awake = Arc::clone(awake);
-        self.pool.spawn_broadcast(move |_| {
-            let mut backoff = Backoff::default();
-            while backoff.waits() {
-                if rayon::yield_now() == Some(rayon::Yield::Executed) {
-                    backoff = Backoff::default();
-                }
-            }
-            awake.fetch_sub(1, Ordering::Release);
-        });
-    }
-}
-
-/// Jobs side by side: one thread takes them from the front, others from the back.
-struct Share<'j, J> {
-    first: usize,
-    jobs: &'j mut [J],
-}
-
-impl<'j, J> Share<'j, J> {
-    /// A job and its number.
-    fn take(&mut self, from_front: bool) -> Option<(usize, &'j mut J)> {
-        let jobs = std::mem::take(&mut self.jobs);
-        let (job, rest) = if from_front {
-            jobs.split_first_mut()?
-        } else {
-            jobs.split_last_mut()?
-        };
-        self.jobs = rest;
-        let number = if from_front {
-            self.first += 1;
-            self.first - 1
-        } else {
-            self.first + self.jobs.len()
-        };
-        Some((number, job))
-    }
-}
-
-/// Does the jobs of one share, and then of the others, until none is left.
-fn do_all<J>(shares: &[Mutex<Share<'_, J>>], own: usize, work: &dyn Fn(usize, &mut J)) {
-    let (before, after) = shares.split_at(own);
-    for (which, share) in after.iter().chain(before).enumerate() {
-        // Not in the condition of the loop: the lock would be held while the job is done.
-        let take = || locked(share).take(which == 0);
-        while let Some((number, job)) = take() {
-            work(number, job);
-        }
-    }
-}
-
-/// Waiting for something that is about to happen: spinning at first, then giving way to other threads, and not for long.
-#[derive(Default)]
-struct Backoff {
-    looks: u32,
-    since: Option<Instant>,
-}
-
-impl Backoff {
-    /// Waits a moment; whether to go on waiting.
-    fn waits(&mut self) -> bool {
-        self.looks += 1;
-        if self.looks < LOOKS {
-            std::hint::spin_loop();
-            return true;
-        }
-        std::thread::yield_now();
-        self.since.get_or_insert_with(Instant::now).elapsed() < AWAKE
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -352,24 +259,6 @@ mod tests {
     fn run<J: Send>(threads: &Threads, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
         let interrupt = &Interrupt::default();
         Executor { threads, interrupt }.run(jobs, work);
-    }
-
-    #[test]
-    fn shares_are_taken_from_both_ends() {
-        let mut jobs = [10, 11, 12];
-        let mut share = Share {
-            first: 4,
-            jobs: &mut jobs[..],
-        };
-        let mut take = |from_front| {
-            share
-                .take(from_front)
-                .map(|(number, &mut job)| (number, job))
-        };
-        assert_eq!(take(false), Some((6, 12)));
-        assert_eq!(take(true), Some((4, 10)));
-        assert_eq!(take(false), Some((5, 11)));
-        assert_eq!(take(true), None);
     }
 
     /// Many short parts one after the other, with pauses in which threads fall asleep.

@@ -1,0 +1,100 @@
+//! Work that busy threads give to idle ones, so that none waits while another has much left.
+//!
+//! Idea: a thread looks now and then whether others are idle, and if so gives them half of what it has
+//! left. Invariant: nothing is lost, and all end only when nobody has anything. Use it where the
+//! order of work changes no answer.
+
+use super::{Backoff, locked};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What was given and is not taken yet, for a number of workers.
+pub(crate) struct Exchange<T> {
+    given: Mutex<Vec<T>>,
+    /// Workers that have something to do.
+    busy: AtomicUsize,
+    /// Workers that wait for something.
+    idle: AtomicUsize,
+}
+
+impl<T> Exchange<T> {
+    /// For so many workers, each of which has work of its own at first.
+    pub(crate) fn new(workers: usize) -> Self {
+        Self {
+            given: Mutex::default(),
+            busy: AtomicUsize::new(workers),
+            idle: AtomicUsize::new(0),
+        }
+    }
+
+    /// Whether others wait for work.
+    #[inline]
+    pub(crate) fn is_wanted(&self) -> bool {
+        self.idle.load(Ordering::Relaxed) > 0
+    }
+
+    /// Gives work to others.
+    pub(crate) fn give(&self, work: impl IntoIterator<Item = T>) {
+        locked(&self.given).extend(work);
+    }
+
+    /// Takes some of what was given, when a worker has nothing left; waits for it while others are
+    /// busy, but not long. Returns whether there is any: if not, the worker is to end.
+    pub(crate) fn take(&self, into: &mut Vec<T>) -> bool {
+        let mut backoff = Backoff::default();
+        self.idle.fetch_add(1, Ordering::Relaxed);
+        // Whoever gives is busy until it has given, so nothing comes after the last is not.
+        self.busy.fetch_sub(1, Ordering::AcqRel);
+        let is_any = loop {
+            let is_last = self.busy.load(Ordering::Acquire) == 0;
+            {
+                let mut given = locked(&self.given);
+                if !given.is_empty() {
+                    let idle = self.idle.load(Ordering::Relaxed);
+                    let rest = given.len() - given.len().div_ceil(idle.max(1));
+                    into.extend(given.drain(rest..));
+                    self.busy.fetch_add(1, Ordering::AcqRel);
+                    break true;
+                }
+            }
+            if is_last || !backoff.waits() {
+                break false;
+            }
+        };
+        self.idle.fetch_sub(1, Ordering::Relaxed);
+        is_any
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Executor, Interrupt, Threads};
+    use super::*;
+    use std::num::NonZeroUsize;
+
+    /// Each number stands for all below it; one worker begins with the largest.
+    #[test]
+    fn all_work_is_done_once_whoever_has_it() {
+        for count in [1, 2, 7] {
+            let threads = &Threads::private(NonZeroUsize::new(count).unwrap());
+            let interrupt = &Interrupt::default();
+            let executor = Executor { threads, interrupt };
+            let exchange = &Exchange::new(count);
+            let mut workers = vec![(Vec::new(), 0_u64); count];
+            workers[0].0.push(14_u32);
+            executor.run(&mut workers, u64::MAX, |_, (stack, done)| {
+                while !stack.is_empty() || exchange.take(stack) {
+                    while let Some(number) = stack.pop() {
+                        *done += 1;
+                        stack.extend(0..number);
+                        if exchange.is_wanted() && stack.len() > 1 {
+                            exchange.give(stack.drain(..stack.len() / 2));
+                        }
+                    }
+                }
+            });
+            let done: u64 = workers.iter().map(|(_, done)| done).sum();
+            assert_eq!(done, 1 << 14, "{count} threads");
+        }
+    }
+}

@@ -241,7 +241,7 @@ def page(record, date):
 From the full run of {date} ([text](records/{date}.txt), [JSON](records/{date}.json)): one thread of an {processor} ({cores} cores, a
 virtual machine), `pliant bench all --rounds {record.rounds}`. All methods use the same exact triangle decision and returned equal pair
 lists; how it is measured is in [METHOD.md](METHOD.md). Times are means of update and query a step, in milliseconds. On this machine
-ratios below 1.3 are ties. What was tried on the way is in [NOTES.md](NOTES.md). This page is written by `benchmarks/results.py`.
+ratios below 1.3 are ties. What was tried on the way is in [NOTES.md](NOTES.md) and [TRIED.md](TRIED.md). This page is written by `benchmarks/results.py`.
 
 | the paper says | verdict | our figure |
 |---|---|---|

@@ -11,8 +11,7 @@
 //! byte is taken through [`Stream`], and all arithmetic wraps as specified. A malformed stream is
 //! refused, or gives numbers that are checked like any view's. Source: appendices A and B of the
 //! specifications of `EXT_meshopt_compression` and `KHR_meshopt_compression`, which has one more
-//! way to write attributes. Differing bits are rotated as in meshoptimizer's own decoders. The
-//! crates meshopt-rs 0.1 and meshoptimizer-rs 0.2 are not used: both have unsafe code.
+//! way to write attributes. The crates meshopt-rs 0.1 and meshoptimizer-rs 0.2 have unsafe code.
 
 use super::document::Compressed;
 use crate::error::Reason;
@@ -136,6 +135,8 @@ enum Channel {
     Bytes,
     Pairs,
     /// Differing bits (xor), which were rotated up by this much.
+    ///
+    /// The direction of the rotation is as in meshoptimizer's own decoders.
     Bits(u32),
 }
 

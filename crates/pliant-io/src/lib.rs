@@ -11,7 +11,7 @@
 //! - An OBJ file is one body, `scan.obj#arm` a group of it. [`Body::groups`] maps triangles to
 //!   groups.
 //! - A cache of positions is named beside its mesh: `shirt.obj+walk.pc2`.
-//! - [`evaluated`] opens a body whose frames the calling program evaluates.
+//! - [`evaluated()`] opens a body whose frames the calling program evaluates.
 //! - [`Writer`] writes.
 //!
 //! ```
@@ -70,8 +70,8 @@
 //! # How files are read
 //!
 //! - **Polygons become fans** around their first corner, with triangles numbered in file order.
-//!   [`Body::faces`] maps each triangle to its polygon. A concave polygon, whose fan would be wrong
-//!   in the first frame, becomes as many other triangles between the same corners
+//!   [`Body::faces`] maps each triangle to its polygon. If the fan of a concave polygon would be
+//!   wrong in the first frame, it becomes as many other triangles between the same corners
 //!   ([`Body::outlines`]). Polygons that cross themselves stay fans; [`Body::notes`] reports them,
 //!   and polygons that are far from flat.
 //! - **Seams are welded.** Files split a vertex where texture coordinates or normals differ; STL
@@ -103,7 +103,7 @@
 //!   higher precision than the first. After [`Body::let_mesh_change`] a file may have another mesh.
 //! - **Files are not trusted.** Every coordinate is finite and at most `f32::MAX` in magnitude, and
 //!   every index is in range. Otherwise there is an [`Error`]: one line that names the file, the
-//!   place in it, the fault and the remedy. No count in a header reserves memory: memory grows with
+//!   place in it and the fault. No count in a header reserves memory: memory grows with
 //!   the data that arrives, up to [`OpenOptions::max_memory`]. A file that changes while it is
 //!   read, or between frames, is refused. Pipes and devices are refused and never waited for.
 //!   Nothing is memory-mapped.

@@ -195,7 +195,7 @@ fn hash(bits: [u64; 3]) -> u64 {
 }
 
 impl Seams {
-    /// Whether another frame has the same ends of boundary edges at one place as this one.
+    /// Whether ends of boundary edges coincide in another frame exactly where they do in this one.
     ///
     /// Then its seams are the same, bit for bit. Takes O(n log n), and eight bytes per vertex
     /// meanwhile.

@@ -1,6 +1,6 @@
 //! Writers: a mesh or a sequence as OBJ, PLY, STL, NPZ, or as PC2 or MDD beside a mesh.
 //!
-//! Files read back as the same triangles and the same positions, bit for bit. The exception are
+//! Files read back as the same triangles and the same positions, bit for bit. The exceptions are
 //! 64-bit coordinates in a format of 32 bits, which [`Writer::rounded`] reports. Polygons stay
 //! polygons where the format has them. Frames are written as they come. A file appears under its
 //! name once it is complete, and never replaces another without permission.

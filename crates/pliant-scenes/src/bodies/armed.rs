@@ -8,8 +8,8 @@
 //! ```
 //!
 //! The first two terms are a graph over the plane orthogonal to `u`. The third shifts each ring of
-//! equal `w` as a whole, so an arm cannot intersect itself. Caps do not overlap: arms meet only
-//! where they swing far across. The core is small to leave them room.
+//! equal `w` as a whole, so an arm cannot intersect itself. Caps do not overlap, so arms meet
+//! only where they swing far across; the small core leaves them room.
 
 use crate::bumps::{Bumps, LANES};
 use crate::motion::{Moment, Path, Pose, Spin, rounded};

@@ -27,7 +27,7 @@ pub(crate) enum Named {
     /// Frames of a body, in order; at least one file.
     Files(Vec<Found>),
     /// One body of a file that holds several.
-    Part { file: Found, name: String },
+    Body { file: Found, name: String },
     /// A group of the body whose frames are in these files.
     Group { files: Vec<Found>, name: String },
     /// A mesh, and the positions of its vertices.
@@ -43,7 +43,7 @@ pub(crate) fn named(argument: &str) -> Result<Named, Error> {
             mesh: file(mesh)?,
             positions: file(positions)?,
         }),
-        Meant::Part { path, name, format } if format.holds_bodies() => Ok(Named::Part {
+        Meant::Part { path, name, format } if format.holds_bodies() => Ok(Named::Body {
             file: file(path)?,
             name: named(name),
         }),

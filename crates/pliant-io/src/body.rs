@@ -45,7 +45,7 @@ pub struct Body {
     /// File that the mesh is from, where it is not the file of the frames.
     mesh_file: Option<Box<Found>>,
     /// Triangles of the group, where the body is a group of its file.
-    part: Option<Box<Part>>,
+    group: Option<Box<GroupMesh>>,
     mesh_may_change: bool,
     options: Arc<OpenOptions>,
     /// Number of the frame that the source reads next, and of the frame to hand out next.
@@ -55,7 +55,7 @@ pub struct Body {
 }
 
 /// Triangles of a group of the file.
-struct Part {
+struct GroupMesh {
     /// Their numbers in the mesh, ascending.
     numbers: Vec<u32>,
     triangles: Vec<[u32; 3]>,
@@ -201,8 +201,8 @@ pub fn open(argument: &str, options: &OpenOptions) -> Result<Body, Error> {
         last => {
             bodies.extend(last);
             // A body's own name follows the argument and a `#`.
-            let part = |body: &Body| body.name.get(argument.len() + 1..).map(str::to_owned);
-            let names: Vec<_> = bodies.iter().filter_map(part).collect();
+            let own_name = |body: &Body| body.name.get(argument.len() + 1..).map(str::to_owned);
+            let names: Vec<_> = bodies.iter().filter_map(own_name).collect();
             Err(Error::new(argument, gltf::many_bodies(&names, argument)))
         }
     }
@@ -233,7 +233,7 @@ pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Erro
             }
         }
         Named::Files(files) => asked.open_files(files).map(|body| vec![body]),
-        Named::Part { file, name } => asked.open_scene(&file, Some(&name)),
+        Named::Body { file, name } => asked.open_scene(&file, Some(&name)),
         Named::Group { files, name } => Ok(vec![asked.open_files(files)?.only(&name)?]),
         Named::Cache { mesh, positions } => {
             let format = format_of(&positions)?;
@@ -292,7 +292,7 @@ impl Asked {
         let mut held = scene.held;
         let alone = scene.bodies.len() == 1;
         let mut bodies = Vec::new();
-        for (part, source) in scene.bodies {
+        for (own_name, source) in scene.bodies {
             let files = vec![FrameFile {
                 found: found.clone(),
                 format: Format::Gltf,
@@ -302,9 +302,9 @@ impl Asked {
             let name = if alone {
                 argument.to_string()
             } else {
-                format!("{argument}#{part}")
+                format!("{argument}#{own_name}")
             };
-            // The part of the name is already in the scene's account.
+            // The body's own name is already in the scene's account.
             let itself = argument.len() + size_of::<Body>() + size_of::<FrameFile>();
             held = held.saturating_add(itself as u64);
             let body = Body::begin(self.clone(), name, files, Box::new(source), held)?;
@@ -352,7 +352,7 @@ impl Body {
             mesh_number: 0,
             numbering: RandomState::new(),
             mesh_file: None,
-            part: None,
+            group: None,
             mesh_may_change: false,
             options,
             read: 1,
@@ -404,7 +404,7 @@ impl Body {
     /// Without effect on a group ([`is_part`](Self::is_part)): there a file with another mesh stays
     /// an error.
     pub fn let_mesh_change(&mut self) {
-        self.mesh_may_change = self.part.is_none();
+        self.mesh_may_change = self.group.is_none();
     }
 
     /// Reason why the file cannot have [`groups`](Self::groups); None where its format can.
@@ -461,7 +461,7 @@ impl Body {
     /// Its triangles are then some of the file's and use some of its vertices; frames have all
     /// vertices.
     pub fn is_part(&self) -> bool {
-        self.part.is_some()
+        self.group.is_some()
     }
 
     /// Keeps only the triangles of the groups that `name` names; the whole file decides on seams.
@@ -486,7 +486,7 @@ impl Body {
         let held = bytes_of(&numbers) + bytes_of(&triangles) + faces.as_deref().map_or(0, bytes_of);
         let entered = self.first.frame.enter(held);
         entered.map_err(|reason| Error::new(self.files[0].path(), reason))?;
-        self.part = Some(Box::new(Part {
+        self.group = Some(Box::new(GroupMesh {
             numbers,
             triangles,
             faces,
@@ -503,8 +503,8 @@ impl Body {
     /// Polygons are triangulated, mostly as fans. The smallest of several welded vertices
     /// represents them. All frames of a mesh have the same triangles, apart from their seams.
     pub fn triangles(&self) -> &[[u32; 3]] {
-        match &self.part {
-            Some(part) => &part.triangles,
+        match &self.group {
+            Some(group) => &group.triangles,
             None => self.mesh().triangles(),
         }
     }
@@ -512,8 +512,8 @@ impl Body {
     /// Triangles as in the file, with no vertex welded: equal in all frames of a mesh. Takes O(n).
     pub fn unwelded(&self) -> Vec<[u32; 3]> {
         let all = self.mesh().frame.polygons().triangles();
-        match &self.part {
-            Some(part) => part.numbers.iter().map(|&it| all[it as usize]).collect(),
+        match &self.group {
+            Some(group) => group.numbers.iter().map(|&it| all[it as usize]).collect(),
             None => all.to_vec(),
         }
     }
@@ -540,8 +540,8 @@ impl Body {
 
     /// Polygon of each triangle; None where every polygon is a triangle.
     pub fn faces(&self) -> Option<&[u32]> {
-        match &self.part {
-            Some(part) => part.faces.as_deref(),
+        match &self.group {
+            Some(group) => group.faces.as_deref(),
             None => self.mesh().frame.polygons().faces(),
         }
     }
@@ -554,10 +554,10 @@ impl Body {
         let mesh = self.mesh();
         let frame = &mesh.frame;
         let mut outlines = frame.polygons().outlines().clone();
-        if let Some(part) = &self.part
-            && let (Some(all), Some(own)) = (frame.polygons().faces(), &part.faces)
+        if let Some(group) = &self.group
+            && let (Some(all), Some(own)) = (frame.polygons().faces(), &group.faces)
         {
-            let faces = part.numbers.iter().zip(own);
+            let faces = group.numbers.iter().zip(own);
             let faces = faces.map(|(&triangle, &own)| (all[triangle as usize], own));
             let kept = faces.filter_map(|(face, own)| Some((own, outlines.remove(&face)?)));
             outlines = kept.collect();
@@ -760,10 +760,10 @@ impl Body {
         let had_others = mesh.now.is_some();
         let found = mesh.find_seams(self.options.weld_tolerance);
         if (had_others || mesh.now.is_some())
-            && let Some(part) = &mut self.part
+            && let Some(group) = &mut self.group
         {
             let all = mesh.triangles();
-            let own = part.triangles.iter_mut().zip(&part.numbers);
+            let own = group.triangles.iter_mut().zip(&group.numbers);
             own.for_each(|(triangle, &number)| *triangle = all[number as usize]);
         }
         found.map_err(|reason| {

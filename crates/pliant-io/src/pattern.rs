@@ -19,8 +19,8 @@ const AS_IN_SHELLS: MatchOptions = MatchOptions {
     require_literal_leading_dot: true,
 };
 
-/// One component of a pattern: a name, a pattern for names, or `**`.
-enum Part {
+/// One segment of a pattern: a name, a pattern for names, or `**`.
+enum Segment {
     Literal(PathBuf),
     Names(Pattern),
     Folders,
@@ -33,37 +33,37 @@ pub(crate) fn is_pattern(text: &str) -> bool {
 
 /// Files, folders and everything else that matches a pattern, in no order.
 pub(crate) fn matching(pattern: &str) -> Result<Vec<PathBuf>, Error> {
-    let parts = parts(pattern)?;
+    let segments = segments(pattern)?;
     let mut found = Vec::new();
-    walk(PathBuf::new(), &parts, &mut found)?;
+    walk(PathBuf::new(), &segments, &mut found)?;
     Ok(found)
 }
 
-/// Splits a pattern into its components.
-fn parts(pattern: &str) -> Result<Vec<Part>, Error> {
-    let mut parts: Vec<Part> = Vec::new();
+/// Splits a pattern into its segments.
+fn segments(pattern: &str) -> Result<Vec<Segment>, Error> {
+    let mut segments: Vec<Segment> = Vec::new();
     for component in Path::new(pattern).components() {
         let text = component.as_os_str().to_str().unwrap_or_default();
-        parts.push(match component {
-            Component::Normal(_) if text == "**" => Part::Folders,
+        segments.push(match component {
+            Component::Normal(_) if text == "**" => Segment::Folders,
             Component::Normal(_) if is_pattern(text) => {
                 let bad = |bad: glob::PatternError| Error::new(pattern, Reason::Pattern(bad.msg));
-                Part::Names(Pattern::new(text).map_err(bad)?)
+                Segment::Names(Pattern::new(text).map_err(bad)?)
             }
-            _ => Part::Literal(component.as_os_str().into()),
+            _ => Segment::Literal(component.as_os_str().into()),
         });
     }
-    Ok(parts)
+    Ok(segments)
 }
 
-/// Appends to `found` everything below `folder` that matches the remaining components.
-fn walk(folder: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(), Error> {
-    let Some((part, rest)) = parts.split_first() else {
+/// Appends to `found` everything below `folder` that matches the remaining segments.
+fn walk(folder: PathBuf, segments: &[Segment], found: &mut Vec<PathBuf>) -> Result<(), Error> {
+    let Some((segment, rest)) = segments.split_first() else {
         found.push(folder);
         return Ok(());
     };
-    match part {
-        Part::Literal(name) => {
+    match segment {
+        Segment::Literal(name) => {
             let path = folder.join(name);
             let is_there = if rest.is_empty() {
                 path.symlink_metadata().is_ok()
@@ -74,7 +74,7 @@ fn walk(folder: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(),
                 walk(path, rest, found)?;
             }
         }
-        Part::Names(pattern) => {
+        Segment::Names(pattern) => {
             for name in names(&folder)? {
                 if pattern.matches_with(&name.to_string_lossy(), AS_IN_SHELLS) {
                     let path = folder.join(name);
@@ -84,15 +84,15 @@ fn walk(folder: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(),
                 }
             }
         }
-        Part::Folders => {
-            // Without this component, and with one folder more before it.
+        Segment::Folders => {
+            // Without this segment, and with one folder more before it.
             walk(folder.clone(), rest, found)?;
             for name in names(&folder)? {
                 let path = folder.join(&name);
                 let is_hidden = name.to_string_lossy().starts_with('.');
                 let is_folder = path.symlink_metadata().is_ok_and(|its| its.is_dir());
                 if is_folder && !is_hidden {
-                    walk(path, parts, found)?;
+                    walk(path, segments, found)?;
                 }
             }
         }

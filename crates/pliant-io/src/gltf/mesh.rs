@@ -108,14 +108,14 @@ impl Mesh {
                 "its primitives have different numbers of morph targets",
             ));
         }
-        let held = surfaces().all(|primitive| primitive.attributes.contains_key(JOINTS[0]));
+        let has_joints = surfaces().all(|primitive| primitive.attributes.contains_key(JOINTS[0]));
         mesh.targets.resize_with(targets, Vec::new);
         let mut triangles = Vec::new();
         for primitive in surfaces() {
-            mesh.read_primitive(reader, primitive, held, &mut triangles)
+            mesh.read_primitive(reader, primitive, has_joints, &mut triangles)
                 .map_err(at)?;
         }
-        if held && !mesh.rest.is_empty() {
+        if has_joints && !mesh.rest.is_empty() {
             let end = mesh.influences.len() as u32;
             reader.account.push(&mut mesh.starts, end, 0)?;
         }
@@ -126,7 +126,7 @@ impl Mesh {
         &mut self,
         reader: &mut Reader,
         primitive: &super::document::Primitive,
-        held: bool,
+        has_joints: bool,
         triangles: &mut Vec<[u32; 3]>,
     ) -> Result<(), Fault> {
         let begin = self.rest.len();
@@ -142,7 +142,7 @@ impl Mesh {
             Ok(account.push(rest, [row[0], row[1], row[2]].map(|x| x as f32), 0)?)
         })?;
         self.read_targets(reader, primitive, begin as u64, count)?;
-        if held {
+        if has_joints {
             self.read_influences(reader, &primitive.attributes, count)?;
         }
         read_triangles(reader, primitive, begin as u32, count, triangles)
@@ -346,7 +346,7 @@ impl Mesh {
         let vertices = self.rest.len() as u64;
         let moved = self.targets.iter().map(Vec::len).max().unwrap_or(0) as u64;
         let runs = if skinned {
-            vertices * size_of::<Run>() as u64
+            vertices * size_of::<EqualWeights>() as u64
         } else {
             0
         };
@@ -406,8 +406,8 @@ impl Mesh {
     /// [`NEARLY`] of their leader, and within twice that of each other.
     fn part_by_weights(&self, class: &mut [u64]) {
         let bits = |vertex: u32| {
-            let held = self.influences(vertex as usize).iter();
-            held.map(|it| (it.joint, it.weight.to_bits()))
+            let influences = self.influences(vertex as usize).iter();
+            influences.map(|it| (it.joint, it.weight.to_bits()))
         };
         let mut vertices: Vec<u32> = (0..class.len() as u32).collect();
         vertices.sort_unstable_by(|&a, &b| {
@@ -416,7 +416,7 @@ impl Mesh {
                 .then(a.cmp(&b))
         });
         let mut next = class.iter().max().map_or(0, |last| last + 1);
-        let mut runs: Vec<Run> = Vec::with_capacity(vertices.len());
+        let mut runs: Vec<EqualWeights> = Vec::with_capacity(vertices.len());
         let mut leaders: Vec<(u32, u64)> = Vec::with_capacity(MOST_COMPARED);
         let mut rest = &vertices[..];
         while let Some(&first) = rest.first() {
@@ -453,7 +453,7 @@ impl Mesh {
 }
 
 /// Vertices of bitwise equal weights: the smallest, and their range.
-type Run = (u32, u32, u32);
+type EqualWeights = (u32, u32, u32);
 
 /// Removes a joint from the front of a sorted list; returns its total weight.
 fn taken(all: &mut &[Influence], joint: u16) -> f64 {

@@ -1,12 +1,12 @@
-//! One error type whose message is one line: which file, where in it, what is wrong.
+//! The error type of the crate: one line that names the file, the place in it, and the fault.
 //!
-//! What to do is said here only where the file itself is to be changed, or named otherwise. A remedy that is an option of the
-//! caller has another name in a program than in Python, so a message names none: it says what the limit was, and whoever shows the
-//! message chooses the advice by its [`Reason`].
+//! A message says what to do only where the file itself must be changed, or named otherwise. The
+//! options of callers have other names in a program than in Python. So a message states the limit
+//! but names no option; whoever shows it chooses the advice by its [`Reason`].
 //!
-//! A reader knows *where* and *why* but not the name of its file; it returns a `Fault`, and the
-//! body, which opened the file, makes an [`Error`] of it. Vertices, faces and frames are numbered
-//! from zero, as in pliant's results; an index quoted from a file is quoted as the file writes it.
+//! A reader does not know the name of its file: it returns a `Fault`, of which the body makes an
+//! [`Error`]. Vertices, faces and frames are numbered from 0, as in pliant's results; an index
+//! quoted from a file is written as in the file.
 
 use std::fmt;
 use std::io;
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use crate::shown::{shown, shown_within};
 use crate::size::Size;
 
-/// Why a body could not be read. Its message is one line, whatever the file or its name holds.
+/// Why a body could not be read or written. Its message is one line, whatever names it quotes.
 #[derive(Debug)]
 pub struct Error {
     file: PathBuf,
@@ -23,7 +23,7 @@ pub struct Error {
     reason: Reason,
 }
 
-/// Where in the file.
+/// The place in a file to which an error refers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -43,7 +43,7 @@ pub enum Place {
     Part(&'static str, usize),
 }
 
-/// What is wrong there.
+/// The fault that an error reports.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 #[allow(missing_docs)] // the messages say it, and nothing is gained by saying it twice
@@ -92,7 +92,8 @@ pub enum Reason {
         last: i64,
     },
     #[error(
-        "{axis} of vertex {vertex} is {value:e}; coordinates must be finite and at most 3.4028235e38 in magnitude"
+        "{axis} of vertex {vertex} is {value:e}; coordinates must be finite and \
+         at most 3.4028235e38 in magnitude"
     )]
     Coordinate { vertex: u64, axis: char, value: f64 },
     #[error("holds no vertices")]
@@ -108,7 +109,9 @@ pub enum Reason {
     )]
     TooLarge { needed: u64, limit: u64 },
     #[error(
-        "a frame needs at least {} of memory while its seams are found, {} are allowed", Size(*needed), Size(*limit)
+        "a frame needs at least {} of memory while its seams are found, {} are allowed",
+        Size(*needed),
+        Size(*limit)
     )]
     SeamsTooLarge { needed: u64, limit: u64 },
     #[error("holds {count} bodies: {names}; name one: '{}'", shown(example))]
@@ -161,7 +164,8 @@ pub enum Reason {
         than: PathBuf,
     },
     #[error(
-        "holds 64-bit coordinates, but the body began with 32-bit ones in {}; convert the frames to one type",
+        "holds 64-bit coordinates, but the body began with 32-bit ones in {}; \
+         convert the frames to one type",
         shown(than)
     )]
     Precision { than: PathBuf },
@@ -175,17 +179,17 @@ pub enum Reason {
     AfterError,
 }
 
-/// What a reader says of a file, in which it may quote it.
+/// A reader's sentence in at most 1000 characters; it may quote the file.
 fn sentence(text: &str) -> String {
     shown_within(text, 1000)
 }
 
-/// A name where there may be many: in a list, or before a number.
+/// A name in at most 40 characters, for lists and for places.
 pub(crate) fn listed_name(name: &str) -> String {
     shown_within(name, 40)
 }
 
-/// Names for a message: the first ten, each shortened.
+/// A list of names for a message: the first ten, each shortened, and the number of the others.
 pub(crate) fn listed<N: AsRef<str>>(names: impl Iterator<Item = N> + Clone) -> String {
     let count = names.clone().count();
     if count == 0 {
@@ -199,7 +203,9 @@ pub(crate) fn listed<N: AsRef<str>>(names: impl Iterator<Item = N> + Clone) -> S
     list
 }
 
-/// Which numbers there are; a file whose vertices are not counted yet allows all that a vertex can have.
+/// The range of valid vertex numbers, as the end of a message.
+///
+/// Where the number of vertices is not known yet, `last` is the largest that a vertex can have.
 fn numbering(first: i64, last: i64) -> String {
     if last < first {
         "there are no vertices yet".to_owned()
@@ -224,22 +230,22 @@ impl Error {
         }
     }
 
-    /// The file, or the argument where no file was found for it.
+    /// Path of the file, or the argument where no file was found for it.
     pub fn file(&self) -> &Path {
         &self.file
     }
 
-    /// Where in the file.
+    /// Place in the file.
     pub fn place(&self) -> &Place {
         &self.place
     }
 
-    /// What is wrong there.
+    /// The fault.
     pub fn reason(&self) -> &Reason {
         &self.reason
     }
 
-    /// The same, for whoever says in its own words where it is.
+    /// Takes the fault out, for callers that say in their own words where it is.
     pub fn into_reason(self) -> Reason {
         self.reason
     }
@@ -272,17 +278,17 @@ impl fmt::Display for Place {
     }
 }
 
-/// An error without the name of the file: what a reader returns.
+/// An error without the name of its file: the error type of readers.
 #[derive(Debug)]
 pub(crate) struct Fault {
-    /// Another file than the one being read: one that it needs.
+    /// The file, where it is not the one being read but one that this one needs.
     pub(crate) file: Option<PathBuf>,
     pub(crate) place: Place,
     pub(crate) reason: Reason,
 }
 
 impl Fault {
-    /// Names the place, where none is named yet.
+    /// Sets the place, unless one is set.
     pub(crate) fn or_at(mut self, place: Place) -> Self {
         if self.place == Place::File {
             self.place = place;
@@ -290,7 +296,7 @@ impl Fault {
         self
     }
 
-    /// Names the file, where it is another than the one being read.
+    /// Sets the file, unless one is set: for a file other than the one being read.
     pub(crate) fn or_in(mut self, file: &Path) -> Self {
         self.file.get_or_insert_with(|| file.to_owned());
         self
@@ -298,7 +304,7 @@ impl Fault {
 }
 
 impl Reason {
-    /// Whether the faces, or how many vertices there are, are others than in the first frame, and nothing else is wrong.
+    /// Whether the only fault is that faces or number of vertices differ from the first frame.
     pub(crate) fn is_of_another_mesh(&self) -> bool {
         matches!(
             self,
@@ -336,7 +342,10 @@ mod tests {
         assert_eq!(message.lines().count(), 1);
         assert_eq!(
             message,
-            r"bad\r\nname.ply, line 7: face 3 is not that of first\nframe.ply; the frames of a body need the same faces"
+            concat!(
+                r"bad\r\nname.ply, line 7: face 3 is not that of first\nframe.ply; ",
+                "the frames of a body need the same faces"
+            )
         );
     }
 

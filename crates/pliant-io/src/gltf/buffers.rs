@@ -1,9 +1,9 @@
-//! Where the bytes of a glTF file are: behind its JSON (GLB), in files beside it, or in the JSON itself; and those of views, which may
-//! be compressed.
+//! Bytes of glTF buffers and views: in the GLB behind the JSON, in files beside it, or in the JSON.
 //!
-//! Bytes in files stay there and are read where an accessor asks; those in the JSON are decoded once. No other place is ever
-//! looked at: no network, no folder above, and none where a link leads. A view that is compressed is decoded once, and only where its
-//! buffer has no bytes: those are the same ones.
+//! Bytes in files stay there and are read when an accessor needs them; data URIs are decoded once.
+//! No other place is ever read: no network, no folder above, no target of a link outside the
+//! folder. A compressed view is decoded once, and only if its buffer has no uncompressed bytes,
+//! which are equal.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -19,33 +19,35 @@ use crate::file::{Found, Opened};
 use crate::memory::{Account, bytes_of};
 use crate::text::quoted;
 
-/// An open file and what buffers it has.
+/// An open file and its buffers.
 pub(super) struct Buffers {
     main: Opened,
     folder: PathBuf,
-    /// Behind the JSON: where it begins, and its length.
+    /// Offset and length of the binary chunk behind the JSON.
     behind: Option<(u64, u64)>,
     opened: Vec<Option<Bytes>>,
-    /// Of each view that was compressed, what it is; entered.
+    /// Decoded bytes of compressed views, by number; counted in the account.
     decoded: BTreeMap<usize, Vec<u8>>,
 }
 
-/// The bytes of a buffer.
+/// Location of the bytes of a buffer.
 enum Bytes {
     Behind,
     Beside(PathBuf, Opened),
     Within(Vec<u8>),
 }
 
+/// First bytes of a GLB file.
 const GLB: &[u8; 4] = b"glTF";
-/// The mark, version and length of a GLB file; the length and kind of a chunk.
+/// Size in bytes of the GLB header: magic, version and length.
 const HEAD: u64 = 12;
+/// Size in bytes of a chunk's header: length and kind.
 const CHUNK: u64 = 8;
 
-/// Compressed bytes that are read at a time.
+/// Compressed bytes read at a time: memory grows with data that exists, not with its claim.
 const AT_A_TIME: u64 = 1 << 16;
 
-/// Opens a file and reads its JSON, if it and what is in it may be held.
+/// Opens a file and parses its JSON, if the account allows both the text and the parsed document.
 pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Buffers), Fault> {
     let mut main = found.open()?;
     let length = main.length();
@@ -77,7 +79,7 @@ pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Bu
     Ok((document, buffers))
 }
 
-/// Where the two chunks of a GLB file begin, and how long they are.
+/// Offset and length of the two chunks of a GLB file: JSON, and binary if there is one.
 fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u64)>), Fault> {
     let mut number = |what: &str, at: u64| -> Result<u64, Fault> {
         let mut bytes = [0; 4];
@@ -114,7 +116,7 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
     let json = chunk(HEAD, b"JSON")?.ok_or_else(|| {
         Reason::Malformed("the first chunk is not JSON".into()).at(Place::Byte(HEAD))
     })?;
-    // Chunks begin at multiples of four; those of some writers right behind each other.
+    // Chunks begin at multiples of four, but some writers put them right behind each other.
     let end = json.0 + json.1;
     let behind = match chunk(end, b"BIN\0")? {
         None if !end.is_multiple_of(4) => chunk(end.next_multiple_of(4), b"BIN\0")?,
@@ -124,7 +126,7 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
 }
 
 impl Buffers {
-    /// Fills `bytes` with those of a view from `offset` on.
+    /// Fills `bytes` from a view, from `offset` on.
     pub(super) fn read_view(
         &mut self,
         document: &Document,
@@ -166,7 +168,7 @@ impl Buffers {
         Ok(())
     }
 
-    /// The bytes of a view of so many that is compressed.
+    /// Decodes a compressed view, which must have `length` bytes.
     fn decode(
         &mut self,
         document: &Document,
@@ -180,7 +182,7 @@ impl Buffers {
                 format!("its compression has {count} rows of {width} bytes, it has {length} bytes");
             return Err(Reason::Malformed(reason).into());
         }
-        // What is announced may not be there.
+        // The announced bytes may not exist.
         let mut stream = Vec::new();
         while (stream.len() as u64) < compressed.byte_length {
             let done = stream.len();
@@ -201,14 +203,14 @@ impl Buffers {
         Ok(decoded)
     }
 
-    /// Takes what was decoded off the account of who is done with reading.
+    /// Drops decoded views once reading is done, and takes them off the account.
     pub(super) fn forget_decoded(&mut self, account: &mut Account) {
         for (_, decoded) in std::mem::take(&mut self.decoded) {
             account.take_off(bytes_of(&decoded));
         }
     }
 
-    /// Fills `bytes` with those of a buffer from `offset` on.
+    /// Fills `bytes` from a buffer, from `offset` on.
     pub(super) fn read(
         &mut self,
         document: &Document,
@@ -261,7 +263,7 @@ impl Buffers {
         Ok(())
     }
 
-    /// Where the bytes of a buffer are.
+    /// Locates and opens the bytes of a buffer.
     fn find(
         &self,
         uri: Option<&str>,
@@ -298,7 +300,8 @@ impl Buffers {
         let plain = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
         if name.is_empty() || name.contains([':', '\\', '\0']) || !path.components().all(plain) {
             return Err(Reason::Unsupported(format!(
-                "its bytes are at {}; only files beside this one, and data URIs, are read: export it as .glb",
+                "its bytes are at {}; \
+                 only files beside this one, and data URIs, are read: export it as .glb",
                 quoted(uri)
             ))
             .into());
@@ -312,8 +315,9 @@ impl Buffers {
         Ok(Bytes::Beside(path, opened))
     }
 
-    /// Where a file in the folder is when links are followed: in the folder still. A folder from strangers may hold links, and what
-    /// they lead to is nobody's shape.
+    /// Resolves the links in `path`; an error if it leaves the folder.
+    ///
+    /// A folder from strangers may hold links to files that are no part of any shape.
     fn without_leaving(&self, path: &Path) -> Result<PathBuf, Reason> {
         let folder = if self.folder.as_os_str().is_empty() {
             Path::new(".")
@@ -330,12 +334,13 @@ impl Buffers {
             return Ok(real);
         }
         Err(Reason::Unsupported(
-            "a link leads out of the folder of the glTF file, and is not followed; copy the file there, or export all as .glb"
+            "a link leads out of the folder of the glTF file, and is not followed; \
+             copy the file there, or export all as .glb"
                 .into(),
         ))
     }
 
-    /// All bytes that there are, of the files opened and the views decoded so far.
+    /// Total size in bytes of the files opened and the views decoded so far.
     pub(super) fn bytes(&self) -> u64 {
         let of_buffer = |bytes: &Bytes| match bytes {
             Bytes::Behind => 0, // in the file itself
@@ -348,7 +353,7 @@ impl Buffers {
         all.fold(self.main.length(), u64::saturating_add)
     }
 
-    /// Refuses files that are not as they were found.
+    /// Returns an error if any file has changed since it was found.
     pub(super) fn unchanged(&self) -> Result<(), Fault> {
         self.main.unchanged()?;
         for bytes in self.opened.iter().flatten() {
@@ -361,12 +366,13 @@ impl Buffers {
     }
 }
 
+/// Fills `bytes` from a file, from `offset` on.
 fn fill(file: &mut Opened, offset: u64, bytes: &mut [u8]) -> Result<(), Reason> {
     file.seek(SeekFrom::Start(offset))?;
     Ok(file.read_exact(bytes)?)
 }
 
-/// `%20` and the like as the characters that they stand for.
+/// Decodes percent escapes such as `%20`.
 fn unescaped(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();

@@ -1,9 +1,9 @@
-//! Bodies that a program evaluates by itself are held to what files are held to.
+//! Bodies that the calling program evaluates are checked like bodies from files.
 
 use pliant_io::{Evaluated, OpenOptions, Positions, evaluated};
 use std::path::Path;
 
-/// A square that rises, or what a test makes of it.
+/// A square that rises, or a spoilt one.
 struct Square {
     counts: Vec<u32>,
     corners: Vec<u32>,
@@ -43,7 +43,7 @@ impl Evaluated for Square {
     }
 }
 
-/// Any file that is there.
+/// An arbitrary existing file.
 fn file() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"))
 }

@@ -1,4 +1,4 @@
-//! What is written reads back the same, from every format into every other; nothing is lost, nothing half written.
+//! Writers: every format converts to every other without loss, and no file is half written.
 
 use crate::common::{Folder, all_frames, tetrahedron};
 use pliant_io::{Error, OpenOptions, Positions, Precision, Reason, Shape, WriteOptions, Writer};
@@ -7,10 +7,10 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// Everything that a body says.
+/// Everything that can be observed of a body.
 #[derive(Debug, Clone, PartialEq)]
 struct Told {
-    /// The places of the corners of every triangle, in every frame, as bits.
+    /// Positions of the corners of every triangle, in every frame, as bits.
     frames: Vec<Vec<[[u64; 3]; 3]>>,
     triangles: Vec<[u32; 3]>,
     faces: Option<Vec<u32>>,
@@ -40,7 +40,7 @@ fn tell(argument: &str) -> Result<(Told, Vec<Vec<[f64; 3]>>, Precision), Error> 
     Ok((told, frames, body.precision()))
 }
 
-/// Writes what an argument names as another; whether anything was rounded.
+/// Converts a body; returns whether anything was rounded.
 fn convert(from: &str, to: &str, options: &WriteOptions) -> Result<bool, Error> {
     let (told, frames, precision) = tell(from)?;
     let shape = Shape {
@@ -66,7 +66,7 @@ fn convert(from: &str, to: &str, options: &WriteOptions) -> Result<bool, Error> 
     Ok(rounded)
 }
 
-/// What to write, what to read, whether vertices are kept, whether polygons are, whether 64 bits are.
+/// Name to write, name to read, and whether vertices, polygons and 64 bits are kept.
 const FORMATS: [(&str, &str, bool, bool, bool); 7] = [
     ("%03d.obj", "*.obj", true, true, true),
     ("%03d.ply", "*.ply", true, true, true),
@@ -77,7 +77,8 @@ const FORMATS: [(&str, &str, bool, bool, bool); 7] = [
     ("m.ply+s.pc2", "m.ply+s.pc2", true, true, false),
 ];
 
-/// A polygon of five corners, two triangles, and a vertex that nothing uses; coordinates that decimals do not hold.
+/// A polygon of five corners, two triangles and an unused vertex; coordinates that decimals cannot
+/// hold.
 fn source(folder: &Folder, wide: bool) -> String {
     let coordinates: [f32; 21] = [
         0.1,
@@ -105,7 +106,7 @@ fn source(folder: &Folder, wide: bool) -> String {
     for frame in 0..3_u8 {
         let value = |&x: &f32| {
             let x = f64::from(x) * f64::from(1_u8 << frame).min(if x < -1e38 { 1.0 } else { 4.0 });
-            // In 64 bits, next to the number that 32 bits hold.
+            // In 64 bits, the number next to one that 32 bits hold.
             if wide { x + x * f64::EPSILON } else { x }
         };
         let mut text = String::new();
@@ -153,7 +154,7 @@ fn every_format_into_every_other() {
                 assert_eq!(told.faces, first.faces, "{write}");
             }
             assert_eq!(precision == Precision::F64, keeps_wide, "{write}");
-            // From there into all others.
+            // From there into all other formats.
             for (again, read_again, ..) in FORMATS {
                 let two = format!("two-{one}-{}", again.replace(['%', '+'], ""));
                 fs::create_dir(folder.path().join(&two)).unwrap();
@@ -181,7 +182,7 @@ fn what_is_there_is_kept_and_what_fails_leaves_nothing() {
         let sub = write.replace(['%', '+'], "");
         fs::create_dir(folder.path().join(&sub)).unwrap();
         let to = argument(&folder, &sub, write);
-        // The last file that would be written is there.
+        // The last file that would be written exists already.
         let last = to.rsplit('+').next().unwrap().replace("%03d", "002");
         fs::write(&last, "precious").unwrap();
         let error = convert(&source, &to, &WriteOptions::default()).unwrap_err();
@@ -224,7 +225,7 @@ fn what_is_there_is_kept_and_what_fails_leaves_nothing() {
             missing.contains("3 frames were announced, 1 came"),
             "{missing}"
         );
-        // Of a file a frame the first is whole.
+        // With one file per frame, the first is complete.
         let whole = usize::from(write.contains('%'));
         assert_eq!(
             fs::read_dir(folder.path().join(&sub)).unwrap().count(),
@@ -274,7 +275,7 @@ fn what_cannot_be_written_says_what_can() {
         let error = error(from, to);
         assert!(error.contains(words), "{error}");
     }
-    // Where a shape does not agree with itself there is an error and no file.
+    // A shape whose parts do not agree gives an error and no file.
     let good = Shape {
         triangles: vec![[0, 1, 2]],
         faces: Some(vec![0]),
@@ -314,7 +315,7 @@ fn what_cannot_be_written_says_what_can() {
     assert!(!folder.path().join("x.npz").exists());
 }
 
-/// Other programs read these; their bytes are what the formats say.
+/// Other programs read these files: their bytes are as the formats say.
 #[test]
 fn caches_are_byte_for_byte_what_the_formats_say() {
     let folder = Folder::new();
@@ -351,7 +352,7 @@ fn caches_are_byte_for_byte_what_the_formats_say() {
     assert_eq!(fs::read(folder.path().join("s.mdd")).unwrap(), mdd);
 }
 
-/// Polygons that bend inward stay polygons, and are cut in the same way again.
+/// Concave polygons stay polygons, and are triangulated in the same way again.
 #[test]
 fn polygons_that_are_no_fans_stay_polygons() {
     let folder = Folder::new();

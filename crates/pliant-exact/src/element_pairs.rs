@@ -50,19 +50,17 @@ pub fn is_swapped(which: usize) -> bool {
 /// What each corner of either triangle counts in the points that are so far along the elements of a pair: in a triangle a, b, c the point
 /// a + x (b - a) + y (c - a); on two edges the part x of the first and y of the second.
 pub fn barycentric(which: usize, [x, y]: [f64; 2]) -> [[f64; 3]; 2] {
-    let mut corner = [0.0; 3];
-    let of_triangle = [(1.0 - x - y).max(0.0), x, y];
     match elements(which) {
-        Elements::CornerOfFirst(i) => {
-            corner[i] = 1.0;
-            [corner, of_triangle]
-        }
-        Elements::CornerOfSecond(i) => {
-            corner[i] = 1.0;
-            [of_triangle, corner]
-        }
+        // A corner is an end of an edge.
+        Elements::CornerOfFirst(i) => [on_edge(i, 0.0), in_triangle([x, y])],
+        Elements::CornerOfSecond(i) => [in_triangle([x, y]), on_edge(i, 0.0)],
         Elements::Edges([i, j]) => [on_edge(i, x), on_edge(j, y)],
     }
+}
+
+/// What each corner of a triangle a, b, c counts in the point a + x (b - a) + y (c - a).
+pub(super) fn in_triangle([x, y]: [f64; 2]) -> [f64; 3] {
+    [(1.0 - x - y).max(0.0), x, y]
 }
 
 /// What each corner counts in a point of an edge.

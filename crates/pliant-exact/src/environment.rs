@@ -1,6 +1,7 @@
 //! What decisions may assume of coordinates, and of the thread that they run in.
 
 use super::Point;
+use super::float::power;
 use std::hint::black_box;
 
 /// The type that coordinates had before they were widened to `f64`.
@@ -21,7 +22,7 @@ impl Precision {
             // The smallest difference of two f32 is 2^-149; the product of three of them is far inside f64.
             Self::Single => 0.0,
             // 2^-1018, sixteen times the smallest normal number.
-            Self::Double => f64::from_bits(5 << 52),
+            Self::Double => power(-1018),
         }
     }
 }

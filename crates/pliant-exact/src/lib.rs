@@ -4,6 +4,7 @@ mod contact_kind;
 pub mod distance;
 mod element_pairs;
 mod environment;
+mod float;
 mod gap;
 mod integer;
 mod lattice;
@@ -11,6 +12,7 @@ pub mod motion;
 mod orientation;
 mod point;
 pub mod reference;
+mod ring;
 mod triangles;
 mod vector;
 

@@ -27,9 +27,10 @@
 //! So every sign is exact for every f32 and f64 in range.
 
 use super::Precision;
-use super::integer::{Integer, powers_of_all};
+use super::float::{U, power, sign_beyond};
+use super::integer::powers_of_all;
 use super::point::{Point, Sign};
-use super::vector::{cross, dot, in_units, minus};
+use super::vector::{cross_on, determinant, in_units, minus};
 
 /// A source of orientation signs.
 pub(super) trait Orientation {
@@ -48,10 +49,7 @@ pub(super) struct Exact;
 
 impl Orientation for Exact {
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        if [a, b, c, d]
-            .into_iter()
-            .all(|point| are_from(SMALLEST, point))
-        {
+        if [a, b, c, d].iter().all(|point| are_from(SMALLEST, point)) {
             adaptive(a, b, c, d)
         } else {
             in_integers(a, b, c, d)
@@ -60,10 +58,10 @@ impl Orientation for Exact {
 }
 
 /// `robust` is exact if no coordinate but zero is smaller in magnitude: 2^-288.
-const SMALLEST: f64 = f64::from_bits((1023 - 288) << 52);
+const SMALLEST: f64 = power(-288);
 
 /// The same in the plane: 2^-459.
-const SMALLEST_2D: f64 = f64::from_bits((1023 - 459) << 52);
+const SMALLEST_2D: f64 = power(-459);
 
 /// Whether each coordinate is zero or at least `smallest` in magnitude. As integers: a thread that flushes subnormal numbers
 /// takes them for zero.
@@ -104,13 +102,12 @@ impl Filtered {
 }
 
 /// 9 u.
-const RELATIVE_ERROR: f64 = 9.0 * (f64::EPSILON / 2.0);
+const RELATIVE_ERROR: f64 = 9.0 * U;
 
 impl Orientation for Filtered {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        let difference = |p: &Point| -> Point { std::array::from_fn(|axis| p[axis] - a[axis]) };
-        let (e1, e2, t) = (difference(b), difference(c), difference(d));
+        let [e1, e2, t] = [b, c, d].map(|p| minus(p, a));
         let (mut determinant, mut magnitude) = (0.0, 0.0);
         for i in 0..3 {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
@@ -152,7 +149,7 @@ pub(super) fn orientation_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
 }
 
 /// 5 u.
-const RELATIVE_ERROR_2D: f64 = 5.0 * (f64::EPSILON / 2.0);
+const RELATIVE_ERROR_2D: f64 = 5.0 * U;
 
 /// The sign by expansions, as exact as `SMALLEST_2D` says.
 fn adaptive_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
@@ -165,23 +162,21 @@ fn adaptive_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
 fn in_integers(a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
     let [unit, _] = powers_of_all([a, b, c, d].into_iter().flatten());
     let [a, b, c, d] = [a, b, c, d].map(|point| in_units(point, unit));
-    let normal = cross(&minus(&b, &a), &minus(&c, &a));
-    dot(&normal, &minus(&d, &a)).sign()
+    let [e1, e2, t] = [b, c, d].map(|p| minus(&p, &a));
+    determinant(&e1, &e2, &t).sign()
 }
 
 /// The same in the plane.
 #[cold]
 fn in_integers_2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
     let [unit, _] = powers_of_all([a, b, c].as_flattened());
-    let [a, b, c] = [a, b, c].map(|point| point.map(|x| Integer::new(x, unit)));
-    let difference = |p: &[Integer; 2]| [p[0].minus(&a[0]), p[1].minus(&a[1])];
-    let (e, t) = (difference(&b), difference(&c));
-    e[0].times(&t[1]).minus(&e[1].times(&t[0])).sign()
+    let [a, b, c] = [a, b, c].map(|[x, y]| in_units(&[x, y, 0.0], unit));
+    cross_on(2, &minus(&b, &a), &minus(&c, &a)).sign()
 }
 
 /// Of a determinant; of points out of range perhaps of no number, whose sign is said to be 0.
 fn sign_of(value: f64) -> Sign {
-    i8::from(value > 0.0) - i8::from(value < 0.0)
+    sign_beyond(value, 0.0)
 }
 
 #[cfg(test)]

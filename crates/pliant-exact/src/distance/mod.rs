@@ -22,7 +22,9 @@
 
 mod triangles;
 
-use super::integer::{Integer, parts, powers_of_all, quotient};
+use super::float::{power, scaled};
+use super::integer::{Integer, in_proportion, parts, powers_of_all, quotient};
+use super::ring::Ring;
 use super::vector::{Vector, cross, dot, in_units, minus};
 use super::{Point, denormals_are_kept};
 pub use triangles::point_in_common;
@@ -81,10 +83,10 @@ pub fn are_within_distance(elements: &Primitives, distance: f64) -> bool {
 /// given distance by u: 32 u of the latter are allowed for. What is lost below the normal range, at most 2^-1020, is less than the rest of
 /// that where the latter is above 2^-900.
 pub fn are_points_within(p: &Point, q: &Point, distance: f64) -> bool {
-    let [x, y, z] = std::array::from_fn(|axis| p[axis] - q[axis]);
-    let square = x * x + y * y + z * z;
+    let way = minus(p, q);
+    let square = dot(&way, &way);
     let limit = distance * distance;
-    if limit >= f64::powi(0.5, 900) && (square - limit).abs() > limit * (16.0 * f64::EPSILON) {
+    if limit >= power(-900) && (square - limit).abs() > limit * (16.0 * f64::EPSILON) {
         return square < limit;
     }
     are_within_distance(&Primitives::EdgeEdge([*p, *p, *q, *q]), distance)
@@ -98,17 +100,15 @@ fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
     // The integer and the power of two that it is, in units.
     let (_, integer, exponent) = parts(distance);
     let exponent = exponent - unit;
-    let zeros = integer.leading_zeros();
-    let m = (integer << zeros) as f64 * f64::powi(0.5, 63);
-    let e = exponent + 63 - zeros as i32;
+    let integer = Integer::from(integer);
+    let (m, e) = integer.approximately();
     // Both are off by less than 2^-49 of themselves.
     let (n, f) = quotient(&feet.over, &feet.under);
-    let square = scaled(m * m, (2 * e - f).clamp(-8, 8));
-    if (square - n).abs() > n * f64::powi(0.5, 40) {
+    let square = scaled(m * m, (2 * (e + exponent) - f).clamp(-8, 8));
+    if (square - n).abs() > n * power(-40) {
         return n < square;
     }
     // So neither of these is much larger than the other.
-    let integer = Integer::new(integer as f64, 0);
     let shift = 2 * exponent.unsigned_abs() as usize;
     let [of_over, of_square] = if exponent < 0 { [shift, 0] } else { [0, shift] };
     let over = feet.over.shifted(of_over);
@@ -229,7 +229,7 @@ fn of_end(
 ) {
     let (e, t) = (minus(b, a), minus(p, a));
     let (whole, part) = (dot(&e, &e), dot(&t, &e));
-    let one = Integer::new(1.0, 0);
+    let one = Integer::from(1);
     let (over, under, way, at) = if part.sign() <= 0 {
         (dot(&t, &t), one, t, 0.0)
     } else if whole.is_at_most(&part) {
@@ -245,11 +245,7 @@ fn of_end(
         over,
         under,
         along: along(at),
-        way: if is_second {
-            way.map(Integer::negated)
-        } else {
-            way
-        },
+        way: turned(way, is_second),
     });
 }
 
@@ -274,14 +270,19 @@ fn of_insides(
     let height = dot(n, t);
     found(Feet {
         over: height.times(&height),
-        way: if height.sign() < 0 {
-            n.clone().map(Integer::negated)
-        } else {
-            n.clone()
-        },
+        way: turned(n.clone(), height.sign() < 0),
         along: [fraction(p, &whole), fraction(q, &whole)],
         under: whole,
     });
+}
+
+/// A way, or the opposite one.
+fn turned(way: Vector, is_opposite: bool) -> Vector {
+    if is_opposite {
+        way.map(Integer::negated)
+    } else {
+        way
+    }
 }
 
 /// A quotient from 0 to 1.
@@ -290,33 +291,16 @@ fn fraction(over: &Integer, under: &Integer) -> f64 {
     scaled(m, e).min(1.0)
 }
 
-/// m 2^e, rounded once; zero where it is too small for a normal number and the thread flushes others.
-fn scaled(m: f64, e: i32) -> f64 {
-    let power = |e: i32| f64::from_bits(u64::from((1023 + e).unsigned_abs()) << 52);
-    match e {
-        -1000..=1000 => m * power(e),
-        // Two steps: the first is exact.
-        ..-1000 => m * power(-1000) * power((e + 1000).max(-1000)),
-        _ => m * power(1000) * power((e - 1000).min(1000)),
-    }
-}
-
 /// The unit vector of a way, or zero.
 fn unit_vector(way: &Vector) -> Point {
-    let parts = way.each_ref().map(Integer::approximately);
-    let exponents = parts.iter().filter(|(m, _)| *m != 0.0).map(|&(_, e)| e);
-    let Some(largest) = exponents.max() else {
-        return [0.0; 3];
-    };
-    let [x, y, z] = parts.map(|(m, e)| {
-        if m == 0.0 {
-            0.0
-        } else {
-            scaled(m, e - largest)
-        }
-    });
-    let length = (x * x + y * y + z * z).sqrt();
-    [x / length, y / length, z / length]
+    let way = in_proportion(way);
+    let length = dot(&way, &way).sqrt();
+    // Of a way that is not zero one component is 1 at least.
+    if length == 0.0 {
+        way
+    } else {
+        way.map(|x| x / length)
+    }
 }
 
 #[cfg(test)]

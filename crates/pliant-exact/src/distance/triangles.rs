@@ -4,8 +4,11 @@
 //! the inside of the other triangle. It is computed in plain arithmetic first, and how far the points that were found are apart says
 //! how good they are; where that is too far, as for slivers, once more in integers.
 
+use super::super::element_pairs::in_triangle;
+use super::super::float::{U, power};
 use super::super::integer::powers_of_all;
-use super::super::vector::{cross, dot, in_units, minus, rounded};
+use super::super::ring::Ring;
+use super::super::vector::{cross, dot, in_units, minus};
 use super::super::{
     ELEMENT_PAIRS, FIRST_OF_EDGES, Point, Precision, Triangle, barycentric, four_corners,
     intersect, is_swapped, on_edge, reference,
@@ -24,7 +27,7 @@ pub struct TrianglesClosest {
 }
 
 /// Points in common that were computed may be so far apart, as a part of the largest coordinate of any difference of corners: 2^-40.
-const APART: f64 = f64::from_bits((1023 - 40) << 52);
+const APART: f64 = power(-40);
 
 /// Some points of two triangles: a pair of elements, how far along them the points are, and how far apart they are at most.
 #[derive(Clone, Copy, Debug)]
@@ -121,13 +124,8 @@ fn edges_and_triangles<'t>(
 
 /// What corners count in a point of an edge and in one of a triangle, those of the first triangle first.
 fn points(is_second: bool, edge: usize, t: f64, [u, v]: [f64; 2]) -> [[f64; 3]; 2] {
-    let on_edge = on_edge(edge, t);
-    let of_triangle = [(1.0 - u - v).max(0.0), u, v];
-    if is_second {
-        [of_triangle, on_edge]
-    } else {
-        [on_edge, of_triangle]
-    }
+    let [p, q] = [on_edge(edge, t), in_triangle([u, v])];
+    if is_second { [q, p] } else { [p, q] }
 }
 
 /// Where an edge goes through the other triangle, in plain arithmetic: points of both that are nearly one, and how far apart they are at
@@ -139,29 +137,26 @@ fn points(is_second: bool, edge: usize, t: f64, [u, v]: [f64; 2]) -> [[f64; 3]; 
 fn crossing(a: &Triangle, b: &Triangle) -> Option<([[f64; 3]; 2], f64)> {
     let mut nearest: Option<([[f64; 3]; 2], f64)> = None;
     for (is_second, edge, [p, q], [c0, c1, c2]) in edges_and_triangles(a, b) {
-        use rounded::{cross as normal, dot as product, minus as difference};
-        let (e, f) = (difference(c1, c0), difference(c2, c0));
-        let (from, way) = (difference(&p, c0), difference(&q, &p));
-        let n = normal(&e, &f);
-        let [height, rise] = [product(&n, &from), product(&n, &way)];
-        let square = product(&n, &n);
+        let (e, f) = (minus(c1, c0), minus(c2, c0));
+        let (from, way) = (minus(&p, c0), minus(&q, &p));
+        let n = cross(&e, &f);
+        let [height, rise] = [dot(&n, &from), dot(&n, &way)];
+        let square = dot(&n, &n);
         if rise == 0.0 || square == 0.0 {
             continue;
         }
         let t = (0.0 - height / rise).clamp(0.0, 1.0);
         let at: Point = std::array::from_fn(|axis| from[axis] + t * way[axis]);
-        let u = (product(&normal(&at, &f), &n) / square).clamp(0.0, 1.0);
-        let v = (product(&normal(&e, &at), &n) / square)
-            .max(0.0)
-            .min(1.0 - u);
+        let u = (dot(&cross(&at, &f), &n) / square).clamp(0.0, 1.0);
+        let v = (dot(&cross(&e, &at), &n) / square).max(0.0).min(1.0 - u);
         let r: Point = std::array::from_fn(|axis| at[axis] - u * e[axis] - v * f[axis]);
         let sum: f64 = [from, way, e, f]
             .as_flattened()
             .iter()
             .map(|x| x.abs())
             .sum();
-        let apart = product(&r, &r).sqrt() + 20.0 * (f64::EPSILON / 2.0) * sum;
-        let is_known = sum >= f64::powi(0.5, 200);
+        let apart = dot(&r, &r).sqrt() + 20.0 * U * sum;
+        let is_known = sum >= power(-200);
         if is_known && nearest.is_none_or(|(_, known)| apart < known) {
             nearest = Some((points(is_second, edge, t, [u, v]), apart));
         }

@@ -33,8 +33,11 @@
 //! 2^130: the allowances end with a constant that is far above that.
 
 use super::super::Point;
+use super::super::float::{U, common_sign, power, sign_beyond};
+use super::super::vector::{cross, cross_on, determinant, minus};
 use super::grid::Grid;
 use super::moving::Moving;
+use std::array::from_fn;
 
 /// What is certain of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,7 +50,6 @@ pub enum Certain {
     Nothing,
 }
 
-const U: f64 = f64::EPSILON / 2.0;
 const OF_POINT: f64 = 4.0 * U;
 const OF_CROSS: f64 = 16.0 * U;
 const OF_DETERMINANT: f64 = 256.0 * U;
@@ -59,10 +61,6 @@ const LOST_OF_DETERMINANT: f64 = power(-700);
 const DEEPEST: usize = 44;
 /// So many parts are looked at; a crossing takes about 25.
 const MOST_PARTS: usize = 200;
-
-pub(super) const fn power(exponent: i32) -> f64 {
-    f64::from_bits((1023 + exponent).unsigned_abs() as u64 * (1 << 52))
-}
 
 /// A polygon's corners at one time.
 pub(super) type Corners = [Point; 4];
@@ -99,7 +97,7 @@ pub(super) struct Polygon {
 pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     let polygon = Polygon::new(moving);
     let (determinant, error) = polygon.determinant();
-    if one_sign(determinant, error) {
+    if common_sign(determinant, error) != 0 {
         return Certain::Never;
     }
     let whole = Part {
@@ -124,7 +122,7 @@ pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         let mut part = parts[last];
         // What meets in a part but the first does so after its beginning; in the first perhaps at it.
         let is_late = part.low >= until && part.low > 0.0;
-        if is_late || one_sign(part.determinant, error) {
+        if is_late || common_sign(part.determinant, error) != 0 {
             continue;
         }
         if !part.is_hard {
@@ -162,7 +160,7 @@ pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         if part.high - part.low <= power(-(DEEPEST as i32)) {
             return Certain::Nothing;
         }
-        let [earlier, later] = halves(part.determinant);
+        let [earlier, later] = divided(part.determinant, 0.5);
         parts[count] = Part {
             low: middle,
             determinant: later,
@@ -204,35 +202,26 @@ fn root_of(coefficients: [f64; 4], enough: f64) -> f64 {
 }
 
 /// The value of a polynomial, of which these are the Bernstein coefficients, and its slope.
-fn value_at([a, b, c, d]: [f64; 4], t: f64) -> (f64, f64) {
+fn value_at(coefficients: [f64; 4], t: f64) -> (f64, f64) {
+    let [[_, _, abc, value], [_, bcd, ..]] = divided(coefficients, t);
+    (value, 3.0 * (bcd - abc))
+}
+
+/// The Bernstein coefficients of the parts before and after a time: means of means (de Casteljau).
+#[inline]
+fn divided([a, b, c, d]: [f64; 4], t: f64) -> [[f64; 4]; 2] {
     let s = 1.0 - t;
     let mean = |x: f64, y: f64| s * x + t * y;
-    let (ab, bc, cd) = (mean(a, b), mean(b, c), mean(c, d));
-    let (abc, bcd) = (mean(ab, bc), mean(bc, cd));
-    (mean(abc, bcd), 3.0 * (bcd - abc))
-}
-
-/// Whether all are beyond an error on the same side of zero.
-fn one_sign(values: [f64; 4], error: f64) -> bool {
-    values.iter().all(|&x| x > error) || values.iter().all(|&x| x < -error)
-}
-
-/// The Bernstein coefficients of both halves of a part.
-fn halves([a, b, c, d]: [f64; 4]) -> [[f64; 4]; 2] {
-    let mean = |x: f64, y: f64| 0.5 * (x + y);
     let (ab, bc, cd) = (mean(a, b), mean(b, c), mean(c, d));
     let (abc, bcd) = (mean(ab, bc), mean(bc, cd));
     let all = mean(abc, bcd);
     [[a, ab, abc, all], [all, bcd, cd, d]]
 }
 
-/// The Bernstein coefficients of the part before a time.
-fn before([a, b, c, d]: [f64; 4], t: f64) -> [f64; 4] {
-    let s = 1.0 - t;
-    let mean = |x: f64, y: f64| s * x + t * y;
-    let (ab, bc, cd) = (mean(a, b), mean(b, c), mean(c, d));
-    let (abc, bcd) = (mean(ab, bc), mean(bc, cd));
-    [a, ab, abc, mean(abc, bcd)]
+/// Corners whose components are each made of those of two others.
+#[inline]
+fn of_both(p: &Corners, q: &Corners, made: impl Fn(f64, f64) -> f64) -> Corners {
+    from_fn(|corner| from_fn(|axis| made(p[corner][axis], q[corner][axis])))
 }
 
 /// What cross products and corners say about a part.
@@ -244,20 +233,14 @@ enum Sides {
 
 impl Polygon {
     pub(super) fn new(moving: &Moving) -> Self {
-        let minus = |p: Point, q: Point| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
         let ends = moving.corners.map(|[p, a, b, c]| {
             if moving.are_edges {
-                [minus(p, b), minus(a, b), minus(a, c), minus(p, c)]
+                [[p, b], [a, b], [a, c], [p, c]].map(|[p, q]| minus(&p, &q))
             } else {
-                [minus(a, p), minus(b, p), minus(c, p), [0.0; 3]]
+                [minus(&a, &p), minus(&b, &p), minus(&c, &p), [0.0; 3]]
             }
         });
-        let mut most = [[0.0; 3]; 4];
-        for (corner, most) in most.iter_mut().enumerate() {
-            for (axis, most) in most.iter_mut().enumerate() {
-                *most = ends[0][corner][axis].abs().max(ends[1][corner][axis].abs());
-            }
-        }
+        let most = of_both(&ends[0], &ends[1], |p, q| p.abs().max(q.abs()));
         Self {
             count: if moving.are_edges { 4 } else { 3 },
             ends,
@@ -268,11 +251,7 @@ impl Polygon {
     /// The Bernstein coefficients of the determinant of the first three corners, and their error.
     fn determinant(&self) -> ([f64; 4], f64) {
         let [start, end] = &self.ends;
-        let of = |p: &Point, q: &Point, r: &Point| {
-            p[0] * (q[1] * r[2] - q[2] * r[1])
-                + p[1] * (q[2] * r[0] - q[0] * r[2])
-                + p[2] * (q[0] * r[1] - q[1] * r[0])
-        };
+        let of = |p: &Point, q: &Point, r: &Point| determinant(q, r, p);
         let [p, q, r, _] = start;
         let [p1, q1, r1, _] = end;
         let coefficients = [
@@ -300,13 +279,7 @@ impl Polygon {
     /// Where the corners are at a time; each component is off by 4 u of the larger one at both ends.
     pub(super) fn at(&self, t: f64) -> Corners {
         let s = 1.0 - t;
-        let mut at = [[0.0; 3]; 4];
-        for (corner, at) in at.iter_mut().enumerate() {
-            for (axis, at) in at.iter_mut().enumerate() {
-                *at = s * self.ends[0][corner][axis] + t * self.ends[1][corner][axis];
-            }
-        }
-        at
+        of_both(&self.ends[0], &self.ends[1], |p, q| s * p + t * q)
     }
 
     /// Where the corners are at both ends of a part.
@@ -330,29 +303,27 @@ impl Polygon {
     /// The sign that a component of a corner has throughout a part, if that is certain and not zero.
     pub(super) fn corner_sign(&self, [first, last]: &[Corners; 2], i: usize, axis: usize) -> i8 {
         let error = self.most[i][axis] * OF_POINT + LOST_OF_POINT;
-        let [p, q] = [first[i][axis], last[i][axis]];
-        i8::from(p > error && q > error) - i8::from(p < -error && q < -error)
+        common_sign([first[i][axis], last[i][axis]], error)
     }
 
     /// The sign that the component of corner i x corner i + 1 on an axis has throughout a part, if that is certain and not zero.
     pub(super) fn cross_sign(&self, [first, last]: &[Corners; 2], i: usize, axis: usize) -> i8 {
         let j = if i + 1 < self.count { i + 1 } else { 0 };
-        let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
-        let cross = |p: &Point, q: &Point| p[x] * q[y] - p[y] * q[x];
+        let cross = |p: &Point, q: &Point| cross_on(axis, p, q);
         let turns = [
             cross(&first[i], &first[j]),
             0.5 * (cross(&first[i], &last[j]) + cross(&last[i], &first[j])),
             cross(&last[i], &last[j]),
         ];
+        let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
         let [p, q] = [&self.most[i], &self.most[j]];
         let error = (p[x] * q[y] + p[y] * q[x]) * OF_CROSS + LOST_OF_CROSS;
-        i8::from(turns.iter().all(|&turn| turn > error))
-            - i8::from(turns.iter().all(|&turn| turn < -error))
+        common_sign(turns, error)
     }
 
     /// What is certain of a part whose determinant has one root, by the cell that it is in.
     fn at_one_root(&self, part: &Part, error: f64, grid: Grid, until: f64) -> OneRoot {
-        let sign = |x: f64| i8::from(x > error) - i8::from(x < -error);
+        let sign = |x: f64| sign_beyond(x, error);
         let [first, second, third, last] = part.determinant.map(sign);
         // Whatever the sign of one in the middle is, there is one change.
         if first * last >= 0 || second != first && third != last {
@@ -396,8 +367,8 @@ impl Polygon {
     /// start.
     pub(super) fn has_one_root_until(&self, until: f64) -> bool {
         let (determinant, error) = self.determinant();
-        let [first, second, third, last] =
-            before(determinant, until).map(|x| i8::from(x > error) - i8::from(x < -error));
+        let [before, _] = divided(determinant, until);
+        let [first, second, third, last] = before.map(|x| sign_beyond(x, error));
         // Whatever the signs are that are not certain, there is one change.
         let is_late = second == first && (third == first || last == -first);
         let is_early = third == -first && last == -first;
@@ -431,19 +402,8 @@ impl Polygon {
 
 /// The axis on which the polygon, in the middle of a part, is seen largest, or about so.
 fn steepest([first, last]: &[Corners; 2]) -> usize {
-    let mut middle = [[0.0; 3]; 3];
-    for (corner, middle) in middle.iter_mut().enumerate() {
-        for (axis, middle) in middle.iter_mut().enumerate() {
-            *middle = first[corner][axis] + last[corner][axis];
-        }
-    }
-    let [a, b, c] = middle;
-    let [e, f] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1], p[2] - a[2]]);
-    let normal = [
-        (e[1] * f[2] - e[2] * f[1]).abs(),
-        (e[2] * f[0] - e[0] * f[2]).abs(),
-        (e[0] * f[1] - e[1] * f[0]).abs(),
-    ];
+    let [a, b, c, _] = of_both(first, last, |p, q| p + q);
+    let normal = cross(&minus(&b, &a), &minus(&c, &a)).map(f64::abs);
     let mut steepest = 0;
     for axis in 1..3 {
         if normal[axis] > normal[steepest] {

@@ -36,18 +36,20 @@ impl Grid {
 
     /// The largest of them that is at most `t`, from 0 to 1.
     pub(super) fn down(self, t: f64) -> f64 {
-        if self.spacing == 0.0 {
-            return t;
-        }
-        // A quotient by a power of two is exact, and so is its product.
-        (t / self.spacing).floor() * self.spacing
+        self.next_to(t, f64::floor)
     }
 
     /// The least of them that is at least `t`.
     pub(super) fn up(self, t: f64) -> f64 {
+        self.next_to(t, f64::ceil)
+    }
+
+    #[inline]
+    fn next_to(self, t: f64, whole: impl Fn(f64) -> f64) -> f64 {
         if self.spacing == 0.0 {
             return t;
         }
-        (t / self.spacing).ceil() * self.spacing
+        // A quotient by a power of two is exact, and so is its product.
+        whole(t / self.spacing) * self.spacing
     }
 }

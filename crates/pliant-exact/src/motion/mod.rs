@@ -38,6 +38,8 @@ mod root;
 mod sturm;
 
 use super::integer::{Integer, powers_of_all};
+use super::ring::Ring;
+use super::vector;
 pub use certain::Certain;
 use certain::certain;
 pub use distant::{distant_until, starts_surely_within};
@@ -162,16 +164,12 @@ impl Polygon {
     /// Of corner i x corner i + 1, on an axis.
     fn cross(&self, i: usize, axis: usize) -> Polynomial {
         let [p, q] = [&self.corners[i], &self.corners[(i + 1) % self.count]];
-        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-        p[j].times(&q[k]).minus(&p[k].times(&q[j]))
+        vector::cross_on(axis, p, q)
     }
 
     fn determinant(&self) -> Polynomial {
-        let mut sum = Polynomial::ZERO;
-        for axis in 0..3 {
-            sum = sum.plus(&self.cross(0, axis).times(&self.corners[2][axis]));
-        }
-        sum
+        let [p, q, r, _] = &self.corners;
+        vector::determinant(p, q, r)
     }
 
     /// Whether the polygon holds the origin at a time at which the two are in one plane. The time is from the one number to the other;
@@ -188,19 +186,16 @@ impl Polygon {
             let first = sides.next().unwrap_or(0);
             first == 0 || sides.any(|side| side != first)
         }) && (0..3).all(|axis| {
-            let [mut is_any_positive, mut is_any_negative] = [false; 2];
-            for i in 0..self.count {
+            let mut known = 0;
+            (0..self.count).all(|i| {
                 let turn = match self.rounded.cross_sign(&rounded, i, axis) {
                     0 => sign(&self.cross(i, axis)),
                     certain => certain,
                 };
-                is_any_positive |= turn > 0;
-                is_any_negative |= turn < 0;
-                if is_any_positive && is_any_negative {
-                    return false;
-                }
-            }
-            true
+                let is_opposite = turn * known < 0;
+                known = if turn == 0 { known } else { turn };
+                !is_opposite
+            })
         })
     }
 
@@ -247,10 +242,8 @@ impl Contact {
     /// Which time is earlier.
     pub fn compare(&self, other: &Self) -> Ordering {
         match (self, other) {
-            (Self::AtStart, Self::AtStart) => Ordering::Equal,
-            (Self::AtStart, Self::Later(_)) => Ordering::Less,
-            (Self::Later(_), Self::AtStart) => Ordering::Greater,
             (Self::Later(Later(a)), Self::Later(Later(b))) => a.compare(b),
+            (a, b) => matches!(a, Self::Later(_)).cmp(&matches!(b, Self::Later(_))),
         }
     }
 }

@@ -6,13 +6,14 @@
 //! Of a t^3 + b t^2 + c t + d with the sign s of a, the third is s (2 (b^2 - 3 a c) t + b c - 9 a d): the remainder times -9 |a|. What
 //! comes after one of degree 1 is a number, of which the sign is enough: the opposite of that which the one before has at the root. It is
 //! zero if the polynomial has multiple roots. Then all its roots are fractions: a root that comes twice is that of the one of degree 1, and
-//! all add up to -b / a; what comes three times is -b / (3 a).
+//! all add up to -b / a; what comes three times is -b / (3 a). A polynomial of degree 1 is itself that one: its root is a fraction too.
 
 use super::super::integer::Integer;
+use super::super::ring::Ring;
 use super::fraction::{Dyadic, Fraction};
 use super::polynomial::Polynomial;
 
-/// The sequence of a polynomial of degree 2 or 3.
+/// The sequence of a polynomial.
 #[derive(Clone, Debug)]
 pub(super) struct Sturm {
     /// The polynomial, its derivative, and of a cube the third, which may be zero.
@@ -35,10 +36,10 @@ impl Sturm {
         };
         let polynomials = [polynomial.clone(), polynomial.derivative(), third];
         let affine = polynomials.iter().position(|it| it.degree() == 1);
-        let last = affine.map_or(0, |place| {
-            let root = polynomials[place].affine_root();
-            -polynomials[place - 1].sign_at_fraction(&root)
-        });
+        let last = match affine {
+            Some(place @ 1..) => -polynomials[place - 1].sign_at(&polynomials[place].affine_root()),
+            _ => 0,
+        };
         Self { polynomials, last }
     }
 
@@ -47,8 +48,8 @@ impl Sturm {
         self.polynomials.iter().find(|it| it.degree() == 1)
     }
 
-    /// All roots, in any order, if one of them is a multiple one.
-    pub(super) fn multiple_roots(&self) -> Option<[Fraction; 2]> {
+    /// All roots, in any order, if one of them is a multiple one, or the degree is 1.
+    pub(super) fn fractions(&self) -> Option<[Fraction; 2]> {
         let [polynomial, derivative, third] = &self.polynomials;
         let is_cube = polynomial.degree() == 3;
         if self.last != 0 || is_cube && third.is_constant() && !third.is_zero() {

@@ -14,8 +14,8 @@
 //! disjoint insides one has an edge whose line parts them.)
 
 use super::orientation::Orientation;
-use super::point::{Point, Sign, Triangle};
-use super::triangles::plane_signs;
+use super::point::{PLANES, Point, Point2, Sign, Triangle, projected};
+use super::triangles::{edge, one_side, plane_signs};
 
 /// How two triangles, as closed sets, have points in common. Each pair that intersects is of one kind, decided exactly.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -94,19 +94,19 @@ fn goes_through(
     triangle: &Triangle,
     orientation: &mut impl Orientation,
 ) -> bool {
-    let long = (0..3).find(|&i| signs[i] * signs[(i + 1) % 3] < 0);
+    let long = (0..3).find(|&i| edge(&signs, i).iter().product::<Sign>() < 0);
     long.is_some_and(|i| {
-        let [p, q] = [&segment[i], &segment[(i + 1) % 3]];
-        let sides = [0, 1, 2].map(|j| orientation.sign(p, q, &triangle[j], &triangle[(j + 1) % 3]));
-        sides == [1; 3] || sides == [-1; 3]
+        let [p, q] = edge(segment, i);
+        let edges = [0, 1, 2].map(|j| edge(triangle, j));
+        one_side(edges.map(|[r, s]| orientation.sign(&p, &q, &r, &s)))
     })
 }
 
 /// Whether triangles in one plane have an area in common.
 fn overlap_in_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
-    for (x, y) in [(0, 1), (1, 2), (2, 0)] {
-        let [a, b] = [a, b].map(|triangle| triangle.map(|point| [point[x], point[y]]));
-        let mut way = |[p, q, r]: [[f64; 2]; 3]| orientation.sign_in_plane(p, q, r);
+    for plane in PLANES {
+        let [a, b] = [a, b].map(|triangle| projected(triangle, plane));
+        let mut way = |[p, q, r]: [Point2; 3]| orientation.sign_in_plane(p, q, r);
         let (way_a, way_b) = (way(a), way(b));
         // Where one has an area seen from an axis, so has the other.
         if way_a != 0 && way_b != 0 {
@@ -118,13 +118,13 @@ fn overlap_in_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientati
 
 /// Whether an edge of a triangle has the other on its outer closed side.
 fn parts(
-    triangle: [[f64; 2]; 3],
+    triangle: [Point2; 3],
     way: Sign,
-    other: [[f64; 2]; 3],
+    other: [Point2; 3],
     orientation: &mut impl Orientation,
 ) -> bool {
     (0..3).any(|i| {
-        let [p, q] = [triangle[i], triangle[(i + 1) % 3]];
+        let [p, q] = edge(&triangle, i);
         other
             .iter()
             .all(|&r| orientation.sign_in_plane(p, q, r) * way <= 0)

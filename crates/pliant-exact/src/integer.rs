@@ -200,10 +200,14 @@ impl Integer {
             if by.is_none() && carry == 0 {
                 break;
             }
-            let by = i128::from(by.unwrap_or(0));
-            let wide = i128::from(*limb) + if is_difference { -by } else { by } + carry;
-            // What is above a limb is carried: 1, or -1 where something was borrowed.
-            (*limb, carry) = (wide as u64, wide >> 64);
+            let (all, by) = (u128::from(*limb), u128::from(by.unwrap_or(0)) + carry);
+            let wide = if is_difference {
+                all.wrapping_sub(by)
+            } else {
+                all + by
+            };
+            // The bit above a limb is carried, or borrowed.
+            (*limb, carry) = (wide as u64, wide >> 64 & 1);
         }
         sum.trim(len);
         sum

@@ -12,7 +12,6 @@
 
 use super::orientation::{Orientation, are_from};
 use super::point::{Point, Sign, Triangle};
-use super::vector::{determinant, minus};
 
 /// The largest coordinate, scaled, is below twice 2 to this power.
 const BITS: u64 = 38;
@@ -49,8 +48,11 @@ pub(super) struct Lattice;
 impl Orientation for Lattice {
     #[inline]
     fn sign(&mut self, a: &Point, b: &Point, c: &Point, d: &Point) -> Sign {
-        let [e1, e2, t] = [b, c, d].map(|p| minus(p, a).map(whole));
-        determinant(&e1, &e2, &t).signum() as Sign
+        let along = |p: &Point, axis: usize| whole(p[axis] - a[axis]);
+        let difference = |p: &Point| [along(p, 0), along(p, 1), along(p, 2)];
+        let (e1, e2, t) = (difference(b), difference(c), difference(d));
+        let normal = |i: usize, j: usize| e1[i] * e2[j] - e1[j] * e2[i];
+        (normal(1, 2) * t[0] + normal(2, 0) * t[1] + normal(0, 1) * t[2]).signum() as Sign
     }
 
     #[inline]

@@ -44,9 +44,9 @@ pub fn is_degenerate([a, b, c]: [[f64; 3]; 3]) -> bool {
     a == b
         || b == c
         || c == a
-        || (0..3).all(|axis| {
-            let flat = |point: Point| [point[(axis + 1) % 3], point[(axis + 2) % 3]];
-            orientation::orientation_2d(flat(a), flat(b), flat(c)) == 0
+        || point::PLANES.into_iter().all(|plane| {
+            let [a, b, c] = point::projected(&[a, b, c], plane);
+            orientation::orientation_2d(a, b, c) == 0
         })
 }
 

@@ -120,12 +120,7 @@ impl Orientation for Filtered {
             return sign_of(determinant);
         }
         self.uncertain = true;
-        if self.underflow == 0.0 {
-            // No f32 is too small for it.
-            adaptive(a, b, c, d)
-        } else {
-            Exact.sign(a, b, c, d)
-        }
+        Exact.sign(a, b, c, d)
     }
 }
 

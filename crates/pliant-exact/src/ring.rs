@@ -7,24 +7,17 @@ pub(super) trait Ring: Sized {
     fn times(&self, other: &Self) -> Self;
 }
 
-/// Numbers of the machine; `i128` where nothing overflows.
-macro_rules! numbers {
-    ($($number:ty),*) => {$(
-        impl Ring for $number {
-            #[inline(always)]
-            fn plus(&self, other: &Self) -> Self {
-                self + other
-            }
-            #[inline(always)]
-            fn minus(&self, other: &Self) -> Self {
-                self - other
-            }
-            #[inline(always)]
-            fn times(&self, other: &Self) -> Self {
-                self * other
-            }
-        }
-    )*};
+impl Ring for f64 {
+    #[inline(always)]
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+    #[inline(always)]
+    fn minus(&self, other: &Self) -> Self {
+        self - other
+    }
+    #[inline(always)]
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
 }
-
-numbers!(f64, i128);

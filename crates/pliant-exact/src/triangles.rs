@@ -18,7 +18,7 @@
 //! degenerate that this formulation does not have.
 
 use super::orientation::Orientation;
-use super::point::{Sign, Triangle};
+use super::point::{PLANES, Point2, Sign, Triangle, projected};
 
 /// Whether two closed triangles have a point in common.
 #[inline]
@@ -60,15 +60,15 @@ pub(super) fn plane_signs(
 }
 
 #[inline]
-fn one_side(signs: [Sign; 3]) -> bool {
+pub(super) fn one_side(signs: [Sign; 3]) -> bool {
     signs == [1; 3] || signs == [-1; 3]
 }
 
 /// Whether edge `i` meets the plane without lying in it.
 #[inline]
 fn crosses(signs: [Sign; 3], i: usize) -> bool {
-    let (start, end) = (signs[i], signs[(i + 1) % 3]);
-    start * end <= 0 && (start, end) != (0, 0)
+    let [start, end] = edge(&signs, i);
+    start * end <= 0 && [start, end] != [0, 0]
 }
 
 /// All >= 0 or all <= 0.
@@ -85,20 +85,23 @@ fn in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) 
 }
 
 fn intersect_in_one_plane(a: &Triangle, b: &Triangle, orientation: &mut impl Orientation) -> bool {
-    [(0, 1), (1, 2), (2, 0)].into_iter().all(|(x, y)| {
-        let project = |triangle: &Triangle| triangle.map(|point| [point[x], point[y]]);
-        intersect_2d(&project(a), &project(b), orientation)
+    PLANES.into_iter().all(|plane| {
+        let [a, b] = [a, b].map(|triangle| projected(triangle, plane));
+        intersect_2d(&a, &b, orientation)
     })
 }
 
-type Point2 = [f64; 2];
-
 /// Closed triangles of the plane: an edge meets an edge, or one triangle holds a corner of the other.
 fn intersect_2d(a: &[Point2; 3], b: &[Point2; 3], orientation: &mut impl Orientation) -> bool {
-    let edge = |triangle: &[Point2; 3], i: usize| [triangle[i], triangle[(i + 1) % 3]];
     (0..3).any(|i| (0..3).any(|j| segments_meet(edge(a, i), edge(b, j), orientation)))
         || holds(a, b[0], orientation)
         || holds(b, a[0], orientation)
+}
+
+/// An edge, from the corner with its number to the next.
+#[inline]
+pub(super) fn edge<T: Copy>(triangle: &[T; 3], i: usize) -> [T; 2] {
+    [triangle[i], triangle[(i + 1) % 3]]
 }
 
 /// Closed segments, points included: their boxes overlap and neither lies on one side of the other's line.

@@ -145,22 +145,14 @@ fn closest_of(pairs: &[Primitives]) -> (usize, Closest) {
     };
     let (square, exponent) = quotient(&feet.over, &feet.under);
     // An even exponent: its root is a power of two.
-    let (square, exponent) = if exponent % 2 == 0 {
-        (square, exponent)
-    } else {
-        (2.0 * square, exponent - 1)
-    };
+    let odd = exponent.rem_euclid(2);
+    let length = scaled(square, odd).sqrt();
     let mut closest = Closest {
         along: feet.along,
         ..Closest::default()
     };
     if !feet.over.is_zero() {
-        let distance = scaled(square.sqrt(), exponent / 2 + unit);
-        closest.distance = if distance == 0.0 {
-            smallest()
-        } else {
-            distance
-        };
+        closest.distance = scaled(length, (exponent - odd) / 2 + unit).max(smallest());
         closest.direction = unit_vector(&feet.way);
     }
     (which, closest)

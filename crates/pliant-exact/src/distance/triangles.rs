@@ -8,6 +8,7 @@ use super::super::element_pairs::in_triangle;
 use super::super::float::{U, power};
 use super::super::integer::powers_of_all;
 use super::super::ring::Ring;
+use super::super::triangles::edge;
 use super::super::vector::{cross, dot, in_units, minus};
 use super::super::{
     ELEMENT_PAIRS, FIRST_OF_EDGES, Point, Precision, Triangle, barycentric, four_corners,
@@ -101,14 +102,9 @@ fn pair(which: usize, a: &Triangle, b: &Triangle) -> Primitives {
 }
 
 fn largest_difference(a: &Triangle, b: &Triangle) -> f64 {
-    let mut largest = 0.0_f64;
-    for axis in 0..3 {
-        let of_all = || a.iter().chain(b).map(|corner| corner[axis]);
-        let most = of_all().fold(f64::NEG_INFINITY, f64::max);
-        let least = of_all().fold(f64::INFINITY, f64::min);
-        largest = largest.max(most - least);
-    }
-    largest
+    let corners = || a.iter().chain(b);
+    let differences = corners().flat_map(|p| corners().flat_map(|q| minus(p, q)));
+    differences.fold(0.0, f64::max)
 }
 
 /// An edge of either triangle, and the other triangle: whose edge it is, which of its three, the ends.
@@ -117,7 +113,7 @@ fn edges_and_triangles<'t>(
     b: &'t Triangle,
 ) -> impl Iterator<Item = (bool, usize, [Point; 2], &'t Triangle)> {
     let of_one = |one: &'t Triangle, other: &'t Triangle, is_second: bool| {
-        (0..3).map(move |edge| (is_second, edge, [one[edge], one[(edge + 1) % 3]], other))
+        (0..3).map(move |i| (is_second, i, edge(one, i), other))
     };
     of_one(a, b, false).chain(of_one(b, a, true))
 }

@@ -101,11 +101,9 @@ pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         return Certain::Never;
     }
     let whole = Part {
-        low: 0.0,
         high: 1.0,
         determinant,
-        is_inside: false,
-        is_hard: false,
+        ..Part::default()
     };
     // Most are decided here, before there is room for parts.
     if let OneRoot::Decided(certain) = polygon.at_one_root(&whole, error, grid, until) {
@@ -208,6 +206,7 @@ fn value_at(coefficients: [f64; 4], t: f64) -> (f64, f64) {
 }
 
 /// The Bernstein coefficients of the parts before and after a time: means of means (de Casteljau).
+/// At a half the products are exact, so that a mean is rounded once.
 #[inline]
 fn divided([a, b, c, d]: [f64; 4], t: f64) -> [[f64; 4]; 2] {
     let s = 1.0 - t;
@@ -384,18 +383,17 @@ impl Polygon {
             }
         }
         let axis = steepest(&part);
-        let [mut positive, mut negative] = [0; 2];
+        let [mut is_any_negative, mut is_any_unknown, mut is_any_positive] = [false; 3];
         for i in 0..self.count {
             let sign = self.cross_sign(&part, i, axis);
-            positive += usize::from(sign > 0);
-            negative += usize::from(sign < 0);
+            is_any_negative |= sign < 0;
+            is_any_unknown |= sign == 0;
+            is_any_positive |= sign > 0;
         }
-        if positive > 0 && negative > 0 {
-            Sides::Apart
-        } else if positive == self.count || negative == self.count {
-            Sides::Inside
-        } else {
-            Sides::Unknown
+        match [is_any_negative, is_any_unknown, is_any_positive] {
+            [true, _, true] => Sides::Apart,
+            [_, false, _] => Sides::Inside,
+            _ => Sides::Unknown,
         }
     }
 }

@@ -68,11 +68,11 @@ impl Dyadic {
         let (_, integer, exponent) = parts(x);
         let up = exponent.max(0).unsigned_abs() as usize;
         let twos = exponent.min(0).unsigned_abs() as usize;
-        Self::reduced(Integer::from(integer).shifted(up), twos)
+        Self::reduced(&Integer::from(integer).shifted(up), twos)
     }
 
     /// An integer over a power of two, without twos that both have.
-    fn reduced(over: Integer, twos: usize) -> Self {
+    fn reduced(over: &Integer, twos: usize) -> Self {
         let zeros = over.trailing_zeros().min(twos);
         Self {
             over: over.unshifted(zeros),
@@ -98,7 +98,7 @@ impl Dyadic {
     fn combined(&self, other: &Self, by: impl Fn(&Integer, &Integer) -> Integer) -> Self {
         let twos = self.under.0.max(other.under.0);
         let [a, b] = [self, other].map(|it| it.over.shifted(twos - it.under.0));
-        Self::reduced(by(&a, &b), twos)
+        Self::reduced(&by(&a, &b), twos)
     }
 
     pub(super) fn plus(&self, other: &Self) -> Self {
@@ -112,7 +112,7 @@ impl Dyadic {
     /// The middle of two.
     pub(super) fn middle(&self, other: &Self) -> Self {
         let twice = self.plus(other);
-        Self::reduced(twice.over, twice.under.0 + 1)
+        Self::reduced(&twice.over, twice.under.0 + 1)
     }
 
     /// Nearly the same number, which is not negative: off by 2^-52 of itself; zero if it is below 2^-1000.

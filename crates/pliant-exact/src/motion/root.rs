@@ -65,13 +65,12 @@ fn visit_between(
     found: Found,
 ) -> ControlFlow<()> {
     let sturm = Sturm::new(polynomial);
-    if let Some(mut roots) = sturm.fractions() {
+    if let Some(fractions) = sturm.fractions() {
+        let mut roots = Vec::from(fractions);
         roots.sort_by(Quotient::compare);
-        let [first, last] = roots;
-        let others = (first != last).then_some(last);
-        let roots = [first].into_iter().chain(others);
-        let is_between = |root: &Fraction| *root > low && *root < high;
-        return roots.filter(is_between).map(Root::At).try_for_each(found);
+        roots.dedup();
+        roots.retain(|root| *root > low && *root < high);
+        return roots.into_iter().map(Root::At).try_for_each(found);
     }
     let mut cuts = Cuts::new(&sturm);
     // The later parts are below the earlier ones.
@@ -201,10 +200,12 @@ impl Root {
 
     /// The sign of another polynomial at the root.
     pub(super) fn sign_of(&self, other: &Polynomial) -> i8 {
-        certain_sign(other, self.approximately()).unwrap_or_else(|| match self {
-            Self::At(at) => other.sign_at(at),
-            Self::Between(alone) => alone.exact_sign_of(other),
-        })
+        match self {
+            Self::At(at) => {
+                certain_sign(other, self.approximately()).unwrap_or_else(|| other.sign_at(at))
+            }
+            Self::Between(alone) => alone.sign_of(other),
+        }
     }
 
     pub(super) fn compare(&self, other: &Self) -> Ordering {
@@ -305,6 +306,10 @@ impl Alone {
         low
     }
 
+    fn sign_of(&self, other: &Polynomial) -> i8 {
+        certain_sign(other, self.approximately()).unwrap_or_else(|| self.exact_sign_of(other))
+    }
+
     /// The sign, by division: where m p = q g + r, and m is positive, g is -r / q at a root of p; and these are of lower degrees.
     fn exact_sign_of(&self, other: &Polynomial) -> i8 {
         let rest =
@@ -315,10 +320,7 @@ impl Alone {
             1 => self.exact_sign_of_affine(other),
             _ => {
                 let [quotient, rest] = self.polynomial.divided(other);
-                let about = self.approximately();
-                let [by, of] = [&quotient, &rest].map(|affine| {
-                    certain_sign(affine, about).unwrap_or_else(|| self.exact_sign_of(affine))
-                });
+                let [by, of] = [&quotient, &rest].map(|affine| self.sign_of(affine));
                 if by == 0 {
                     other.sign_at(&quotient.affine_root())
                 } else {
@@ -330,19 +332,8 @@ impl Alone {
 
     /// The sign of what is affine, and not constant: it has a root, and that is on a side of this one.
     fn exact_sign_of_affine(&self, affine: &Polynomial) -> i8 {
-        let [at_low, at_high] = [&self.low, &self.high].map(|end| affine.sign_at(end));
-        if at_low == at_high || at_high == 0 {
-            at_low
-        } else if at_low == 0 {
-            at_high
-        } else {
-            let root = affine.affine_root();
-            match self.side(self.polynomial.sign_at(&root)) {
-                Ordering::Less => at_low,
-                Ordering::Equal => 0,
-                Ordering::Greater => at_high,
-            }
-        }
+        let [_, slope, ..] = &affine.0;
+        self.compare(&affine.affine_root()) as i8 * slope.sign()
     }
 }
 

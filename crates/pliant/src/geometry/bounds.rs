@@ -2,6 +2,7 @@
 
 use super::real::{larger, smaller};
 use super::{Aabb, Real};
+use std::array::from_fn;
 
 /// The point that the boxes of a world are relative to, and padding.
 pub(crate) type Origin = [f64; 4];
@@ -29,24 +30,24 @@ impl<S: Real> Bounds<S> {
     }
 
     /// The bounds of both.
-    pub(crate) fn union(mut self, other: &Self) -> Self {
-        for axis in 0..3 {
-            self.lo[axis] = smaller(self.lo[axis], other.lo[axis]);
-            self.hi[axis] = larger(self.hi[axis], other.hi[axis]);
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        Self {
+            lo: from_fn(|axis| smaller(self.lo[axis], other.lo[axis])),
+            hi: from_fn(|axis| larger(self.hi[axis], other.hi[axis])),
         }
-        self
     }
 
     /// The box that holds these bounds: exact for `f32`, rounded outward for `f64`.
     #[inline]
     pub(crate) fn to_box(self, origin: Origin) -> Aabb {
         Aabb {
-            lo: std::array::from_fn(|axis| self.lo[axis].round_down(origin[axis])),
-            hi: std::array::from_fn(|axis| self.hi[axis].round_up(origin[axis])),
+            lo: from_fn(|axis| self.lo[axis].round_down(origin[axis])),
+            hi: from_fn(|axis| self.hi[axis].round_up(origin[axis])),
         }
     }
 
     /// Touching counts; nothing overlaps the bounds of nothing.
+    #[inline]
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
         (0..3).all(|axis| self.lo[axis] <= other.hi[axis] && other.lo[axis] <= self.hi[axis])
     }

@@ -8,7 +8,8 @@ pub(super) const fn power(exponent: i32) -> f64 {
     f64::from_bits((1023 + exponent).unsigned_abs() as u64 * (1 << 52))
 }
 
-/// m 2^e, rounded once; zero where it is too small for a normal number and the thread flushes others.
+/// m 2^e, rounded once; zero where it is too small for a normal number and the thread flushes
+/// others.
 pub(super) fn scaled(m: f64, e: i32) -> f64 {
     match e {
         -1000..=1000 => m * power(e),
@@ -24,7 +25,8 @@ pub(super) fn sign_beyond(x: f64, error: f64) -> i8 {
     i8::from(x > error) - i8::from(x < -error)
 }
 
-/// The sign that all of some numbers have, which are off by less than an error; 0 where it is not certain, or not one.
+/// The sign that all of some numbers have, which are off by less than an error; 0 where it is not
+/// certain, or not one.
 #[inline]
 pub(super) fn common_sign<const N: usize>(all: [f64; N], error: f64) -> i8 {
     i8::from(all.iter().all(|&x| x > error)) - i8::from(all.iter().all(|&x| x < -error))

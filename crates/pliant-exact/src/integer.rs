@@ -1,21 +1,23 @@
 //! Integers of any size, for what floating point leaves undecided. Nothing is rounded.
 //!
-//! Every coordinate is an integer of units of 2^-1074 and below 2^128, so it has 1202 bits; but the coordinates of one question are all
-//! counted in the largest power of two that they are multiples of, and mostly have less than 60. So most numbers that come up have room in
-//! place, and only the longest are allocated.
+//! Every coordinate is an integer of units of 2^-1074 and below 2^128, so it has 1202 bits. But the
+//! coordinates of one question are all counted in the largest power of two that they are multiples
+//! of. Mostly they have less than 60 bits then. So most numbers that come up have room in place,
+//! and only the longest are allocated. Products are made limb by limb; there are never enough limbs
+//! for faster ways.
 
 use super::float::{power, scaled};
 use super::ring::Ring;
 use std::cmp::Ordering;
 
-/// So many limbs have room in place.
+/// The number of limbs that have room in place.
 const IN_PLACE: usize = 10;
 
 /// An integer.
 #[derive(Clone, Debug)]
 pub(super) struct Integer {
     is_negative: bool,
-    /// So many limbs are used; the last of them is not zero.
+    /// How many limbs are used; the last of them is not zero.
     len: usize,
     /// The least first; those that are not used are zero.
     few: [u64; IN_PLACE],
@@ -23,22 +25,24 @@ pub(super) struct Integer {
     many: Vec<u64>,
 }
 
-/// The largest power of two that a finite number is a multiple of, and the smallest that it is below; none for zero.
+/// The largest power of two that a finite number is a multiple of, and the smallest that it is
+/// below; none for zero.
 pub(super) fn powers(x: f64) -> Option<[i32; 2]> {
     let (_, integer, exponent) = parts(x);
     let [low, high] = [integer.trailing_zeros(), 64 - integer.leading_zeros()];
     (integer != 0).then(|| [low, high].map(|power| exponent + power as i32))
 }
 
-/// The largest power of two that all of these are multiples of, and the smallest that all are below.
+/// The largest power of two that all of these are multiples of, and the smallest that all are
+/// below.
 pub(super) fn powers_of_all<'x>(numbers: impl IntoIterator<Item = &'x f64>) -> [i32; 2] {
     let powers = numbers.into_iter().filter_map(|&x| powers(x));
     let both = powers.reduce(|[low, high], [l, h]| [low.min(l), high.max(h)]);
     both.unwrap_or([0; 2])
 }
 
-/// The sign, and the integer and the exponent of two whose product a number is; of bits, so that a thread that flushes subnormal
-/// numbers sees them.
+/// The sign, the integer and the exponent of a number, which is that integer times a power of two.
+/// Read from its bits, so that a thread that flushes subnormal numbers sees them.
 pub(super) fn parts(x: f64) -> (bool, u64, i32) {
     let bits = x.to_bits();
     let (fraction, biased) = (bits & ((1 << 52) - 1), (bits >> 52 & 0x7ff) as i32);
@@ -58,7 +62,7 @@ impl Integer {
         many: Vec::new(),
     };
 
-    /// Zero, with room for so many limbs.
+    /// Zero, with room for some limbs.
     fn with_room(len: usize) -> Self {
         let mut zero = Self::ZERO;
         if len > IN_PLACE {
@@ -99,7 +103,7 @@ impl Integer {
         }
     }
 
-    /// Of so many limbs perhaps some at the end are not used.
+    /// Counts the limbs that are used, after some were written, the last of which may be zero.
     fn trim(&mut self, len: usize) {
         let used = self.room()[..len].iter().rposition(|&limb| limb != 0);
         self.len = used.map_or(0, |last| last + 1);
@@ -221,7 +225,8 @@ impl Integer {
         self.compare(other).is_le()
     }
 
-    /// A number m and an exponent e so that it is m 2^e but for an error of 2^-52 of itself: |m| from 1 to 2, or zero.
+    /// A number m and an exponent e: the integer is m 2^e within 2^-52 of itself. |m| is from 1 to
+    /// 2, or zero.
     pub(super) fn approximately(&self) -> (f64, i32) {
         let Some(last) = self.len.checked_sub(1) else {
             return (0.0, 0);
@@ -271,15 +276,15 @@ impl Ring for Integer {
     }
 }
 
-/// Nearly the quotient of two integers, the second of which is not zero: a number from a half to 2, or zero, times a power of two; off by
-/// 2^-50 of itself.
+/// Nearly the quotient of two integers, the second of which is not zero: a number times a power of
+/// two. The number is from a half to 2, or zero; it is off by 2^-50 of itself.
 pub(super) fn quotient(over: &Integer, under: &Integer) -> (f64, i32) {
     let [(m, e), (by, of_by)] = [over, under].map(Integer::approximately);
     (m / by, e - of_by)
 }
 
-/// Nearly some integers, divided by one power of two so that the largest is from 1 to 2 in magnitude: off by 2^-52 of themselves, or,
-/// where that is below the normal range, by what is lost there.
+/// Nearly some integers, divided by one power of two so that the largest is from 1 to 2 in
+/// magnitude. Each is off by 2^-52 of itself, or, below the normal range, by what is lost there.
 pub(super) fn in_proportion<const N: usize>(integers: &[Integer; N]) -> [f64; N] {
     let all = integers.each_ref().map(Integer::approximately);
     let exponents = all.iter().filter(|(m, _)| *m != 0.0).map(|&(_, e)| e);

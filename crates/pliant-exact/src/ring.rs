@@ -1,6 +1,10 @@
-//! What can be added, subtracted and multiplied, so that formulas are written once for rounded numbers, integers and polynomials.
+//! Addition, subtraction and multiplication, so that a formula is written once for whatever has
+//! them.
+//!
+//! Integers and polynomials are exact; `f64` is rounded each time, in the order in which the
+//! formula is written.
 
-/// Numbers, or what is like them: sums, differences and products. All are exact but those of `f64`, which are rounded each time.
+/// Numbers, or what is like them: sums, differences and products.
 pub(super) trait Ring: Sized {
     fn plus(&self, other: &Self) -> Self;
     fn minus(&self, other: &Self) -> Self;

@@ -1,24 +1,11 @@
-//! How far apart a vertex and a triangle are, or two edges: whether at most so far, exactly; and by which of their points. Two triangles are
-//! in `triangles`.
+//! How far apart a vertex and a triangle are, or two edges: whether at most so far, and how far.
 //!
-//! A squared distance is a quotient of integers. The least distance of two elements is that of a pair of *features* at which it is
-//! attained: an end and an edge, the inside of a face and a vertex, the insides of two edges. Each of these is some distance of the
-//! elements, and one of them is the least. So they are within d if and only if one of them is, and each comparison is of integers:
-//!
-//! ```text
-//! a point p and an edge a + s e, t = p - a       s = t.e / e.e      within (0, 1): |t x e|^2 / e.e, else that of an end
-//! a point and a face, n = e1 x e2                inside by three signs: (n.t)^2 / n.n
-//! two edges, n = e x f, t = a - b                s = -(t x f).n / n.n and the other within [0, 1]: (n.t)^2 / n.n
-//! ```
-//!
-//! Where n is zero, the face is an edge or a point, and two parallel edges are as near as an end of one is to the other.
-//!
-//! With b bits a coordinate, a difference has b + 1, a normal 2 (b + 1) + 1 in each of three and its square 4 (b + 1) + 4, the square of a
-//! volume 6 (b + 1) + 6. Two quotients of such are compared by products of 10 (b + 1) + 10 bits, and of the square of a distance by as few,
-//! for that is only done where they are nearly equal. So up to 60 bits a coordinate nothing is allocated.
-//!
-//! This is for what `kernels::closest` leaves undecided: some microseconds each. It has the least distance as a
-//! quotient, and so each of its figures with an error of a few units in the last place, however small the distance is.
+//! The least distance of two elements is that of a pair of *features*: ends, insides of edges, the
+//! inside of a face. Each pair of features is some distance apart, and one is the nearest; its
+//! squared distance is a quotient of integers. So "at most d" is a comparison of integers. A
+//! distance has an error of a few units in the last place, however small it is. The features are
+//! known from minimum-distance tests (Ericson 2005, chapter 5); here they are compared exactly. A
+//! pair takes some microseconds; two triangles are in `triangles`.
 
 mod triangles;
 
@@ -35,19 +22,19 @@ pub use triangles::{SomePoints, TrianglesClosest, are_triangles_within, closest_
 pub enum Primitives {
     /// A point, and the corners of a triangle.
     VertexTriangle([Point; 4]),
-    /// The ends of one edge, and those of another.
+    /// The ends of one edge, and the ends of another.
     EdgeEdge([Point; 4]),
 }
 
 /// Where two elements are closest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Closest {
-    /// How far apart they are.
+    /// How far apart they are, in the unit of the coordinates.
     pub distance: f64,
-    /// Of a triangle a, b, c the point is a + p (b - a) + q (c - a). Of two edges it is the part p of the way along the first, and the
-    /// part q along the second.
+    /// Where the points are: in a triangle a, b, c the point a + p (b - a) + q (c - a). On two
+    /// edges the part p of the way along the first, and the part q along the second.
     pub along: [f64; 2],
-    /// From the second to the first, of length 1 but for rounding; zero if the distance is.
+    /// From the second to the first, of length 1 within rounding; zero if the distance is.
     pub direction: Point,
 }
 
@@ -63,7 +50,10 @@ struct Feet {
 /// Distances that are larger are all the same: no two points are further apart.
 const FARTHEST: f64 = 2.0 * 2.0 * (f32::MAX as f64);
 
-/// Whether elements are at most so far apart. Exact; the distance is at least 0, coordinates at most `f32::MAX` in magnitude.
+/// Whether two elements are at most a distance apart. Exact.
+///
+/// The distance is at least 0, in the unit of the coordinates, which are at most `f32::MAX` in
+/// magnitude. Cost: some microseconds.
 #[cold]
 pub fn are_within_distance(elements: &Primitives, distance: f64) -> bool {
     if distance >= FARTHEST {
@@ -77,11 +67,13 @@ pub fn are_within_distance(elements: &Primitives, distance: f64) -> bool {
     is_within
 }
 
-/// Whether two points are at most so far apart; as [`are_within_distance`], but for most points at once.
+/// Whether two points are at most a distance apart: as [`are_within_distance`], and mostly at once.
 ///
-/// With u = 2^-53 the square of the distance of the points is off by 5 u of itself (a difference twice, a square, two sums), that of the
-/// given distance by u: 32 u of the latter are allowed for. What is lost below the normal range, at most 2^-1020, is less than the rest of
-/// that where the latter is above 2^-900.
+/// The distance is at least 0, in the unit of the coordinates. With u = 2^-53 the square of the
+/// distance of the points is off by 5 u of itself (a difference twice, a square, two sums). That of
+/// the given distance is off by u: 32 u of the latter are allowed for. What is lost below the
+/// normal range is at most 2^-1020. That is less than the rest of what is allowed where the latter
+/// is above 2^-900.
 pub fn are_points_within(p: &Point, q: &Point, distance: f64) -> bool {
     let way = minus(p, q);
     let square = dot(&way, &way);
@@ -116,14 +108,19 @@ fn is_at_most(feet: &Feet, distance: f64, unit: i32) -> bool {
     over.is_at_most(&square.shifted(of_square))
 }
 
-/// Where elements are closest: distance and direction with an error of less than 2^-48 of themselves, and what is `along` within 2^-48
-/// of the exact one. The distance is zero where they touch alone: what is below the smallest number is that, and off by as much.
+/// Where two elements are closest: distance and direction with an error of less than 2^-48 of
+/// themselves.
+///
+/// What is `along` is within 2^-48 of the exact one. The distance is zero where they touch alone:
+/// what is below the smallest number is that, and off by as much. Coordinates are [in
+/// range](crate::is_in_range). Cost: some microseconds.
 #[cold]
 pub fn closest(elements: &Primitives) -> Closest {
     closest_of(std::slice::from_ref(elements)).1
 }
 
-/// The same of the nearest of some pairs of elements, and which it is: exactly the nearest, or the first of those.
+/// Where the nearest of some pairs of elements are closest, and which pair it is: exactly the
+/// nearest, or the first of equally near ones.
 fn closest_of(pairs: &[Primitives]) -> (usize, Closest) {
     let coordinates = pairs.iter().flat_map(|pair| pair.corners().as_flattened());
     let [unit, _] = powers_of_all(coordinates);
@@ -175,7 +172,24 @@ impl Primitives {
     }
 }
 
-/// Shows `found` all feet of elements, in units of 2^unit: some distance each, the least among them.
+/// Shows `found` all feet of elements, in units of 2^unit: some distance each, the least among
+/// them.
+///
+/// ```text
+/// point p, edge a + s e, t = p - a      s = t.e / e.e within (0, 1): |t x e|^2 / e.e, else an end
+/// point and face, n = e1 x e2           inside by three signs: (n.t)^2 / n.n
+/// edges, n = e x f, t = a - b           s = -(t x f).n / n.n, and so the other, within [0, 1]:
+///                                       (n.t)^2 / n.n
+/// ```
+///
+/// Where n is zero, the face is an edge or a point, and two parallel edges are as near as an end of
+/// one is to the other.
+///
+/// With b bits a coordinate, a difference has b + 1. A normal has 2 (b + 1) + 1 in each of three,
+/// and its square 4 (b + 1) + 4; the square of a volume has 6 (b + 1) + 6. Two quotients of such
+/// are compared by products of 10 (b + 1) + 10 bits. A quotient and the square of a distance are by
+/// as few, for that is only done where they are nearly equal. So up to 60 bits a coordinate nothing
+/// is allocated.
 fn feet(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet)) {
     let [p, q, r, s] = elements.corners().map(|corner| in_units(&corner, unit));
     match elements {
@@ -210,7 +224,8 @@ fn feet(elements: &Primitives, unit: i32, found: &mut dyn FnMut(Feet)) {
     }
 }
 
-/// A point and a segment from a to b, which may be a point. `is_second`: the point is of the second element.
+/// A point and a segment from a to b, which may be a point. `is_second`: the point is of the second
+/// element.
 fn of_end(
     p: &Vector,
     a: &Vector,
@@ -241,8 +256,8 @@ fn of_end(
     });
 }
 
-/// The insides of a face and a point, or of two edges: with a common normal, and how far along times its square; if each is within 0
-/// and the whole, and of a triangle their sum too.
+/// The insides of a face and a point, or of two edges: with a common normal, and how far along
+/// times its square. Shown if each is within 0 and the whole, and of a triangle their sum too.
 fn of_insides(
     n: &Vector,
     t: &Vector,

@@ -1,36 +1,11 @@
-//! The same decision in double precision, where rounding cannot change it: most pairs, in some hundred nanoseconds.
+//! The first contact in double precision, where rounding cannot change it: most pairs.
 //!
-//! [0, 1] is halved, the earlier half first, until each part is known to have no contact or to have one. On a part [a, b] a polynomial is a
-//! mean of its Bernstein coefficients there, with weights that are not negative; so where all have one sign, it has it throughout. Of a
-//! part it is enough to know one of these (see `motion` for the signs that decide):
-//!
-//! ```text
-//! the determinant has one sign, and is not zero                                        no contact
-//! on an axis all corners of the polygon are on one side                                no contact
-//! on an axis two of the q_i x q_(i+1) have opposite signs throughout                   no contact
-//! on an axis all q_i x q_(i+1) have one sign throughout, and the determinant
-//! has opposite signs at a and b                                                        contact between a and b
-//! ```
-//!
-//! Parts are cut at fractions of two, as the cells of a grid are; a part with a contact that is within one cell names the cell, and all
-//! that is earlier was free of contact. Ends at which a sign is not certain, and what has taken many parts, are left to integers.
-//!
-//! Mostly the determinant soon has one root in a part, or none: coefficients change their sign as many times as there are roots, or more. Of
-//! one root the cell is guessed by Newton's method; signs at its ends prove that it is in there, and the rest of the part is of no interest.
-//!
-//! # What is certain
-//!
-//! Let u = 2^-53, and M the larger magnitude of a component of a corner q of the polygon at both ends of the motion. Components are
-//! differences of coordinates, off by u of themselves. a and 1 - a are exact, so q(a) = (1 - a) q(0) + a q(1) is off by less than 4 u M.
-//! With that, each Bernstein coefficient of an axis of p x q, products of such, is off by less than 12 u (M_px M_qy + M_py M_qx), to first
-//! order. Let P be the sum of the six products of components of three corners that make a determinant, of their M. A determinant at ends of
-//! the motion is off by 8 u P (three differences, a product and a difference, a product and two sums), a coefficient, the mean of three
-//! such, by 11 u P, and one of a part by 3 u P more for each halving; after at most 44 of them by 143 u P. A value at a fraction, by
-//! three rounds of means of two with weights that are exact, is off by 6 u P more than these. Beyond first order these are
-//! less than 2^-40 of themselves larger.
-//!
-//! What is lost below the normal range, even where subnormal numbers are flushed to zero, is at most 2^-1021 a step, times components below
-//! 2^130: the allowances end with a constant that is far above that.
+//! [0, 1] is halved, the earlier half first, until each part is known to have no contact or to have
+//! one. In a part with one root of the determinant, Newton's method guesses the cell of the root;
+//! signs at its ends prove it. Signs over a part are the common signs of Bernstein coefficients (de
+//! Casteljau). An answer is that of `first_contact`, or none; the bounds are at `OF_POINT`. Ends at
+//! which a sign is not certain, and what has taken many parts, are left to integers. A pair takes
+//! some hundred nanoseconds.
 
 use super::super::Point;
 use super::super::float::{U, common_sign, power, sign_beyond};
@@ -39,7 +14,7 @@ use super::grid::Grid;
 use super::moving::Moving;
 use std::array::from_fn;
 
-/// What is certain of a pair.
+/// The first contact of a pair, as far as it is certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Certain {
     /// They do not meet in [0, 1].
@@ -50,6 +25,24 @@ pub enum Certain {
     Nothing,
 }
 
+// Errors, each in units of u = 2^-53 of the larger magnitudes at both ends of the motion.
+//
+// Let M be the larger magnitude of a component of a corner q of the polygon at both ends.
+// Components are differences of coordinates, off by u of themselves. Both a and 1 - a are exact, so
+// q(a) = (1 - a) q(0) + a q(1) is off by less than 4 u M. Consider each Bernstein coefficient of an
+// axis of p x q, a sum of products of such. It is off by less than 12 u (M_px M_qy + M_py M_qx), to
+// first order.
+//
+// Let P be the sum of the six products of components of three corners that make a determinant, of
+// their M. A determinant at ends of the motion is off by 8 u P (three differences, a product and a
+// difference, a product and two sums). A coefficient, the mean of three such, is off by 11 u P. One
+// of a part is off by 3 u P more for each halving; after at most 44 of them by 143 u P. A value at
+// a fraction takes three rounds of means of two, with weights that are exact: 6 u P more. Beyond
+// first order these are less than 2^-40 of themselves larger.
+//
+// What is lost below the normal range is at most 2^-1021 a step, times components below 2^130. That
+// holds even where subnormal numbers are flushed to zero. The allowances end with a constant that
+// is far above that.
 const OF_POINT: f64 = 4.0 * U;
 const OF_CROSS: f64 = 16.0 * U;
 const OF_DETERMINANT: f64 = 256.0 * U;
@@ -59,7 +52,7 @@ const LOST_OF_DETERMINANT: f64 = power(-700);
 
 /// Halvings of [0, 1], one in the other; times that many times halved are exact.
 const DEEPEST: usize = 44;
-/// So many parts are looked at; a crossing takes about 25.
+/// The number of parts that are looked at, at most; a crossing takes about 25.
 const MOST_PARTS: usize = 200;
 
 /// A polygon's corners at one time.
@@ -78,21 +71,44 @@ struct Part {
     is_hard: bool,
 }
 
-/// What is known of a part if its determinant has one root in it.
+/// The state of a part that may have one root of its determinant.
 enum OneRoot {
     Decided(Certain),
     Undecided,
     IsNotOne,
 }
 
-/// The difference of two elements at both ends of the motion, and the largest magnitudes of each component.
+/// The difference of two elements at both ends of the motion, and the largest magnitudes of each
+/// component.
 pub(super) struct Polygon {
     count: usize,
     ends: [Corners; 2],
     most: Corners,
 }
 
-/// What is certain of a pair, by cells of a grid. What surely is after `until` may be left out; that is 0 or a multiple of 2^-44.
+/// The first contact of a pair, by cells of a grid, as far as it is certain. What surely is after
+/// `until` may be left out; that is 0 or a multiple of 2^-44.
+///
+/// [0, 1] is halved, the earlier half first, until each part is known to have no contact or to have
+/// one. On a part [a, b] a polynomial is a mean of its Bernstein coefficients there, with weights
+/// that are not negative. So where all have one sign, it has it throughout. Of a part it is enough
+/// to know one of these (see `motion` for the signs that decide):
+///
+/// ```text
+/// the determinant has one sign, and is not zero                       no contact
+/// on an axis all corners of the polygon are on one side               no contact
+/// on an axis two of the q_i x q_(i+1) have opposite signs throughout  no contact
+/// on an axis all q_i x q_(i+1) have one sign throughout, and the
+/// determinant has opposite signs at a and b                           contact between a and b
+/// ```
+///
+/// Parts are cut at fractions of two, as the cells of a grid are. A part with a contact that is
+/// within one cell names the cell, and all that is earlier was free of contact. Ends at which a
+/// sign is not certain, and what has taken many parts, are left to integers.
+///
+/// Mostly the determinant soon has one root in a part, or none: coefficients change their sign as
+/// many times as there are roots, or more. Of one root the cell is guessed by Newton's method.
+/// Signs at its ends prove that it is in there, and the rest of the part is of no interest.
 #[inline]
 pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     let polygon = Polygon::new(moving);
@@ -118,7 +134,8 @@ pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
         };
         count = last;
         let mut part = parts[last];
-        // What meets in a part but the first does so after its beginning; in the first perhaps at it.
+        // What meets in a part but the first does so after its beginning; in the first perhaps at
+        // it.
         let is_late = part.low >= until && part.low > 0.0;
         if is_late || common_sign(part.determinant, error) != 0 {
             continue;
@@ -174,7 +191,8 @@ pub(super) fn certain(moving: &Moving, grid: Grid, until: f64) -> Certain {
     Certain::Nothing
 }
 
-/// About the root of a polynomial that has one, by Newton's method, or halving where that leaves the interval in which it is.
+/// About the root of a polynomial that has one, by Newton's method, or halving where that leaves
+/// the interval in which it is.
 fn root_of(coefficients: [f64; 4], enough: f64) -> f64 {
     let [first, _, _, last] = coefficients;
     let [mut low, mut high] = [0.0, 1.0];
@@ -217,13 +235,13 @@ fn divided([a, b, c, d]: [f64; 4], t: f64) -> [[f64; 4]; 2] {
     [[a, ab, abc, all], [all, bcd, cd, d]]
 }
 
-/// Corners whose components are each made of those of two others.
+/// Corners made component by component of two others.
 #[inline]
 fn of_both(p: &Corners, q: &Corners, made: impl Fn(f64, f64) -> f64) -> Corners {
     from_fn(|corner| from_fn(|axis| made(p[corner][axis], q[corner][axis])))
 }
 
-/// What cross products and corners say about a part.
+/// The sides of a part on which corners are, and edges turn.
 enum Sides {
     Apart,
     Inside,
@@ -275,7 +293,8 @@ impl Polygon {
         (self.ends[0][i], self.ends[1][i], self.most[i])
     }
 
-    /// Where the corners are at a time; each component is off by 4 u of the larger one at both ends.
+    /// Where the corners are at a time; each component is off by 4 u of the larger one at both
+    /// ends.
     pub(super) fn at(&self, t: f64) -> Corners {
         let s = 1.0 - t;
         of_both(&self.ends[0], &self.ends[1], |p, q| s * p + t * q)
@@ -286,7 +305,8 @@ impl Polygon {
         [self.at(low), self.at(high)]
     }
 
-    /// Whether on an axis all corners seem to be on one side at the start, and none beyond the other at a time: worth an exact look.
+    /// Whether on an axis all corners seem to be on one side at the start, and none beyond the
+    /// other at a time. Then an exact look is worth it.
     pub(super) fn is_perhaps_apart(&self, axis: usize, t: f64) -> bool {
         let s = 1.0 - t;
         let is_beyond = |side: f64| {
@@ -299,13 +319,15 @@ impl Polygon {
         is_beyond(1.0) || is_beyond(-1.0)
     }
 
-    /// The sign that a component of a corner has throughout a part, if that is certain and not zero.
+    /// The sign that a component of a corner has throughout a part, if that is certain and not
+    /// zero.
     pub(super) fn corner_sign(&self, [first, last]: &[Corners; 2], i: usize, axis: usize) -> i8 {
         let error = self.most[i][axis] * OF_POINT + LOST_OF_POINT;
         common_sign([first[i][axis], last[i][axis]], error)
     }
 
-    /// The sign that the component of corner i x corner i + 1 on an axis has throughout a part, if that is certain and not zero.
+    /// The sign that a component of corner i x corner i + 1 has throughout a part, if that is
+    /// certain and not zero.
     pub(super) fn cross_sign(&self, [first, last]: &[Corners; 2], i: usize, axis: usize) -> i8 {
         let j = if i + 1 < self.count { i + 1 } else { 0 };
         let cross = |p: &Point, q: &Point| cross_on(axis, p, q);
@@ -320,7 +342,7 @@ impl Polygon {
         common_sign(turns, error)
     }
 
-    /// What is certain of a part whose determinant has one root, by the cell that it is in.
+    /// The contact in a part whose determinant has one root, by the cell that it is in.
     fn at_one_root(&self, part: &Part, error: f64, grid: Grid, until: f64) -> OneRoot {
         let sign = |x: f64| sign_beyond(x, error);
         let [first, second, third, last] = part.determinant.map(sign);
@@ -341,7 +363,8 @@ impl Polygon {
         let guess = part.low + guess * length;
         let cell = [0.0, grid.spacing].map(|more| grid.down(guess) + more);
         let has_it = |ends: [f64; 2]| ends.map(|t| sign(value(t))) == [first, last];
-        // It may be in the cell beside that of the guess, or at the end of one, where no sign is certain.
+        // It may be in the cell beside that of the guess, or at the end of one, where no sign is
+        // certain.
         for beside in [0.0, -grid.spacing, grid.spacing] {
             let ends = cell.map(|t| t + beside);
             if ends[0] >= part.low && ends[1] <= part.high && has_it(ends) {
@@ -362,8 +385,8 @@ impl Polygon {
         })
     }
 
-    /// Whether the determinant surely has one root at most after the start and up to a time, which is a multiple of 2^-44, and none at the
-    /// start.
+    /// Whether the determinant surely has no root at the start, and one at most after it and up to
+    /// a time. The time is a multiple of 2^-44.
     pub(super) fn has_one_root_until(&self, until: f64) -> bool {
         let (determinant, error) = self.determinant();
         let [before, _] = divided(determinant, until);

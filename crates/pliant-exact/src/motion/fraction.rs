@@ -1,4 +1,5 @@
-//! Times that are fractions: of two, at which roots are looked for; and of any integers, which some roots are.
+//! Times that are fractions: of two, at which roots are looked for; and of any integers, which some
+//! roots are.
 
 use super::super::float::scaled;
 use super::super::integer::{Integer, parts, quotient};
@@ -22,7 +23,7 @@ pub(super) type Fraction = Quotient<Integer>;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Twos(pub(super) usize);
 
-/// What integers are divided by.
+/// A positive number that integers are divided by.
 pub(super) trait Denominator {
     /// An integer times it.
     fn multiply(&self, integer: &Integer) -> Integer;
@@ -94,7 +95,7 @@ impl Dyadic {
         }
     }
 
-    /// What of two integers, over the twos of both, becomes of these.
+    /// The sum or difference of two, made of both integers over the twos of both.
     fn combined(&self, other: &Self, by: impl Fn(&Integer, &Integer) -> Integer) -> Self {
         let twos = self.under.0.max(other.under.0);
         let [a, b] = [self, other].map(|it| it.over.shifted(twos - it.under.0));
@@ -115,7 +116,8 @@ impl Dyadic {
         Self::reduced(&twice.over, twice.under.0 + 1)
     }
 
-    /// Nearly the same number, which is not negative: off by 2^-52 of itself; zero if it is below 2^-1000.
+    /// Nearly the same number, which is not negative: off by 2^-52 of itself; zero if it is below
+    /// 2^-1000.
     pub(super) fn approximately(&self) -> f64 {
         let (m, e) = self.over.approximately();
         times_power(m, e - self.under.0 as i32)
@@ -123,7 +125,7 @@ impl Dyadic {
 }
 
 impl Fraction {
-    /// Of two integers, the second of which is not zero.
+    /// A fraction of two integers, the second of which is not zero.
     pub(super) fn new(over: Integer, under: Integer) -> Self {
         Self {
             over: if under.sign() < 0 {
@@ -135,17 +137,20 @@ impl Fraction {
         }
     }
 
-    /// Nearly the same number, which is from 0 to 1: off by 2^-50 of itself; zero if it is below 2^-1000.
+    /// Nearly the same number, which is from 0 to 1: off by 2^-50 of itself; zero if it is below
+    /// 2^-1000.
     pub(super) fn approximately(&self) -> f64 {
         let (m, e) = quotient(&self.over, &self.under);
         times_power(m, e)
     }
 
-    /// Nearly by how much it is more than a fraction of two, both from 0 to 1: off by 2^-50 of that.
+    /// Nearly by how much it is more than a fraction of two, both from 0 to 1: off by 2^-50 of
+    /// that.
     pub(super) fn minus(&self, other: &Dyadic) -> Dyadic {
         let over = other.under.multiply(&self.over);
         let over = over.minus(&self.under.times(&other.over));
-        // A number below 2 in magnitude, and no smaller than a half unless it is 0, times a power of two up to 2^53.
+        // A number below 2 in magnitude, and no smaller than a half unless it is 0, times a power
+        // of two up to 2^53.
         let (m, e) = quotient(&over, &self.under);
         Dyadic {
             over: Integer::new(m, -53),

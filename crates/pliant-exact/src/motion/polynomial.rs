@@ -1,6 +1,7 @@
 //! Polynomials in the time t whose coefficients are integers, and their signs at fractions.
 //!
-//! A polynomial is only ever asked for signs, so it may be multiplied by what is positive: remainders are, and so stay integers.
+//! A polynomial is only ever asked for signs, so it may be multiplied by what is positive:
+//! remainders are, and so stay integers.
 
 use super::super::integer::Integer;
 use super::super::ring::Ring;
@@ -39,12 +40,12 @@ impl Ring for Polynomial {
 impl Polynomial {
     pub(super) const ZERO: Self = Self([Integer::ZERO; MOST]);
 
-    /// Of two coefficients, that of 1 and that of t.
+    /// A polynomial of two coefficients: that of 1 and that of t.
     pub(super) fn new([of_one, of_t]: [Integer; 2]) -> Self {
         Self([of_one, of_t, Integer::ZERO, Integer::ZERO])
     }
 
-    /// What is `start` at 0 and `end` at 1, and affine.
+    /// The affine polynomial that is `start` at 0 and `end` at 1.
     pub(super) fn affine(start: Integer, end: &Integer) -> Self {
         let by = end.minus(&start);
         Self::new([start, by])

@@ -1,8 +1,10 @@
-//! Roots of polynomials in (0, 1], in order, and signs of other polynomials there: all exact, with no number that is rounded in an answer.
+//! Roots of polynomials in (0, 1], in order, and signs of other polynomials there: all exact.
 //!
-//! A root is a fraction, or alone in an open interval between two fractions of two at which its polynomial, which has no multiple roots, has
-//! opposite signs. The sign of another polynomial at it is mostly known from floating point, with a bound; where it is not, as where it is
-//! zero, from quotients and remainders, however near other roots are. So the work is bounded.
+//! A root is a fraction, or alone in an open interval between two fractions of two. Its polynomial
+//! has no multiple roots, and opposite signs at the ends. The sign of another polynomial at a root
+//! is mostly known from floating point, with a bound. Where it is not, as where it is zero,
+//! quotients and remainders tell it, however near other roots are. So the work is bounded. Roots
+//! are isolated by sequences of Sturm (`sturm`).
 
 use super::super::float::{power, sign_beyond};
 use super::super::integer::{Integer, in_proportion};
@@ -32,16 +34,17 @@ pub(super) struct Alone {
     sign_at_low: i8,
 }
 
-/// What is known of a fraction is off by less than 2^-48 of itself.
+/// Bits of a fraction that are known: it is off by less than 2^-48 of itself.
 const KNOWN_BITS: usize = 48;
 
 /// Intervals of roots are narrowed to 2^-32 at least before floating point is asked for signs.
 const NARROW: f64 = power(-32);
 
-/// What is shown roots, until one is enough.
+/// A receiver of roots, which says when one is enough.
 pub(super) type Found<'f> = &'f mut dyn FnMut(Root) -> ControlFlow<()>;
 
-/// Shows the roots in (0, 1] of a polynomial, each once, in order, until one is enough; of zero none.
+/// Shows the roots in (0, 1] of a polynomial, each once, in order, until one is enough; of zero
+/// none.
 pub(super) fn visit_roots(polynomial: &Polynomial, found: Found) -> ControlFlow<()> {
     let [zero, one] = [0.0, 1.0].map(Dyadic::new);
     let mut others = polynomial.clone();
@@ -102,13 +105,16 @@ fn visit_between(
     ControlFlow::Continue(())
 }
 
-/// Where parts with several roots are cut: in the middle, and close before and behind the place where roots are near each other, if any
-/// are. That is known twice as well with every 50 bits more of it; halves alone would take a step a bit, and there may be a thousand.
-/// As many are between 1 and roots that are tiny: so a long part is cut at a power of two in the middle of those that it holds, too.
+/// Where parts with several roots are cut.
+///
+/// That is in the middle, and close before and behind the place where roots are near each other, if
+/// any are. The place is known twice as well with every 50 bits more of it. Halves alone would take
+/// a step a bit, and there may be a thousand. As many are between 1 and roots that are tiny. So a
+/// long part is cut at a power of two, too, in the middle of the powers that it holds.
 struct Cuts {
     /// Near it are those that are near each other.
     of: Option<Fraction>,
-    /// It, nearly, and by how much that may be off.
+    /// That place, nearly, and by how much it may be off.
     about: Dyadic,
     error: Dyadic,
     turn: usize,
@@ -150,7 +156,8 @@ impl Cuts {
     }
 }
 
-/// The power of two in the middle of those between two times, if these are far apart; behind 0 there are many.
+/// The power of two in the middle of those between two times, if these are far apart; behind 0
+/// there are many.
 fn middle_power(low: &Dyadic, high: &Dyadic) -> Option<Dyadic> {
     const FAR: i32 = 32;
     let highest = high.power();
@@ -310,7 +317,8 @@ impl Alone {
         certain_sign(other, self.approximately()).unwrap_or_else(|| self.exact_sign_of(other))
     }
 
-    /// The sign, by division: where m p = q g + r, and m is positive, g is -r / q at a root of p; and these are of lower degrees.
+    /// The sign, by division: m p = q g + r, where m is positive, and q and r are of lower degrees
+    /// than g. So g is -r / q at a root of p.
     fn exact_sign_of(&self, other: &Polynomial) -> i8 {
         let rest =
             (other.degree() >= self.polynomial.degree()).then(|| other.remainder(&self.polynomial));
@@ -330,19 +338,23 @@ impl Alone {
         }
     }
 
-    /// The sign of what is affine, and not constant: it has a root, and that is on a side of this one.
+    /// The sign of what is affine, and not constant: it has a root, and that is on a side of this
+    /// one.
     fn exact_sign_of_affine(&self, affine: &Polynomial) -> i8 {
         let [_, slope, ..] = &affine.0;
         self.compare(&affine.affine_root()) as i8 * slope.sign()
     }
 }
 
-/// The sign of a polynomial at a root, or in an interval round it, if floating point is certain of it.
+/// The sign of a polynomial at a root, or in an interval round it, if floating point is certain of
+/// it.
 ///
-/// Let S be the sum of the magnitudes of the coefficients, each of which has an error of 2^-51 of itself. Horner's rule with t from 0 to 1
-/// rounds twice for each power, up to the third, each time a number of at most S: both are less than 2^-49 S. The root is within w / 2 +
-/// 2^-50 of the middle, where w is the width that is computed, and there the value changes by at most 3 S times that. In all less than (2 w
-/// + 2^-47) S; twice that is allowed for, with what this line itself rounds.
+/// Let S be the sum of the magnitudes of the coefficients, each of which has an error of 2^-51 of
+/// itself. Horner's rule with t from 0 to 1 rounds twice for each power, up to the third. Each time
+/// it rounds a number of at most S: both are less than 2^-49 S. Let w be the width that is
+/// computed. The root is within w / 2 + 2^-50 of the middle, and there the value changes by at most
+/// 3 S times that. In all that is less than (2 w + 2^-47) S. Twice that is allowed for, with what
+/// this line itself rounds.
 fn certain_sign(other: &Polynomial, [low, high]: [f64; 2]) -> Option<i8> {
     if other.is_constant() {
         return Some(other.sign_at_zero());

@@ -61,7 +61,7 @@ impl<S: Real> Points<S> {
         self.bound_row(vertex.index() / IN_A_ROW);
     }
 
-    /// As many rows as the points fill; others are in the last one.
+    /// As many rows as the points fill, and the bounds of the last one made anew.
     fn bound_last_row(&mut self) {
         let rows = self.points.len().div_ceil(IN_A_ROW);
         self.bounds.resize(rows, [[S::default(); 4]; 2]);

@@ -71,7 +71,7 @@ pub(crate) trait Real:
     fn round_up(self, origin: f64) -> f32;
 }
 
-/// What is said of both types in the same words.
+/// The part of `Real` that both types say in the same words.
 macro_rules! in_both {
     ($type:ty) => {
         const NAN: Self = <$type>::NAN;
@@ -91,7 +91,8 @@ macro_rules! in_both {
             self.abs() <= f32::MAX.into()
         }
         fn needs_subnormals(self) -> bool {
-            // Bits, because such a thread takes a subnormal number for zero; zero, less one, is the largest of all.
+            // Bits, because such a thread takes a subnormal number for zero; zero, less one, is the
+            // largest of all.
             self.abs().to_bits().wrapping_sub(1) < Self::NEEDS_NONE.to_bits() - 1
         }
     };
@@ -144,7 +145,7 @@ impl Real for f64 {
     }
 }
 
-/// What is the part `t` of the way from one to another, never beyond either end.
+/// The part `t` of the way from one to another, never beyond either end.
 #[inline]
 fn part_of_way(from: f64, to: f64, t: f64) -> f64 {
     let there = from + t * (to - from);

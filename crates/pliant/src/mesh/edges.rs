@@ -1,6 +1,9 @@
-//! The edges of a mesh, sorted by their ends: a counting sort by the lower ones, and then by the higher ones of each.
+//! The edges of a mesh, sorted by their ends: a counting sort by the lower ends, then a sort of
+//! each run.
+//!
+//! Linear, apart from the sorts of the edges at one vertex.
 
-/// So many triangles or vertices are gone through before it is asked whether somebody wants to stop.
+/// The number of triangles or vertices between two looks whether somebody wants to stop.
 pub(super) const UNINTERRUPTED: usize = 1 << 14;
 
 /// Edges in the order of their ends, each once, the smaller end first.
@@ -10,7 +13,8 @@ pub(super) struct SortedEdges {
 }
 
 impl SortedEdges {
-    /// The edges of which `is_wanted` says so, by how many triangles have each. `None` if `stop` said so on the way.
+    /// The edges of which `is_wanted` says so, by how many triangles have each. `None` if `stop`
+    /// said so on the way.
     pub(super) fn new(
         triangles: &[[u32; 3]],
         vertices: usize,
@@ -26,7 +30,7 @@ impl SortedEdges {
             higher[*place as usize] = high;
             *place += 1;
         })?;
-        // Where those of a vertex went ends where those of the next began.
+        // The run of each vertex ends now at `next`, where the run of the one behind it began.
         let mut edges = Vec::with_capacity(higher.len() / 2 + 1);
         let mut firsts = Vec::with_capacity(vertices + 1);
         let mut start = 0;
@@ -56,7 +60,8 @@ impl SortedEdges {
     }
 }
 
-/// The number of the edge with these ends among sorted ones, by where those of each lower end begin; none of one vertex twice.
+/// The number of the edge with these ends among sorted ones; none of one vertex twice. `firsts`
+/// says where the edges with each lower end begin.
 #[inline]
 pub(super) fn number_of(edges: &[[u32; 2]], firsts: &[u32], [a, b]: [u32; 2]) -> Option<u32> {
     if a == b {
@@ -111,7 +116,8 @@ pub(super) fn edges_of(&[a, b, c]: &[u32; 3]) -> impl Iterator<Item = [u32; 2]> 
     edges.take(if has_two { 1 } else { 3 })
 }
 
-/// The ends of the three sides of a triangle, the smaller first, from its first corner on; the same vertex twice where it has none.
+/// The ends of the three sides of a triangle, the smaller first, from its first corner on. A side
+/// whose corners are one vertex has it twice.
 pub(super) fn sides([a, b, c]: [u32; 3]) -> [[u32; 2]; 3] {
     [[a, b], [b, c], [c, a]].map(|[a, b]| [a.min(b), a.max(b)])
 }

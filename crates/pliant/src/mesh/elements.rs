@@ -65,10 +65,12 @@ impl Elements {
         Some(elements)
     }
 
-    /// Gives triangles from a place on, in tree order, the vertices and the edges that none before
-    /// them has, of which `used` vertices are known. `new_edge` is told a triangle, a side of it, and
-    /// the number in tree order that its edge would have; it returns the caller's number of the edge
-    /// if none has it yet. `None` if `stop` said so.
+    /// Gives triangles from a place on, in tree order, the vertices and edges that none before them
+    /// has.
+    ///
+    /// The first `used` vertices are known. `new_edge` is told a triangle, a side of it, and the
+    /// number in tree order that its edge would have. It returns the caller's number of the edge if
+    /// none has it yet. `None` if `stop` said so.
     fn give_to_triangles(
         &mut self,
         order: &Order,

@@ -1,7 +1,8 @@
-//! The exact extent of points, and the box that holds it.
+//! The exact extent of points, and the box that holds it. Many boxes side by side are
+//! `kernels::BoxLanes`.
 
-use super::real::{larger, smaller};
-use super::{Aabb, Real};
+use super::Real;
+use super::real::{OUTWARD, larger, smaller};
 use std::array::from_fn;
 
 /// The point that the boxes of a world are relative to, and padding.
@@ -54,6 +55,28 @@ impl<S: Real> Bounds<S> {
 
     pub(crate) fn holds(&self, point: [S; 3]) -> bool {
         (0..3).all(|axis| self.lo[axis] <= point[axis] && point[axis] <= self.hi[axis])
+    }
+}
+
+/// A closed box `lo <= x <= hi` in `f32`.
+pub(crate) type Aabb = Bounds<f32>;
+
+impl Aabb {
+    /// Whether `other` lies in this box.
+    #[cfg(test)]
+    pub(crate) fn holds_box(&self, other: &Self) -> bool {
+        self.holds(other.lo) && self.holds(other.hi)
+    }
+
+    /// This box grown by a distance on every side, rounded outward.
+    pub(crate) fn grown(&self, distance: f32) -> Self {
+        // A difference is off by at most a quarter of what is taken away here, as in
+        // `Real::round_down` of f64.
+        let outward = |x: f32| x.abs() * OUTWARD + f32::MIN_POSITIVE;
+        Self {
+            lo: self.lo.map(|x| (x - distance) - outward(x - distance)),
+            hi: self.hi.map(|x| (x + distance) + outward(x + distance)),
+        }
     }
 }
 

@@ -28,7 +28,7 @@ impl Contact {
             let [unit, _] = powers_of_all(moving.corners.as_flattened().iter().map(|it| &it[axis]));
             let corners = differences(moving, axis, unit);
             let side = corners[0].sign_at_zero();
-            corners[..rounded.count()]
+            corners[..rounded.count]
                 .iter()
                 .all(|x| x.sign_at_zero() == side && stays(side, time.sign_of(x)))
         };

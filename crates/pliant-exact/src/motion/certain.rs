@@ -81,7 +81,7 @@ enum OneRoot {
 /// The difference of two elements at both ends of the motion, and the largest magnitudes of each
 /// component.
 pub(super) struct Polygon {
-    count: usize,
+    pub(super) count: usize,
     ends: [Corners; 2],
     most: Corners,
 }
@@ -282,10 +282,6 @@ impl Polygon {
             + p[1] * (q[2] * r[0] + q[0] * r[2])
             + p[2] * (q[0] * r[1] + q[1] * r[0]);
         (coefficients, sum * OF_DETERMINANT + LOST_OF_DETERMINANT)
-    }
-
-    pub(super) fn count(&self) -> usize {
-        self.count
     }
 
     /// A corner at both ends of the motion, and the larger magnitudes of its components.

@@ -40,12 +40,12 @@ pub fn distant_until(moving: &Moving, distance: f64, of_interest: f64) -> f64 {
     let polygon = Polygon::new(&in_order(moving));
     let mut known: f64 = 0.0;
     for _ in 0..MOST_DIRECTIONS {
-        let n = nearest(&polygon.at(known)[..polygon.count()], moving.are_edges);
+        let n = nearest(&polygon.at(known)[..polygon.count], moving.are_edges);
         let length = dot(&n, &n).sqrt();
         let level = distance * length * (1.0 + 8.0 * f64::EPSILON);
         let mut gain: f64 = 1.0;
         let mut is_known = true;
-        for i in 0..polygon.count() {
+        for i in 0..polygon.count {
             let (start, end, most) = polygon.corner(i);
             let allowed = level + dot(&n.map(f64::abs), &most) * OF_PROJECTION + LOST;
             let [at_start, at_end] = [dot(&n, &start), dot(&n, &end)];
@@ -90,7 +90,7 @@ pub fn starts_surely_within(moving: &Moving, distance: f64) -> bool {
     let limit = square * (1.0 - 16.0 * U);
     let polygon = Polygon::new(moving);
     let [start, _] = polygon.part([0.0, 1.0]);
-    let mut corners = start[..polygon.count()].iter();
+    let mut corners = start[..polygon.count].iter();
     let is_normal = square > power(-900) && square.is_finite();
     is_normal && corners.any(|corner| dot(corner, corner) <= limit)
 }

@@ -57,7 +57,6 @@ type Vector = [Polynomial; 3];
 /// less an end of the other, in order around).
 struct Polygon {
     corners: [Vector; 4],
-    count: usize,
     /// The polygon in double precision, which is certain of most signs.
     rounded: certain::Polygon,
 }
@@ -152,17 +151,19 @@ impl Polygon {
         Self {
             rounded: certain::Polygon::new(moving),
             corners: [0, 1, 2, 3].map(corner),
-            count: if moving.are_edges { 4 } else { 3 },
         }
     }
 
     fn corners(&self) -> &[Vector] {
-        &self.corners[..self.count]
+        &self.corners[..self.rounded.count]
     }
 
     /// A component of corner i x corner i + 1.
     fn cross(&self, i: usize, axis: usize) -> Polynomial {
-        let [p, q] = [&self.corners[i], &self.corners[(i + 1) % self.count]];
+        let [p, q] = [
+            &self.corners[i],
+            &self.corners[(i + 1) % self.rounded.count],
+        ];
         vector::cross_on(axis, p, q)
     }
 
@@ -205,7 +206,7 @@ impl Polygon {
             first == 0 || sides.any(|side| side != first)
         }) && (0..3).all(|axis| {
             let mut known = 0;
-            (0..self.count).all(|i| {
+            (0..self.rounded.count).all(|i| {
                 let turn = match self.rounded.cross_sign(&rounded, i, axis) {
                     0 => sign(&self.cross(i, axis)),
                     certain => certain,
@@ -240,7 +241,7 @@ impl Polygon {
 
     /// Shows all whose signs decide a planar question.
     fn visit_polynomials(&self, show: &mut dyn FnMut(&Polynomial)) {
-        for i in 0..self.count {
+        for i in 0..self.rounded.count {
             for axis in 0..3 {
                 show(&self.corners[i][axis]);
                 show(&self.cross(i, axis));
@@ -287,12 +288,8 @@ impl Later {
             let [below, above] = [grid.down(middle), grid.up(middle)];
             // The numbers of the grid that are next to the middle; one of them at least is within,
             // or none is.
-            let within = |x: f64| x > low && x < high;
-            let at = if within(below) {
-                below
-            } else if within(above) {
-                above
-            } else {
+            let mut next = [below, above].into_iter();
+            let Some(at) = next.find(|&x| x > low && x < high) else {
                 return [low, high];
             };
             if root.is_at_most(at) {

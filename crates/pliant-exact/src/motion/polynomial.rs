@@ -124,12 +124,6 @@ impl Polynomial {
         [quotient.without_twos(), rest.without_twos()]
     }
 
-    /// A positive multiple of the remainder of a division by another, which is not zero.
-    pub(super) fn remainder(&self, by: &Self) -> Self {
-        let [_, rest] = self.divided(by);
-        rest
-    }
-
     /// Divided by 2^twos t - over: that is a root.
     pub(super) fn without_root(&self, root: &Dyadic) -> Self {
         let under = root.under.multiply(&Integer::from(1));

@@ -320,9 +320,10 @@ impl Alone {
     /// The sign, by division: m p = q g + r, where m is positive, and q and r are of lower degrees
     /// than g. So g is -r / q at a root of p.
     fn exact_sign_of(&self, other: &Polynomial) -> i8 {
-        let rest =
-            (other.degree() >= self.polynomial.degree()).then(|| other.remainder(&self.polynomial));
-        let other = rest.as_ref().unwrap_or(other);
+        if other.degree() >= self.polynomial.degree() {
+            let [_, rest] = other.divided(&self.polynomial);
+            return self.exact_sign_of(&rest);
+        }
         match other.degree() {
             0 => other.sign_at_zero(),
             1 => self.exact_sign_of_affine(other),

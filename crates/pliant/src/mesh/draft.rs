@@ -2,7 +2,7 @@
 //!
 //! Cost: what the steps name, and the triangles at the vertices of these; whatever the size of the mesh.
 
-use super::topology::{EMPTY, check_triangle_count, check_vertex_count};
+use super::topology::{EMPTY, check_counts};
 use super::{Bits, Changed, Topology, TrianglesAt};
 use crate::ErrorKind;
 use crate::edit::Step;
@@ -119,7 +119,7 @@ impl<'m, S: Copy> Draft<'m, S> {
             Step::AddTriangles(all) => {
                 for &corners in all {
                     let triangle = self.triangles as u32;
-                    check_triangle_count(self.triangles + 1)?;
+                    check_counts(self.triangles + 1, self.vertices)?;
                     self.check_corners(triangle, corners)?;
                     self.triangles += 1;
                     self.set(triangle, corners);
@@ -168,7 +168,7 @@ impl<'m, S: Copy> Draft<'m, S> {
     }
 
     fn add_vertex(&mut self, position: [S; 3]) -> Result<u32, ErrorKind> {
-        check_vertex_count(self.vertices + 1)?;
+        check_counts(self.triangles, self.vertices + 1)?;
         let vertex = self.vertices as u32;
         self.vertices += 1;
         self.place(vertex, position);

@@ -23,21 +23,16 @@ pub(crate) struct Topology {
     live: u32,
 }
 
-/// Refuses more triangles than there can be.
-pub(super) fn check_triangle_count(count: usize) -> Result<(), ErrorKind> {
-    check_count("triangles", count, MAX_TRIANGLES)
-}
-
-/// Refuses more vertices than there can be.
-pub(super) fn check_vertex_count(count: usize) -> Result<(), ErrorKind> {
-    check_count("vertices", count, MAX_VERTICES)
-}
-
-fn check_count(what: &'static str, count: usize, limit: usize) -> Result<(), ErrorKind> {
-    if count > limit {
-        return Err(ErrorKind::TooLarge { what, count, limit });
+/// Refuses more triangles or vertices than there can be.
+pub(super) fn check_counts(triangles: usize, vertices: usize) -> Result<(), ErrorKind> {
+    let limits = [
+        ("triangles", triangles, MAX_TRIANGLES),
+        ("vertices", vertices, MAX_VERTICES),
+    ];
+    match limits.into_iter().find(|(_, count, limit)| count > limit) {
+        Some((what, count, limit)) => Err(ErrorKind::TooLarge { what, count, limit }),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// Refuses what no body can be made of.
@@ -45,8 +40,7 @@ pub(crate) fn validate(triangles: &[[u32; 3]], vertices: usize) -> Result<(), Er
     if triangles.is_empty() {
         return Err(ErrorKind::NoTriangles);
     }
-    check_triangle_count(triangles.len())?;
-    check_vertex_count(vertices)?;
+    check_counts(triangles.len(), vertices)?;
     for (triangle, corners) in triangles.iter().enumerate() {
         if let Some(&vertex) = corners.iter().find(|&&vertex| vertex as usize >= vertices) {
             return Err(ErrorKind::VertexOutOfRange {

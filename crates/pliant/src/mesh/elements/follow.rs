@@ -60,11 +60,8 @@ impl Elements {
                 *number = named[*number as usize].0;
             }
         }
-        index.free = (0..)
-            .zip(edges)
-            .filter(|it| !is_edge(it))
-            .map(|(number, _)| number)
-            .collect();
+        let empty = (0..).zip(edges).filter(|it| !is_edge(it));
+        index.free = empty.map(|(number, _)| number).collect();
         self.callers = edges.to_vec();
         true
     }

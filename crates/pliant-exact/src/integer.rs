@@ -1,10 +1,9 @@
-//! Integers of any size, for what floating point leaves undecided. Nothing is rounded.
+//! Integers of any size, for what floating point leaves undecided: nothing is rounded.
 //!
 //! Every coordinate is an integer of units of 2^-1074 and below 2^128, so it has 1202 bits. But the
 //! coordinates of one question are all counted in the largest power of two that they are multiples
 //! of. Mostly they have less than 60 bits then. So most numbers that come up have room in place,
-//! and only the longest are allocated. Products are made limb by limb; there are never enough limbs
-//! for faster ways.
+//! and only the longest are allocated.
 
 use super::float::{power, scaled};
 use super::ring::Ring;

@@ -4,8 +4,7 @@
 //! inside of a face. Each pair of features is some distance apart, and one is the nearest; its
 //! squared distance is a quotient of integers. So "at most d" is a comparison of integers. A
 //! distance has an error of a few units in the last place, however small it is. The features are
-//! known from minimum-distance tests (Ericson 2005, chapter 5); here they are compared exactly. A
-//! pair takes some microseconds; two triangles are in `triangles`.
+//! known from minimum-distance tests (Ericson 2005, chapter 5); here they are compared exactly.
 
 mod triangles;
 

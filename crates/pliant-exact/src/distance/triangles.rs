@@ -21,7 +21,7 @@ use super::{Primitives, are_within_distance, closest, closest_of, fraction};
 /// Where two triangles are closest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TrianglesClosest {
-    /// How far apart they are; 0 if they intersect.
+    /// How far apart they are, in the unit of the coordinates; 0 if they intersect.
     pub distance: f64,
     /// From the second to the first, of length 1 within rounding; zero if the distance is.
     pub direction: Point,
@@ -34,14 +34,15 @@ pub struct TrianglesClosest {
 const APART: f64 = power(-40);
 
 /// Some points of two triangles: a pair of elements, how far along them the points are, and how far
-/// apart they are at most.
+/// they are apart at most.
 #[derive(Clone, Copy, Debug)]
 pub struct SomePoints {
-    /// The number of the pair of elements.
+    /// The number of the pair of elements, below [`ELEMENT_PAIRS`](crate::ELEMENT_PAIRS).
     pub which: usize,
     /// How far along them the points are, as in [`Closest`](super::Closest).
     pub along: [f64; 2],
-    /// How far apart they are at most.
+    /// How far apart they are at most, in the unit of the coordinates; infinite if nothing is
+    /// known.
     pub apart: f64,
 }
 

@@ -4,8 +4,7 @@
 //! one. In a part with one root of the determinant, Newton's method guesses the cell of the root;
 //! signs at its ends prove it. Signs over a part are the common signs of Bernstein coefficients (de
 //! Casteljau). An answer is that of `first_contact`, or none; the bounds are at `OF_POINT`. Ends at
-//! which a sign is not certain, and what has taken many parts, are left to integers. A pair takes
-//! some hundred nanoseconds.
+//! which a sign is not certain, and what has taken many parts, are left to integers.
 
 use super::super::Point;
 use super::super::float::{U, common_sign, power, sign_beyond};

@@ -6,8 +6,7 @@
 //! to which that is known, n is the way to the point of the polygon that is nearest then. It is
 //! known up to the time at which the first projection has fallen to d |n|, less a 2^-20th of the
 //! gain. It ends when the pair is within 1.001 d and little is gained; so each step gains 0.001 d
-//! over the largest speed at least. Corners are put in an order of their own first, so that the
-//! answer does not depend on theirs.
+//! over the largest speed at least.
 
 use super::super::Point;
 use super::super::float::{U, power};
@@ -34,8 +33,8 @@ const LITTLE: f64 = 1.0 / 1024.0;
 /// The distance is above 0, in the unit of the coordinates. The time is 0 where perhaps they are
 /// not further apart at the start, and 1 where they stay so. Any such time after `of_interest` may
 /// end the search. A pair that is further apart than 1.001 times the distance up to some time is
-/// known to be so up to that time. Cost: a fraction of a microsecond a direction; most pairs take a
-/// few of at most 4096.
+/// known to be so up to that time. Cost: a fraction of a microsecond a direction, of which there
+/// are few, and at most 4096.
 pub fn distant_until(moving: &Moving, distance: f64, of_interest: f64) -> f64 {
     let polygon = Polygon::new(&in_order(moving));
     let mut known: f64 = 0.0;
@@ -95,7 +94,9 @@ pub fn starts_surely_within(moving: &Moving, distance: f64) -> bool {
     is_normal && corners.any(|corner| dot(corner, corner) <= limit)
 }
 
-/// Two moving elements with their corners in an order that does not depend on how they came.
+/// Two moving elements with their corners in an order of their own, however they came. The nearest
+/// point is found by arithmetic that depends on the order of corners; the answer is not to depend
+/// on it.
 fn in_order(moving: &Moving) -> Moving {
     let [start, end] = moving.corners;
     let mut corners: [[Point; 2]; 4] = std::array::from_fn(|i| [start[i], end[i]]);

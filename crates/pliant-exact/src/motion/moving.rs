@@ -1,14 +1,16 @@
-//! Two elements on their way.
+//! Two elements on their way: a vertex and a triangle, or two edges, on straight lines.
 
 use super::super::Point;
 
 /// Two elements that move: their corners at the start and at the end.
+///
+/// Coordinates of both are in one unit, and [in range](crate::is_in_range).
 #[derive(Clone, Copy, Debug)]
 pub struct Moving {
     /// Whether they are two edges, by the ends of either; else they are a vertex and the corners of
     /// a triangle.
     pub are_edges: bool,
-    /// At the start and at the end of the motion; in between on straight lines.
+    /// Corners at the start and at the end of the motion; in between they are on straight lines.
     pub corners: [[Point; 4]; 2],
 }
 

@@ -1,10 +1,9 @@
 //! Roots of polynomials in (0, 1], in order, and signs of other polynomials there: all exact.
 //!
-//! A root is a fraction, or alone in an open interval between two fractions of two. Its polynomial
-//! has no multiple roots, and opposite signs at the ends. The sign of another polynomial at a root
-//! is mostly known from floating point, with a bound. Where it is not, as where it is zero,
-//! quotients and remainders tell it, however near other roots are. So the work is bounded. Roots
-//! are isolated by sequences of Sturm (`sturm`).
+//! A root is a fraction, or alone in an open interval between two fractions of two (`sturm`). Its
+//! polynomial has no multiple roots, and opposite signs at the ends. The sign of another polynomial
+//! at a root is mostly known from floating point, with a bound. Where it is not, as where it is
+//! zero, quotients and remainders tell it, however near other roots are. So the work is bounded.
 
 use super::super::float::{power, sign_beyond};
 use super::super::integer::{Integer, in_proportion};

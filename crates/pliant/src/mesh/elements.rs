@@ -79,7 +79,8 @@ impl Elements {
         stop: &dyn Fn() -> bool,
         mut new_edge: impl FnMut(TreeTriangle, usize, u32) -> Option<u32>,
     ) -> Option<()> {
-        for (at, corners) in (0..).zip(order.all_corners()).skip(first.index()) {
+        for at in first.0..order.all_corners().len() as u32 {
+            let corners = order.corners(TreeTriangle(at));
             self.firsts.push([used, self.ends.len() as u32]);
             used = corners
                 .iter()
@@ -90,7 +91,7 @@ impl Elements {
                     self.numbers.push(number);
                 }
             }
-            if (at as usize).is_multiple_of(UNINTERRUPTED) && stop() {
+            if at.is_multiple_of(UNINTERRUPTED as u32) && stop() {
                 return None;
             }
         }

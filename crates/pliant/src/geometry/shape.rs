@@ -101,7 +101,7 @@ mod tests {
                 assert!(holds(&parent, p, origin), "{p:?} {origin:?} {parent:?}");
             }
             assert!(
-                boxes.iter().all(|child| parent.holds(child)),
+                boxes.iter().all(|child| parent.holds_box(child)),
                 "{boxes:?} {parent:?}"
             );
             for axis in 0..3 {

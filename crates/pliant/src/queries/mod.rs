@@ -17,8 +17,8 @@ pub(crate) use close::{
     measure_all,
 };
 pub(crate) use door::{
-    Batch, BodyBoxes, BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, LeafWork, Needs,
-    OF_GROWN_SHAPES, OF_MOTIONS, OF_SHAPES, Reach, Shown, shows_hits,
+    Batch, BodyBoxes, BoxSetNumber, CallerIds, Candidate, Found, FoundBy, Kind, LeafTest, LeafWork,
+    Needs, OF_GROWN_SHAPES, OF_MOTIONS, OF_SHAPES, Reach, Shown, shows_hits,
 };
 pub(crate) use impacts::{Earliest, First, Impacts, LIMIT};
 pub(crate) use intersections::{Contacts, Intersections};

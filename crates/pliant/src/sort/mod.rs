@@ -46,9 +46,9 @@ impl<T: Hit> Sorter<T> {
             keys,
             buckets,
         } = self;
-        let packings = keys.iter_mut().map(|keys| keys.packing());
+        let packings = keys.iter_mut().map(|keys| keys.packing);
         let packing = packings.fold(Packing::default(), Packing::and);
-        let count: usize = keys.iter_mut().map(|keys| keys.keys().len()).sum();
+        let count: usize = keys.iter_mut().map(|keys| keys.packed.len()).sum();
         // Places in buckets are not counted further.
         if !packing.fits() || u32::try_from(count).is_err() {
             hits.clear();
@@ -59,11 +59,11 @@ impl<T: Hit> Sorter<T> {
         let mut extent = NOTHING;
         for keys in keys.iter_mut() {
             keys.pack(packing);
-            extent = both(extent, keys.extent());
+            extent = both(extent, keys.extent);
         }
         let zero = T::of_numbers([0; 4]);
         if lengthen(hits, count, zero, executor) {
-            let all = keys.iter_mut().map(|keys| keys.keys());
+            let all = keys.iter_mut().map(|keys| keys.packed.as_slice());
             let hit = |key| T::of_numbers(packing.numbers(key));
             buckets.put_in_order((executor, instructions), all, extent, hit, hits);
         }

@@ -171,13 +171,9 @@ impl VertexSets {
     /// The vertices below a node: a run and a border, in which one may be more than once.
     #[inline]
     pub(crate) fn run_and_border(&self, node: usize) -> (std::ops::Range<usize>, &[TreeVertex]) {
-        let Set {
-            run: [start, end],
-            border,
-            borders,
-            ..
-        } = self.sets[node];
-        let border = &self.border[border..border + borders as usize];
+        let set = self.sets[node];
+        let [start, end] = set.run;
+        let border = &self.border[set.border..set.border + set.borders as usize];
         (start as usize..end as usize, border)
     }
 
@@ -187,14 +183,11 @@ impl VertexSets {
         &self,
         node: usize,
     ) -> Option<&[[TreeVertex; TWELVE]; N]> {
-        let Set {
-            border, in_twelves, ..
-        } = self.sets[node];
-        if in_twelves {
-            self.border[border..].as_chunks().0.first_chunk()
-        } else {
-            None
-        }
+        let set = self.sets[node];
+        let border = set
+            .in_twelves
+            .then(|| self.border[set.border..].as_chunks().0);
+        border?.first_chunk()
     }
 
     /// The vertices below a node, run first.

@@ -2,9 +2,7 @@
 
 use crate::geometry::Real;
 use crate::kernels::Simd;
-use crate::kernels::closest::{
-    Corners, FourClosest, along_normal, of_edges, of_vertices_and_triangles,
-};
+use crate::kernels::closest::{Corners, along_normal, of_elements};
 use crate::threads::Interrupt;
 use pliant_exact::distance::{Closest, Primitives, closest};
 
@@ -18,20 +16,6 @@ pub(in crate::queries) fn half(distance: f64) -> f64 {
         half.next_up()
     } else {
         half
-    }
-}
-
-/// Where four pairs are closest, and between what their distances are.
-#[inline(always)]
-pub(in crate::queries) fn four_closest<I: Simd, S: Real>(
-    i: I,
-    are_edges: bool,
-    pairs: &[Corners<S>; 4],
-) -> FourClosest {
-    if are_edges {
-        of_edges(i, pairs)
-    } else {
-        of_vertices_and_triangles(i, pairs)
     }
 }
 
@@ -62,7 +46,7 @@ pub(crate) fn closest_of<I: Simd, S: Real>(
     interrupt: &Interrupt,
     mut take: impl FnMut(usize, &Closest),
 ) -> bool {
-    let found = four_closest(i, are_edges, pairs);
+    let found = of_elements(i, are_edges, pairs);
     for lane in 0..count {
         let distance = found.distance[lane];
         let one = if found.most[lane] - found.least[lane] <= ACCURACY * distance {

@@ -11,11 +11,11 @@ use crate::geometry::{Real, Shape};
 use crate::hits::Pair;
 use crate::ids::TreeTriangle;
 use crate::kernels::closest::{TwoClosest, apart_along, of_triangles};
-use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
+use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
-    Batch, CallerIds, Candidate, Intersections, Kind, LeafTest, Margin, Needs, OF_GROWN_SHAPES,
+    Batch, CallerIds, Candidate, FoundBy, Intersections, Kind, LeafTest, Margin, Needs,
+    OF_GROWN_SHAPES,
 };
-use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use pliant_exact::Triangle;
 use pliant_exact::barycentric;
@@ -248,16 +248,9 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
         }
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<S>,
-        batch: Batch,
-        (): &mut (),
-        hits: &mut Buffer<Candidate>,
-        statistics: &mut Statistics,
-    ) {
+    fn test(&self, leaves: &LeafTest<S>, batch: Batch, found: &mut FoundBy<Self>) {
         let candidates = batch.triangles();
-        let before = hits.len();
+        let before = found.hits.len();
         dispatch!(leaves.instructions, i => {
             for &[a, b] in candidates.as_slice() {
                 if leaves.interrupt.is_set() {
@@ -265,14 +258,14 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
                 }
                 let corners = [corners_of(leaves.shapes[0], a), corners_of(leaves.shapes[1], b)];
                 let measured = of_triangles(i, &corners[0], &corners[1]);
-                let exact = &mut statistics.exact_decisions;
+                let exact = &mut found.statistics.exact_decisions;
                 if is_within(&measured, &corners, self.distance, exact) {
-                    hits.push([a, b]);
+                    found.hits.push([a, b]);
                 }
             }
         });
-        statistics.candidate_pairs += candidates.len() as u64;
-        statistics.pairs += (hits.len() - before) as u64;
+        found.statistics.candidate_pairs += candidates.len() as u64;
+        found.statistics.pairs += (found.hits.len() - before) as u64;
     }
 
     #[inline]

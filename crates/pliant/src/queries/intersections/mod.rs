@@ -8,10 +8,9 @@ mod eight;
 
 pub(crate) use contacts::Contacts;
 
-use super::{Batch, CallerIds, Candidate, Kind, LeafTest, Needs, shows_hits};
+use super::{Batch, CallerIds, Candidate, FoundBy, Kind, LeafTest, Needs, shows_hits};
 use crate::Pair;
-use crate::kernels::{Buffer, Coordinate};
-use crate::statistics::Statistics;
+use crate::kernels::Coordinate;
 use eight::Undecided;
 use std::marker::PhantomData;
 
@@ -37,15 +36,10 @@ impl<S: Coordinate> Kind for Intersections<S> {
         Needs::TRIANGLES
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<S>,
-        batch: Batch,
-        undecided: &mut Undecided,
-        hits: &mut Buffer<Candidate>,
-        statistics: &mut Statistics,
-    ) {
-        eight::decide(leaves, batch.triangles(), undecided, hits, statistics);
+    fn test(&self, leaves: &LeafTest<S>, batch: Batch, found: &mut FoundBy<Self>) {
+        let candidates = batch.triangles();
+        let (undecided, statistics) = (&mut found.buffers, &mut found.statistics);
+        eight::decide(leaves, candidates, undecided, &mut found.hits, statistics);
     }
 
     #[inline]

@@ -58,9 +58,7 @@ impl Balanced {
 
     /// Orders the triangles so that the first `left` have the smaller midpoints along the longest side.
     fn divide(&mut self, triangles: &mut [u32], left: usize) {
-        let Self {
-            midpoints, keys, ..
-        } = self;
+        let (midpoints, keys) = (&self.midpoints, &mut self.keys);
         let mut lo = [f64::INFINITY; 3];
         let mut hi = [f64::NEG_INFINITY; 3];
         for &triangle in &*triangles {

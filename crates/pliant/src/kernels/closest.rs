@@ -37,7 +37,7 @@
 //! of corners relative to one of them a projection is off by 4 u of the sum of its coordinates, so `apart_along` by less than 7 u S, with S for
 //! the sum of the largest such sums of either triangle; it allows 20 u S too.
 
-use super::coordinate::{Coordinate, eight_differences};
+use super::coordinate::{Coordinate, eight_differences, turn};
 use super::vector::{Vector, cross, difference, dot, minus, plus, square_of, times};
 use crate::geometry::Real;
 use fearless_simd::prelude::*;
@@ -477,11 +477,7 @@ fn lanes<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4], which: usize) -> Vecto
         let [x, y, z, w] = *pairs[lane][which];
         f64x4::load_array(i, [x.to_f64(), y.to_f64(), z.to_f64(), w.to_f64()])
     };
-    let (a, b, c, d) = (load(0), load(1), load(2), load(3));
-    // Four rows to columns, of which the last is padding.
-    let (ac, bd) = (a.zip_low(c), b.zip_low(d));
-    let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));
-    [ac.zip_low(bd), ac.zip_high(bd), ac_high.zip_low(bd_high)]
+    turn([load(0), load(1), load(2), load(3)])
 }
 
 #[cfg(test)]

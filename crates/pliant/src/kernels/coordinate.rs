@@ -194,7 +194,7 @@ pub(super) fn lanes_of<I: Simd>(points: [f32x4<I>; 8]) -> Vectors<I> {
 
 /// Four points as x, y, z.
 #[inline(always)]
-pub(super) fn turn<I: Simd>([a, b, c, d]: [f32x4<I>; 4]) -> [f32x4<I>; 3] {
+pub(super) fn turn<I: Simd, V: SimdBase<I>>([a, b, c, d]: [V; 4]) -> [V; 3] {
     // ax cx ay cy, az cz .. ..; bx dx by dy, ...; zipped again: ax bx cx dx, ay by cy dy, az bz cz dz.
     let (ac, bd) = (a.zip_low(c), b.zip_low(d));
     let (ac_high, bd_high) = (a.zip_high(c), b.zip_high(d));

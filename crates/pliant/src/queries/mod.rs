@@ -11,7 +11,7 @@ mod impacts;
 mod intersections;
 mod near;
 
-pub(crate) use candidates::{EdgeEdgeCandidates, Margin, VertexTriangleCandidates};
+pub(crate) use candidates::{Candidates, EdgeEdgeCandidates, Margin, VertexTriangleCandidates};
 pub(crate) use close::{
     Close, Measurable, NearTriangles, NearestPair, close, closest_of_triangles, corners_of,
     measure_all,

@@ -7,7 +7,7 @@
 
 use super::Split;
 use super::initial_shape::midpoint;
-use crate::geometry::{Real, larger, smaller};
+use crate::geometry::{Bounds, Real};
 use crate::held;
 use crate::threads::Budget;
 
@@ -59,22 +59,15 @@ impl Balanced {
     /// Orders the triangles so that the first `left` have the smaller midpoints along the longest side.
     fn divide(&mut self, triangles: &mut [u32], left: usize) {
         let (midpoints, keys) = (&self.midpoints, &mut self.keys);
-        let mut lo = [f64::INFINITY; 3];
-        let mut hi = [f64::NEG_INFINITY; 3];
+        let midpoint = |triangle: u32| midpoints[triangle as usize];
+        let mut bounds = Bounds::EMPTY;
         for &triangle in &*triangles {
-            let midpoint = midpoints[triangle as usize];
-            for axis in 0..3 {
-                lo[axis] = smaller(lo[axis], midpoint[axis]);
-                hi[axis] = larger(hi[axis], midpoint[axis]);
-            }
+            bounds.include(midpoint(triangle));
         }
-        let axis = super::axes_by_length(lo, hi)[0];
+        let axis = super::axes_by_length(bounds.lo, bounds.hi)[0];
+        let in_order = triangles.iter();
         keys.clear();
-        keys.extend(
-            triangles
-                .iter()
-                .map(|&triangle| key(midpoints[triangle as usize][axis], triangle)),
-        );
+        keys.extend(in_order.map(|&triangle| key(midpoint(triangle)[axis], triangle)));
         keys.select_nth_unstable(left);
         for (triangle, key) in triangles.iter_mut().zip(&*keys) {
             *triangle = *key as u32;

@@ -53,11 +53,9 @@ impl End {
     }
 
     fn order(self, other: Self) -> Ordering {
-        match (self.belongs_before(other), other.belongs_before(self)) {
-            (true, _) => Ordering::Less,
-            (_, true) => Ordering::Greater,
-            _ => Ordering::Equal,
-        }
+        let by_value = self.value.partial_cmp(&other.value);
+        let by_side = || self.is_upper().cmp(&other.is_upper());
+        by_value.expect("a number").then_with(by_side)
     }
 }
 
@@ -93,8 +91,9 @@ const NEW: Rank = Rank(u32::MAX);
 const UNINTERRUPTED: usize = 256;
 
 impl SweepAndPrune {
-    /// Brings `pairs`, of which there are to be at most so many, up to date: see [`super::BroadPhase::begin`]. If that does not come to an
-    /// end, it breaks, and can not be used again.
+    /// Brings `pairs`, of which there are to be at most so many, up to date: see
+    /// [`super::BroadPhase::begin`]. If that does not come to an end, it breaks, and can not be
+    /// used again.
     pub(super) fn overlapping(
         &mut self,
         boxes: &[Aabb],

@@ -20,11 +20,11 @@ pub(crate) struct TaskList<K: Kind> {
     pub(crate) broke_at: Option<K::TreeHit>,
 }
 
-/// What a task has found, and handed over.
+/// Hits of one task, in tree order and as they are handed over.
 #[derive(Debug)]
 struct Results<K: Kind> {
     found: FoundBy<K>,
-    /// The same hits as the caller numbers things, for a collector; or as a visitor is shown them.
+    /// The hits as the caller numbers things, for a collector; or as a visitor is shown them.
     of_caller: Vec<K::Hit>,
     shown: Vec<K::Shown>,
     /// Whether a collector does not take any more.
@@ -38,7 +38,7 @@ pub(crate) struct Answer<'q, 's, K: Kind> {
     sink: SinkOf<'s, K>,
 }
 
-/// Where what a kind finds goes.
+/// The sink of a kind's hits.
 pub(crate) type SinkOf<'s, K> = Sink<'s, <K as Kind>::Hit, <K as Kind>::Shown>;
 
 impl<'q, 's, K: Kind> Answer<'q, 's, K> {

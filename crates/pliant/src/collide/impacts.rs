@@ -208,7 +208,8 @@ where
         Ok(kind.into_earliest())
     }
 
-    /// Whether none of one kind meets after the start on the way to a time, or comes as near as a distance at any.
+    /// Whether none of one kind meets after the start on the way to a time, or comes as near as a
+    /// distance at any.
     fn is_free_to(
         &mut self,
         common: &mut Common<S>,

@@ -49,7 +49,7 @@ struct Polygon<I: Simd> {
     most: [Vectors<I>; 4],
 }
 
-/// The differences of two edges are a parallelogram, one corner after the other, at the start and at the end.
+/// Differences of two edges: the corners of a parallelogram in order, at the start and at the end.
 const OF_EDGES: [(usize, usize); 8] = [
     (0, 2),
     (1, 2),
@@ -61,7 +61,7 @@ const OF_EDGES: [(usize, usize); 8] = [
     (4, 7),
 ];
 
-/// Those of a vertex and a triangle are a triangle.
+/// Differences of a triangle's corners and a vertex: a triangle, at the start and at the end.
 const OF_TRIANGLES: [(usize, usize); 6] = [(1, 0), (2, 0), (3, 0), (5, 4), (6, 4), (7, 4)];
 
 /// Which of eight pairs surely stay further apart than `distance` up to `until`, at most 1.

@@ -145,7 +145,8 @@ impl<V> Best<V> {
     }
 }
 
-/// Where four pairs of elements are closest: edges a0 a1 and b0 b1, or points p and triangles a b c; corners in this order.
+/// Where four pairs of elements are closest: edges a0 a1 and b0 b1, or points p and triangles a b
+/// c; corners in this order.
 #[inline(always)]
 pub(crate) fn of_elements<I: Simd, S: Real>(
     i: I,
@@ -169,7 +170,8 @@ pub(crate) fn of_elements<I: Simd, S: Real>(
     found.store()
 }
 
-/// Where points and triangles a b c are closest, by differences: of the points from a, b and c; of b and c from a, and of c from b.
+/// Where points and triangles a b c are closest, by differences: of the points from a, b and c; of
+/// b and c from a, and of c from b.
 #[inline(always)]
 fn vertices_and_triangles<I: Simd, V: Lanes<I>>(
     i: I,
@@ -206,7 +208,8 @@ fn vertices_and_triangles<I: Simd, V: Lanes<I>>(
     bounds(i, [x, y], way, least, [t, e1, e2])
 }
 
-/// Where edges are closest, by differences: of the ends of the first from those of the second, and of the ends of either.
+/// Where edges are closest, by differences: of the ends of the first from those of the second, and
+/// of the ends of either.
 #[inline(always)]
 fn edges_and_edges<I: Simd, V: Lanes<I>>(
     i: I,
@@ -324,8 +327,8 @@ pub(crate) fn of_triangles<I: Simd, S: Real>(
     nearest
 }
 
-/// Which of eight pairs are surely at most so far apart, and which surely further, as bits; what is in neither is for `of_elements`, or for
-/// exact arithmetic.
+/// Which of eight pairs are surely at most so far apart, and which surely further, as bits; what is
+/// in neither is for `of_elements`, or for exact arithmetic.
 #[inline(always)]
 pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
     i: I,

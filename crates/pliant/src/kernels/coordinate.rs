@@ -65,8 +65,9 @@ pub(crate) trait Coordinate: Real {
         (lo.max(least).min(most), hi.max(least).min(most))
     }
 
-    /// Differences of points as lanes, each coordinate rounded to the nearest f32 (of f64 to the nearest f64 before): for every
-    /// (a, b) corner a minus corner b. Of eight things these are the corners, so many each and up to eight: by corner and lane.
+    /// Differences of points as lanes, each coordinate rounded to the nearest f32 (of f64 to the
+    /// nearest f64 before): for every (a, b) corner a minus corner b. `corner` gives a corner by
+    /// its number and lane, of eight things that have `count` corners each, at most eight.
     #[inline(always)]
     fn differences<'p, I: Simd, const D: usize>(
         i: I,

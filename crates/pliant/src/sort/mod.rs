@@ -39,6 +39,11 @@ impl<T: Hit> Sorter<T> {
         self.keys.own().push(hits);
     }
 
+    /// What was found, in order once it is sorted.
+    pub(crate) fn hits(&self) -> &[T] {
+        &self.hits
+    }
+
     /// Sorts all hits. Interrupted, it leaves them in any state.
     pub(crate) fn sort(&mut self, executor: Executor, instructions: Instructions) {
         let Self {
@@ -73,13 +78,6 @@ impl<T: Hit> Sorter<T> {
 /// Sorts hits of any kind by comparing their numbers.
 pub(crate) fn sort_by_numbers<T: Numbered>(hits: &mut [T]) {
     hits.sort_unstable_by_key(T::numbers);
-}
-
-impl<T> Sorter<T> {
-    /// What was found, in order once it is sorted.
-    pub(crate) fn hits(&self) -> &[T] {
-        &self.hits
-    }
 }
 
 empty!(Sorter<T>: hits, keys, buckets);

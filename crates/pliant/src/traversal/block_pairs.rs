@@ -177,8 +177,9 @@ fn of_one<I: Simd>(i: I, body: OneBody, pairs: &[BlockPair], found: &mut Buffer<
     }
 }
 
-/// The next of a run of leaves and their neighbours, with the pairs of triangles that share no vertex and, where there are quantized boxes,
-/// are not surely apart; those that have such pairs. Returns how many pairs of leaves it looked at.
+/// The next of a run of leaves and their neighbours, with the pairs of triangles that share no
+/// vertex and, where there are quantized boxes, are not surely apart; those that have such pairs.
+/// Returns how many pairs of leaves it looked at.
 #[inline(always)]
 fn adjacent<I: Simd>(
     i: I,

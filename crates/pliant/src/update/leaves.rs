@@ -30,7 +30,8 @@ struct LeafRun<'t> {
 }
 
 impl Refit<'_> {
-    /// Makes the boxes of the triangles in leaves that a traversal has reached, unless they are valid, and empties the set.
+    /// Makes the boxes of the triangles in leaves that a traversal has reached, unless they are
+    /// valid, and empties the set.
     pub(crate) fn reached_leaves<S: Coordinate>(
         &self,
         one: &mut Refitted<S>,

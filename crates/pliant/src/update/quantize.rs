@@ -17,8 +17,8 @@ const UNITS: f32 = 32.0;
 const JOB: usize = 128;
 
 impl Refit<'_> {
-    /// Makes the boxes of the triangles in all leaves, and quantizes them where leaves are blocks; all nodes are valid. `reached` is
-    /// scratch.
+    /// Makes the boxes of the triangles in all leaves, and quantizes them where leaves are blocks;
+    /// all nodes are valid. `reached` is scratch.
     pub(crate) fn all_leaves<S: Coordinate>(
         &self,
         one: &mut Refitted<S>,

@@ -11,10 +11,11 @@ use crate::tree::{BoxSource, Child, NodesMut, Over, Source, Tree, of_degree, of_
 
 /// So many wide nodes, or fewer, are not worth waking a thread.
 const SHARED: usize = 32;
-/// So many jobs' wide nodes are refitted before it is asked whether the query was interrupted.
+/// The wide nodes of so many jobs are refitted before it is asked whether the query was
+/// interrupted.
 const UNINTERRUPTED: usize = 64;
 
-/// What the boxes of a run of wide nodes are made from, and is made with them.
+/// A maker of the boxes of wide nodes, with all that it reads and writes for a run of them.
 pub(super) trait Below<const N: usize>: Sized + Send {
     /// Wide nodes in a job: some microseconds of work.
     const JOB: usize;
@@ -42,7 +43,8 @@ pub(super) struct NodeRun<'t, const N: usize, F> {
     pub(super) made: usize,
 }
 
-/// Vertices, or, where boxes are merged, the boxes of wide nodes below, which are valid: from the first of them on.
+/// Vertices, or, where boxes are merged, the boxes of wide nodes below, which are valid: from the
+/// first of them on.
 #[derive(Clone, Copy)]
 struct Merged<'t, const N: usize> {
     merges: bool,
@@ -91,8 +93,8 @@ pub(super) fn refit_from_children<S: Coordinate>(
     made
 }
 
-/// Makes the boxes of a run, cut into shorter ones if there are threads for them, and shows what each was made from. Returns how many
-/// boxes it made.
+/// Makes the boxes of a run, cut into shorter ones if there are threads for them, and shows what
+/// each was made from. Returns how many boxes it made.
 pub(super) fn refit_all<const N: usize, S: Coordinate, F: Below<N>>(
     refit: &Refit,
     whole: NodeRun<'_, N, F>,

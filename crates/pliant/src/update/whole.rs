@@ -15,7 +15,8 @@ use crate::tree::{BoxSource, LeavesMut, NodesMut, Tree, of_degree};
 /// Where units have changed by more than this factor since the step before, boxes quantized on the way are of no use.
 const CHANGED: f32 = 1.25;
 
-/// The triangles in the leaves of a run of wide nodes of leaves: the parts of a set of boxes that hold theirs, and these quantized.
+/// The triangles in the leaves of a run of wide nodes of leaves: the parts of a set of boxes that
+/// hold theirs, and these quantized.
 struct Triangles<'t> {
     leaves: LeavesMut<'t>,
     /// From the first leaf of `leaves` on.

@@ -48,22 +48,21 @@ pub(crate) fn closest_of<I: Simd, S: Real>(
 ) -> bool {
     let found = of_elements(i, are_edges, pairs);
     for lane in 0..count {
-        let distance = found.distance[lane];
-        let one = if found.most[lane] - found.least[lane] <= ACCURACY * distance {
-            Closest {
-                distance,
-                along: found.along.map(|lanes| lanes[lane]),
-                direction: found.way.map(|lanes| lanes[lane] / distance),
-            }
+        let (distance, most) = (found.distance[lane], found.most[lane]);
+        let along = found.along.map(|lanes| lanes[lane]);
+        let way = found.way.map(|lanes| lanes[lane]);
+        let in_direction = |direction| Closest {
+            distance,
+            along,
+            direction,
+        };
+        let one = if most - found.least[lane] <= ACCURACY * distance {
+            in_direction(way.map(|x| x / distance))
         } else if let Some((direction, least)) = along_normal(are_edges, &pairs[lane])
-            && found.most[lane] - least <= ACCURACY * distance
-            && is_the_way(direction, found.way.map(|lanes| lanes[lane]), distance)
+            && most - least <= ACCURACY * distance
+            && is_the_way(direction, way, distance)
         {
-            Closest {
-                distance,
-                along: found.along.map(|lanes| lanes[lane]),
-                direction,
-            }
+            in_direction(direction)
         } else if interrupt.is_set() {
             return false;
         } else {

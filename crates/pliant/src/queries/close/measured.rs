@@ -1,4 +1,5 @@
-//! What is measured of close pairs: of those in a list once it is sorted, of those for visitors as they are found.
+//! Measuring close pairs: lists once they are sorted, and as pairs are found where visitors see
+//! them.
 
 use super::closest::closest_of;
 use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
@@ -110,8 +111,9 @@ fn direction(closest: &Closest) -> Option<[f64; 3]> {
     (closest.distance != 0.0).then_some(closest.direction)
 }
 
-/// Shows `take` hits with what is measured of them, in their order. `of_caller` says what each is, as the caller numbers things, and where
-/// its corners are. Interrupted, or where it does not say, it ends early.
+/// Shows `take` hits with what is measured of them, in their order. `of_caller` says what each is,
+/// as the caller numbers things, and where its corners are. Interrupted, or where it does not say,
+/// it ends early.
 #[inline(always)]
 pub(crate) fn measure_all<'c, I: Simd, S: Coordinate, H: Measurable, T: Copy>(
     i: I,

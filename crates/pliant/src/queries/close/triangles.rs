@@ -132,25 +132,18 @@ fn closest<S: Real>(
     [a, b]: &[ThreeCorners<S>; 2],
     interrupt: &Interrupt,
 ) -> Option<TrianglesClosest> {
-    let TwoClosest {
-        which,
-        along,
-        way,
-        distance,
-        least,
-        most,
-    } = measured;
-    if most - least <= ACCURACY * distance {
+    let (which, along, distance) = (measured.which, measured.along, measured.distance);
+    if measured.most - measured.least <= ACCURACY * distance {
         return Some(TrianglesClosest {
             distance,
-            direction: way.map(|x| x / distance),
+            direction: measured.way.map(|x| x / distance),
             barycentric: barycentric(which, along),
         });
     }
     let known = SomePoints {
         which,
         along,
-        apart: most,
+        apart: measured.most,
     };
     (!interrupt.is_set()).then(|| closest_triangles(S::PRECISION, &exact(a), &exact(b), known))
 }

@@ -10,19 +10,18 @@ pub(crate) use contacts::Contacts;
 
 use super::{Batch, CallerIds, Candidate, FoundBy, Kind, LeafTest, Needs, shows_hits};
 use crate::Pair;
+use crate::held::empty;
 use crate::kernels::Coordinate;
 use eight::Undecided;
 use std::marker::PhantomData;
 
 /// Pairs of triangles that intersect.
 #[derive(Debug)]
-pub(crate) struct Intersections<S>(PhantomData<S>);
-
-impl<S> Default for Intersections<S> {
-    fn default() -> Self {
-        Self(PhantomData)
-    }
+pub(crate) struct Intersections<S> {
+    scalar: PhantomData<S>,
 }
+
+empty!(Intersections<S>: scalar);
 
 impl<S: Coordinate> Kind for Intersections<S> {
     type Scalar = S;

@@ -31,7 +31,7 @@ impl Version {
     }
 }
 
-/// What one box is over.
+/// Vertices that one box is over.
 #[derive(Clone, Copy)]
 pub(crate) enum Over<'v> {
     /// A run of vertices, from the first to the end, and some others; there is one at least.
@@ -54,7 +54,7 @@ pub(crate) trait BoxSource: Sync {
     /// The box over some vertices.
     fn over<I: Simd>(&self, i: I, vertices: Over) -> Extent<I>;
 
-    /// What that means, one vertex after the other.
+    /// The meaning of that, one vertex after the other.
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb;
 }
 
@@ -89,8 +89,8 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
     }
 }
 
-/// Boxes that hold a shape and the one at the end of a motion, if there is one, grown by a distance on every side, and a little more where
-/// that is not exact.
+/// Boxes that hold a shape and the one at the end of a motion, if there is one, grown by a distance
+/// on every side, and a little more where that is not exact.
 #[derive(Clone, Copy)]
 pub(crate) struct Grown<'s, S> {
     pub(crate) from: Shape<'s, S>,
@@ -200,11 +200,14 @@ mod tests {
                     let others = vertices(others);
                     let run_of = (run.start..run.end).map(|vertex| TreeVertex(vertex as u32));
                     let expected = source.plainly(run_of.chain(others.iter().copied()));
-                    assert_eq!(extent::to_box(source.over(i, Over::Run([run.start, run.end], &others))), expected);
+                    let found = source.over(i, Over::Run([run.start, run.end], &others));
+                    assert_eq!(extent::to_box(found), expected);
                 }
-                assert_eq!(extent::to_box(source.over(i, Over::Twelve(&twelve))), source.plainly(twelve.into_iter()));
+                let found = extent::to_box(source.over(i, Over::Twelve(&twelve)));
+                assert_eq!(found, source.plainly(twelve.into_iter()));
                 let corners = [7, 2, 2].map(TreeVertex);
-                assert_eq!(extent::to_box(source.over(i, Over::Triangle(corners))), source.plainly(corners.into_iter()));
+                let found = extent::to_box(source.over(i, Over::Triangle(corners)));
+                assert_eq!(found, source.plainly(corners.into_iter()));
             });
         }
     }

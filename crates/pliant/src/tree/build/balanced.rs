@@ -5,8 +5,8 @@
 //! halving the midpoints are divided along the longest side of their box, at the multiple of c nearest the middle. Not in
 //! the paper, whose trees are cut at points of space; on surfaces those leave about half of eight lanes empty.
 
-use super::Split;
 use super::initial_shape::midpoint;
+use super::{Pieces, Split};
 use crate::geometry::{Bounds, Real};
 use crate::held;
 use crate::threads::Budget;
@@ -93,12 +93,7 @@ impl Split for Balanced {
         held::list(&self.midpoints) + held::list(&self.keys)
     }
 
-    fn split(
-        &mut self,
-        triangles: &mut [u32],
-        pieces: &mut Vec<usize>,
-        budget: &mut Budget,
-    ) -> bool {
+    fn split(&mut self, triangles: &mut [u32], pieces: &mut Pieces, budget: &mut Budget) -> bool {
         let capacity = self.capacity(triangles.len());
         if self.halves.is_empty() {
             let children = triangles.len().div_ceil(capacity);

@@ -97,7 +97,8 @@ impl Tree {
                 let expected = source.plainly(vertices.into_iter());
                 ensure!(
                     found == expected,
-                    "{wide_node:?}, lane {lane}: claims to be valid and is {found:?}, not {expected:?}"
+                    "{wide_node:?}, lane {lane}: claims to be valid and is {found:?}, \
+                     not {expected:?}"
                 );
             }
             match self.child(node) {

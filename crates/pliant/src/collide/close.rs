@@ -120,13 +120,13 @@ fn measure<S: Coordinate, H: InBodies>(
     let jobs = hits.chunks(JOB).zip(measured.chunks_mut(JOB));
     let work = |(hits, measured): &mut (&[H], &mut [H::Close])| {
         let mut known: Option<([BodyId; 2], [Places<S>; 2])> = None;
-        let of_caller = |hit: H| {
+        let corners = |hit: H| {
             let ids = hit.bodies();
             if known.as_ref().is_none_or(|(of, _)| *of != ids) {
                 known = places(ids).map(|both| (ids, both));
             }
             let (_, both) = known.as_ref()?;
-            Some((hit, hit.corners(both.each_ref())))
+            Some(hit.corners(both.each_ref()))
         };
         let mut room = measured.iter_mut();
         let take = |close| {
@@ -135,7 +135,8 @@ fn measure<S: Coordinate, H: InBodies>(
             }
         };
         let interrupt = executor.interrupt;
-        dispatch!(instructions, i => measure_all(i, hits, interrupt, of_caller, take));
+        let what = (|hit| hit, corners);
+        dispatch!(instructions, i => measure_all(i, hits, interrupt, what, take));
     };
     executor.run_each(jobs, work, |_| {});
 }

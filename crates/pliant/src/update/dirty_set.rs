@@ -1,14 +1,24 @@
 //! What a traversal has reached and is to be refitted: wide nodes, or leaves, each once however often it was reached.
 
 use crate::held::held;
-use std::ops::Range;
 
 /// A set of numbers that are near each other: a bit for each.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct DirtySet {
     bits: Vec<u64>,
-    /// The words in which there are any.
-    words: Range<usize>,
+    /// The first and the last word in which there are any.
+    ends: [usize; 2],
+}
+
+const NO_WORDS: [usize; 2] = [usize::MAX, 0];
+
+impl Default for DirtySet {
+    fn default() -> Self {
+        Self {
+            bits: Vec::new(),
+            ends: NO_WORDS,
+        }
+    }
 }
 
 impl DirtySet {
@@ -40,31 +50,30 @@ impl DirtySet {
 
     #[inline]
     fn insert_bits(&mut self, word: usize, bits: u64) {
-        self.reach_to(word..word + 1);
+        self.reach_to(word, word);
         self.bits[word] |= bits;
     }
 
     #[inline]
-    fn reach_to(&mut self, words: Range<usize>) {
-        if words.end > self.bits.len() {
-            self.bits.resize(words.end, 0);
+    fn reach_to(&mut self, first: usize, last: usize) {
+        if last >= self.bits.len() {
+            self.bits.resize(last + 1, 0);
         }
-        self.words = if self.is_empty() {
-            words
-        } else {
-            self.words.start.min(words.start)..self.words.end.max(words.end)
-        };
+        self.ends = [self.ends[0].min(first), self.ends[1].max(last)];
     }
 
     /// Whether nothing is in the set.
     pub(crate) fn is_empty(&self) -> bool {
-        self.words.is_empty()
+        self.ends == NO_WORDS
     }
 
     /// Takes all out of the set.
     pub(crate) fn clear(&mut self) {
-        let words = std::mem::take(&mut self.words);
-        self.bits[words].fill(0);
+        if !self.is_empty() {
+            let words = self.words();
+            self.bits[words].fill(0);
+            self.ends = NO_WORDS;
+        }
     }
 
     /// Puts all that is in another set into this one, and takes it out of the other.
@@ -73,7 +82,7 @@ impl DirtySet {
             return;
         }
         let words = other.words();
-        self.reach_to(words.clone());
+        self.reach_to(words.start, words.end - 1);
         for (own, bits) in self.bits[words.clone()].iter_mut().zip(&other.bits[words]) {
             *own |= bits;
         }
@@ -81,8 +90,11 @@ impl DirtySet {
     }
 
     /// The words of 64 bits in which there are any.
-    pub(super) fn words(&self) -> Range<usize> {
-        self.words.clone()
+    pub(super) fn words(&self) -> std::ops::Range<usize> {
+        if self.is_empty() {
+            return 0..0;
+        }
+        self.ends[0]..self.ends[1] + 1
     }
 
     /// How many there are.
@@ -93,13 +105,13 @@ impl DirtySet {
 
     /// Whether there are any in some words.
     #[inline]
-    pub(super) fn are_any_in(&self, words: Range<usize>) -> bool {
+    pub(super) fn are_any_in(&self, words: std::ops::Range<usize>) -> bool {
         self.bits[words].iter().any(|&bits| bits != 0)
     }
 
     /// Those in some words, ascending.
     #[inline]
-    pub(super) fn of(&self, words: Range<usize>) -> impl Iterator<Item = u32> {
+    pub(super) fn of(&self, words: std::ops::Range<usize>) -> impl Iterator<Item = u32> {
         words.flat_map(|word| {
             let mut rest = self.bits[word];
             std::iter::from_fn(move || {

@@ -115,13 +115,11 @@ where
     }
 
     fn show(&self, leaves: &LeafTest<K::Scalar>, hits: &[[u32; 2]], shown: &mut Vec<Self::Shown>) {
-        let of_caller = |hit| {
-            let corners = K::callers_corners(leaves, hit)?;
-            Some((self.to_caller(&leaves.ids, hit), corners))
-        };
+        let pair = |hit| self.to_caller(&leaves.ids, hit);
+        let what = (pair, |hit| K::callers_corners(leaves, hit));
         let (how, interrupt) = (leaves.instructions, leaves.interrupt);
         let take = |close| shown.push(close);
-        dispatch!(how, i => measure_all::<_, K::Scalar, _, _>(i, hits, interrupt, of_caller, take));
+        dispatch!(how, i => measure_all::<_, K::Scalar, _, _>(i, hits, interrupt, what, take));
     }
 }
 

@@ -111,27 +111,28 @@ fn direction(closest: &Closest) -> Option<[f64; 3]> {
     (closest.distance != 0.0).then_some(closest.direction)
 }
 
-/// Shows `take` hits with what is measured of them, in their order. `of_caller` says what each is,
-/// as the caller numbers things, and where its corners are. Interrupted, or where it does not say,
+/// Shows `take` hits with what is measured of them, in their order. `pair` says what each is as the
+/// caller numbers things, and `corners` where its corners are. Interrupted, or where there are none,
 /// it ends early.
 #[inline(always)]
 pub(crate) fn measure_all<'c, I: Simd, S: Coordinate, H: Measurable, T: Copy>(
     i: I,
     hits: &[T],
     interrupt: &Interrupt,
-    mut of_caller: impl FnMut(T) -> Option<(H, H::Corners<'c, S>)>,
+    (pair, mut corners): (impl Fn(T) -> H, impl FnMut(T) -> Option<H::Corners<'c, S>>),
     mut take: impl FnMut(H::Close),
 ) {
     for some in hits.chunks(4) {
         let mut four = None;
+        let mut pairs = [pair(some[0]); 4];
         for (lane, &hit) in some.iter().enumerate() {
-            let Some((pair, corners)) = of_caller(hit) else {
+            let Some(corners) = corners(hit) else {
                 return;
             };
-            let (pairs, all) = four.get_or_insert(([pair; 4], [corners; 4]));
-            (pairs[lane], all[lane]) = (pair, corners);
+            four.get_or_insert([corners; 4])[lane] = corners;
+            pairs[lane] = pair(hit);
         }
-        let Some((pairs, corners)) = &four else {
+        let Some(corners) = &four else {
             return;
         };
         if !H::measure(i, &pairs[..some.len()], corners, interrupt, &mut take) {

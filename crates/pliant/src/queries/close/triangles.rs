@@ -269,15 +269,16 @@ impl<S: Coordinate> Kind for NearTriangles<S> {
     fn show(&self, leaves: &LeafTest<S>, hits: &[Candidate], shown: &mut Vec<CloseTriangles>) {
         let [first, second] = leaves.shapes;
         let order = leaves.ids.orders[0];
-        let of_caller = |[a, b]: Candidate| {
+        let corners = |[a, b]: Candidate| {
             let mut corners = [corners_of(first, a), corners_of(second, b)];
             if leaves.is_one_body && order.caller_triangle(b) < order.caller_triangle(a) {
                 corners.swap(0, 1);
             }
-            Some((self.to_caller(&leaves.ids, [a, b]), corners))
+            Some(corners)
         };
+        let what = (|hit| self.to_caller(&leaves.ids, hit), corners);
         let (how, interrupt) = (leaves.instructions, leaves.interrupt);
-        dispatch!(how, i => measure_all(i, hits, interrupt, of_caller, |close| shown.push(close)));
+        dispatch!(how, i => measure_all(i, hits, interrupt, what, |close| shown.push(close)));
     }
 }
 

@@ -4,7 +4,7 @@
 //! is enough.
 
 use crate::error::{Error, ErrorKind};
-use crate::kernels::apart::{MovingCorners, apart};
+use crate::kernels::apart::apart;
 use crate::kernels::{Instructions, dispatch};
 use crate::threads::Interrupt;
 use crate::world::Scalar;
@@ -107,10 +107,10 @@ pub fn pair_impacts<S: Scalar>(
             let of = if lane < start.len() { lane } else { 0 };
             eight[lane] = [start[of], end[of]].map(|corners| corners.map(padded));
         }
-        let mut corners = MovingCorners([[&eight[0][0][0]; 8]; 8]);
+        let mut corners = [[&eight[0][0][0]; 8]; 8];
         for (lane, pair) in eight.iter().enumerate() {
             for (which, corner) in pair.as_flattened().iter().enumerate() {
-                corners.0[which][lane] = corner;
+                corners[which][lane] = corner;
             }
         }
         let are_apart = dispatch!(instructions, i => apart(i, are_edges, &corners, 1.0, 0.0));

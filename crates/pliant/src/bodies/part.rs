@@ -10,7 +10,7 @@ use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{Elements, Order};
 use crate::queries::{BoxSetNumber, NearBoxes, Which};
 use crate::threads::Executor;
-use crate::tree::{BoxSet, BoxSource, Swept, Tree};
+use crate::tree::{BoxSet, Source, Tree};
 use std::ops::Range;
 
 pub(crate) struct Part {
@@ -90,10 +90,7 @@ impl Part {
             epoch,
             ..of.shape
         });
-        let source = Swept {
-            from: of.shape,
-            to: end,
-        };
+        let source = Source::new(of.shape, end, Some(0.0));
         self.near_boxes.get_or_insert_default().make(
             which,
             source.version(),

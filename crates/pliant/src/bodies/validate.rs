@@ -5,7 +5,7 @@ use crate::geometry::{Origin, Shape};
 use crate::kernels::Coordinate;
 use crate::options::Options;
 use crate::queries::{OF_MOTIONS, OF_SHAPES};
-use crate::tree::{Grown, Swept};
+use crate::tree::Grown;
 
 impl<S: Coordinate> Body<S> {
     /// Checks the structure of the tree, and that each box that claims to be valid is the box over the vertices below it as they
@@ -35,10 +35,8 @@ impl<S: Coordinate> Body<S> {
                 tree.validate_boxes(boxes, &from)?;
             }
             if let Some(boxes) = part.boxes(OF_MOTIONS) {
-                let source = Grown {
-                    source: Swept { from, to },
-                    distance: boxes.grown_by(),
-                };
+                let distance = boxes.grown_by();
+                let source = Grown { from, to, distance };
                 tree.validate_boxes(boxes, &source)?;
             }
         }

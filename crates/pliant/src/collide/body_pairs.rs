@@ -170,14 +170,7 @@ impl BodyPairs {
         instructions: Instructions,
         interrupt: &Interrupt,
     ) -> bool {
-        let Self {
-            broad_phase,
-            exact,
-            broad,
-            row,
-            of_world,
-            ..
-        } = self;
+        let (exact, row, of_world) = (&self.exact, &mut self.row, &mut self.of_world);
         let that_meet = |&pair: &Overlap| {
             let [exact_a, exact_b] = pair.map(|rank| &exact[rank.index()]);
             let places = pair.map(|rank| bodies.places[rank.index()]);
@@ -188,7 +181,7 @@ impl BodyPairs {
         of_world.clear();
         while of_world.len() < most && !interrupt.is_set() {
             row.clear();
-            let are_more = broad_phase.next(instructions, broad, row);
+            let are_more = self.broad_phase.next(instructions, &self.broad, row);
             of_world.extend(row.iter().filter_map(that_meet));
             if !are_more {
                 return false;

@@ -5,7 +5,6 @@
 //! nearly is, and then hardly a box is opened that does not have to be.
 
 use super::asked::Common;
-use super::step::Step;
 use super::witness::{Witnesses, pair_of};
 use crate::bodies::Body;
 use crate::close_pairs::CloseTriangles;
@@ -17,9 +16,9 @@ use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
     BodyBoxes, Candidate, NearestPair, Needs, close, closest_of_triangles, corners_of,
 };
-use crate::threads::{Executor, Interrupt};
+use crate::threads::Interrupt;
 use crate::traversal::{NearestScratch, TreePair, gap_square, nearest};
-use crate::update::{Partner, Refit};
+use crate::update::Partner;
 use std::ops::ControlFlow;
 
 /// What a world keeps for distances.
@@ -77,33 +76,19 @@ impl Distances {
         cut_off: f64,
         interrupt: &Interrupt,
     ) -> Result<Option<CloseTriangles>, Error> {
-        let origin = common.origin.point;
         let places = [common.bodies.place(of[0])?, common.bodies.place(of[1])?];
-        let instructions = common.instructions;
         let mut found = NearestPair::within(cut_off);
         let mut limit = found.limit();
-        let both = common.bodies.two(places);
+        let (mut step, bodies, _) = common.step(Needs::TRIANGLES, interrupt, false);
+        let (refit, origin) = (step.refit, step.origin);
+        let instructions = refit.instructions;
+        let both = bodies.two(places);
         let [box_a, box_b] = both
             .each_ref()
             .map(|body| body.box_for(BodyBoxes::default(), origin));
         if gap_square(&box_a, &box_b) > limit {
             return Ok(None);
         }
-        let refit = Refit {
-            executor: Executor {
-                threads: common.threads.here(),
-                interrupt,
-            },
-            instructions,
-            update: common.options.update,
-        };
-        let mut step = Step {
-            needs: Needs::TRIANGLES,
-            refit,
-            origin,
-            scratch: &mut common.scratch,
-            statistics: &mut common.statistics,
-        };
         let [body_a, body_b] = both;
         let ready = (
             step.bring_body_into_tree_order(body_a),

@@ -11,14 +11,14 @@ mod impacts;
 mod intersections;
 mod near;
 
-pub(crate) use candidates::{EdgeEdgeCandidates, Margin, VertexTriangleCandidates};
+pub(crate) use candidates::{Candidates, EdgeEdgeCandidates, Margin, VertexTriangleCandidates};
 pub(crate) use close::{
-    Close, CloseKind, Measurable, Measured, NearTriangles, NearestPair, close,
-    closest_of_triangles, corners_of,
+    Close, Measurable, NearTriangles, NearestPair, close, closest_of_triangles, corners_of,
+    measure_all,
 };
 pub(crate) use door::{
-    Batch, BodyBoxes, BoxSetNumber, CallerIds, Candidate, Kind, LeafTest, LeafWork, Needs,
-    OF_GROWN_SHAPES, OF_MOTIONS, OF_SHAPES, Reach, Shown,
+    Batch, BodyBoxes, BoxSetNumber, CallerIds, Candidate, Found, FoundBy, Kind, LeafTest, LeafWork,
+    Needs, OF_GROWN_SHAPES, OF_MOTIONS, OF_SHAPES, Reach, Shown, shows_hits,
 };
 pub(crate) use impacts::{Earliest, First, Impacts, LIMIT};
 pub(crate) use intersections::{Contacts, Intersections};

@@ -10,8 +10,8 @@ use crate::ids::BodyId;
 use crate::impacts::{EdgeEdgeImpact, VertexTriangleImpact};
 use crate::kernels::Coordinate;
 use crate::queries::{
-    Close, Contacts, EdgeEdgeCandidates, Impacts, Intersections, Kind, Margin, Measured,
-    NearTriangles, Needs, Reach, VertexTriangleCandidates,
+    Close, Contacts, EdgeEdgeCandidates, Impacts, Intersections, Kind, Margin, NearTriangles,
+    Needs, Reach, VertexTriangleCandidates,
 };
 use crate::selection::Selection;
 use crate::statistics::Statistics;
@@ -118,16 +118,20 @@ ask!(VertexTriangle, vertex_triangle.all, |request| {
 ask!(EdgeEdge, edge_edge.all, |request| {
     EdgeEdgeCandidates::<S>::within(request.margin()?)
 });
-ask!(CloseVertexTriangle, close_vertex_triangle.all, |request| {
-    let candidates = VertexTriangleCandidates::<S>::within;
-    Measured(Close::within(request.distance()?, candidates))
-});
-ask!(CloseEdgeEdge, close_edge_edge.all, |request| {
+ask!(
+    CloseVertexTriangle,
+    close_vertex_triangle.all_measured,
+    |request| {
+        let candidates = VertexTriangleCandidates::<S>::within;
+        Close::within(request.distance()?, candidates)
+    }
+);
+ask!(CloseEdgeEdge, close_edge_edge.all_measured, |request| {
     let candidates = EdgeEdgeCandidates::<S>::within;
-    Measured(Close::within(request.distance()?, candidates))
+    Close::within(request.distance()?, candidates)
 });
-ask!(CloseTriangles, close_triangles.all, |request| {
-    Measured(NearTriangles::<S>::within(request.distance()?))
+ask!(CloseTriangles, close_triangles.all_measured, |request| {
+    NearTriangles::<S>::within(request.distance()?)
 });
 
 /// Answers queries for impacts of one kind.

@@ -1,7 +1,7 @@
 //! The registry of kinds: what is kept for each from query to query, and what its hits are.
 
 use crate::close_pairs::{CloseEdgeEdge, CloseTriangles, CloseVertexTriangle};
-use crate::collide::{Ask, Asked, AskedClose, AskedImpacts};
+use crate::collide::{Ask, Asked, AskedImpacts};
 use crate::contacts::Contact;
 use crate::held::Held;
 use crate::hits::{EdgeEdge, Pair, VertexTriangle};
@@ -45,8 +45,8 @@ kinds! {
     contacts: Asked<Contacts<S>> => Contact;
     vertex_triangle: Asked<VertexTriangleCandidates<S>> => VertexTriangle;
     edge_edge: Asked<EdgeEdgeCandidates<S>> => EdgeEdge;
-    close_vertex_triangle: AskedClose<Close<VertexTriangleCandidates<S>>> => CloseVertexTriangle;
-    close_edge_edge: AskedClose<Close<EdgeEdgeCandidates<S>>> => CloseEdgeEdge;
-    close_triangles: AskedClose<NearTriangles<S>> => CloseTriangles;
+    close_vertex_triangle: Asked<Close<VertexTriangleCandidates<S>>> => CloseVertexTriangle;
+    close_edge_edge: Asked<Close<EdgeEdgeCandidates<S>>> => CloseEdgeEdge;
+    close_triangles: Asked<NearTriangles<S>> => CloseTriangles;
     impacts: AskedImpacts<S> => VertexTriangleImpact, EdgeEdgeImpact;
 }

@@ -12,12 +12,11 @@
 mod edge_edge;
 mod vertex_triangle;
 
-use super::{LeafTest, Needs, OF_MOTIONS, Reach, Shown, Which};
+use super::{Found, LeafTest, Needs, OF_MOTIONS, Reach, Shown, Which};
 use crate::geometry::{Bounds, Real};
 use crate::ids::TreeVertex;
+use crate::kernels::Coordinate;
 use crate::kernels::gaps::Limits;
-use crate::kernels::{Buffer, Coordinate};
-use crate::statistics::Statistics;
 pub(crate) use edge_edge::EdgeEdgeCandidates;
 use std::marker::PhantomData;
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
@@ -44,9 +43,9 @@ fn keep(
     pair: impl Fn(u32) -> [u32; 2],
     meet: Option<impl Fn([u32; 2]) -> bool>,
     holds: impl Fn([u32; 2]) -> bool,
-    hits: &mut Buffer<[u32; 2]>,
-    statistics: &mut Statistics,
+    found: &mut Found<[u32; 2], ()>,
 ) {
+    let statistics = &mut found.statistics;
     statistics.candidate_pairs += u64::from(near.count_ones());
     if let Some(meet) = meet {
         near = only(near, near, |bit| meet(pair(bit)));
@@ -56,7 +55,7 @@ fn keep(
         statistics.exact_decisions += u64::from(undecided.count_ones());
         near = only(near, undecided, |bit| holds(pair(bit)));
     }
-    hits.room().push_bits(near, pair);
+    found.hits.room().push_bits(near, pair);
 }
 
 /// A mask without those bits of a part of it of which `keeps` does not say so.

@@ -7,8 +7,7 @@ use super::{Candidate, Intersections, Kind};
 use crate::contacts::{Contact, ContactKind};
 use crate::held::held;
 use crate::kernels::{Buffer, Coordinate};
-use crate::queries::{Batch, CallerIds, LeafTest, Needs};
-use crate::statistics::Statistics;
+use crate::queries::{Batch, CallerIds, FoundBy, LeafTest, Needs, shows_hits};
 use pliant_exact::contact_kind;
 
 /// Pairs of triangles that intersect, with their kinds.
@@ -48,18 +47,15 @@ impl<S: Coordinate> Kind for Contacts<S> {
     type TreeHit = TreeContact;
     type Buffers = ContactBuffers;
 
+    shows_hits!();
+
     fn needs(&self) -> Needs {
         Needs::TRIANGLES
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<S>,
-        batch: Batch,
-        ContactBuffers { undecided, pairs }: &mut ContactBuffers,
-        hits: &mut Buffer<TreeContact>,
-        statistics: &mut Statistics,
-    ) {
+    fn test(&self, leaves: &LeafTest<S>, batch: Batch, found: &mut FoundBy<Self>) {
+        let ContactBuffers { undecided, pairs } = &mut found.buffers;
+        let statistics = &mut found.statistics;
         pairs.clear();
         let crossing = eight::decide(leaves, batch.triangles(), undecided, pairs, statistics);
         let all = pairs.as_slice();
@@ -76,7 +72,7 @@ impl<S: Coordinate> Kind for Contacts<S> {
             };
             if self.only.is_none_or(|only| only == kind) {
                 statistics.pairs += 1;
-                hits.push(TreeContact { pair, kind });
+                found.hits.push(TreeContact { pair, kind });
             }
         }
     }

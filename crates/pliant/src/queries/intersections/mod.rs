@@ -8,22 +8,20 @@ mod eight;
 
 pub(crate) use contacts::Contacts;
 
-use super::{Batch, CallerIds, Candidate, Kind, LeafTest, Needs};
+use super::{Batch, CallerIds, Candidate, FoundBy, Kind, LeafTest, Needs, shows_hits};
 use crate::Pair;
-use crate::kernels::{Buffer, Coordinate};
-use crate::statistics::Statistics;
+use crate::held::empty;
+use crate::kernels::Coordinate;
 use eight::Undecided;
 use std::marker::PhantomData;
 
 /// Pairs of triangles that intersect.
 #[derive(Debug)]
-pub(crate) struct Intersections<S>(PhantomData<S>);
-
-impl<S> Default for Intersections<S> {
-    fn default() -> Self {
-        Self(PhantomData)
-    }
+pub(crate) struct Intersections<S> {
+    scalar: PhantomData<S>,
 }
+
+empty!(Intersections<S>: scalar);
 
 impl<S: Coordinate> Kind for Intersections<S> {
     type Scalar = S;
@@ -31,19 +29,16 @@ impl<S: Coordinate> Kind for Intersections<S> {
     type TreeHit = Candidate;
     type Buffers = Undecided;
 
+    shows_hits!();
+
     fn needs(&self) -> Needs {
         Needs::TRIANGLES
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<S>,
-        batch: Batch,
-        undecided: &mut Undecided,
-        hits: &mut Buffer<Candidate>,
-        statistics: &mut Statistics,
-    ) {
-        eight::decide(leaves, batch.triangles(), undecided, hits, statistics);
+    fn test(&self, leaves: &LeafTest<S>, batch: Batch, found: &mut FoundBy<Self>) {
+        let candidates = batch.triangles();
+        let (undecided, statistics) = (&mut found.buffers, &mut found.statistics);
+        eight::decide(leaves, candidates, undecided, &mut found.hits, statistics);
     }
 
     #[inline]

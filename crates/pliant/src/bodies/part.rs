@@ -3,34 +3,27 @@
 //! A body has one part, over all of its triangles, until its mesh is edited: see `edits`.
 
 use super::positions::SMALL;
-use crate::geometry::{Points, Shape};
 use crate::held::{self, held};
 use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{Elements, Order};
-use crate::queries::{BoxSetNumber, NearBoxes, Which};
+use crate::options::Partition;
+use crate::queries::{BoxSetNumber, NearBoxes, OF_MOTIONS, OF_SHAPES, Which};
 use crate::threads::Executor;
-use crate::tree::{BoxSet, BoxSource, Swept, Tree};
+use crate::tree::{BoxSet, BoxSource, Grown, Swept, Tree, Version};
 use std::ops::Range;
 
+/// A tree over a run of the triangles in tree order, with its boxes.
 pub(crate) struct Part {
-    pub(crate) tree: Tree,
-    /// Its run of the triangles in tree order.
-    pub(crate) triangles: Range<u32>,
-    /// They are the first to use vertices from this one on.
-    pub(crate) first_vertex: TreeVertex,
+    tree: Tree,
+    triangles: Range<u32>,
+    /// Its triangles are the first to use vertices from this one on.
+    first_vertex: TreeVertex,
     /// By the number of the set. They are made when a kind of query asks for them; but in a large body the first, of the shape as it is,
     /// is there from the beginning.
     boxes: Vec<Option<BoxSet>>,
     /// Boxes of elements, once somebody asks for those.
-    pub(crate) near_boxes: Option<Box<NearBoxes>>,
-}
-
-/// What boxes of elements are made of: the mesh in tree order, the shape, and where it is going.
-pub(crate) struct OfElements<'b, S> {
-    pub(crate) elements: &'b Elements,
-    pub(crate) shape: Shape<'b, S>,
-    pub(crate) end: Option<(&'b Points<S>, u64)>,
+    near_boxes: Option<Box<NearBoxes>>,
 }
 
 impl Part {
@@ -50,6 +43,20 @@ impl Part {
         }
     }
 
+    pub(crate) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    /// Its run of the triangles in tree order.
+    pub(crate) fn triangles(&self) -> Range<u32> {
+        self.triangles.clone()
+    }
+
+    /// Its triangles are the first to use vertices from this one on.
+    pub(crate) fn first_vertex(&self) -> TreeVertex {
+        self.first_vertex
+    }
+
     /// The tree, a set of its boxes, which is made if it was never asked for, and the boxes of elements.
     pub(crate) fn for_query(
         &mut self,
@@ -64,8 +71,39 @@ impl Part {
     }
 
     /// A set of boxes, if some query asked for it.
-    pub(crate) fn boxes(&self, number: BoxSetNumber) -> Option<&BoxSet> {
+    fn boxes(&self, number: BoxSetNumber) -> Option<&BoxSet> {
         self.boxes.get(number)?.as_ref()
+    }
+
+    /// Whether the tree holds the box of every node of a level, made of this version of the shape.
+    pub(crate) fn valid_in_cut(&self, level: u32, version: Version) -> Vec<bool> {
+        match self.boxes(OF_SHAPES) {
+            Some(boxes) => self.tree.valid_in_cut(level, boxes, version),
+            None => vec![false; self.tree.starts_of_cut(level).len()],
+        }
+    }
+
+    /// Checks the structure of the tree, and that each box that claims to be valid is the box over the vertices below it, of the shape of
+    /// now and of where it is going. A sentence says what is wrong.
+    pub(crate) fn validate<S: Coordinate>(
+        &self,
+        order: &Order,
+        partition: Partition,
+        shapes: Swept<S>,
+    ) -> Result<(), String> {
+        let triangles = self.triangles.start as usize..self.triangles.end as usize;
+        self.tree.validate(order, triangles, partition)?;
+        if let Some(boxes) = self.boxes(OF_SHAPES) {
+            self.tree.validate_boxes(boxes, &shapes.from)?;
+        }
+        if let Some(boxes) = self.boxes(OF_MOTIONS) {
+            let source = Grown {
+                source: shapes,
+                distance: boxes.grown_by(),
+            };
+            self.tree.validate_boxes(boxes, &source)?;
+        }
+        Ok(())
     }
 
     /// The same, whose boxes are made anew.
@@ -82,24 +120,16 @@ impl Part {
     pub(crate) fn make_near_boxes<S: Coordinate>(
         &mut self,
         which: Which,
-        of: &OfElements<S>,
+        source: &Swept<S>,
+        elements: &Elements,
         threads: (Instructions, Executor),
     ) -> bool {
-        let end = of.end.map(|(positions, epoch)| Shape {
-            positions,
-            epoch,
-            ..of.shape
-        });
-        let source = Swept {
-            from: of.shape,
-            to: end,
-        };
         self.near_boxes.get_or_insert_default().make(
             which,
             source.version(),
             threads,
-            (&of.shape, end.map(|end| end.positions)),
-            (&self.tree.leaves, of.elements),
+            (&source.from, source.to.map(|end| end.positions)),
+            (&self.tree.leaves, elements),
         )
     }
 

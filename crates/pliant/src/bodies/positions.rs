@@ -5,9 +5,11 @@
 //! looked at again: it is only checked, and then *taken straight into tree order*, without a copy between. But where there are
 //! several threads a small one is copied as well: shapes come one after the other, and threads bring them into order side by side.
 //!
-//! So a new shape is [staged](Positions::stage) first, which changes nothing that can be seen, and then [committed](Positions::commit).
+//! So a new shape is staged first, which changes nothing that can be seen, and then committed.
 
-use crate::geometry::{Bounds, IN_A_ROW, Points};
+use super::checks::{all_inside, none_is_lost, out_of_range};
+use crate::error::ErrorKind;
+use crate::geometry::{Bounds, IN_A_ROW, Points, Real};
 use crate::held::held;
 use crate::ids::{CallerVertex, TreeVertex};
 use crate::kernels::{Coordinate, Instructions, check, copy_checked, gather};
@@ -33,6 +35,33 @@ pub(crate) struct Positions<S> {
     /// The shape of now, if it is in tree order; nothing as long as a small body was not looked at.
     trees: Points<S>,
     order: InOrder,
+    /// Of the vertices that triangles use.
+    bounds: Bounds<S>,
+}
+
+/// A new shape for a body, before it is checked.
+pub(crate) struct NewShape<'n, S> {
+    /// As the caller orders vertices; the rows of empty vertices are those of others.
+    positions: &'n [[S; 3]],
+    order: &'n Order,
+    /// How many vertices are empty.
+    empty: usize,
+}
+
+impl<'n, S> NewShape<'n, S> {
+    /// Of a body whose mesh is in this order; so many of its vertices are empty, and have the rows of others.
+    pub(crate) fn new(positions: &'n [[S; 3]], order: &'n Order, empty: usize) -> Self {
+        Self {
+            positions,
+            order,
+            empty,
+        }
+    }
+
+    /// The order of the mesh.
+    pub(crate) fn order(&self) -> &'n Order {
+        self.order
+    }
 }
 
 /// In which order the shape of now is there.
@@ -49,15 +78,26 @@ enum InOrder {
 }
 
 /// A new shape that was checked and waits to be committed.
-pub(crate) struct Staged<S> {
+struct Staged<S> {
     /// Of all its vertices, used or not.
-    pub(crate) bounds: Bounds<S>,
+    bounds: Bounds<S>,
     is_copied: bool,
 }
 
 impl<S: Coordinate> Positions<S> {
-    /// Of a new body, as the caller orders them.
-    pub(crate) fn new(positions: &[[S; 3]]) -> Self {
+    /// As the caller orders them, of a mesh in this order.
+    pub(crate) fn new(positions: &[[S; 3]], order: &Order) -> Self {
+        let used = order.vertex_order()[..order.used_vertices()].iter();
+        let bounds = bounds_of(used.map(|&vertex| positions[vertex as usize]));
+        Self::with_bounds(positions, bounds)
+    }
+
+    /// The same positions once more, of a mesh in this order.
+    pub(crate) fn copy(&self, order: &Order) -> Self {
+        Self::with_bounds(&self.in_callers_order(order), self.bounds)
+    }
+
+    fn with_bounds(positions: &[[S; 3]], bounds: Bounds<S>) -> Self {
         Self {
             len: positions.len(),
             callers: positions.to_vec(),
@@ -68,16 +108,62 @@ impl<S: Coordinate> Positions<S> {
                 0
             }),
             order: InOrder::Callers,
+            bounds,
         }
     }
 
-    pub(crate) fn len(&self) -> usize {
-        self.len
+    /// The exact extent of the vertices that triangles use.
+    #[inline]
+    pub(crate) fn bounds(&self) -> Bounds<S> {
+        self.bounds
+    }
+
+    /// Checks a new shape and takes it over, unless it leaves a box that holds it in every pose; or leaves all as it is and says what was
+    /// wrong.
+    pub(crate) fn take(
+        &mut self,
+        new: &NewShape<S>,
+        loose: Option<Bounds<S>>,
+        (instructions, executor): (Instructions, Executor),
+    ) -> Result<(), ErrorKind> {
+        let positions = new.positions;
+        if positions.len() != self.len {
+            return Err(ErrorKind::WrongLength {
+                what: "positions",
+                expected: self.len,
+                found: positions.len(),
+            });
+        }
+        let Some(staged) = self.stage(instructions, executor, positions) else {
+            // Which vertex it was is found out only if there was one.
+            return Err(out_of_range(positions));
+        };
+        let all = staged.bounds;
+        if let Some(loose) = loose.filter(|loose| !(loose.holds(all.lo) && loose.holds(all.hi))) {
+            all_inside(&loose, positions, |_| false)?;
+        }
+        none_is_lost(positions)?;
+        let order = new.order.vertex_order();
+        self.commit(&staged, instructions, executor, positions, order);
+        let used = new.order.used_vertices();
+        let orphans = new.order.orphans().count();
+        self.bounds = if used - orphans + new.empty >= positions.len() {
+            all
+        } else {
+            let used = order[..used].iter();
+            bounds_of(used.map(|&vertex| positions[vertex as usize]))
+        };
+        Ok(())
+    }
+
+    /// A vertex that no triangle used is used now.
+    pub(crate) fn include(&mut self, vertex: TreeVertex, order: &[u32]) {
+        self.bounds.include(self.get(vertex, order));
     }
 
     /// Checks a new shape, as long as the old, and copies it aside if that is the way it will go; `None` if a coordinate is out of
     /// range.
-    pub(crate) fn stage(
+    fn stage(
         &mut self,
         instructions: Instructions,
         executor: Executor,
@@ -112,7 +198,7 @@ impl<S: Coordinate> Positions<S> {
     }
 
     /// The new shape that was staged is that of now.
-    pub(crate) fn commit(
+    fn commit(
         &mut self,
         staged: &Staged<S>,
         instructions: Instructions,
@@ -175,7 +261,7 @@ impl<S: Coordinate> Positions<S> {
         if matches!(self.order, InOrder::Callers | InOrder::Both) {
             return Cow::Borrowed(&self.callers);
         }
-        let mut callers = vec![[S::default(); 3]; self.len()];
+        let mut callers = vec![[S::default(); 3]; self.len];
         let have_orphans = order.orphans().count() > 0;
         for (place, &vertex) in (0..).zip(order.vertex_order()) {
             if !(have_orphans && order.orphans().has(place)) {
@@ -183,6 +269,12 @@ impl<S: Coordinate> Positions<S> {
             }
         }
         Cow::Owned(callers)
+    }
+
+    /// All in tree order, whether they were brought into it or not.
+    pub(crate) fn sorted(&self, order: &[u32]) -> Points<S> {
+        let vertices = (0..order.len() as u32).map(TreeVertex);
+        Points::of(vertices.map(|vertex| self.get(vertex, order)))
     }
 
     /// One of them.
@@ -245,6 +337,12 @@ impl<S: Coordinate> Positions<S> {
         }
         self.order = InOrder::Callers;
     }
+}
+
+fn bounds_of<S: Real>(positions: impl Iterator<Item = [S; 3]>) -> Bounds<S> {
+    let mut bounds = Bounds::EMPTY;
+    positions.for_each(|position| bounds.include(position));
+    bounds
 }
 
 /// Takes the points that `order` names.

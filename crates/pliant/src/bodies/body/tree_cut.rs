@@ -1,22 +1,21 @@
 //! A body's tree cut at a level: how it divides the triangles, and the boxes of its parts.
 
-use super::body::Body;
-use super::debug_view::NodeBox;
+use super::Body;
+use crate::bodies::debug_view::NodeBox;
 use crate::geometry::{Bounds, Origin};
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
-use crate::queries::OF_SHAPES;
 use crate::tree::BoxSource;
 use std::ops::Range;
 
 impl<S: Coordinate> Body<S> {
     /// For each triangle, as the caller numbers them, the part it is in.
     pub(crate) fn tree_cut(&self, level: u32) -> Vec<u32> {
-        let order = self.order.triangle_order();
-        let mut part_of = vec![u32::MAX; self.triangle_numbers()];
+        let order = self.mesh.order().triangle_order();
+        let mut part_of = vec![u32::MAX; self.mesh.triangles().len()];
         for (part, triangles) in (0..).zip(self.parts_of_cut(level)) {
             for place in triangles {
-                if !self.is_gone(TreeTriangle(place as u32)) {
+                if !self.mesh.is_gone(TreeTriangle(place as u32)) {
                     part_of[order[place] as usize] = part;
                 }
             }
@@ -27,22 +26,16 @@ impl<S: Coordinate> Body<S> {
     /// The box of every part.
     pub(crate) fn tree_boxes(&self, level: u32, origin: Origin) -> Vec<NodeBox<S>> {
         let positions = self.stored_positions();
-        let version = {
-            let points = self.in_tree_order();
-            self.shape(&points, origin).version()
-        };
+        let (shape, order) = (&self.shape, self.mesh.order());
+        let points = shape.positions().sorted(order.vertex_order());
+        let version = shape.view_of(&points, order, origin).version();
         let parts = self.parts_of_cut(level);
-        let valid = self.parts.all().flat_map(|part| {
-            let boxes = part.boxes(OF_SHAPES);
-            boxes.map_or_else(
-                || vec![false; part.tree.starts_of_cut(level).len()],
-                |boxes| part.tree.valid_in_cut(level, boxes, version),
-            )
-        });
+        let valid = self.parts.all();
+        let valid = valid.flat_map(|part| part.valid_in_cut(level, version));
         let node_box = |(triangles, valid): (Range<usize>, bool)| {
             let mut bounds = Bounds::EMPTY;
-            for &vertex in self.order.all_corners()[triangles].as_flattened() {
-                bounds.include(positions[self.order.caller_vertex(vertex).index()]);
+            for &vertex in order.all_corners()[triangles].as_flattened() {
+                bounds.include(positions[order.caller_vertex(vertex).index()]);
             }
             NodeBox {
                 lower: bounds.lo,
@@ -55,7 +48,10 @@ impl<S: Coordinate> Body<S> {
 
     /// The triangles of every part of all trees, as places in tree order.
     fn parts_of_cut(&self, level: u32) -> Vec<Range<usize>> {
-        let starts = self.parts.all().map(|part| part.tree.starts_of_cut(level));
+        let starts = self
+            .parts
+            .all()
+            .map(|part| part.tree().starts_of_cut(level));
         let starts: Vec<_> = starts.flatten().collect();
         let ends = starts[1..].iter().map(|start| start.index());
         let ends = ends.chain([self.triangle_count()]);

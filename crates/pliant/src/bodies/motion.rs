@@ -1,0 +1,226 @@
+//! Where the vertices of a body are going.
+
+use super::positions::{NewShape, Positions};
+use super::shape::BodyShape;
+use crate::error::ErrorKind;
+use crate::geometry::{Points, Shape};
+use crate::held::{self, held};
+use crate::kernels::{Coordinate, Instructions};
+use crate::mesh::Order;
+use crate::queries::Reach;
+use crate::threads::Executor;
+
+/// The motion of a body, if it has one.
+pub(crate) struct Motion<S> {
+    /// None before the first; memory for the next when one has ended.
+    way: Option<Box<Way<S>>>,
+    /// The last version of ways that were forgotten: boxes of one of them are not those of another.
+    forgotten: u64,
+}
+
+/// A motion from the shape of now to another.
+pub(crate) struct Way<S> {
+    end: Positions<S>,
+    /// Counts motions, and shapes on the way.
+    versions: u64,
+    /// The number of this one.
+    version: u64,
+    is_on: bool,
+    /// The shape on the way that was asked for last.
+    partway: Option<Partway<S>>,
+}
+
+/// The shape in which what is looked at ends before the motion does.
+struct Partway<S> {
+    /// In tree order.
+    points: Points<S>,
+    /// Of which shape and which motion, and how far.
+    of: (u64, u64, Reach),
+    /// Its own number among motions.
+    version: u64,
+}
+
+impl<S: Coordinate> Motion<S> {
+    pub(crate) const fn none() -> Self {
+        Self {
+            way: None,
+            forgotten: 0,
+        }
+    }
+
+    /// The same, of a body whose mesh is in this order; without memory for the next.
+    pub(crate) fn copy(&self, order: &Order) -> Self {
+        let way = self.on().map(|way| {
+            Box::new(Way {
+                end: way.end.copy(order),
+                partway: None,
+                ..*way
+            })
+        });
+        Self { way, ..*self }
+    }
+
+    /// The motion that the body has, if it does not stand still.
+    #[inline]
+    pub(crate) fn on(&self) -> Option<&Way<S>> {
+        self.way.as_deref().filter(|way| way.is_on)
+    }
+
+    /// Begins one, in place of any other, to a shape that is checked first; or leaves all as it is and says what was wrong.
+    pub(crate) fn begin(
+        &mut self,
+        end: &NewShape<S>,
+        from: &BodyShape<S>,
+        threads: (Instructions, Executor),
+    ) -> Result<(), ErrorKind> {
+        if let Some(way) = &mut self.way {
+            way.end.take(end, from.loose(), threads)?;
+            way.versions += 1;
+            way.version = way.versions;
+            way.is_on = true;
+            return Ok(());
+        }
+        // What is there before is of no interest; it has the right length.
+        let mut place = from.positions().copy(end.order());
+        place.take(end, from.loose(), threads)?;
+        self.way = Some(Box::new(Way {
+            end: place,
+            versions: self.forgotten + 1,
+            version: self.forgotten + 1,
+            is_on: true,
+            partway: None,
+        }));
+        Ok(())
+    }
+
+    /// The body stands still.
+    pub(crate) fn stop(&mut self) {
+        if let Some(way) = &mut self.way {
+            way.is_on = false;
+        }
+    }
+
+    /// Stops, and forgets vertices that are not those of the body any more.
+    pub(crate) fn forget(&mut self) {
+        if let Some(way) = self.way.take() {
+            self.forgotten = way.versions;
+        }
+    }
+
+    /// The end of the motion is the shape of now.
+    pub(crate) fn finish(&mut self, shape: &mut BodyShape<S>) {
+        if let Some(way) = self.way.as_mut().filter(|way| way.is_on) {
+            shape.exchange(&mut way.end);
+            way.is_on = false;
+        }
+    }
+
+    /// Tree order is going to be another than `order`.
+    pub(crate) fn forget_tree_order(&mut self, order: &Order) {
+        if let Some(way) = &mut self.way {
+            way.end.forget_tree_order(order);
+            way.partway = None;
+        }
+    }
+
+    /// Brings into tree order what is looked at of a motion, if there is one; the shape was brought into it. Returns false if it was
+    /// interrupted.
+    pub(crate) fn bring_into_tree_order(
+        &mut self,
+        from: &BodyShape<S>,
+        reach: Reach,
+        (instructions, executor): (Instructions, Executor),
+        order: &Order,
+    ) -> bool {
+        let Some(way) = self.way.as_mut().filter(|way| way.is_on) else {
+            return true;
+        };
+        let order = order.vertex_order();
+        if !way.end.bring_into_tree_order(instructions, executor, order) {
+            return false;
+        }
+        way.make_partway(from, reach);
+        true
+    }
+}
+
+impl<S: Coordinate> Way<S> {
+    /// The shape at the end.
+    pub(crate) fn end(&self) -> &Positions<S> {
+        &self.end
+    }
+
+    /// The shape at the end in tree order, which `positions` are, beside the shape that the body has now.
+    pub(crate) fn end_of<'s>(&self, positions: &'s Points<S>, from: Shape<'s, S>) -> Shape<'s, S> {
+        Shape {
+            positions,
+            epoch: self.version,
+            ..from
+        }
+    }
+
+    /// The other shape that boxes hold, beside the shape that the body has now.
+    pub(crate) fn held<'s>(&'s self, reach: Reach, from: Shape<'s, S>) -> Shape<'s, S> {
+        match (&self.partway, reach) {
+            (Some(partway), Reach::Until(_) | Reach::To(_)) => Shape {
+                positions: &partway.points,
+                epoch: partway.version,
+                ..from
+            },
+            _ => self.end_of(self.end.in_tree_order(), from),
+        }
+    }
+
+    /// Where vertices are going, for who looks along motions.
+    pub(crate) fn going(&self, reach: Reach) -> &Points<S> {
+        match (&self.partway, reach) {
+            (Some(partway), Reach::To(_)) => &partway.points,
+            _ => self.end.in_tree_order(),
+        }
+    }
+
+    /// Makes the shape in which what is looked at ends before the motion does, unless it is there; both ends are in tree order.
+    fn make_partway(&mut self, from: &BodyShape<S>, reach: Reach) {
+        let (t, is_rounded) = match reach {
+            Reach::End => return,
+            Reach::Until(t) => (t, false),
+            Reach::To(t) => (t, true),
+        };
+        let at = |from: S, to: S| {
+            if is_rounded {
+                from.toward(to, t)
+            } else {
+                from.past(to, t)
+            }
+        };
+        let of = (from.version(), self.version, reach);
+        if self
+            .partway
+            .as_ref()
+            .is_some_and(|partway| partway.of == of)
+        {
+            return;
+        }
+        self.versions += 1;
+        let mut points = match self.partway.take() {
+            Some(partway) => partway.points,
+            None => Points::with_len(0),
+        };
+        let from = &from.positions().in_tree_order().points;
+        let ways = from.iter().zip(&self.end.in_tree_order().points);
+        points.refill(ways.map(|(from, to)| std::array::from_fn(|axis| at(from[axis], to[axis]))));
+        self.partway = Some(Partway {
+            points,
+            of,
+            version: self.versions,
+        });
+    }
+}
+
+held!(Partway<S>: points);
+held!(Way<S>: end, partway);
+impl<S> held::Held for Motion<S> {
+    fn held(&self) -> usize {
+        held::boxes(&self.way)
+    }
+}

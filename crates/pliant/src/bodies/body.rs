@@ -29,13 +29,12 @@ use std::borrow::Cow;
 
 /// A body of a world.
 pub(crate) struct Body<S> {
-    id: BodyId,
     mesh: BodyMesh<S>,
     shape: BodyShape<S>,
     motion: Motion<S>,
     parts: Parts,
     rebuild: Rebuild,
-    filter: Filter,
+    filter: Filter<S>,
 }
 
 /// Of so many triangles one is looked at to know how far vertices move.
@@ -55,13 +54,12 @@ impl<S: Coordinate> Body<S> {
         let topology = Topology::new(triangles, positions.len());
         let (order, tree) = build(&topology, positions, options);
         Self {
-            id,
             shape: BodyShape::new(positions, &order),
-            mesh: BodyMesh::new(topology, order),
+            mesh: BodyMesh::new(id, topology, order),
             motion: Motion::none(),
             parts: Parts::of(tree, triangles.len()),
             rebuild: Rebuild::default(),
-            filter: Filter::ALL,
+            filter: Filter::none(),
         }
     }
 
@@ -74,13 +72,13 @@ impl<S: Coordinate> Body<S> {
             motion: self.motion.copy(order),
             parts: self.parts.copy(),
             rebuild: self.rebuild.copy(),
-            ..*self
+            filter: self.filter.copy(),
         }
     }
 
     #[inline]
     pub(crate) fn id(&self) -> BodyId {
-        self.id
+        self.mesh.body()
     }
 
     #[inline]
@@ -91,22 +89,27 @@ impl<S: Coordinate> Body<S> {
     // What it may meet.
 
     pub(crate) fn set_filter(&mut self, membership: u32, mask: u32) {
-        self.filter = Filter::new(membership, mask);
+        self.filter.set_masks(membership, mask);
     }
 
     /// Membership and mask.
     pub(crate) fn filter(&self) -> (u32, u32) {
-        self.filter.bits()
+        self.filter.masks()
     }
 
     /// Whether the masks of two bodies, or of one and itself, let them meet.
     pub(crate) fn may_meet(&self, other: &Self) -> bool {
-        self.filter.lets_meet(other.filter)
+        self.filter.lets_meet(&other.filter)
     }
 
     /// Gives every vertex a group; those of one group do not meet, unless it is 0.
     pub(crate) fn set_groups(&mut self, groups: &[u32]) -> Result<(), ErrorKind> {
-        self.mesh.set_groups(groups)
+        self.filter.set_groups(groups, self.mesh.vertex_count())
+    }
+
+    /// The group of every vertex.
+    pub(crate) fn groups(&self) -> Vec<u32> {
+        self.filter.groups(self.mesh.vertex_count())
     }
 
     /// Numbers the edges as those of another body with this mesh are. Returns false if they are not its edges, or have numbers already.
@@ -124,7 +127,9 @@ impl<S: Coordinate> Body<S> {
         positions: &[[S; 3]],
     ) -> Result<(), ErrorKind> {
         let new = self.mesh.new_shape(positions);
-        self.shape.set(&new, (instructions, executor))?;
+        self.shape
+            .take(&new, self.filter.loose(), (instructions, executor))?;
+        self.shape.begin_version();
         self.motion.stop();
         Ok(())
     }
@@ -136,18 +141,17 @@ impl<S: Coordinate> Body<S> {
 
     /// The shape as the caller orders vertices; those that are empty are somewhere.
     fn stored_positions(&self) -> Cow<'_, [[S; 3]]> {
-        let positions = self.shape.positions();
-        positions.in_callers_order(self.mesh.order())
+        self.shape.in_callers_order(self.mesh.order())
     }
 
     /// Boxes made so far are stale, though the shape is the same: the origin moved.
     pub(crate) fn origin_moved(&mut self) {
-        self.shape.origin_moved();
+        self.shape.begin_version();
     }
 
     /// The exact extent, in the caller's coordinates.
     pub(crate) fn bounds(&self) -> Bounds<S> {
-        self.shape.positions().bounds()
+        self.shape.bounds()
     }
 
     /// The box of the body, as a kind of query needs it.
@@ -161,7 +165,7 @@ impl<S: Coordinate> Body<S> {
 
     /// The box that holds it in every pose, if it has one.
     pub(crate) fn loose(&self) -> Option<Bounds<S>> {
-        self.shape.loose()
+        self.filter.loose()
     }
 
     /// The same, as the broad phase works with it.
@@ -180,7 +184,7 @@ impl<S: Coordinate> Body<S> {
                 checks::all_inside(loose, &end, is_empty)?;
             }
         }
-        self.shape.set_loose(loose);
+        self.filter.set_loose(loose);
         Ok(())
     }
 
@@ -191,7 +195,7 @@ impl<S: Coordinate> Body<S> {
         // Loops, which are compiled into their callers where closures may not be.
         let mut corners = [[0.0; 3]; 3];
         for (corner, vertex) in corners.iter_mut().zip(order.corners(triangle)) {
-            let [x, y, z] = self.shape.positions().get(vertex, order.vertex_order());
+            let [x, y, z] = self.shape.get(vertex, order.vertex_order());
             *corner = [x.to_f64(), y.to_f64(), z.to_f64()];
         }
         corners
@@ -199,14 +203,14 @@ impl<S: Coordinate> Body<S> {
 
     /// The corners of a triangle, with padding; of a body that was brought into tree order.
     pub(crate) fn padded_corners(&self, triangle: TreeTriangle) -> [&[S; 4]; 3] {
-        let positions = self.shape.positions().in_tree_order();
+        let positions = self.shape.in_tree_order();
         let corners = self.mesh.order().corners(triangle);
         corners.map(|vertex| positions.padded(vertex))
     }
 
     /// Where the corners of elements are, as the caller numbers them; of a body that was brought into tree order.
     pub(crate) fn places(&self) -> Option<Places<'_, S>> {
-        self.mesh.places(self.shape.positions().in_tree_order())
+        self.mesh.places(self.shape.in_tree_order())
     }
 
     // Where it is going.
@@ -223,8 +227,9 @@ impl<S: Coordinate> Body<S> {
         end: &[[S; 3]],
     ) -> Result<(), ErrorKind> {
         let end = self.mesh.new_shape(end);
+        let threads = (instructions, executor);
         self.motion
-            .begin(&end, &self.shape, (instructions, executor))
+            .begin(&self.shape, &end, self.filter.loose(), threads)
     }
 
     /// The end of a motion is the shape of now.
@@ -255,7 +260,7 @@ impl<S: Coordinate> Body<S> {
             if orphans.has(vertex) {
                 continue;
             }
-            let ends = [self.shape.positions(), way.end()];
+            let ends = [&self.shape, way.end()];
             let [from, to] = ends.map(|positions| positions.get(TreeVertex(vertex), order));
             shape[place as usize] = std::array::from_fn(|axis| from[axis].toward(to[axis], t));
         }
@@ -275,7 +280,7 @@ impl<S: Coordinate> Body<S> {
             return 0.0;
         };
         let order = self.mesh.order().vertex_order();
-        let from = |vertex| self.shape.positions().get(vertex, order);
+        let from = |vertex| self.shape.get(vertex, order);
         let to = |vertex| end.get(vertex, order);
         let way = |p: [S; 3], q: [S; 3]| {
             let along = |axis: usize| (p[axis].to_f64() - q[axis].to_f64()).abs();
@@ -336,16 +341,16 @@ impl<S: Coordinate> Body<S> {
         origin: Origin,
         (instructions, executor): (Instructions, Executor),
     ) -> bool {
-        if !self.mesh.know_elements(&|| executor.is_interrupted()) {
-            return false;
-        }
-        let Some((elements, _)) = self.mesh.known_elements() else {
+        let (mesh, order) = (&self.mesh, self.mesh.order());
+        let Some(elements) = mesh.elements(&|| executor.is_interrupted()) else {
             return false;
         };
-        let from = self.shape.view(self.mesh.order(), origin);
+        self.filter.know_groups(order, elements);
         let way = self.motion.on().zip(reach);
-        let to = way.map(|(way, reach)| way.held(reach, from));
-        let source = Swept { from, to };
+        let source = Swept {
+            from: self.shape.view(order, origin),
+            to: way.map(|(way, reach)| way.held(reach, order, origin)),
+        };
         let mut parts = self.parts.all_mut();
         parts.all(|part| part.make_near_boxes(which, &source, elements, (instructions, executor)))
     }
@@ -374,19 +379,19 @@ impl<S: Coordinate> Body<S> {
         needs: &Needs,
         origin: Origin,
     ) -> (&'b mut Parts, impl Fn(&'b mut Part) -> Side<'b, S>) {
-        let (body, mesh, needs) = (self.id, &self.mesh, *needs);
-        let order = mesh.order();
+        let (body, order, needs) = (self.mesh.body(), self.mesh.order(), *needs);
         let shape = self.shape.view(order, origin);
         let way = self.motion.on().zip(needs.reach);
-        let end = way.map(|(way, reach)| way.held(reach, shape));
+        let end = way.map(|(way, reach)| way.held(reach, order, origin));
         let source = Source::new(shape, end, needs.grows_by);
         let motion = way.map(|(way, reach)| way.going(reach));
-        let removed = mesh.removed();
-        let elements = mesh.known_elements().filter(|_| !needs.triangles());
+        let removed = self.mesh.removed();
+        let elements = self.mesh.known_elements().filter(|_| !needs.triangles());
+        let groups = self.filter.known_groups();
         let side = move |part: &'b mut Part| {
             let (tree, boxes, near_boxes) = part.for_query(needs.box_set);
             let elements = elements.zip(near_boxes);
-            let elements = elements.map(|((edges, groups), boxes)| NearElements {
+            let elements = elements.map(|(edges, boxes)| NearElements {
                 edges,
                 boxes,
                 groups,
@@ -453,7 +458,9 @@ impl<S: Coordinate> Body<S> {
     /// Has another tree from now on, over all triangles in another order, but for some that were changed since these had their order.
     fn exchange_tree(&mut self, order: Order, tree: Tree, changed: &[Changed]) {
         self.shape.forget_tree_order(self.mesh.order());
+        self.shape.begin_version();
         self.motion.forget_tree_order(self.mesh.order());
+        self.filter.forget_tree_order();
         self.parts = Parts::of(tree, order.all_corners().len());
         self.mesh.exchange_order(order, changed);
         self.rebuild.begin_anew();

@@ -1,34 +1,54 @@
 //! The mesh of a body, in the caller's numbers and in tree order.
-//!
-//! Once it is edited an `edit_state` says where triangles and vertices are in tree order. What else hangs
-//! on the mesh are its `elements`.
 
-use super::edit_state::EditState;
-use super::elements::BodyElements;
-use super::positions::NewShape;
-use super::shape::BodyShape;
-use crate::edit::{Edit, Edited};
-use crate::error::ErrorKind;
+mod edits;
+
+use super::shape::NewShape;
 use crate::geometry::Points;
 use crate::held::{self, held};
-use crate::ids::{BodyId, CallerVertex, TreeTriangle, TreeVertex};
+use crate::ids::{BodyId, TreeTriangle, TreeVertex};
 use crate::kernels::Coordinate;
-use crate::mesh::{Changed, EMPTY, Elements, Order, Outcome, Topology};
-use crate::queries::{Groups, Removed};
+use crate::mesh::{Bits, EMPTY, Elements, Order, Topology, TrianglesAt};
+use crate::queries::Removed;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// The mesh of a body.
 pub(crate) struct BodyMesh<S> {
+    body: BodyId,
     topology: Topology,
     order: Order,
-    elements: BodyElements,
+    /// Edges, and who owns what, once somebody asks.
+    elements: OnceLock<Box<Elements>>,
+    /// Whether somebody asked before the tree was exchanged, or another body was made like this one.
+    edges_were_known: bool,
     /// Once it is edited.
-    edits: Option<Box<EditState<S>>>,
+    edits: Option<Box<Edits<S>>>,
     /// Counts meshes.
     version: u64,
     /// Counts meshes, and orders of a mesh.
     order_version: u64,
+}
+
+/// What a body keeps once its mesh is edited.
+#[derive(Clone)]
+pub(crate) struct Edits<S> {
+    /// For each of the caller's triangles its place in tree order.
+    places: Vec<u32>,
+    /// For each of the caller's vertices its number in tree order.
+    slots: Vec<TreeVertex>,
+    at: TrianglesAt,
+    /// Triangles in tree order that were taken out.
+    gone: Bits,
+    /// Vertices, as the caller numbers them, that are empty.
+    empty: Bits,
+    /// By the caller's number of an alias, the orphans in tree order that stand where it does; some of these may have another by now.
+    orphans_of: BTreeMap<u32, Vec<u32>>,
+    /// A shape in which those that are empty are somewhere, kept from shape to shape.
+    patched: Vec<[S; 3]>,
+    /// All vertices in tree order, once somebody asks and there are orphans.
+    without_orphans: OnceLock<Vec<u32>>,
 }
 
 /// Where the corners of a body's elements are, as the caller numbers all of it.
@@ -63,11 +83,13 @@ impl<'b, S> Places<'b, S> {
 }
 
 impl<S: Coordinate> BodyMesh<S> {
-    pub(crate) fn new(topology: Topology, order: Order) -> Self {
+    pub(crate) fn new(body: BodyId, topology: Topology, order: Order) -> Self {
         Self {
+            body,
             topology,
             order,
-            elements: BodyElements::default(),
+            elements: OnceLock::new(),
+            edges_were_known: false,
             edits: None,
             version: 0,
             order_version: 0,
@@ -79,21 +101,28 @@ impl<S: Coordinate> BodyMesh<S> {
         Self {
             version: self.version + 1,
             order_version: self.order_version + 1,
-            ..Self::new(topology, order)
+            ..Self::new(self.body, topology, order)
         }
     }
 
+    /// The same mesh. Edges are found out again, unless an edit has kept their numbers.
     pub(crate) fn copy(&self) -> Self {
+        let known = self.elements.get().filter(|known| known.follows());
         Self {
             topology: self.topology.clone(),
             order: self.order.clone(),
-            elements: self.elements.copy(),
+            elements: known.map_or_else(OnceLock::new, |known| OnceLock::from(known.clone())),
+            edges_were_known: self.edges_are_known(),
             edits: self.edits.clone(),
             ..*self
         }
     }
 
-    // In the caller's numbers.
+    /// Whose it is.
+    #[inline]
+    pub(crate) fn body(&self) -> BodyId {
+        self.body
+    }
 
     #[inline]
     pub(crate) fn topology(&self) -> &Topology {
@@ -129,13 +158,13 @@ impl<S: Coordinate> BodyMesh<S> {
     /// Whether a number is that of no vertex.
     pub(crate) fn is_empty(&self, vertex: u32) -> bool {
         let edits = self.edits.as_ref();
-        edits.is_some_and(|edits| edits.empty().has(vertex))
+        edits.is_some_and(|edits| edits.empty.has(vertex))
     }
 
     /// How many numbers are those of no vertex.
     fn empty_count(&self) -> usize {
         let edits = self.edits.as_ref();
-        edits.map_or(0, |edits| edits.empty().count())
+        edits.map_or(0, |edits| edits.empty.count())
     }
 
     /// Whether a triangle or a vertex is gone whose number was not used again.
@@ -143,35 +172,40 @@ impl<S: Coordinate> BodyMesh<S> {
         self.topology.live_count() < self.triangles().len() || self.empty_count() > 0
     }
 
+    /// The elements; they are found out the first time, unless `stop` says so on the way.
+    pub(crate) fn elements(&self, stop: &dyn Fn() -> bool) -> Option<&Elements> {
+        self.known_elements().or_else(|| {
+            let new = Elements::new(&self.topology, &self.order, stop)?;
+            Some(self.elements.get_or_init(|| Box::new(new)))
+        })
+    }
+
+    /// The elements, if they are known.
+    pub(crate) fn known_elements(&self) -> Option<&Elements> {
+        self.elements.get().map(Box::as_ref)
+    }
+
+    /// Whether the edges have numbers that stay: from when somebody asks for them on.
+    fn edges_are_known(&self) -> bool {
+        self.edges_were_known || self.elements.get().is_some()
+    }
+
     /// The edges, as the caller numbers them.
     pub(crate) fn edges(&self) -> &[[u32; 2]] {
-        self.elements().map_or(&[], Elements::callers)
+        self.elements(&|| false).map_or(&[], Elements::callers)
     }
 
     /// The edges, if they have numbers that stay.
     pub(crate) fn numbered_edges(&self) -> Option<&[[u32; 2]]> {
-        self.elements.have_numbers().then(|| self.edges())
+        self.edges_are_known().then(|| self.edges())
     }
 
-    /// Numbers the edges as those of another body with this mesh are. Returns false if they are not its
-    /// edges, or have numbers already.
+    /// Numbers the edges as those of another body with this mesh are. Returns false if they are not its edges, or have numbers already.
     pub(crate) fn number_edges(&mut self, edges: &[[u32; 2]]) -> bool {
-        self.elements.number(edges, &self.topology, &self.order)
+        let is_new = !self.edges_are_known() && self.elements(&|| false).is_some();
+        let (elements, topology) = (self.elements.get_mut(), &self.topology);
+        is_new && elements.is_some_and(|elements| elements.renumber(edges, topology))
     }
-
-    /// Gives every vertex a group; those of one group do not meet, unless it is 0.
-    pub(crate) fn set_groups(&mut self, groups: &[u32]) -> Result<(), ErrorKind> {
-        let vertices = self.vertex_count();
-        self.elements.set_groups(groups, vertices)
-    }
-
-    /// The group of every vertex.
-    pub(crate) fn groups(&self) -> Vec<u32> {
-        let groups = self.elements.groups();
-        groups.map_or_else(|| vec![0; self.vertex_count()], <[u32]>::to_vec)
-    }
-
-    // In tree order.
 
     #[inline]
     pub(crate) fn order(&self) -> &Order {
@@ -187,7 +221,7 @@ impl<S: Coordinate> BodyMesh<S> {
     #[inline]
     pub(crate) fn is_gone(&self, triangle: TreeTriangle) -> bool {
         let edits = self.edits.as_ref();
-        edits.is_some_and(|edits| edits.gone().has(triangle.0))
+        edits.is_some_and(|edits| edits.gone.has(triangle.0))
     }
 
     /// The numbers of all triangles of a run that were not taken out.
@@ -198,71 +232,68 @@ impl<S: Coordinate> BodyMesh<S> {
 
     /// How many triangles are out of date in a tree over the first so many: they were taken out or came behind it.
     pub(crate) fn out_of_date(&self, first: usize) -> usize {
-        let gone = self.edits.as_ref().map_or(0, |edits| edits.gone().count());
+        let gone = self.edits.as_ref().map_or(0, |edits| edits.gone.count());
         self.tree_triangles() - first + gone
     }
 
     /// What was taken out, if anything was.
     pub(crate) fn removed(&self) -> Option<Removed<'_>> {
-        self.edits.as_ref()?.removed(&self.order)
+        let (triangles, vertices) = (&self.edits.as_ref()?.gone, self.order.orphans());
+        let is_any = triangles.count() > 0 || vertices.count() > 0;
+        is_any.then_some(Removed {
+            triangles,
+            vertices,
+        })
     }
 
     /// All vertices, in the order in which triangles in tree order first use them.
     pub(crate) fn vertex_order(&self) -> &[u32] {
+        let (all, orphans) = (self.order.vertex_order(), self.order.orphans());
         match &self.edits {
-            Some(edits) if self.order.orphans().count() > 0 => edits.vertex_order(&self.order),
-            _ => self.order.vertex_order(),
+            Some(edits) if orphans.count() > 0 => edits.without_orphans.get_or_init(|| {
+                let vertices = (0..).zip(all).filter(|(slot, _)| !orphans.has(*slot));
+                vertices.map(|(_, &vertex)| vertex).collect()
+            }),
+            _ => all,
         }
     }
 
     /// Where the corners of a triangle are in tree order, which is at a place in it unless the mesh was edited.
     pub(crate) fn slots(&self, place: usize, corners: [u32; 3]) -> [TreeVertex; 3] {
         match &self.edits {
-            Some(edits) => corners.map(|vertex| edits.slot(vertex)),
+            Some(edits) => corners.map(|vertex| edits.slots[vertex as usize]),
             None => self.order.corners(TreeTriangle(place as u32)),
         }
     }
 
-    /// Finds out the elements, unless they are known. Returns false if it was stopped.
-    pub(crate) fn know_elements(&mut self, stop: &dyn Fn() -> bool) -> bool {
-        self.elements.know(&self.topology, &self.order, stop)
-    }
-
-    /// The elements; they are found out the first time.
-    fn elements(&self) -> Option<&Elements> {
-        self.elements.get(&self.topology, &self.order)
-    }
-
-    /// The elements, if they are known, with their groups, if they have some.
-    pub(crate) fn known_elements(&self) -> Option<(&Elements, Option<&Groups>)> {
-        let known = self.elements.known()?;
-        Some((known, self.elements.groups_of_elements()))
-    }
-
     /// Where the corners of elements are in a shape in tree order, as the caller numbers them.
     pub(crate) fn places<'b>(&'b self, positions: &'b Points<S>) -> Option<Places<'b, S>> {
-        let elements = self.elements()?;
+        let elements = self.elements(&|| false)?;
         Some(Places {
             triangles: self.triangles(),
             edges: elements.callers(),
             tree_vertices: match &self.edits {
-                Some(edits) => edits.slots(),
+                Some(edits) => &edits.slots,
                 None => elements.tree_vertices(&self.order),
             },
             positions,
         })
     }
 
-    // Shapes.
-
     /// A new shape, in which rows of vertices that are empty are those of others.
     pub(crate) fn new_shape<'n>(&'n mut self, positions: &'n [[S; 3]]) -> NewShape<'n, S> {
         let empty = self.empty_count();
+        let used = self.order.used_vertices() - self.order.orphans().count();
+        let are_all_used = used + empty >= self.vertex_count();
         let positions = match &mut self.edits {
             Some(edits) => edits.patch(positions, &self.order),
             None => positions,
         };
-        NewShape::new(positions, &self.order, empty)
+        NewShape {
+            positions,
+            order: &self.order,
+            are_all_used,
+        }
     }
 
     /// A shape in which vertices that are empty are nowhere.
@@ -279,225 +310,13 @@ impl<S: Coordinate> BodyMesh<S> {
         }
         positions
     }
-
-    // Edits.
-
-    /// An edit of the mesh of now, of a body and a world, without steps.
-    pub(crate) fn begin_edit(&self, world: u64, body: BodyId) -> Edit<S> {
-        let counts = [self.vertex_count(), self.triangles().len()];
-        Edit::new((world, body, self.version), counts)
-    }
-
-    /// What the steps of an edit come to; refused if it is of another mesh.
-    pub(crate) fn draft(
-        &mut self,
-        edit: &Edit<S>,
-        position: impl Fn(TreeVertex, &Order) -> [S; 3],
-    ) -> Result<Outcome<S>, ErrorKind> {
-        if edit.mesh != self.version {
-            return Err(ErrorKind::OutdatedEdit);
-        }
-        let (topology, order, _, edits) = self.to_edit();
-        let edits = &*edits;
-        let position_of = |vertex: u32| position(edits.slot(vertex), order);
-        let mut draft = edits.draft(topology, &position_of);
-        for step in &edit.steps {
-            draft.take(step)?;
-        }
-        draft.finish()
-    }
-
-    /// All that an edit changes; the lists that it needs are made the first time.
-    fn to_edit(
-        &mut self,
-    ) -> (
-        &mut Topology,
-        &mut Order,
-        &mut BodyElements,
-        &mut EditState<S>,
-    ) {
-        let Self {
-            topology,
-            order,
-            elements,
-            edits,
-            ..
-        } = self;
-        let edits = edits.get_or_insert_with(|| Box::new(EditState::new(topology, order)));
-        (topology, order, elements, edits)
-    }
-
-    /// What an edit is going to change, if anything.
-    pub(crate) fn said_of(&self, outcome: &Outcome<S>) -> Option<Edited> {
-        let is_nothing = outcome.changed.is_empty()
-            && outcome.triangles == self.triangles().len()
-            && outcome.new_vertices.is_empty()
-            && outcome.emptied.is_empty();
-        if is_nothing {
-            return None;
-        }
-        let mut edited = Edited::default();
-        for &(triangle, [old, new]) in &outcome.changed {
-            let list = match (old, new) {
-                (EMPTY, _) => &mut edited.new_triangles,
-                (_, EMPTY) => &mut edited.removed_triangles,
-                _ => &mut edited.changed_triangles,
-            };
-            list.push(triangle);
-        }
-        let was_there =
-            |vertex: &&u32| (**vertex as usize) < self.vertex_count() && !self.is_empty(**vertex);
-        let gone = outcome.emptied.iter();
-        edited.removed_vertices = gone.filter(was_there).copied().collect();
-        let new = outcome.new_vertices.iter().map(|&(vertex, _)| vertex);
-        let stay = new.filter(|vertex| outcome.emptied.binary_search(vertex).is_err());
-        edited.new_vertices = stay.collect();
-        Some(edited)
-    }
-
-    /// No vertex is empty any more, and none has a group.
-    pub(crate) fn fill(&mut self) {
-        let (_, _, elements, edits) = self.to_edit();
-        elements.forget_groups();
-        edits.fill_all();
-    }
-
-    /// Makes changes in the caller's numbers; nothing in tree order.
-    pub(crate) fn change(&mut self, outcome: &Outcome<S>) {
-        let (topology, order, elements, edits) = self.to_edit();
-        elements.begin_to_follow(topology, order);
-        edits.change(topology, elements.known_mut(), outcome);
-        elements.change_groups(outcome);
-        self.version += 1;
-    }
-
-    /// Takes changes into tree order, but for triangles that come, which it returns: vertices come behind
-    /// all others, and triangles are taken out.
-    pub(crate) fn take_out(&mut self, outcome: &Outcome<S>, new_vertices: usize) -> Vec<u32> {
-        let (_, order, _, edits) = self.to_edit();
-        edits.add_vertices(order, new_vertices);
-        edits.take_out_changed(outcome)
-    }
-
-    /// Vertices that lose their last triangle go to the end of tree order, and leave orphans.
-    pub(crate) fn leave_orphans(&mut self, changed: &[Changed], shape: &mut BodyShape<S>) {
-        let (topology, order, _, edits) = self.to_edit();
-        edits.leave_orphans(topology, order, changed, |slot| {
-            shape.follow_to_the_end(slot)
-        });
-    }
-
-    /// Some vertices that were empty are somewhere, and others are empty. The shape holds all corners of changed triangles.
-    pub(crate) fn place_vertices(
-        &mut self,
-        outcome: &Outcome<S>,
-        again: &[(u32, [S; 3])],
-        shape: &mut BodyShape<S>,
-    ) {
-        let (_, order, _, edits) = self.to_edit();
-        for &(vertex, position) in again {
-            edits.set_empty(vertex, false);
-            shape.place(CallerVertex(vertex), edits.slot(vertex), position, order);
-        }
-        for &vertex in &outcome.emptied {
-            edits.set_empty(vertex, true);
-        }
-        // Those that had no triangle until now, whether they are new or not, are not in the bounds.
-        let new = outcome.changed.iter().flat_map(|&(_, [_, new])| new);
-        for vertex in new.filter(|&vertex| vertex != u32::MAX) {
-            shape.include(edits.slot(vertex), order);
-        }
-    }
-
-    /// Some triangles as a mesh of their own: their corners, and the positions that these are places in.
-    pub(crate) fn alone(
-        &mut self,
-        triangles: &[u32],
-        shape: &BodyShape<S>,
-    ) -> (Vec<[u32; 3]>, Vec<[S; 3]>) {
-        let (topology, order, _, edits) = self.to_edit();
-        let all = topology.triangles();
-        let corners = triangles.iter().map(|&it| all[it as usize]);
-        let corners: Vec<[u32; 3]> = corners.collect();
-        let mut used: Vec<u32> = corners.as_flattened().to_vec();
-        used.sort_unstable();
-        used.dedup();
-        let place = |vertex: u32| used.partition_point(|&it| it < vertex) as u32;
-        let (shape, order) = (shape.positions(), order.vertex_order());
-        let positions = used.iter();
-        let positions = positions.map(|&vertex| shape.get(edits.slot(vertex), order));
-        let positions = positions.collect();
-        (
-            corners.into_iter().map(|it| it.map(place)).collect(),
-            positions,
-        )
-    }
-
-    /// Puts triangles behind those before a place, in this order; these are the first to use vertices from
-    /// another place on. What is behind now is forgotten.
-    pub(crate) fn append(
-        &mut self,
-        (first, first_vertex): (u32, TreeVertex),
-        triangles: &[u32],
-        shape: &mut BodyShape<S>,
-    ) {
-        let (topology, order, elements, edits) = self.to_edit();
-        let places = (first, first_vertex);
-        edits.append(topology, order, places, triangles, |moved| {
-            shape.follow(&moved)
-        });
-        if let Some(known) = elements.known_mut() {
-            known.append(order, edits.gone(), TreeTriangle(first), first_vertex.0);
-        }
-    }
-
-    /// The order of the trees is another one, for the same mesh or with it.
-    pub(crate) fn next_order(&mut self) {
-        self.order_version += 1;
-    }
-
-    /// Has another order from now on, but for triangles that were changed since these had their places in it.
-    pub(crate) fn exchange_order(&mut self, order: Order, changed: &[Changed]) {
-        self.order = order;
-        if let Some(edits) = &mut self.edits {
-            edits.find_places(&self.order);
-            for &(triangle, _) in changed {
-                edits.take_out(triangle);
-            }
-        }
-        let gone = self.edits.as_ref().map(|edits| edits.gone());
-        self.elements.exchange_order(&self.order, gone);
-        self.order_version += 1;
-    }
-
-    /// Checks that every triangle is in the trees once, with the corners that it has, and every vertex where it is said to be.
-    pub(crate) fn validate(&self) -> Result<(), String> {
-        let mut seen = vec![false; self.triangles().len()];
-        for place in (0..self.tree_triangles() as u32).map(TreeTriangle) {
-            if self.is_gone(place) {
-                continue;
-            }
-            let triangle = self.order.caller_triangle(place);
-            let corners = self.order.corners(place);
-            let corners = corners.map(|it| self.order.caller_vertex(it));
-            let is_first = seen
-                .get_mut(triangle.index())
-                .map(|seen| !std::mem::replace(seen, true));
-            if is_first != Some(true) || corners != self.topology.corners(triangle) {
-                return Err(format!("{place:?} is not {triangle:?}, or once too often"));
-            }
-        }
-        if let Some(edits) = &self.edits {
-            edits.validate(&self.order, self.elements.known())?;
-        }
-        let is_live = |triangle: usize| self.topology.is_live(triangle as u32);
-        match (0..seen.len()).find(|&triangle| seen[triangle] != is_live(triangle)) {
-            Some(triangle) => Err(format!(
-                "triangle {triangle}: in no tree, or in one and empty"
-            )),
-            None => Ok(()),
-        }
-    }
 }
 
-held!(BodyMesh<S>: topology, order, elements; |mesh| held::boxes(&mesh.edits));
+held!(Edits<S>: places[], slots[], at, gone, empty, patched[]; |edits| {
+    held::entries::<(u32, Vec<u32>)>(edits.orphans_of.len())
+        + edits.orphans_of.values().map(held::list).sum::<usize>()
+        + edits.without_orphans.get().map_or(0, held::list)
+});
+held!(BodyMesh<S>: topology, order; |mesh| {
+    held::boxes(mesh.elements.get()) + held::boxes(&mesh.edits)
+});

@@ -1,9 +1,8 @@
 //! Where the vertices of a body are going.
 
-use super::positions::{NewShape, Positions};
-use super::shape::BodyShape;
+use super::shape::{BodyShape, NewShape};
 use crate::error::ErrorKind;
-use crate::geometry::{Points, Shape};
+use crate::geometry::{Bounds, Origin, Points, Shape};
 use crate::held::{self, held};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::Order;
@@ -20,11 +19,10 @@ pub(crate) struct Motion<S> {
 
 /// A motion from the shape of now to another.
 pub(crate) struct Way<S> {
-    end: Positions<S>,
+    /// Its version is the number of this motion.
+    end: BodyShape<S>,
     /// Counts motions, and shapes on the way.
     versions: u64,
-    /// The number of this one.
-    version: u64,
     is_on: bool,
     /// The shape on the way that was asked for last.
     partway: Option<Partway<S>>,
@@ -66,30 +64,30 @@ impl<S: Coordinate> Motion<S> {
         self.way.as_deref().filter(|way| way.is_on)
     }
 
-    /// Begins one, in place of any other, to a shape that is checked first; or leaves all as it is and says what was wrong.
+    /// Begins one, in place of any other, to a shape that is checked first, in a box that it must not leave; or leaves all as it is and says
+    /// what was wrong.
     pub(crate) fn begin(
         &mut self,
-        end: &NewShape<S>,
         from: &BodyShape<S>,
+        end: &NewShape<S>,
+        loose: Option<Bounds<S>>,
         threads: (Instructions, Executor),
     ) -> Result<(), ErrorKind> {
         if let Some(way) = &mut self.way {
-            way.end.take(end, from.loose(), threads)?;
-            way.versions += 1;
-            way.version = way.versions;
-            way.is_on = true;
+            way.end.take(end, loose, threads)?;
+            way.begin();
             return Ok(());
         }
         // What is there before is of no interest; it has the right length.
-        let mut place = from.positions().copy(end.order());
-        place.take(end, from.loose(), threads)?;
-        self.way = Some(Box::new(Way {
+        let mut place = from.copy(end.order);
+        place.take(end, loose, threads)?;
+        let way = self.way.insert(Box::new(Way {
             end: place,
-            versions: self.forgotten + 1,
-            version: self.forgotten + 1,
+            versions: self.forgotten,
             is_on: true,
             partway: None,
         }));
+        way.begin();
         Ok(())
     }
 
@@ -110,7 +108,9 @@ impl<S: Coordinate> Motion<S> {
     /// The end of the motion is the shape of now.
     pub(crate) fn finish(&mut self, shape: &mut BodyShape<S>) {
         if let Some(way) = self.way.as_mut().filter(|way| way.is_on) {
-            shape.exchange(&mut way.end);
+            let version = shape.version();
+            std::mem::swap(shape, &mut way.end);
+            shape.set_version(version + 1);
             way.is_on = false;
         }
     }
@@ -129,14 +129,13 @@ impl<S: Coordinate> Motion<S> {
         &mut self,
         from: &BodyShape<S>,
         reach: Reach,
-        (instructions, executor): (Instructions, Executor),
+        threads: (Instructions, Executor),
         order: &Order,
     ) -> bool {
         let Some(way) = self.way.as_mut().filter(|way| way.is_on) else {
             return true;
         };
-        let order = order.vertex_order();
-        if !way.end.bring_into_tree_order(instructions, executor, order) {
+        if !way.end.bring_into_tree_order(threads, order) {
             return false;
         }
         way.make_partway(from, reach);
@@ -145,29 +144,32 @@ impl<S: Coordinate> Motion<S> {
 }
 
 impl<S: Coordinate> Way<S> {
+    fn begin(&mut self) {
+        self.versions += 1;
+        self.end.set_version(self.versions);
+        self.is_on = true;
+    }
+
     /// The shape at the end.
-    pub(crate) fn end(&self) -> &Positions<S> {
+    pub(crate) fn end(&self) -> &BodyShape<S> {
         &self.end
     }
 
-    /// The shape at the end in tree order, which `positions` are, beside the shape that the body has now.
-    pub(crate) fn end_of<'s>(&self, positions: &'s Points<S>, from: Shape<'s, S>) -> Shape<'s, S> {
-        Shape {
-            positions,
-            epoch: self.version,
-            ..from
-        }
-    }
-
-    /// The other shape that boxes hold, beside the shape that the body has now.
-    pub(crate) fn held<'s>(&'s self, reach: Reach, from: Shape<'s, S>) -> Shape<'s, S> {
+    /// The other shape that boxes hold.
+    pub(crate) fn held<'s>(
+        &'s self,
+        reach: Reach,
+        order: &'s Order,
+        origin: Origin,
+    ) -> Shape<'s, S> {
+        let end = self.end.view(order, origin);
         match (&self.partway, reach) {
             (Some(partway), Reach::Until(_) | Reach::To(_)) => Shape {
                 positions: &partway.points,
                 epoch: partway.version,
-                ..from
+                ..end
             },
-            _ => self.end_of(self.end.in_tree_order(), from),
+            _ => end,
         }
     }
 
@@ -193,7 +195,7 @@ impl<S: Coordinate> Way<S> {
                 from.past(to, t)
             }
         };
-        let of = (from.version(), self.version, reach);
+        let of = (from.version(), self.end.version(), reach);
         if self
             .partway
             .as_ref()
@@ -206,7 +208,7 @@ impl<S: Coordinate> Way<S> {
             Some(partway) => partway.points,
             None => Points::with_len(0),
         };
-        let from = &from.positions().in_tree_order().points;
+        let from = &from.in_tree_order().points;
         let ways = from.iter().zip(&self.end.in_tree_order().points);
         points.refill(ways.map(|(from, to)| std::array::from_fn(|axis| at(from[axis], to[axis]))));
         self.partway = Some(Partway {

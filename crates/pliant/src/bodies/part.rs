@@ -2,7 +2,7 @@
 //!
 //! A body has one part, over all of its triangles, until its mesh is edited: see `edits`.
 
-use super::positions::SMALL;
+use super::shape::SMALL;
 use crate::held::{self, held};
 use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions};

@@ -85,7 +85,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn vertex_groups(&self, body: BodyId) -> Result<Vec<u32>, Error> {
-        Ok(self.state().body(body)?.mesh().groups())
+        Ok(self.state().body(body)?.groups())
     }
 
     /// Gives a body a box, lower and upper corner, that holds it in every pose to come; `None` takes it away.

@@ -51,7 +51,11 @@ impl<S: Scalar> World<S> {
     #[doc(alias = "cut")]
     #[doc(alias = "tear")]
     pub fn edit(&self, body: BodyId) -> Result<Edit<S>, Error> {
-        Ok(self.state().body(body)?.begin_edit(self.state().number))
+        Ok(self
+            .state()
+            .body(body)?
+            .mesh()
+            .begin_edit(self.state().number))
     }
 
     /// Makes the changes of an edit, and says by number what has changed. Triangles and vertices that it does not name keep their numbers,

@@ -17,11 +17,12 @@ use crate::bodies::motion::Motion;
 use crate::bodies::part::Part;
 use crate::bodies::parts::Parts;
 use crate::bodies::rebuild::Rebuild;
+use crate::bodies::shape::BodyShape;
 use crate::edit::{Edit, Edited};
 use crate::error::ErrorKind;
 use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions};
-use crate::mesh::{EMPTY, Order, Outcome, Topology};
+use crate::mesh::{EMPTY, Outcome, Topology};
 use crate::options::Options;
 use crate::threads::Executor;
 use crate::tree::Tree;
@@ -39,18 +40,11 @@ const FEWEST: usize = 32;
 const MUCH: usize = 8;
 
 impl<S: Coordinate> Body<S> {
-    /// An edit of the mesh of now, of a world, without steps.
-    pub(crate) fn begin_edit(&self, world: u64) -> Edit<S> {
-        self.mesh.begin_edit(world, self.id)
-    }
-
     /// Makes all changes of an edit; or leaves the body as it is and says what was wrong.
     pub(crate) fn apply(&mut self, edit: &Edit<S>, options: &Options) -> Result<Edited, ErrorKind> {
-        let shape = self.shape.positions();
-        let position = |slot, order: &Order| shape.get(slot, order.vertex_order());
-        let outcome = self.mesh.draft(edit, position)?;
+        let outcome = self.mesh.draft(edit, &self.shape)?;
         for &(vertex, position) in &outcome.new_vertices {
-            checks::one(vertex as usize, position, self.shape.loose())?;
+            checks::one(vertex as usize, position, self.filter.loose())?;
         }
         let Some(edited) = self.mesh.said_of(&outcome) else {
             return Ok(Edited::default());
@@ -68,7 +62,7 @@ impl<S: Coordinate> Body<S> {
         (instructions, executor): (Instructions, Executor),
     ) -> Result<(), ErrorKind> {
         checks::validate(triangles, positions)?;
-        if let Some(loose) = self.shape.loose() {
+        if let Some(loose) = self.filter.loose() {
             checks::all_inside(&loose, positions, |_| false)?;
         }
         let old = self.mesh.triangles();
@@ -96,6 +90,7 @@ impl<S: Coordinate> Body<S> {
             split_from: BTreeMap::new(),
             emptied: Vec::new(),
         };
+        self.filter.forget_groups();
         self.mesh.fill();
         self.make(&outcome, options);
         self.set_positions(instructions, executor, positions)
@@ -105,14 +100,15 @@ impl<S: Coordinate> Body<S> {
     fn with_mesh(&self, triangles: &[[u32; 3]], positions: &[[S; 3]], options: &Options) -> Self {
         let topology = Topology::new(triangles, positions.len());
         let (order, tree) = build(&topology, positions, options);
+        let mut shape = BodyShape::new(positions, &order);
+        shape.set_version(self.shape.version() + 1);
         Self {
-            id: self.id,
-            shape: self.shape.after(positions, &order),
             mesh: self.mesh.after(topology, order),
+            shape,
             motion: Motion::none(),
             parts: Parts::of(tree, triangles.len()),
             rebuild: Rebuild::default(),
-            filter: self.filter,
+            filter: self.filter.without_groups(),
         }
     }
 
@@ -125,6 +121,7 @@ impl<S: Coordinate> Body<S> {
             (outcome.new_vertices).split_at(outcome.new_vertices.partition_point(is_known));
         self.motion.forget();
         self.mesh.change(outcome);
+        self.filter.follow(outcome);
         self.rebuild.note_edit(&outcome.changed, are_fewer);
         let new: Vec<[S; 3]> = new.iter().map(|&(_, position)| position).collect();
         self.shape.push(&new);

@@ -27,7 +27,7 @@ impl<S: Coordinate> Body<S> {
     pub(crate) fn tree_boxes(&self, level: u32, origin: Origin) -> Vec<NodeBox<S>> {
         let positions = self.stored_positions();
         let (shape, order) = (&self.shape, self.mesh.order());
-        let points = shape.positions().sorted(order.vertex_order());
+        let points = shape.sorted(order);
         let version = shape.view_of(&points, order, origin).version();
         let parts = self.parts_of_cut(level);
         let valid = self.parts.all();

@@ -1,7 +1,6 @@
 //! Every invariant of a body, looked at one by one.
 
 use super::Body;
-use crate::bodies::positions::Positions;
 use crate::geometry::Origin;
 use crate::kernels::Coordinate;
 use crate::options::Options;
@@ -12,11 +11,14 @@ impl<S: Coordinate> Body<S> {
     /// are now. A sentence says what is wrong.
     pub(crate) fn validate(&self, options: &Options, origin: Origin) -> Result<(), String> {
         let (shape, order) = (&self.shape, self.mesh.order());
-        let sorted = |positions: &Positions<S>| positions.sorted(order.vertex_order());
-        let now = sorted(shape.positions());
+        let now = shape.sorted(order);
         let from = shape.view_of(&now, order, origin);
-        let way = self.motion.on().map(|way| (way, sorted(way.end())));
-        let to = way.as_ref().map(|(way, end)| way.end_of(end, from));
+        let end = self
+            .motion
+            .on()
+            .map(|way| (way.end(), way.end().sorted(order)));
+        let to = end.as_ref();
+        let to = to.map(|(end, sorted)| end.view_of(sorted, order, origin));
         let mut next = 0;
         for part in self.parts.all() {
             let triangles = part.triangles();

@@ -98,7 +98,7 @@ impl Rebuild {
             None => return None,
         };
         let vertices = mesh.order().vertex_order();
-        let at = |vertex| shape.positions().get(vertex, vertices);
+        let at = |vertex| shape.get(vertex, vertices);
         let midpoint_of =
             |place: usize, corners: [u32; 3]| midpoint(mesh.slots(place, corners).map(at));
         let now = mesh.triangles();
@@ -123,10 +123,7 @@ fn begin<S: Coordinate>(mesh: &BodyMesh<S>, shape: &BodyShape<S>, options: &Opti
     let (degree, leaf_size) = (options.degree.get(), options.leaf_size.get());
     let by_shape = |cut| -> Rule {
         let corners = numbers.iter().map(|&it| mesh.triangles()[it as usize]);
-        let positions = shape
-            .positions()
-            .in_callers_order(mesh.order())
-            .into_owned();
+        let positions = shape.in_callers_order(mesh.order()).into_owned();
         let (corners, positions) = (Cow::Owned(corners.collect()), Cow::Owned(positions));
         Box::new(InitialShape::new(corners, positions, cut, degree))
     };

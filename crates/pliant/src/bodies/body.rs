@@ -1,8 +1,7 @@
-//! One body: its mesh, its trees, the shape it has now, where it is going, and what it may meet.
+//! One body, which joins its mesh, its shape, its motion, its trees and its filters.
 
 mod edits;
-mod tree_cut;
-mod validate;
+mod looking;
 
 use super::build::build;
 use super::checks;
@@ -27,7 +26,7 @@ use crate::traversal::Side;
 use crate::tree::{Source, Swept, Tree};
 use std::borrow::Cow;
 
-/// A body of a world.
+/// A body of a world. Its parts change each other only through their methods, called here.
 pub(crate) struct Body<S> {
     mesh: BodyMesh<S>,
     shape: BodyShape<S>,
@@ -37,10 +36,11 @@ pub(crate) struct Body<S> {
     filter: Filter<S>,
 }
 
-/// Of so many triangles one is looked at to know how far vertices move.
+/// One of this many triangles is looked at to know how far vertices move.
 const SAMPLED: usize = 16;
 
-/// Fewer triangles than one of so many are few: a tree in which these were edited does about what a fresh one would.
+/// Edits of fewer than one of this many triangles are few: the tree does about as well as a fresh
+/// one.
 const OF_FEW: usize = 256;
 
 impl<S: Coordinate> Body<S> {
@@ -56,7 +56,7 @@ impl<S: Coordinate> Body<S> {
         Self {
             shape: BodyShape::new(positions, &order),
             mesh: BodyMesh::new(id, topology, order),
-            motion: Motion::none(),
+            motion: Motion::default(),
             parts: Parts::of(tree, triangles.len()),
             rebuild: Rebuild::default(),
             filter: Filter::none(),
@@ -86,7 +86,7 @@ impl<S: Coordinate> Body<S> {
         &self.mesh
     }
 
-    // What it may meet.
+    // Filters.
 
     pub(crate) fn set_filter(&mut self, membership: u32, mask: u32) {
         self.filter.set_masks(membership, mask);
@@ -102,7 +102,7 @@ impl<S: Coordinate> Body<S> {
         self.filter.lets_meet(&other.filter)
     }
 
-    /// Gives every vertex a group; those of one group do not meet, unless it is 0.
+    /// Gives every vertex a group. Vertices of one group do not meet, unless it is 0.
     pub(crate) fn set_groups(&mut self, groups: &[u32]) -> Result<(), ErrorKind> {
         self.filter.set_groups(groups, self.mesh.vertex_count())
     }
@@ -112,14 +112,16 @@ impl<S: Coordinate> Body<S> {
         self.filter.groups(self.mesh.vertex_count())
     }
 
-    /// Numbers the edges as those of another body with this mesh are. Returns false if they are not its edges, or have numbers already.
+    /// Numbers the edges as another body with this mesh does. Returns false if these are not its
+    /// edges, or if they have numbers already.
     pub(crate) fn number_edges(&mut self, edges: &[[u32; 2]]) -> bool {
         self.mesh.number_edges(edges)
     }
 
-    // Its shape.
+    // The shape.
 
-    /// Validates a new shape and takes it over; or leaves the body as it is and says what was wrong. A motion ends.
+    /// Validates a new shape and takes it over; or leaves the body as it is and says what was
+    /// wrong. A motion ends.
     pub(crate) fn set_positions(
         &mut self,
         instructions: Instructions,
@@ -134,12 +136,12 @@ impl<S: Coordinate> Body<S> {
         Ok(())
     }
 
-    /// The shape as the caller orders vertices; those that are empty are nowhere.
+    /// The shape as the caller orders vertices; empty ones are nowhere.
     pub(crate) fn positions(&self) -> Cow<'_, [[S; 3]]> {
         self.mesh.without_empty_ones(self.stored_positions())
     }
 
-    /// The shape as the caller orders vertices; those that are empty are somewhere.
+    /// The shape as the caller orders vertices; empty ones are somewhere.
     fn stored_positions(&self) -> Cow<'_, [[S; 3]]> {
         self.shape.in_callers_order(self.mesh.order())
     }
@@ -168,7 +170,7 @@ impl<S: Coordinate> Body<S> {
         self.filter.loose()
     }
 
-    /// The same, as the broad phase works with it.
+    /// The loose box as the broad phase works with it, if there is one.
     pub(crate) fn loose_box(&self, origin: Origin) -> Option<Aabb> {
         self.loose().map(|loose| loose.to_box(origin))
     }
@@ -176,7 +178,7 @@ impl<S: Coordinate> Body<S> {
     pub(crate) fn set_loose_box(&mut self, loose: Option<Bounds<S>>) -> Result<(), ErrorKind> {
         if let Some(loose) = &loose {
             checks::is_box(loose)?;
-            // Of vertices that are empty it does not matter where they were.
+            // Where empty vertices were does not matter.
             let is_empty = |vertex| self.mesh.is_empty(vertex);
             checks::all_inside(loose, &self.stored_positions(), is_empty)?;
             if let Some(way) = self.motion.on() {
@@ -208,18 +210,20 @@ impl<S: Coordinate> Body<S> {
         corners.map(|vertex| positions.padded(vertex))
     }
 
-    /// Where the corners of elements are, as the caller numbers them; of a body that was brought into tree order.
+    /// Where the corners of elements are, as the caller numbers them; of a body that was brought
+    /// into tree order.
     pub(crate) fn places(&self) -> Option<Places<'_, S>> {
         self.mesh.places(self.shape.in_tree_order())
     }
 
-    // Where it is going.
+    // The motion.
 
     pub(crate) fn is_moving(&self) -> bool {
         self.motion.on().is_some()
     }
 
-    /// Validates a shape that the body is going to have, and begins a motion to it, in place of any other.
+    /// Validates a shape that the body is going to have, and begins a motion to it, in place of any
+    /// other.
     pub(crate) fn set_motion(
         &mut self,
         instructions: Instructions,
@@ -232,13 +236,13 @@ impl<S: Coordinate> Body<S> {
             .begin(&self.shape, &end, self.filter.loose(), threads)
     }
 
-    /// The end of a motion is the shape of now.
+    /// Ends a motion: the body has the shape at its end.
     pub(crate) fn finish_motion(&mut self) {
         self.motion.finish(&mut self.shape);
     }
 
-    /// Of the way of a motion the part `t`, from 0 to 1, is gone: the shape is there, and the motion has ended. It is made in a list that
-    /// is kept from call to call.
+    /// Ends a motion at a part `t` of its way, from 0 to 1: the body has the shape there. The list
+    /// in which that is made is kept from call to call.
     pub(crate) fn advance_motion(
         &mut self,
         instructions: Instructions,
@@ -274,7 +278,8 @@ impl<S: Coordinate> Body<S> {
         Some(self.mesh.without_empty_ones(end))
     }
 
-    /// By how many lengths of an edge vertices move, on the mean of some of both; 0 if there is no motion.
+    /// By how many lengths of an edge vertices move, on the mean of some of both; 0 if there is no
+    /// motion.
     pub(crate) fn motion_in_edges(&self) -> f64 {
         let Some(end) = self.motion.on().map(Way::end) else {
             return 0.0;
@@ -295,9 +300,9 @@ impl<S: Coordinate> Body<S> {
         if ways == 0.0 { 0.0 } else { ways / sides }
     }
 
-    // What queries look at.
+    // Queries.
 
-    /// How many triangles there are in tree order, with those that were taken out and are still there.
+    /// The number of triangles in tree order, with the ones that were only marked as taken out.
     pub(crate) fn triangle_count(&self) -> usize {
         self.mesh.tree_triangles()
     }
@@ -312,8 +317,8 @@ impl<S: Coordinate> Body<S> {
         self.parts.shape()
     }
 
-    /// Brings the shape into tree order, which everything that looks at it needs, and what is looked at of a motion, if it is. Returns
-    /// false if it was interrupted.
+    /// Brings the shape into tree order, which everything that looks at it needs, and what is
+    /// looked at of a motion, if it is. Returns false if it was interrupted.
     pub(crate) fn bring_into_tree_order(
         &mut self,
         reach: Option<Reach>,
@@ -332,8 +337,8 @@ impl<S: Coordinate> Body<S> {
         part.know_neighbours(self.mesh.order(), executor);
     }
 
-    /// Makes the boxes of elements, unless they are those of the shape and the motion of now. Returns false if it was interrupted. The body
-    /// was brought into tree order, with its motion.
+    /// Makes the boxes of elements, unless they hold the current shape and motion. Returns false if
+    /// it was interrupted. The body was brought into tree order, with its motion.
     pub(crate) fn make_near_boxes(
         &mut self,
         which: Which,
@@ -355,13 +360,13 @@ impl<S: Coordinate> Body<S> {
         parts.all(|part| part.make_near_boxes(which, &source, elements, (instructions, executor)))
     }
 
-    /// What a query of some kind descends: one part of a body that was brought into tree order.
+    /// One part of the body, as a query descends it; the body was brought into tree order.
     pub(crate) fn side(&mut self, needs: &Needs, origin: Origin, part: usize) -> Side<'_, S> {
         let (parts, side) = self.parts_and_sides(needs, origin);
         side(parts.one_mut(part))
     }
 
-    /// Two different parts of it, the one with the lower number first.
+    /// Two different parts of the body, the one with the lower number first.
     pub(crate) fn two_sides(
         &mut self,
         needs: &Needs,
@@ -372,7 +377,7 @@ impl<S: Coordinate> Body<S> {
         parts.two_mut(numbers).map(side)
     }
 
-    /// The parts, and what a query descends of one of them.
+    /// The parts, and how a query descends one of them.
     #[inline]
     fn parts_and_sides<'b>(
         &'b mut self,
@@ -416,9 +421,9 @@ impl<S: Coordinate> Body<S> {
         self.parts.all_mut().for_each(Part::forget_boxes);
     }
 
-    // Its trees.
+    // The trees.
 
-    /// Queries looked at the body.
+    /// Notes what queries did with the body.
     pub(crate) fn note_work(&mut self, work: Work) {
         let first = self.parts.in_first();
         let is_hardly_edited = self.mesh.out_of_date(first) * OF_FEW < first;
@@ -431,13 +436,14 @@ impl<S: Coordinate> Body<S> {
         self.rebuild.quality()
     }
 
-    /// Builds the tree anew, on the shape of now.
+    /// Builds the tree anew, of the current shape.
     pub(crate) fn rebuild(&mut self, options: &Options) {
         let (order, tree) = build(self.mesh.topology(), &self.stored_positions(), options);
         self.exchange_tree(order, tree, &[]);
     }
 
-    /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one now.
+    /// Goes on with mending, or begins it where it pays. Returns whether the tree is another one
+    /// now.
     pub(crate) fn mend(&mut self, options: &Options) -> bool {
         let know_neighbours = self.parts.know_neighbours();
         let (mesh, shape) = (&self.mesh, &self.shape);
@@ -446,7 +452,7 @@ impl<S: Coordinate> Body<S> {
             return false;
         };
         self.exchange_tree(order, tree, &changed);
-        // What was edited since is marked as gone in it, or comes behind it.
+        // Triangles that were edited since are marked as gone in the tree, or come behind it.
         if !changed.is_empty() {
             self.mesh.leave_orphans(&changed, &mut self.shape);
             let coming = changed.iter().filter(|(_, [_, now])| *now != EMPTY);
@@ -455,7 +461,8 @@ impl<S: Coordinate> Body<S> {
         true
     }
 
-    /// Has another tree from now on, over all triangles in another order, but for some that were changed since these had their order.
+    /// Exchanges the tree for another, over triangles in another order. Those that were changed
+    /// since it was begun are taken out of it.
     fn exchange_tree(&mut self, order: Order, tree: Tree, changed: &[Changed]) {
         self.shape.forget_tree_order(self.mesh.order());
         self.shape.begin_version();

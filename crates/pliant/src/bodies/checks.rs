@@ -41,7 +41,7 @@ pub(crate) fn none_is_lost<S: Real>(positions: &[[S; 3]]) -> Result<(), ErrorKin
     }
 }
 
-/// Refuses positions of which some are outside a loose box, but for vertices that are empty.
+/// Refuses positions outside a loose box; where empty vertices are does not matter.
 pub(crate) fn all_inside<S: Real>(
     loose: &Bounds<S>,
     positions: &[[S; 3]],

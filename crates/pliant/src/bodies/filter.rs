@@ -1,4 +1,4 @@
-//! What a body may meet: membership and mask, a loose box, groups of vertices.
+//! The filters of a body: membership and mask, a loose box, groups of vertices.
 
 use crate::error::ErrorKind;
 use crate::geometry::Bounds;
@@ -6,7 +6,7 @@ use crate::held::{self, Held, held};
 use crate::mesh::{Elements, Order, Outcome};
 use crate::queries::Groups;
 
-/// What a body, and what of it, may meet.
+/// The filters of a body: which others it may meet, and which of its vertices may meet.
 pub(crate) struct Filter<S> {
     membership: u32,
     mask: u32,
@@ -31,21 +31,13 @@ impl VertexGroups {
 }
 
 impl<S: Copy> Filter<S> {
-    /// Lets everything meet.
+    /// A filter that lets everything meet.
     pub(crate) const fn none() -> Self {
         Self {
             membership: u32::MAX,
             mask: u32::MAX,
             loose: None,
             groups: None,
-        }
-    }
-
-    /// The same, of another mesh, whose vertices have no groups.
-    pub(crate) fn without_groups(&self) -> Self {
-        Self {
-            groups: None,
-            ..*self
         }
     }
 
@@ -76,12 +68,12 @@ impl<S: Copy> Filter<S> {
         self.loose
     }
 
-    /// Gives it such a box, which was checked.
+    /// Gives the body a loose box, which was checked, or none.
     pub(crate) fn set_loose(&mut self, loose: Option<Bounds<S>>) {
         self.loose = loose;
     }
 
-    /// Gives every vertex a group; those of one group do not meet, unless it is 0.
+    /// Gives every vertex a group. Vertices of one group do not meet, unless it is 0.
     pub(crate) fn set_groups(&mut self, groups: &[u32], vertices: usize) -> Result<(), ErrorKind> {
         if groups.len() != vertices {
             return Err(ErrorKind::WrongLength {
@@ -117,25 +109,27 @@ impl<S: Copy> Filter<S> {
         self.groups.as_ref()?.of_elements.as_ref()
     }
 
-    /// All vertices meet.
+    /// Forgets the groups: all vertices meet.
     pub(crate) fn forget_groups(&mut self) {
         self.groups = None;
     }
 
-    /// The order of the mesh is going to be another.
+    /// Forgets the groups of elements, because the mesh gets another order.
     pub(crate) fn forget_tree_order(&mut self) {
         if let Some(groups) = &mut self.groups {
             groups.of_elements = None;
         }
     }
 
-    /// New vertices get the groups of those that they were split from, else none.
+    /// Follows an edit: a vertex that was split from another has its group, other new ones have
+    /// none.
     pub(crate) fn follow(&mut self, outcome: &Outcome<S>) {
         self.forget_tree_order();
         let Some(groups) = &mut self.groups else {
             return;
         };
-        // Of vertices as they were before: one that was split may have gone since, and its number may be another's.
+        // Of vertices as they were before: one that was split may have gone since, and its number
+        // may be another's.
         let group = |vertex: u32| {
             let from = outcome.split_from.get(&vertex);
             from.map_or(0, |&from| groups.callers[from as usize])

@@ -10,8 +10,8 @@ use crate::selection::Selection;
 use std::collections::BTreeSet;
 
 pub(crate) struct Bodies<S> {
-    /// In no order that matters: a removed body's place is taken by the last. Each in memory of its own, so that a list that grows holds no
-    /// room for bodies that are not there.
+    /// In no order that matters: a removed body's place is taken by the last. Each in memory of its
+    /// own, so that a list that grows holds no room for bodies that are not there.
     list: Vec<Box<Body<S>>>,
     /// By rank: the ids in order, and where the bodies stand in the list.
     ids: Vec<BodyId>,
@@ -39,7 +39,8 @@ impl<S: Coordinate> Bodies<S> {
         self.next_id.map(BodyId).ok_or(ErrorKind::TooManyBodies)
     }
 
-    /// No body added from now on has an id below this one; with none, no other can be added. Ids never go back.
+    /// No body added from now on has an id below this one; with none, no other can be added. Ids
+    /// never go back.
     pub(crate) fn skip_ids(&mut self, next: Option<u32>) {
         self.next_id = match (self.next_id, next) {
             (Some(now), Some(next)) => Some(now.max(next)),

@@ -14,16 +14,16 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-/// The mesh of a body.
+/// The mesh of a body, with the lists that edits and queries of elements need.
 pub(crate) struct BodyMesh<S> {
     body: BodyId,
     topology: Topology,
     order: Order,
-    /// Edges, and who owns what, once somebody asks.
+    /// Edges, and which triangle owns what, once somebody asks.
     elements: OnceLock<Box<Elements>>,
-    /// Whether somebody asked before the tree was exchanged, or another body was made like this one.
+    /// Whether somebody asked for edges before the tree was exchanged or the body was copied.
     edges_were_known: bool,
-    /// Once it is edited.
+    /// Present once the mesh was edited.
     edits: Option<Box<Edits<S>>>,
     /// Counts meshes.
     version: u64,
@@ -31,7 +31,7 @@ pub(crate) struct BodyMesh<S> {
     order_version: u64,
 }
 
-/// What a body keeps once its mesh is edited.
+/// Lists of a mesh that was edited: where things are in tree order, and which are gone.
 #[derive(Clone)]
 pub(crate) struct Edits<S> {
     /// For each of the caller's triangles its place in tree order.
@@ -43,9 +43,10 @@ pub(crate) struct Edits<S> {
     gone: Bits,
     /// Vertices, as the caller numbers them, that are empty.
     empty: Bits,
-    /// By the caller's number of an alias, the orphans in tree order that stand where it does; some of these may have another by now.
+    /// By the caller's number of an alias, the orphans in tree order that stand where it does; some
+    /// of these may have another by now.
     orphans_of: BTreeMap<u32, Vec<u32>>,
-    /// A shape in which those that are empty are somewhere, kept from shape to shape.
+    /// A shape in which empty vertices are somewhere; memory that is kept from shape to shape.
     patched: Vec<[S; 3]>,
     /// All vertices in tree order, once somebody asks and there are orphans.
     without_orphans: OnceLock<Vec<u32>>,
@@ -96,16 +97,13 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Another mesh of the same body.
-    pub(crate) fn after(&self, topology: Topology, order: Order) -> Self {
-        Self {
-            version: self.version + 1,
-            order_version: self.order_version + 1,
-            ..Self::new(self.body, topology, order)
-        }
+    /// Takes the place of another mesh of the same body: versions go on from there.
+    pub(crate) fn succeed(&mut self, before: &Self) {
+        self.version = before.version + 1;
+        self.order_version = before.order_version + 1;
     }
 
-    /// The same mesh. Edges are found out again, unless an edit has kept their numbers.
+    /// Copies the mesh. Edges are found out again, unless an edit has kept their numbers.
     pub(crate) fn copy(&self) -> Self {
         let known = self.elements.get().filter(|known| known.follows());
         Self {
@@ -118,7 +116,7 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Whose it is.
+    /// The body that has this mesh.
     #[inline]
     pub(crate) fn body(&self) -> BodyId {
         self.body
@@ -129,7 +127,7 @@ impl<S: Coordinate> BodyMesh<S> {
         &self.topology
     }
 
-    /// The triangles, with those whose numbers are empty.
+    /// The triangles as the caller numbers them, empty numbers included.
     pub(crate) fn triangles(&self) -> &[[u32; 3]] {
         self.topology.triangles()
     }
@@ -138,7 +136,7 @@ impl<S: Coordinate> BodyMesh<S> {
         self.topology.vertex_count()
     }
 
-    /// Counts meshes, and orders of a mesh.
+    /// The version of mesh and order together.
     pub(crate) fn order_version(&self) -> u64 {
         self.order_version
     }
@@ -200,7 +198,8 @@ impl<S: Coordinate> BodyMesh<S> {
         self.edges_are_known().then(|| self.edges())
     }
 
-    /// Numbers the edges as those of another body with this mesh are. Returns false if they are not its edges, or have numbers already.
+    /// Numbers the edges as another body with this mesh does. Returns false if these are not its
+    /// edges, or if they have numbers already.
     pub(crate) fn number_edges(&mut self, edges: &[[u32; 2]]) -> bool {
         let is_new = !self.edges_are_known() && self.elements(&|| false).is_some();
         let (elements, topology) = (self.elements.get_mut(), &self.topology);
@@ -212,7 +211,7 @@ impl<S: Coordinate> BodyMesh<S> {
         &self.order
     }
 
-    /// How many triangles there are in tree order, with those that were taken out and are still there.
+    /// The number of triangles in tree order, with the ones that were only marked as taken out.
     pub(crate) fn tree_triangles(&self) -> usize {
         self.order.all_corners().len()
     }
@@ -224,19 +223,20 @@ impl<S: Coordinate> BodyMesh<S> {
         edits.is_some_and(|edits| edits.gone.has(triangle.0))
     }
 
-    /// The numbers of all triangles of a run that were not taken out.
+    /// The caller's numbers of the triangles of a run in tree order that were not taken out.
     pub(crate) fn still_there(&self, run: Range<u32>) -> impl Iterator<Item = u32> {
         let there = run.map(TreeTriangle).filter(|&place| !self.is_gone(place));
         there.map(|place| self.order.caller_triangle(place).0)
     }
 
-    /// How many triangles are out of date in a tree over the first so many: they were taken out or came behind it.
+    /// The number of triangles that were taken out, or came behind the first part, which has
+    /// `first`.
     pub(crate) fn out_of_date(&self, first: usize) -> usize {
         let gone = self.edits.as_ref().map_or(0, |edits| edits.gone.count());
         self.tree_triangles() - first + gone
     }
 
-    /// What was taken out, if anything was.
+    /// The triangles and vertices that were taken out, if there are any.
     pub(crate) fn removed(&self) -> Option<Removed<'_>> {
         let (triangles, vertices) = (&self.edits.as_ref()?.gone, self.order.orphans());
         let is_any = triangles.count() > 0 || vertices.count() > 0;
@@ -258,7 +258,8 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Where the corners of a triangle are in tree order, which is at a place in it unless the mesh was edited.
+    /// Where the corners of a triangle are in tree order. Its place there is used as long as the
+    /// mesh was not edited, its corners as the caller numbers them after that.
     pub(crate) fn slots(&self, place: usize, corners: [u32; 3]) -> [TreeVertex; 3] {
         match &self.edits {
             Some(edits) => corners.map(|vertex| edits.slots[vertex as usize]),
@@ -280,7 +281,7 @@ impl<S: Coordinate> BodyMesh<S> {
         })
     }
 
-    /// A new shape, in which rows of vertices that are empty are those of others.
+    /// A new shape, made of positions: empty vertices are put where another vertex is.
     pub(crate) fn new_shape<'n>(&'n mut self, positions: &'n [[S; 3]]) -> NewShape<'n, S> {
         let empty = self.empty_count();
         let used = self.order.used_vertices() - self.order.orphans().count();

@@ -1,9 +1,10 @@
 //! Deforming bodies: each a mesh, the trees over it, and the shape that it has now.
 //!
-//! A `body` joins things that do not know each other's fields: its `mesh`; its `shape`, in the caller's order
-//! or in the tree's; its `motion`; its `parts`, each a tree over a run of triangles; a `rebuild` of these when
-//! they have decayed; and a `filter`, which says what may meet. `checks` refuse positions, and `build` makes the tree
-//! that the options ask for. `debug_view` is for those who look at trees. All bodies of a world are a `list`.
+//! A `body` joins things that do not know each other's fields: its `mesh`; its `shape`, in the
+//! caller's order or in the tree's; its `motion`; its `parts`, each a tree over a run of triangles;
+//! a `rebuild` of these when they have decayed; and a `filter`, which says what may meet. `checks`
+//! refuse positions, and `build` makes the tree that the options ask for. `debug_view` is for those
+//! who look at trees. All bodies of a world are a `list`.
 
 mod body;
 mod build;

@@ -1,4 +1,4 @@
-//! Where the vertices of a body are going.
+//! The motion of a body: where its vertices are going.
 
 use super::shape::{BodyShape, NewShape};
 use crate::error::ErrorKind;
@@ -10,16 +10,18 @@ use crate::queries::Reach;
 use crate::threads::Executor;
 
 /// The motion of a body, if it has one.
+#[derive(Default)]
 pub(crate) struct Motion<S> {
     /// None before the first; memory for the next when one has ended.
     way: Option<Box<Way<S>>>,
-    /// The last version of ways that were forgotten: boxes of one of them are not those of another.
+    /// The last version of ways that were forgotten. Boxes of one motion must not pass for boxes of
+    /// another.
     forgotten: u64,
 }
 
-/// A motion from the shape of now to another.
+/// A motion from the current shape to another.
 pub(crate) struct Way<S> {
-    /// Its version is the number of this motion.
+    /// The shape at the end. Its version is the number of this motion.
     end: BodyShape<S>,
     /// Counts motions, and shapes on the way.
     versions: u64,
@@ -32,21 +34,14 @@ pub(crate) struct Way<S> {
 struct Partway<S> {
     /// In tree order.
     points: Points<S>,
-    /// Of which shape and which motion, and how far.
+    /// The versions of the shape and the motion that it lies between, and how far it is.
     of: (u64, u64, Reach),
     /// Its own number among motions.
     version: u64,
 }
 
 impl<S: Coordinate> Motion<S> {
-    pub(crate) const fn none() -> Self {
-        Self {
-            way: None,
-            forgotten: 0,
-        }
-    }
-
-    /// The same, of a body whose mesh is in this order; without memory for the next.
+    /// Copies the motion of a body whose mesh is in this order, without memory for the next.
     pub(crate) fn copy(&self, order: &Order) -> Self {
         let way = self.on().map(|way| {
             Box::new(Way {
@@ -64,8 +59,8 @@ impl<S: Coordinate> Motion<S> {
         self.way.as_deref().filter(|way| way.is_on)
     }
 
-    /// Begins one, in place of any other, to a shape that is checked first, in a box that it must not leave; or leaves all as it is and says
-    /// what was wrong.
+    /// Begins one, in place of any other, to a shape that is checked first, in a box that it must
+    /// not leave; or leaves all as it is and says what was wrong.
     pub(crate) fn begin(
         &mut self,
         from: &BodyShape<S>,
@@ -78,7 +73,7 @@ impl<S: Coordinate> Motion<S> {
             way.begin();
             return Ok(());
         }
-        // What is there before is of no interest; it has the right length.
+        // The copy is only of the right length; its positions are overwritten.
         let mut place = from.copy(end.order);
         place.take(end, loose, threads)?;
         let way = self.way.insert(Box::new(Way {
@@ -91,21 +86,21 @@ impl<S: Coordinate> Motion<S> {
         Ok(())
     }
 
-    /// The body stands still.
+    /// Ends the motion: the body stands still.
     pub(crate) fn stop(&mut self) {
         if let Some(way) = &mut self.way {
             way.is_on = false;
         }
     }
 
-    /// Stops, and forgets vertices that are not those of the body any more.
+    /// Ends the motion and forgets its vertices, because the body has others.
     pub(crate) fn forget(&mut self) {
         if let Some(way) = self.way.take() {
             self.forgotten = way.versions;
         }
     }
 
-    /// The end of the motion is the shape of now.
+    /// Ends the motion, and gives the shape at its end to the body.
     pub(crate) fn finish(&mut self, shape: &mut BodyShape<S>) {
         if let Some(way) = self.way.as_mut().filter(|way| way.is_on) {
             let version = shape.version();
@@ -115,7 +110,7 @@ impl<S: Coordinate> Motion<S> {
         }
     }
 
-    /// Tree order is going to be another than `order`.
+    /// Leaves tree order, which is going to be another than `order`.
     pub(crate) fn forget_tree_order(&mut self, order: &Order) {
         if let Some(way) = &mut self.way {
             way.end.forget_tree_order(order);
@@ -123,8 +118,8 @@ impl<S: Coordinate> Motion<S> {
         }
     }
 
-    /// Brings into tree order what is looked at of a motion, if there is one; the shape was brought into it. Returns false if it was
-    /// interrupted.
+    /// Brings into tree order what is looked at of a motion, if there is one; the shape was brought
+    /// into it. Returns false if it was interrupted.
     pub(crate) fn bring_into_tree_order(
         &mut self,
         from: &BodyShape<S>,
@@ -166,14 +161,14 @@ impl<S: Coordinate> Way<S> {
         match (&self.partway, reach) {
             (Some(partway), Reach::Until(_) | Reach::To(_)) => Shape {
                 positions: &partway.points,
-                epoch: partway.version,
+                version: partway.version,
                 ..end
             },
             _ => end,
         }
     }
 
-    /// Where vertices are going, for who looks along motions.
+    /// The positions that vertices are going to, for kinds that look along motions.
     pub(crate) fn going(&self, reach: Reach) -> &Points<S> {
         match (&self.partway, reach) {
             (Some(partway), Reach::To(_)) => &partway.points,
@@ -181,7 +176,8 @@ impl<S: Coordinate> Way<S> {
         }
     }
 
-    /// Makes the shape in which what is looked at ends before the motion does, unless it is there; both ends are in tree order.
+    /// Makes the shape in which what is looked at ends before the motion does, unless it is there;
+    /// both ends are in tree order.
     fn make_partway(&mut self, from: &BodyShape<S>, reach: Reach) {
         let (t, is_rounded) = match reach {
             Reach::End => return,
@@ -196,11 +192,8 @@ impl<S: Coordinate> Way<S> {
             }
         };
         let of = (from.version(), self.end.version(), reach);
-        if self
-            .partway
-            .as_ref()
-            .is_some_and(|partway| partway.of == of)
-        {
+        let partway = self.partway.as_ref();
+        if partway.is_some_and(|partway| partway.of == of) {
             return;
         }
         self.versions += 1;

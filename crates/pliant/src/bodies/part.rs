@@ -1,6 +1,7 @@
-//! A tree of a body, over a run of the triangles in tree order, and what hangs on it: boxes, and boxes of elements.
+//! A tree of a body, over a run of the triangles in tree order, and what hangs on it: boxes, and
+//! boxes of elements.
 //!
-//! A body has one part, over all of its triangles, until its mesh is edited: see `edits`.
+//! A body has one part, over all of its triangles, until its mesh is edited: see `body::edits`.
 
 use super::shape::SMALL;
 use crate::held::{self, held};
@@ -17,17 +18,17 @@ use std::ops::Range;
 pub(crate) struct Part {
     tree: Tree,
     triangles: Range<u32>,
-    /// Its triangles are the first to use vertices from this one on.
+    /// The first vertex that its triangles are the first to use.
     first_vertex: TreeVertex,
-    /// By the number of the set. They are made when a kind of query asks for them; but in a large body the first, of the shape as it is,
-    /// is there from the beginning.
+    /// By the number of the set. They are made when a kind of query asks for them; but in a large
+    /// body the first, of the shape as it is, is there from the beginning.
     boxes: Vec<Option<BoxSet>>,
     /// Boxes of elements, once somebody asks for those.
     near_boxes: Option<Box<NearBoxes>>,
 }
 
 impl Part {
-    /// Of a tree over these triangles, which are the first to use vertices from `first_vertex` on.
+    /// A part of a tree over these triangles, the first to use vertices from `first_vertex` on.
     pub(crate) fn new(tree: Tree, triangles: Range<u32>, first_vertex: TreeVertex) -> Self {
         let boxes = if triangles.len() > SMALL {
             vec![Some(BoxSet::new(&tree))]
@@ -47,17 +48,18 @@ impl Part {
         &self.tree
     }
 
-    /// Its run of the triangles in tree order.
+    /// The run of triangles in tree order that the tree is over.
     pub(crate) fn triangles(&self) -> Range<u32> {
         self.triangles.clone()
     }
 
-    /// Its triangles are the first to use vertices from this one on.
+    /// The first vertex that its triangles are the first to use.
     pub(crate) fn first_vertex(&self) -> TreeVertex {
         self.first_vertex
     }
 
-    /// The tree, a set of its boxes, which is made if it was never asked for, and the boxes of elements.
+    /// The tree, a set of its boxes, which is made if it was never asked for, and the boxes of
+    /// elements.
     pub(crate) fn for_query(
         &mut self,
         number: BoxSetNumber,
@@ -83,8 +85,8 @@ impl Part {
         }
     }
 
-    /// Checks the structure of the tree, and that each box that claims to be valid is the box over the vertices below it, of the shape of
-    /// now and of where it is going. A sentence says what is wrong.
+    /// Checks the structure of the tree, and that each box that claims to be valid holds what is
+    /// below it, now and at the end of a motion. A sentence says what is wrong.
     pub(crate) fn validate<S: Coordinate>(
         &self,
         order: &Order,
@@ -106,7 +108,7 @@ impl Part {
         Ok(())
     }
 
-    /// The same, whose boxes are made anew.
+    /// Copies the part; its boxes are made anew.
     pub(crate) fn copy(&self) -> Self {
         Self::new(self.tree.clone(), self.triangles.clone(), self.first_vertex)
     }
@@ -116,7 +118,8 @@ impl Part {
         self.boxes.iter_mut().flatten().for_each(BoxSet::forget);
     }
 
-    /// Makes the boxes of elements, unless they are those of the shape and the motion of now. Returns false if it was interrupted.
+    /// Makes the boxes of elements, unless they hold these shapes. Returns false if it was
+    /// interrupted.
     pub(crate) fn make_near_boxes<S: Coordinate>(
         &mut self,
         which: Which,
@@ -133,8 +136,8 @@ impl Part {
         )
     }
 
-    /// Which of its triangles share a vertex, for a part that meets itself. A small part behind others is not worth a table, which takes
-    /// time by all vertices: corners are compared there.
+    /// Which of its triangles share a vertex, for a part that meets itself. A small part behind
+    /// others is not worth a table, which takes time by all vertices: corners are compared there.
     pub(crate) fn know_neighbours(&mut self, order: &Order, executor: Executor) {
         if self.triangles.start == 0 {
             self.tree.know_neighbours(order, executor);

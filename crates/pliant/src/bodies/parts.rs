@@ -16,7 +16,7 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
-    /// Of a tree over all of so many triangles.
+    /// One part, whose tree is over all triangles.
     pub(crate) fn of(tree: Tree, triangles: usize) -> Self {
         Self {
             first: Part::new(tree, 0..triangles as u32, TreeVertex(0)),
@@ -24,7 +24,7 @@ impl Parts {
         }
     }
 
-    /// The same, whose boxes are made anew.
+    /// Copies the parts; their boxes are made anew.
     pub(crate) fn copy(&self) -> Self {
         Self {
             first: self.first.copy(),
@@ -61,12 +61,12 @@ impl Parts {
         [low, &mut rest[0]]
     }
 
-    /// How many triangles the first is over.
+    /// The number of triangles in the first part.
     pub(crate) fn in_first(&self) -> usize {
         self.first.triangles().len()
     }
 
-    /// Whether it is known which triangles of the first share a vertex.
+    /// Whether it is known which triangles of the first part share a vertex.
     pub(crate) fn know_neighbours(&self) -> bool {
         self.first.tree().knows_neighbours()
     }
@@ -76,12 +76,12 @@ impl Parts {
         self.others.push(part);
     }
 
-    /// Takes away the last part, but the first, if it is over at most so many triangles.
+    /// Takes away the last part behind the first, if it has at most `most` triangles.
     pub(crate) fn pop(&mut self, most: usize) -> Option<Part> {
         self.others.pop_if(|last| last.triangles().len() <= most)
     }
 
-    /// All trees together in numbers.
+    /// The trees in numbers, all together.
     pub(crate) fn shape(&self) -> TreeShape {
         let trees = || self.all().map(Part::tree);
         TreeShape {

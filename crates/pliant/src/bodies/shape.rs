@@ -1,9 +1,11 @@
 //! A shape of a body: as the caller orders vertices, in tree order, or both.
 //!
-//! Two ways lead to a new shape, and either leaves the old one as it is if something is wrong with the new. A body that nobody looked
-//! at since its last shape is *copied* while it is checked, which is one pass as fast as memory. A body that was looked at will be
-//! looked at again: it is only checked, and then *taken straight into tree order*, without a copy between. But where there are
-//! several threads a small one is copied as well: shapes come one after the other, and threads bring them into order side by side.
+//! Two ways lead to a new shape, and either leaves the old one as it is if something is wrong with
+//! the new. A body that nobody looked at since its last shape is *copied* while it is checked,
+//! which is one pass as fast as memory. A body that was looked at will be looked at again: it is
+//! only checked, and then *taken straight into tree order*, without a copy between. But where there
+//! are several threads a small one is copied as well: shapes come one after the other, and threads
+//! bring them into order side by side.
 //!
 //! So a new shape is staged first, which changes nothing that can be seen, and then committed.
 
@@ -19,26 +21,30 @@ use std::borrow::Cow;
 
 /// Points in a job: some microseconds of work; a whole number of rows.
 const JOB: usize = 64 * IN_A_ROW;
-/// So many points, or fewer, are not worth waking a thread.
+/// At most this many points are not worth waking a thread.
 const SHARED: usize = 4 * JOB;
 
-/// A body of so many triangles, or vertices, or fewer, takes memory when somebody looks at it: among many small ones most are never
-/// looked at. Larger ones take it when they are added, because a query may not go on for long before it asks whether to stop.
+/// A body of at most this many triangles, or vertices, takes memory when somebody looks at it:
+/// among many small ones most are never looked at. Larger ones take it when they are added, because
+/// a query may not go on for long before it asks whether to stop.
 pub(crate) const SMALL: usize = 1 << 8;
 
 /// A shape of a body: the one that it has now, or the one at the end of a motion.
 pub(crate) struct BodyShape<S> {
     len: usize,
-    /// The shape of now, if it is in the caller's order. Nothing in a body that was looked at in every shape so far.
+    /// The shape, if it is in the caller's order. Nothing in a body that was looked at in every
+    /// shape so far.
     callers: Vec<[S; 3]>,
-    /// Where the next shape is copied to, so that a bad one never replaces a good one; nothing until one is copied.
+    /// Where the next shape is copied to, so that a bad one never replaces a good one; nothing
+    /// until one is copied.
     spare: Vec<[S; 3]>,
-    /// The shape of now, if it is in tree order; nothing as long as a small body was not looked at.
+    /// The shape, if it is in tree order; nothing as long as a small body was not looked at.
     trees: Points<S>,
     order: InOrder,
-    /// Of the vertices that triangles use.
+    /// The extent of the vertices that triangles use.
     bounds: Bounds<S>,
-    /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other versions are stale.
+    /// Counts changes of shape, and of the origin that boxes are relative to. Boxes of other
+    /// versions are stale.
     version: u64,
 }
 
@@ -51,7 +57,7 @@ pub(crate) struct NewShape<'n, S> {
     pub(crate) are_all_used: bool,
 }
 
-/// In which order the shape of now is there.
+/// The order in which a shape is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum InOrder {
     /// As the caller orders vertices: nobody looked at it since it came.
@@ -72,14 +78,14 @@ struct Staged<S> {
 }
 
 impl<S: Coordinate> BodyShape<S> {
-    /// The first of a body, as the caller orders vertices; its mesh is in this order.
+    /// The first shape of a body, as the caller orders vertices; its mesh is in this order.
     pub(crate) fn new(positions: &[[S; 3]], order: &Order) -> Self {
         let used = order.vertex_order()[..order.used_vertices()].iter();
         let bounds = bounds_of(used.map(|&vertex| positions[vertex as usize]));
         Self::of(positions, bounds, 1)
     }
 
-    /// The same shape once more, of a mesh in this order.
+    /// Copies the shape of a body whose mesh is in this order.
     pub(crate) fn copy(&self, order: &Order) -> Self {
         Self::of(&self.in_callers_order(order), self.bounds, self.version)
     }
@@ -104,22 +110,22 @@ impl<S: Coordinate> BodyShape<S> {
         self.version
     }
 
-    /// Has another version: boxes that were made so far are stale.
+    /// Gives the shape another version: boxes that were made so far are stale.
     pub(crate) fn set_version(&mut self, version: u64) {
         self.version = version;
     }
 
-    /// Has the next version.
+    /// Gives the shape the next version.
     pub(crate) fn begin_version(&mut self) {
         self.version += 1;
     }
 
-    /// As everything that makes boxes sees it, in tree order.
+    /// The shape as everything that makes boxes sees it; it was brought into tree order.
     pub(crate) fn view<'s>(&'s self, order: &'s Order, origin: Origin) -> Shape<'s, S> {
         self.view_of(self.in_tree_order(), order, origin)
     }
 
-    /// The same, of which `positions` are in tree order.
+    /// The shape as everything that makes boxes sees it, with its positions in tree order.
     pub(crate) fn view_of<'s>(
         &self,
         positions: &'s Points<S>,
@@ -130,7 +136,7 @@ impl<S: Coordinate> BodyShape<S> {
             positions,
             triangles: order.all_corners(),
             origin,
-            epoch: self.version,
+            version: self.version,
         }
     }
 
@@ -140,8 +146,8 @@ impl<S: Coordinate> BodyShape<S> {
         self.bounds
     }
 
-    /// Checks a new shape and takes it over, unless it leaves a box that holds it in every pose; or leaves all as it is and says what was
-    /// wrong.
+    /// Checks a new shape and takes it over, unless it leaves a box that holds it in every pose; or
+    /// leaves all as it is and says what was wrong.
     pub(crate) fn take(
         &mut self,
         new: &NewShape<S>,
@@ -176,13 +182,13 @@ impl<S: Coordinate> BodyShape<S> {
         Ok(())
     }
 
-    /// A vertex that no triangle used is used now.
+    /// Takes a vertex into the bounds, which no triangle used so far.
     pub(crate) fn include(&mut self, vertex: TreeVertex, order: &Order) {
         self.bounds.include(self.get(vertex, order.vertex_order()));
     }
 
-    /// Checks a new shape, as long as the old, and copies it aside if that is the way it will go; `None` if a coordinate is out of
-    /// range.
+    /// Checks a new shape, as long as the old, and copies it aside if that is the way it will go;
+    /// `None` if a coordinate is out of range.
     fn stage(
         &mut self,
         instructions: Instructions,
@@ -235,8 +241,9 @@ impl<S: Coordinate> BodyShape<S> {
         }
     }
 
-    /// Brings the shape into tree order, which all that makes boxes and decides candidates needs, because a query is going to look at
-    /// it. Returns false, and nothing has changed, if it was interrupted.
+    /// Brings the shape into tree order, which all that makes boxes and decides candidates needs,
+    /// because a query is going to look at it. Returns false, and nothing has changed, if it was
+    /// interrupted.
     pub(crate) fn bring_into_tree_order(
         &mut self,
         (instructions, executor): (Instructions, Executor),
@@ -251,7 +258,8 @@ impl<S: Coordinate> BodyShape<S> {
                 if executor.is_interrupted() {
                     return false;
                 }
-                // As long as no shape was copied, none may ever be: then one order is all that is kept.
+                // As long as no shape was copied, none may ever be: then one order is all that is
+                // kept.
                 if self.spare.is_empty() {
                     self.callers = Vec::new();
                     InOrder::Trees
@@ -313,8 +321,8 @@ impl<S: Coordinate> BodyShape<S> {
         self.len += new.len();
     }
 
-    /// A vertex that was empty is somewhere. One that went and came within one edit still has triangles that were taken out, whose boxes
-    /// were made.
+    /// Places a vertex that was empty. One that went and came within one edit still has triangles
+    /// that were taken out, whose boxes were made: these are stale then.
     pub(crate) fn place(
         &mut self,
         vertex: CallerVertex,
@@ -346,14 +354,15 @@ impl<S: Coordinate> BodyShape<S> {
         }
     }
 
-    /// A vertex has a number at the end of tree order too: what is at the other stays where it is until the next shape.
+    /// A vertex has a number at the end of tree order too: what is at the other stays where it is
+    /// until the next shape.
     pub(crate) fn follow_to_the_end(&mut self, slot: TreeVertex) {
         if self.order != InOrder::Callers {
             self.trees.push(self.trees.get(slot));
         }
     }
 
-    /// Tree order is going to be another than `order`.
+    /// Leaves tree order, which is going to be another than `order`.
     pub(crate) fn forget_tree_order(&mut self, order: &Order) {
         if let Cow::Owned(callers) = self.in_callers_order(order) {
             self.callers = callers;

@@ -1,36 +1,36 @@
-//! Edits of a body's mesh: what is taken out stays in the trees and is passed over, what comes is put into trees of its own.
+//! Edits of a body's mesh: what is taken out stays in the trees and is passed over, what comes is
+//! put into trees of its own.
 //!
-//! The triangles in tree order are those of the first tree, then those of smaller ones: *parts* of the body, each over a run. Vertices are
-//! numbered as triangles first use them, whichever tree these are in, so a part that comes behind all others changes nothing in them: not a
-//! box becomes stale. A triangle that goes, or gets other corners, is marked as taken out; with other corners it comes again behind all
-//! others. What comes makes a new part together with those last parts that are not much larger, so that there are few, and each triangle is
-//! put into a tree a few times only (Bentley and Saxe 1980, *Decomposable searching problems*). When much of the first tree is out of date
-//! the whole is built anew.
+//! The triangles in tree order are those of the first tree, then those of smaller ones: *parts* of
+//! the body, each over a run. Vertices are numbered as triangles first use them, whichever tree
+//! these are in, so a part that comes behind all others changes nothing in them: not a box becomes
+//! stale. A triangle that goes, or gets other corners, is marked as taken out; with other corners
+//! it comes again behind all others. What comes makes a new part together with those last parts
+//! that are not much larger, so that there are few, and each triangle is put into a tree a few
+//! times only (Bentley and Saxe 1980, *Decomposable searching problems*). When much of the first
+//! tree is out of date the whole is built anew.
 //!
-//! So an edit costs what it names and what came lately, not what there is; but for the first of a body, which makes the lists that say where
-//! triangles are, and for the one that builds the tree anew, whose cost is a small part of that of each edit before it.
+//! So an edit costs what it names and what came lately, not what there is; but for the first of a
+//! body, which makes the lists that say where triangles are, and for the one that builds the tree
+//! anew, whose cost is a small part of that of each edit before it.
 
 use super::Body;
-use crate::bodies::build::{build, divide};
+use crate::bodies::build::divide;
 use crate::bodies::checks;
-use crate::bodies::motion::Motion;
 use crate::bodies::part::Part;
-use crate::bodies::parts::Parts;
-use crate::bodies::rebuild::Rebuild;
-use crate::bodies::shape::BodyShape;
 use crate::edit::{Edit, Edited};
 use crate::error::ErrorKind;
 use crate::ids::TreeVertex;
 use crate::kernels::{Coordinate, Instructions};
-use crate::mesh::{EMPTY, Outcome, Topology};
+use crate::mesh::{EMPTY, Outcome};
 use crate::options::Options;
 use crate::threads::Executor;
 use crate::tree::Tree;
 use std::collections::BTreeMap;
 
-/// A part that is at most so many times as large as what comes is made anew with it.
+/// A part at most this many times as large as what comes is made anew with it.
 const MUCH_LARGER: usize = 2;
-/// A part of so few triangles is made anew with whatever comes.
+/// A part of at most this many triangles is made anew with whatever comes.
 const FEW: usize = 64;
 /// The tree is built anew when this part of its triangles was taken out or came behind it,
 const OUT_OF_DATE: usize = 16;
@@ -53,7 +53,8 @@ impl<S: Coordinate> Body<S> {
         Ok(edited)
     }
 
-    /// Gives the body another mesh and its shape; or leaves it as it is and says what was wrong. What is equal by number stays.
+    /// Gives the body another mesh and its shape; or leaves it as it is and says what was wrong.
+    /// What is equal by number stays.
     pub(crate) fn set_mesh(
         &mut self,
         triangles: &[[u32; 3]],
@@ -78,7 +79,12 @@ impl<S: Coordinate> Body<S> {
         let is_much = changed.clone().count() * MUCH > self.mesh.topology().live_count();
         let vertices = self.mesh.vertex_count();
         if is_much || positions.len() < vertices {
-            *self = self.with_mesh(triangles, positions, options);
+            let mut new = Self::new(self.mesh.body(), triangles, positions, options);
+            new.mesh.succeed(&self.mesh);
+            new.shape.set_version(self.shape.version() + 1);
+            std::mem::swap(&mut new.filter, &mut self.filter);
+            new.filter.forget_groups();
+            *self = new;
             return Ok(());
         }
         let added = vertices..positions.len();
@@ -96,23 +102,7 @@ impl<S: Coordinate> Body<S> {
         self.set_positions(instructions, executor, positions)
     }
 
-    /// The same body with another mesh, whose tree is built.
-    fn with_mesh(&self, triangles: &[[u32; 3]], positions: &[[S; 3]], options: &Options) -> Self {
-        let topology = Topology::new(triangles, positions.len());
-        let (order, tree) = build(&topology, positions, options);
-        let mut shape = BodyShape::new(positions, &order);
-        shape.set_version(self.shape.version() + 1);
-        Self {
-            mesh: self.mesh.after(topology, order),
-            shape,
-            motion: Motion::none(),
-            parts: Parts::of(tree, triangles.len()),
-            rebuild: Rebuild::default(),
-            filter: self.filter.without_groups(),
-        }
-    }
-
-    /// Makes changes that were found good: a part for what comes, or the whole anew. A motion ends.
+    /// Makes changes that were found good: a part for what comes, or all anew. A motion ends.
     fn make(&mut self, outcome: &Outcome<S>, options: &Options) {
         let are_fewer = outcome.triangles < self.mesh.triangles().len();
         let known = self.mesh.vertex_count();

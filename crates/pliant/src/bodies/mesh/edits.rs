@@ -1,4 +1,6 @@
-//! A mesh that is edited: where its triangles and vertices are in tree order, and which are there no more.
+//! Edits of a mesh: where triangles and vertices are in tree order, and which are gone.
+//!
+//! The parts of the body, over which trees are, are not known here: see `body::edits`.
 
 use super::{BodyMesh, Edits};
 use crate::bodies::shape::BodyShape;
@@ -30,7 +32,7 @@ impl<S: Copy> Edits<S> {
         edits
     }
 
-    /// All triangles that there are are in this order, and none that was taken out.
+    /// Notes the places in an order that has all triangles, and none that was taken out.
     fn find_places(&mut self, order: &Order) {
         self.places.fill(NOWHERE);
         for (place, &triangle) in (0..).zip(order.triangle_order()) {
@@ -46,7 +48,7 @@ impl<S: Copy> Edits<S> {
         self.without_orphans.take();
     }
 
-    /// A triangle has no place any more, if it had one.
+    /// Marks a triangle as taken out, if it has a place.
     fn take_out(&mut self, triangle: u32) {
         let place = std::mem::replace(&mut self.places[triangle as usize], NOWHERE);
         if place != NOWHERE {
@@ -80,8 +82,8 @@ impl<S: Copy> Edits<S> {
         self.at.of(vertex).next().is_some()
     }
 
-    /// Where vertices are, of which so many are used in tree order, that lose their last triangle; and a vertex that stays beside each, if
-    /// there is one.
+    /// Where the vertices are that lose their last triangle, with a vertex beside each that stays,
+    /// if there is one. In tree order `used` vertices are corners.
     fn lost(&self, changed: &[Changed], used: usize) -> BTreeMap<TreeVertex, Option<u32>> {
         let mut lost: BTreeMap<TreeVertex, Option<u32>> = BTreeMap::new();
         for (_, [old, _]) in changed {
@@ -100,13 +102,13 @@ impl<S: Copy> Edits<S> {
 }
 
 impl<S: Coordinate> BodyMesh<S> {
-    /// An edit of the mesh of now, of a world, without steps.
+    /// Begins an edit of this mesh, which is in a world with this number.
     pub(crate) fn begin_edit(&self, world: u64) -> Edit<S> {
         let counts = [self.vertex_count(), self.triangles().len()];
         Edit::new((world, self.body, self.version), counts)
     }
 
-    /// What the steps of an edit come to; refused if it is of another mesh.
+    /// Drafts an edit: the outcome of its steps. Refused if it is of another mesh.
     pub(crate) fn draft(
         &mut self,
         edit: &Edit<S>,
@@ -124,7 +126,7 @@ impl<S: Coordinate> BodyMesh<S> {
         draft.finish()
     }
 
-    /// What an edit changes; the lists that it needs are made the first time.
+    /// The things that an edit changes. Its lists are made the first time.
     fn to_edit(&mut self) -> (&mut Topology, &mut Order, &mut Edits<S>) {
         let (topology, order) = (&mut self.topology, &mut self.order);
         let new = || Box::new(Edits::new(topology, order));
@@ -132,7 +134,7 @@ impl<S: Coordinate> BodyMesh<S> {
         (topology, order, edits)
     }
 
-    /// What an edit is going to change, if anything.
+    /// The changes of an edit as its caller is told of them, if there are any.
     pub(crate) fn said_of(&self, outcome: &Outcome<S>) -> Option<Edited> {
         let is_nothing = outcome.changed.is_empty()
             && outcome.triangles == self.triangles().len()
@@ -160,16 +162,16 @@ impl<S: Coordinate> BodyMesh<S> {
         Some(edited)
     }
 
-    /// No vertex is empty any more.
+    /// Makes all vertices exist: none is empty any more.
     pub(crate) fn fill(&mut self) {
         let (_, _, edits) = self.to_edit();
         edits.empty = Bits::default();
     }
 
-    /// Makes changes in the caller's numbers; nothing in tree order.
+    /// Makes the changes of an edit in the caller's numbers, and nothing in tree order.
     pub(crate) fn change(&mut self, outcome: &Outcome<S>) {
         if self.edges_were_known {
-            // They have numbers that stay.
+            // They have numbers, which stay.
             self.elements(&|| false);
         }
         self.version += 1;
@@ -199,8 +201,8 @@ impl<S: Coordinate> BodyMesh<S> {
         topology.set_triangle_count(outcome.triangles);
     }
 
-    /// Takes changes into tree order, but for triangles that come, which it returns: vertices come behind all others, and triangles are
-    /// taken out.
+    /// Takes changed triangles out of tree order, and puts new vertices behind all others. Returns
+    /// the triangles that have corners now: they are still to be put in.
     pub(crate) fn take_out(&mut self, outcome: &Outcome<S>, new_vertices: usize) -> Vec<u32> {
         let (_, order, edits) = self.to_edit();
         let slots = order.vertex_order().len() as u32..;
@@ -221,9 +223,9 @@ impl<S: Coordinate> BodyMesh<S> {
         coming
     }
 
-    /// Vertices that lose their last triangle go to the end of tree order, and leave orphans. These stand where
-    /// vertices do that are near them in the tree, each where another does: boxes over nothing but orphans are as large as others, and
-    /// no more of them are in one place.
+    /// Moves vertices that lose their last triangle to the end of tree order; they leave orphans.
+    /// These stand where vertices do that are near them in the tree, each where another does. Boxes
+    /// over nothing but orphans are as large as others, and no more of them are in one place.
     pub(crate) fn leave_orphans(&mut self, changed: &[Changed], shape: &mut BodyShape<S>) {
         let (topology, order, edits) = self.to_edit();
         let lost = edits.lost(changed, order.used_vertices());
@@ -257,7 +259,8 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Some vertices that were empty are somewhere, and others are empty. The shape holds all corners of changed triangles.
+    /// Places the vertices that come again, empties others, and takes all corners of changed
+    /// triangles into the bounds of the shape.
     pub(crate) fn place_vertices(
         &mut self,
         outcome: &Outcome<S>,
@@ -272,14 +275,14 @@ impl<S: Coordinate> BodyMesh<S> {
         for &vertex in &outcome.emptied {
             edits.empty.insert(vertex);
         }
-        // Those that had no triangle until now, whether they are new or not, are not in the bounds.
+        // Vertices that had no triangle until now, new or not, are not in the bounds.
         let new = outcome.changed.iter().flat_map(|&(_, [_, new])| new);
         for vertex in new.filter(|&vertex| vertex != u32::MAX) {
             shape.include(edits.slot(vertex), order);
         }
     }
 
-    /// Some triangles as a mesh of their own: their corners, and the positions that these are places in.
+    /// Some triangles as a mesh of their own: their corners, and the positions of their vertices.
     pub(crate) fn alone(
         &mut self,
         triangles: &[u32],
@@ -303,8 +306,8 @@ impl<S: Coordinate> BodyMesh<S> {
         )
     }
 
-    /// Puts triangles behind those before a place, in this order; these are the first to use vertices from another place on. What is
-    /// behind now is forgotten.
+    /// Puts triangles in this order at a place and behind it, where all others are forgotten. They
+    /// are the first to use vertices from `first_vertex` on.
     pub(crate) fn append(
         &mut self,
         (first, first_vertex): (u32, TreeVertex),
@@ -326,12 +329,12 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// The order of the trees is another one, for the same mesh or with it.
+    /// Counts an order that is another.
     pub(crate) fn next_order(&mut self) {
         self.order_version += 1;
     }
 
-    /// Has another order from now on, but for triangles that were changed since these had their places in it.
+    /// Exchanges the order. Triangles that were changed since the new one was made are not in it.
     pub(crate) fn exchange_order(&mut self, order: Order, changed: &[Changed]) {
         self.order = order;
         self.order_version += 1;
@@ -350,7 +353,8 @@ impl<S: Coordinate> BodyMesh<S> {
         }
     }
 
-    /// Checks that every triangle is in the trees once, with the corners that it has, and every vertex where it is said to be.
+    /// Checks that every triangle is in the trees once, with the corners that it has, and every
+    /// vertex where it is said to be.
     pub(crate) fn validate(&self) -> Result<(), String> {
         let mut seen = vec![false; self.triangles().len()];
         for place in (0..self.tree_triangles() as u32).map(TreeTriangle) {

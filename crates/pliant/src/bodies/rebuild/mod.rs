@@ -1,4 +1,5 @@
-//! Trees that mend themselves: a body whose tree has decayed is given a fresh one, which is built some at a time beside it.
+//! Trees that mend themselves: a body whose tree has decayed is given a fresh one, which is built
+//! some at a time beside it.
 //!
 //! ```text
 //! each new shape of the body:
@@ -7,11 +8,13 @@
 //!     it is done:              exchange the trees
 //! ```
 //!
-//! The tree is that of the mesh and the shape of some steps before. For the shape that is as good. What was edited meanwhile follows as an
-//! edit does (`body::edits`): what is gone is marked in the new tree, what has come is put behind it. No answer depends on a tree. A tree along
-//! the mesh would be the same again, so it is not mended.
+//! The tree is that of the mesh and the shape of some steps before. For the shape that is as good.
+//! What was edited meanwhile follows as an edit does (`body::edits`): what is gone is marked in the
+//! new tree, what has come is put behind it. No answer depends on a tree. A tree along the mesh
+//! would be the same again, so it is not mended.
 //!
-//! What goes through all triangles at once is not divided: listing them, the first cuts, and exchanging the trees.
+//! What goes through all triangles at once is not divided: listing them, the first cuts, and
+//! exchanging the trees.
 
 mod decay;
 mod mending;
@@ -40,7 +43,7 @@ pub(crate) struct Rebuild {
 }
 
 impl Rebuild {
-    /// Of a copy of the body: as far decayed, and none is being built.
+    /// Copies how far the tree has decayed; no other is being built.
     pub(crate) fn copy(&self) -> Self {
         Self {
             decay: self.decay,
@@ -48,17 +51,18 @@ impl Rebuild {
         }
     }
 
-    /// A body was looked at, in a version of its shape; its tree was hardly edited since it was built, or was.
+    /// Notes what queries did in a version of the shape. A tree that was hardly edited tells what a
+    /// fresh one does.
     pub(crate) fn note_work(&mut self, work: Work, version: u64, is_hardly_edited: bool) {
         self.decay.note(work, version, is_hardly_edited);
     }
 
-    /// How many pairs of nodes are looked at for one that a fresh tree would.
+    /// The pairs of nodes that are looked at for each that a fresh tree would look at.
     pub(crate) fn quality(&self) -> f64 {
         self.decay.quality()
     }
 
-    /// Triangles of the body are edited; there are fewer numbers then, or not.
+    /// Notes an edit of the mesh, after which there are fewer numbers of triangles or not.
     pub(crate) fn note_edit(&mut self, changed: &[Changed], are_fewer: bool) {
         if are_fewer {
             // A tree that is being built has numbers that are no more.
@@ -68,14 +72,14 @@ impl Rebuild {
         }
     }
 
-    /// The tree is another.
+    /// Begins anew, with a tree that is another.
     pub(crate) fn begin_anew(&mut self) {
         self.decay.begin_anew();
         self.mending = None;
     }
 
-    /// Goes on with mending, or begins it where it pays. Returns the tree that is to take the other's place, if it is done: with
-    /// its order, and the triangles that were edited since.
+    /// Goes on with mending, or begins it where it pays. Returns the tree that is to take the
+    /// other's place, if it is done: with its order, and the triangles that were edited since.
     pub(crate) fn advance<S: Coordinate>(
         &mut self,
         mesh: &BodyMesh<S>,
@@ -114,7 +118,7 @@ impl Rebuild {
     }
 }
 
-/// Begins a tree of the mesh and the shape of now.
+/// Begins a tree of the current mesh and shape.
 fn begin<S: Coordinate>(mesh: &BodyMesh<S>, shape: &BodyShape<S>, options: &Options) -> Mending {
     // In the order of the tree, in which corners lie near each other.
     let mut numbers = Vec::with_capacity(mesh.topology().live_count());

@@ -1,11 +1,13 @@
-//! A body's tree cut at a level: how it divides the triangles, and the boxes of its parts.
+//! Looking at a body: its tree cut at a level, the boxes of that, and every invariant.
 
 use super::Body;
 use crate::bodies::debug_view::NodeBox;
+use crate::bodies::motion::Way;
 use crate::geometry::{Bounds, Origin};
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
-use crate::tree::BoxSource;
+use crate::options::Options;
+use crate::tree::{BoxSource, Swept};
 use std::ops::Range;
 
 impl<S: Coordinate> Body<S> {
@@ -57,5 +59,30 @@ impl<S: Coordinate> Body<S> {
         let ends = ends.chain([self.triangle_count()]);
         let starts = starts.iter().copied().map(TreeTriangle::index);
         starts.zip(ends).map(|(start, end)| start..end).collect()
+    }
+
+    /// Checks the structure of the tree, and that each box that claims to be valid is the box over
+    /// the vertices below it as they are now. A sentence says what is wrong.
+    pub(crate) fn validate(&self, options: &Options, origin: Origin) -> Result<(), String> {
+        let (shape, order) = (&self.shape, self.mesh.order());
+        let now = shape.sorted(order);
+        let from = shape.view_of(&now, order, origin);
+        let end = self.motion.on().map(Way::end);
+        let end = end.map(|end| (end, end.sorted(order)));
+        let to = end.as_ref();
+        let to = to.map(|(end, sorted)| end.view_of(sorted, order, origin));
+        let mut next = 0;
+        for part in self.parts.all() {
+            let triangles = part.triangles();
+            if triangles.start != next {
+                return Err(format!("a part begins at {}, not {next}", triangles.start));
+            }
+            next = triangles.end;
+            part.validate(order, options.partition, Swept { from, to })?;
+        }
+        if next as usize != self.triangle_count() {
+            return Err("the parts do not hold all triangles".into());
+        }
+        self.mesh.validate()
     }
 }

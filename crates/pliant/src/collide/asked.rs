@@ -6,7 +6,7 @@ use super::origin::FloatingOrigin;
 use super::request::Request;
 use super::scheduler::{Scheduler, is_worth_it};
 use super::step::Step;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Body};
 use crate::error::{Error, ErrorKind};
 use crate::held::{self, empty, held};
 use crate::hits::{Hit, Numbered};
@@ -262,7 +262,7 @@ impl<S: Coordinate> Common<S> {
                     Partner::Another
                 };
                 for place in [a, b] {
-                    step.prepare(&mut bodies.list[place.index()], partner)?;
+                    step.prepare(bodies.at_mut(place), partner)?;
                 }
             }
             ControlFlow::Continue(())
@@ -275,15 +275,13 @@ impl<S: Coordinate> Common<S> {
         if !interrupt.is_set() {
             return Ok(());
         }
-        for body in &mut self.bodies.list {
-            body.forget_boxes();
-        }
+        self.bodies.all_mut().for_each(Body::forget_boxes);
         self.body_pairs.forget();
         Err(ErrorKind::Interrupted.of_query())
     }
 
     pub(crate) fn settle_origin(&mut self) {
-        if self.origin.settle(&mut self.bodies.list) {
+        if self.origin.settle(&mut self.bodies) {
             self.body_pairs.forget();
         }
     }

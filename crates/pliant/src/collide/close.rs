@@ -35,13 +35,8 @@ impl InBodies for VertexTriangle {
         &self,
         [of_vertex, of_triangle]: [&Places<'b, S>; 2],
     ) -> Self::Corners<'b, S> {
-        let [a, b, c] = of_triangle.triangles[self.triangle as usize];
-        [
-            of_vertex.corner(self.vertex),
-            of_triangle.corner(a),
-            of_triangle.corner(b),
-            of_triangle.corner(c),
-        ]
+        let [a, b, c] = of_triangle.triangle(self.triangle);
+        [of_vertex.vertex(self.vertex), a, b, c]
     }
 }
 
@@ -55,14 +50,9 @@ impl InBodies for EdgeEdge {
         &self,
         [of_a, of_b]: [&Places<'b, S>; 2],
     ) -> Self::Corners<'b, S> {
-        let [a0, a1] = of_a.edges[self.edge_a as usize];
-        let [b0, b1] = of_b.edges[self.edge_b as usize];
-        [
-            of_a.corner(a0),
-            of_a.corner(a1),
-            of_b.corner(b0),
-            of_b.corner(b1),
-        ]
+        let [a0, a1] = of_a.edge(self.edge_a);
+        let [b0, b1] = of_b.edge(self.edge_b);
+        [a0, a1, b0, b1]
     }
 }
 
@@ -76,10 +66,10 @@ impl InBodies for Pair {
         &self,
         [of_a, of_b]: [&Places<'b, S>; 2],
     ) -> Self::Corners<'b, S> {
-        [(of_a, self.triangle_a), (of_b, self.triangle_b)].map(|(body, triangle)| {
-            let corners = body.triangles[triangle as usize];
-            corners.map(|vertex| body.corner(vertex))
-        })
+        [
+            of_a.triangle(self.triangle_a),
+            of_b.triangle(self.triangle_b),
+        ]
     }
 }
 

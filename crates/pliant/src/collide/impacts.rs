@@ -169,10 +169,10 @@ impl<S: Coordinate> AskedImpacts<S> {
 fn first_part<S: Coordinate>(common: &Common<S>, of: Selection) -> f64 {
     let is_of_it = |body: &Body<S>| match of {
         Selection::World | Selection::Everything => true,
-        Selection::Between(a, b) => body.id == a || body.id == b,
-        Selection::Within(a) => body.id == a,
+        Selection::Between(a, b) => body.id() == a || body.id() == b,
+        Selection::Within(a) => body.id() == a,
     };
-    let all = common.bodies.list.iter();
+    let all = common.bodies.all();
     let bodies = all.filter(|body| is_of_it(body));
     let edges = bodies.fold(0.0, |most: f64, body| most.max(body.motion_in_edges()));
     let mut part: f64 = 1.0;

@@ -225,7 +225,7 @@ mod tests {
                 positions: &points,
                 triangles: &[],
                 origin,
-                epoch: 1,
+                version: 1,
             };
             let triangles = [[0, 1, 2], [3, 4, 5]].map(|it| it.map(TreeVertex));
             let lanes = triangles.map(|corners| corners.map(|corner| [corner.0; 8]));

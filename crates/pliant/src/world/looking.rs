@@ -6,7 +6,6 @@ use crate::bodies::NodeBox;
 use crate::bodies::TreeShape;
 use crate::error::Error;
 use crate::ids::BodyId;
-use crate::tree::Tree;
 
 /// What a body is, and what its tree looks like.
 impl<S: Scalar> World<S> {
@@ -17,7 +16,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn triangles(&self, body: BodyId) -> Result<&[[u32; 3]], Error> {
-        Ok(self.state().body(body)?.topology.triangles())
+        Ok(self.state().body(body)?.mesh().triangles())
     }
 
     /// The edges of a body, shape (k, 2): two vertices each, the smaller first. Every edge once, whatever triangles share it. The number of
@@ -34,7 +33,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn edges(&self, body: BodyId) -> Result<&[[u32; 2]], Error> {
-        Ok(self.state().body(body)?.edges())
+        Ok(self.state().body(body)?.mesh().edges())
     }
 
     /// The shape that a body has now: the positions that it was given last; NaN for vertices that an [`Edit`](crate::Edit) has left empty.
@@ -61,7 +60,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn vertex_count(&self, body: BodyId) -> Result<usize, Error> {
-        Ok(self.state().body(body)?.vertex_count())
+        Ok(self.state().body(body)?.mesh().vertex_count())
     }
 
     /// The order in which queries read the vertices of a body, as the caller numbers them: at place i of memory is vertex
@@ -97,7 +96,7 @@ impl<S: Scalar> World<S> {
     /// # Ok::<(), pliant::Error>(())
     /// ```
     pub fn vertex_order(&self, body: BodyId) -> Result<&[u32], Error> {
-        Ok(self.state().body(body)?.vertex_order())
+        Ok(self.state().body(body)?.mesh().vertex_order())
     }
 
     /// The tree of a body in numbers.
@@ -106,12 +105,7 @@ impl<S: Scalar> World<S> {
     ///
     /// [`NoSuchBody`](crate::ErrorKind::NoSuchBody).
     pub fn tree_shape(&self, body: BodyId) -> Result<TreeShape, Error> {
-        let trees = || Ok::<_, Error>(self.state().body(body)?.parts.all().map(|part| &part.tree));
-        Ok(TreeShape {
-            depth: trees()?.map(|tree| tree.depth).max().unwrap_or_default(),
-            nodes: trees()?.map(Tree::node_count).sum(),
-            leaves: trees()?.map(|tree| tree.leaves.len()).sum(),
-        })
+        Ok(self.state().body(body)?.tree_shape())
     }
 
     /// For each triangle of a body, the part it is in when the tree is cut at a level: its node of that level, or its leaf, if

@@ -115,10 +115,9 @@ impl<S: Coordinate> Verbs<S> for State<S> {
         triangles: &[[u32; 3]],
         positions: &[[S; 3]],
     ) -> Result<(), Error> {
-        let body = self.body(id)?;
-        let is_same =
-            body.vertex_count() == positions.len() && body.topology.triangles() == triangles;
-        if is_same && !body.has_empty_numbers() {
+        let mesh = self.body(id)?.mesh();
+        let is_same = mesh.vertex_count() == positions.len() && mesh.triangles() == triangles;
+        if is_same && !mesh.has_empty_numbers() {
             return self.move_body(id, positions);
         }
         let options = self.common.options;
@@ -302,9 +301,9 @@ impl<S: Coordinate> Verbs<S> for State<S> {
             origin,
             ..
         } = &self.common;
-        for body in &bodies.list {
+        for body in bodies.all() {
             body.validate(options, origin.point)
-                .map_err(|what| format!("{}: {what}", body.id))?;
+                .map_err(|what| format!("{}: {what}", body.id()))?;
         }
         Ok(())
     }

@@ -191,6 +191,16 @@ const EXPORTED: [(&str, &str); 32] = [
     ("vertex_triangle_impacts", "pair_impacts"),
 ];
 
+/// Structs of `bodies` whose fields others see, and why; the fields of all others are their own.
+const RECORDS: [(&str, &str); 3] = [
+    (
+        "NewShape",
+        "an argument: the mesh makes it, the shape takes it",
+    ),
+    ("NodeBox", "shown to the caller"),
+    ("TreeShape", "shown to the caller"),
+];
+
 fn source() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
 }
@@ -296,6 +306,35 @@ fn the_degree_of_trees_is_a_type_in_no_folder_above_them() {
     }
     let below = ["kernels", "tree", "update"].map(str::to_owned);
     assert_eq!(found, BTreeSet::from(below));
+}
+
+#[test]
+fn nobody_sees_the_fields_of_a_body_nor_of_what_it_is_made_of() {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    let mut seen = BTreeSet::new();
+    for (path, code) in files(&source().join("bodies")) {
+        for (at, word) in code.match_indices("struct ") {
+            let item = &code[at + word.len()..];
+            let open = item.find(['{', '(', ';']).unwrap();
+            let close = if item[open..].starts_with('{') {
+                "\n}"
+            } else {
+                ";"
+            };
+            let end = open + item[open..].find(close).unwrap();
+            let mut words = item[..end].split(|c| !is_part(c));
+            let name = words.next().unwrap();
+            if words.any(|word| word == "pub") {
+                let is_record = RECORDS.iter().any(|&(record, _)| record == name);
+                assert!(is_record, "{}: fields of {name}", path.display());
+                seen.insert(name.to_owned());
+            }
+        }
+    }
+    assert!(
+        RECORDS.iter().all(|&(name, _)| seen.contains(name)),
+        "{seen:?}"
+    );
 }
 
 #[test]

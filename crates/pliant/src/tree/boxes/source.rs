@@ -16,9 +16,9 @@ use crate::kernels::{Coordinate, Simd};
 /// Which boxes a source gives: two sources of one body give the same if they have the same version.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Version {
-    /// The epoch of the shape,
+    /// The version of the shape,
     shape: u64,
-    /// and, where boxes hold a second shape as well, that of the second; 0 is before every epoch.
+    /// and, where boxes hold a second shape as well, that of the second; 0 is before every version.
     second: u64,
     /// The bits of the distance by which boxes are grown.
     grown_by: u32,
@@ -68,7 +68,7 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
 
     fn version(&self) -> Version {
         Version {
-            shape: self.epoch,
+            shape: self.version,
             ..Version::default()
         }
     }
@@ -109,9 +109,9 @@ impl<S: Coordinate> BoxSource for Grown<'_, S> {
 
     fn version(&self) -> Version {
         Version {
-            shape: self.from.epoch,
-            second: self.to.map_or(0, |to| to.epoch),
+            second: self.to.map_or(0, |to| to.version),
             grown_by: self.distance.to_bits(),
+            ..self.from.version()
         }
     }
 
@@ -219,11 +219,11 @@ mod tests {
             Points::of((0..40).map(wave))
         };
         let [from, to] = [shape_at(0.0), shape_at(0.8)];
-        let shape = |positions, epoch| Shape {
+        let shape = |positions, version| Shape {
             positions,
             triangles: &[],
             origin,
-            epoch,
+            version,
         };
         let (from, to) = (shape(&from, 3), shape(&to, 7));
         check(&from);

@@ -1,6 +1,7 @@
 //! A tree that is being built beside the one that a body has: how far it has come.
 //!
-//! It is of the mesh at its beginning. What is edited meanwhile is noted with the corners that it had.
+//! It is of the mesh at its beginning. What is edited meanwhile is noted with the corners that it
+//! had.
 
 use crate::held::{self, Held};
 use crate::ids::TreeVertex;
@@ -16,7 +17,8 @@ pub(crate) type Rule = Box<dyn Split + Send + Sync>;
 /// The mesh that a tree is built of: that of the body, but for what was edited since.
 pub(crate) struct MeshThen {
     vertices: usize,
-    /// The corners then of all triangles that were edited since, as the caller numbers them; no corners of those that are new.
+    /// The corners then of all triangles that were edited since, as the caller numbers them; no
+    /// corners of those that are new.
     edited: BTreeMap<u32, [u32; 3]>,
 }
 
@@ -53,12 +55,13 @@ pub(crate) struct Mending {
     stage: Stage,
 }
 
-/// The midpoint of a triangle in the shape of now, by its place among those whose midpoints are asked for, and its corners as the caller
-/// numbers vertices.
+/// The midpoint of a triangle in the shape of now, by its place among those whose midpoints are
+/// asked for, and its corners as the caller numbers vertices.
 pub(crate) type MidpointOf<'m> = &'m dyn Fn(usize, [u32; 3]) -> [f64; 3];
 
 enum Stage {
-    /// The midpoints of these triangles, as the caller numbers them, are looked up, for a balanced tree of some degree and size of leaves.
+    /// The midpoints of these triangles, as the caller numbers them, are looked up, for a balanced
+    /// tree of some degree and size of leaves.
     Looking(Vec<u32>, Vec<[f64; 3]>, (usize, u32)),
     /// These triangles, as the caller numbers them, are divided.
     Dividing(Planner<Rule>, Vec<u32>),
@@ -102,8 +105,8 @@ impl Mending {
         }
     }
 
-    /// Goes on, with the corners that all triangles have now. Whether which triangles share a vertex is to be found, too, is asked when it
-    /// comes to that.
+    /// Goes on, with the corners that all triangles have now. Whether which triangles share a
+    /// vertex is to be found, too, is asked when it comes to that.
     pub(crate) fn advance(
         mut self,
         now: &[[u32; 3]],

@@ -1,19 +1,35 @@
 //! How much more the tree of a body does than a fresh one would, estimated from what queries did.
 //!
-//! What a query of triangles finds near each other, its *candidates*, does not depend on the tree, nor does how many triangles there are;
-//! how many pairs of nodes it looks at on the way does. On the scenes of this project fresh trees look at a pair of nodes for every two
-//! candidates of two bodies, and in a body that meets itself at one for five candidates and, for its neighbours, at about two for three
-//! triangles. How many these are for a triangle depends on the options and the surface: the first query with a tree that was hardly
-//! edited since it was built tells, and of two bodies how many are for a candidate. What is more than that is decay: nodes that have grown
-//! into each other, or triangles that were taken out.
+//! What a query of triangles finds near each other, its *candidates*, does not depend on the tree,
+//! nor does how many triangles there are; how many pairs of nodes it looks at on the way does. On
+//! the scenes of this project fresh trees look at a pair of nodes for every two candidates of two
+//! bodies, and in a body that meets itself at one for five candidates and, for its neighbours, at
+//! about two for three triangles. How many these are for a triangle depends on the options and the
+//! surface: the first query with a tree that was hardly edited since it was built tells, and of two
+//! bodies how many are for a candidate. What is more than that is decay: nodes that have grown into
+//! each other, or triangles that were taken out.
 
-/// Pairs of nodes that a fresh tree looks at for each candidate of two bodies, of one with itself, and for each triangle of that.
+/// Pairs of nodes that a fresh tree looks at for each candidate of two bodies, of one with itself,
+/// and for each triangle of that.
 const OF_TWO: f64 = 0.45;
 const OF_ONE: f64 = 0.2;
 const OF_TRIANGLE: f64 = 0.69;
 
 /// Fewer pairs of nodes say nothing.
 const FEWEST: f64 = 256.0;
+
+/// A fresh tree costs as much as looking at so many pairs of nodes, for each triangle.
+const COST: f64 = 4.0;
+
+/// While a query looks at a pair of nodes or of triangles, building looks at so many triangles: in
+/// `shuffle` what is built in a step takes up to two thirds as long as its query. Slower, the old
+/// tree decays meanwhile by more than that.
+const PACE: f64 = 1.5;
+
+/// For a pair of nodes that a fresh tree would have spared in the last shape, building looks at so
+/// many triangles at most: the less a tree has decayed, the less hurry there is, and the shorter
+/// are the steps in which it is mended.
+const GAIN: f64 = 8.0;
 
 /// What looking at a body cost, and what a fresh tree would look at.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,13 +76,29 @@ impl Work {
 
 /// Pairs of nodes that a fresh tree would have spared.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Spared {
+pub(super) struct Spared {
     /// Since this one was built.
-    pub(crate) since_built: f64,
+    since_built: f64,
     /// In the last shape alone.
-    pub(crate) in_last_shape: f64,
+    in_last_shape: f64,
     /// Of all pairs of nodes and of triangles that were looked at in the last shape.
-    pub(crate) looked_at: f64,
+    looked_at: f64,
+}
+
+impl Spared {
+    /// Triangles that building looks at in this step.
+    #[expect(
+        clippy::cast_sign_loss,
+        reason = "neither what was looked at nor what would have been spared is negative"
+    )]
+    pub(super) fn looks(&self) -> usize {
+        (PACE * self.looked_at).min(GAIN * self.in_last_shape) as usize
+    }
+
+    /// Whether a fresh tree of so many triangles would have paid by now.
+    pub(super) fn is_worth_building(&self, triangles: usize) -> bool {
+        self.since_built > COST * triangles as f64
+    }
 }
 
 /// What queries did with the tree of a body since it was built.
@@ -74,10 +106,11 @@ pub(crate) struct Spared {
 pub(crate) struct Decay {
     /// In the shape of now, or in the last in which somebody looked.
     last: Work,
-    epoch: u64,
+    version: u64,
     /// Whether the tree was hardly edited then, and tells what a fresh one does.
     is_hardly_edited: bool,
-    /// Factors for triangles, and for candidates of two bodies; none before a query that says something.
+    /// Factors for triangles, and for candidates of two bodies; none before a query that says
+    /// something.
     for_triangles: Option<f64>,
     for_two: Option<f64>,
     /// Pairs of nodes that a fresh tree would have spared, of all shapes before.
@@ -85,11 +118,12 @@ pub(crate) struct Decay {
 }
 
 impl Decay {
-    /// A body was looked at, in a shape of some number; its tree was hardly edited since it was built, or was.
-    pub(crate) fn note(&mut self, work: Work, epoch: u64, is_hardly_edited: bool) {
-        if self.epoch != epoch {
+    /// A body was looked at, in a version of its shape; its tree was hardly edited since it was
+    /// built, or was.
+    pub(crate) fn note(&mut self, work: Work, version: u64, is_hardly_edited: bool) {
+        if self.version != version {
             self.settle();
-            self.epoch = epoch;
+            self.version = version;
             self.is_hardly_edited = is_hardly_edited;
         }
         self.last.node_pairs += work.node_pairs;
@@ -128,7 +162,8 @@ impl Decay {
         (expected >= FEWEST && last.node_pairs as f64 >= FEWEST).then_some(expected)
     }
 
-    /// How many pairs of nodes are looked at for one that a fresh tree would; 1 before anything is known.
+    /// How many pairs of nodes are looked at for one that a fresh tree would; 1 before anything is
+    /// known.
     pub(crate) fn quality(&self) -> f64 {
         let expected = self.expected();
         expected.map_or(1.0, |expected| self.last.node_pairs as f64 / expected)

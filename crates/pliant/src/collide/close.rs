@@ -8,7 +8,6 @@ use crate::bodies::Bodies;
 use crate::bodies::Places;
 use crate::error::Error;
 use crate::held::{self, Held};
-use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::ids::BodyId;
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{CloseKind, Measurable, Measured};
@@ -25,64 +24,6 @@ pub(crate) trait InBodies: Measurable {
 
     /// The corners in these bodies, in the caller's order.
     fn corners<'b, S: Coordinate>(&self, bodies: [&Places<'b, S>; 2]) -> Self::Corners<'b, S>;
-}
-
-impl InBodies for VertexTriangle {
-    fn bodies(&self) -> [BodyId; 2] {
-        [self.vertex_body, self.triangle_body]
-    }
-
-    #[inline]
-    fn corners<'b, S: Coordinate>(
-        &self,
-        [of_vertex, of_triangle]: [&Places<'b, S>; 2],
-    ) -> Self::Corners<'b, S> {
-        let [a, b, c] = of_triangle.triangles[self.triangle as usize];
-        [
-            of_vertex.corner(self.vertex),
-            of_triangle.corner(a),
-            of_triangle.corner(b),
-            of_triangle.corner(c),
-        ]
-    }
-}
-
-impl InBodies for EdgeEdge {
-    fn bodies(&self) -> [BodyId; 2] {
-        [self.body_a, self.body_b]
-    }
-
-    #[inline]
-    fn corners<'b, S: Coordinate>(
-        &self,
-        [of_a, of_b]: [&Places<'b, S>; 2],
-    ) -> Self::Corners<'b, S> {
-        let [a0, a1] = of_a.edges[self.edge_a as usize];
-        let [b0, b1] = of_b.edges[self.edge_b as usize];
-        [
-            of_a.corner(a0),
-            of_a.corner(a1),
-            of_b.corner(b0),
-            of_b.corner(b1),
-        ]
-    }
-}
-
-impl InBodies for Pair {
-    fn bodies(&self) -> [BodyId; 2] {
-        [self.body_a, self.body_b]
-    }
-
-    #[inline]
-    fn corners<'b, S: Coordinate>(
-        &self,
-        [of_a, of_b]: [&Places<'b, S>; 2],
-    ) -> Self::Corners<'b, S> {
-        [(of_a, self.triangle_a), (of_b, self.triangle_b)].map(|(body, triangle)| {
-            let corners = body.triangles[triangle as usize];
-            corners.map(|vertex| body.corner(vertex))
-        })
-    }
 }
 
 /// What a world keeps for close pairs of one kind.

@@ -10,6 +10,7 @@
 //! `near` has the boxes of what belongs to a run, `kernels::gaps` compares them eight at a time, and few are left to exact arithmetic.
 
 mod edge_edge;
+mod hit;
 mod vertex_triangle;
 
 use super::{LeafTest, Needs, OF_MOTIONS, Reach, Shown, Which};
@@ -19,6 +20,7 @@ use crate::kernels::gaps::Limits;
 use crate::kernels::{Buffer, Coordinate};
 use crate::statistics::Statistics;
 pub(crate) use edge_edge::EdgeEdgeCandidates;
+pub use hit::{EdgeEdge, VertexTriangle};
 use std::marker::PhantomData;
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
 

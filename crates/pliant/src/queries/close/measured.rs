@@ -1,11 +1,11 @@
 //! Close pairs that are measured as they are found, for visitors; a list is measured once it is sorted.
 
 use super::closest::closest_of;
-use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
-use crate::hits::{EdgeEdge, Hit, VertexTriangle};
+use super::hit::{CloseEdgeEdge, CloseVertexTriangle};
 use crate::kernels::closest::Corners;
 use crate::kernels::{Buffer, Coordinate, Simd, dispatch};
-use crate::queries::{Batch, CallerIds, Kind, LeafTest, Needs};
+use crate::queries::{Batch, CallerIds, EdgeEdge, Kind, LeafTest, Needs, VertexTriangle};
+use crate::sort::Hit;
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use pliant_exact::distance::Closest;

@@ -2,13 +2,14 @@
 //!
 //! What `eight` decides on signs that are certain and not zero crosses. Only pairs that were left to exact signs are asked for their kind.
 
-use super::eight::{self, Undecided};
-use super::{Candidate, Intersections, Kind};
-use crate::contacts::{Contact, ContactKind};
+mod hit;
+
+use super::intersections::eight::{self, Undecided};
+use super::{Batch, CallerIds, Candidate, Intersections, Kind, LeafTest, Needs};
 use crate::held::held;
 use crate::kernels::{Buffer, Coordinate};
-use crate::queries::{Batch, CallerIds, LeafTest, Needs};
 use crate::statistics::Statistics;
+pub use hit::{Contact, ContactKind};
 use pliant_exact::contact_kind;
 
 /// Pairs of triangles that intersect, with their kinds.

@@ -6,7 +6,7 @@ use crate::kernels::Coordinate;
 
 /// Makes what the library has for every kind, of the lines of `every_kind`.
 macro_rules! keep {
-    ($($name:ident: $kept:ty => $($hit:ty: $method:ident($($length:ident)?)),+;)*) => {
+    ($($name:ident: $kept:ty => $($hit:ty: $method:ident($of:ident $(, $length:ident)?)),+;)*) => {
         /// What is kept for each kind of query.
         pub(crate) struct Kinds<S: Coordinate> {
             $(pub(super) $name: $kept,)*

@@ -68,25 +68,17 @@ fn ask<H: Copy + Debug>(
     Ok(())
 }
 
-/// The query of a method with a length or without.
-macro_rules! query {
-    ($world:ident, $of:ident, $within:ident, $method:ident()) => {
-        $world.$method($of)
-    };
-    ($world:ident, $of:ident, $within:ident, $method:ident(length)) => {
-        $world.$method($of, $within)
-    };
-}
-
 macro_rules! list {
-    ($($name:ident: $kept:ty => $($hit:ty: $method:ident($($length:ident)?)),+;)*) => {
+    ($($name:ident: $kept:ty => $($hit:ty: $method:ident($of:ident $(, $length:ident)?)),+;)*) => {
         /// The methods of every kind, in the order of the registry.
         pub(crate) fn every_kind<S: Scalar>() -> Vec<AnyKind<S>> {
             vec![$($(AnyKind {
                 name: stringify!($method),
                 takes_length: !stringify!($($length)?).is_empty(),
-                ask: |world, (of, _within), wanted, show| {
-                    ask(query!(world, of, _within, $method($($length)?)), wanted, show)
+                ask: |world, ($of, within), wanted, show| {
+                    // A kind without a length takes none of it.
+                    let ($($length,)? ..) = (within,);
+                    ask(world.$method($of $(, $length)?), wanted, show)
                 },
             },)+)*]
         }

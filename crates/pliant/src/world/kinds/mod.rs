@@ -7,32 +7,32 @@
 /// Lists every kind of query, for the macro whose name it is given: `every_kind! { name }`.
 ///
 /// A line has a name, the buffers that a world of scalars `S` keeps for the kind, and for each of
-/// its hits the method of [`World`](crate::World) that asks for them: after the selection this takes
-/// a `length`, a margin or a distance, where the line says so.
+/// its hits the method of [`World`](crate::World) that asks for them: of a selection, and of some
+/// kinds within a length, which is a margin or a distance.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! every_kind {
     ($then:ident) => {
         $then! {
             intersections: $crate::collide::Asked<$crate::queries::Intersections<S>>
-                => $crate::queries::Pair: intersections();
+                => $crate::queries::Pair: intersections(of);
             contacts: $crate::collide::Asked<$crate::queries::Contacts<S>>
-                => $crate::queries::Contact: contacts();
+                => $crate::queries::Contact: contacts(of);
             vertex_triangle: $crate::collide::Asked<$crate::queries::VertexTriangleCandidates<S>>
-                => $crate::queries::VertexTriangle: vertex_triangle_candidates(length);
+                => $crate::queries::VertexTriangle: vertex_triangle_candidates(of, length);
             edge_edge: $crate::collide::Asked<$crate::queries::EdgeEdgeCandidates<S>>
-                => $crate::queries::EdgeEdge: edge_edge_candidates(length);
+                => $crate::queries::EdgeEdge: edge_edge_candidates(of, length);
             close_vertex_triangle: $crate::collide::AskedClose<
                 $crate::queries::Close<$crate::queries::VertexTriangleCandidates<S>>,
-            > => $crate::queries::CloseVertexTriangle: close_vertex_triangle_pairs(length);
+            > => $crate::queries::CloseVertexTriangle: close_vertex_triangle_pairs(of, length);
             close_edge_edge: $crate::collide::AskedClose<
                 $crate::queries::Close<$crate::queries::EdgeEdgeCandidates<S>>,
-            > => $crate::queries::CloseEdgeEdge: close_edge_edge_pairs(length);
+            > => $crate::queries::CloseEdgeEdge: close_edge_edge_pairs(of, length);
             close_triangles: $crate::collide::AskedClose<$crate::queries::NearTriangles<S>>
-                => $crate::queries::CloseTriangles: close_triangle_pairs(length);
+                => $crate::queries::CloseTriangles: close_triangle_pairs(of, length);
             impacts: $crate::collide::AskedImpacts<S>
-                => $crate::queries::VertexTriangleImpact: vertex_triangle_impacts(),
-                $crate::queries::EdgeEdgeImpact: edge_edge_impacts();
+                => $crate::queries::VertexTriangleImpact: vertex_triangle_impacts(of),
+                $crate::queries::EdgeEdgeImpact: edge_edge_impacts(of);
         }
     };
 }

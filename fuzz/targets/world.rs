@@ -183,7 +183,22 @@ impl<S: Scalar> Lived<S> {
             self.itself(body);
         }
         self.all();
+        self.every_kind();
         self.world.validate().expect("the world is well");
+    }
+
+    /// Whatever is asked, a copy of the world, whose boxes are all made anew, says the same.
+    fn every_kind(&mut self) {
+        for (name, ask) in every_kind::<S>() {
+            let mut copy = self.world.clone();
+            for length in [0.0, 0.5] {
+                assert_eq!(
+                    ask(&mut self.world, length),
+                    ask(&mut copy, length),
+                    "{name}"
+                );
+            }
+        }
     }
 
     fn body(&self, number: u8) -> Option<usize> {
@@ -1209,6 +1224,21 @@ impl<S> Known<S> {
         }
     }
 }
+
+macro_rules! list {
+    ($($name:ident: $kept:ty => $($hit:ty: $method:ident($of:ident $(, $length:ident)?)),+;)*) => {
+        /// The methods of every kind of query that the library's registry lists: all hits, as text.
+        fn every_kind<S: Scalar>() -> Vec<(&'static str, fn(&mut World<S>, f64) -> String)> {
+            vec![$($((stringify!($method), |world, within| {
+                // A kind without a length takes none of it.
+                let ($of, ($($length,)? ..)) = (Selection::Everything, (within,));
+                format!("{:?}", world.$method($of $(, $length)?).all())
+            }),)+)*]
+        }
+    };
+}
+
+pliant::every_kind! { list }
 
 /// Two bodies, or one with itself.
 fn selection<S>(a: &Known<S>, b: &Known<S>) -> Selection {

@@ -2,6 +2,7 @@
 //! them against the reference, which has no tree.
 
 use super::edits::EMPTY;
+use super::kinds::{Much, every_kind};
 use super::{AllClose, FAR_APART, FAR_BUT_CLOSE, Met, Near, SIDE, Soak, Wrong};
 use pliant::{
     BodyId, CloseEdgeEdge, Degree, EdgeEdge, EdgeEdgeImpact, Impact, Options, Pair, Partition,
@@ -54,6 +55,7 @@ impl<S: Scalar> Soak<S> {
         }
         self.compare_met(&mut fresh)?;
         self.compare_distances(&mut fresh)?;
+        self.compare_with_a_copy()?;
         self.tally.compared += 1;
         Ok(())
     }
@@ -261,6 +263,22 @@ impl<S: Scalar> Soak<S> {
             ));
         }
         self.tally.met += (found.vertex_triangle.len() + found.edge_edge.len()) as u64;
+        Ok(())
+    }
+
+    /// All hits of one kind, of every kind in turns, against a copy of the world, whose boxes are all
+    /// made anew: bodies and edges have the same names there.
+    fn compare_with_a_copy(&mut self) -> Result<(), Wrong> {
+        let kinds = every_kind::<S>();
+        let kind = &kinds[self.tally.compared as usize % kinds.len()];
+        let mut copy = self.world.clone();
+        let [found, expected] = [&mut self.world, &mut copy]
+            .map(|world| (kind.ask)(world, Selection::Everything, FAR_BUT_CLOSE, Much::All));
+        let name = kind.name;
+        let (found, expected) = (self.good(name, found)?, self.good(name, expected)?);
+        if found != expected {
+            return self.wrong(format!("{name}: {found:?}, a copy has {expected:?}"));
+        }
         Ok(())
     }
 

@@ -6,7 +6,7 @@
 //!            one other call: add, remove, rebuild, filter, ignore, loose box, motions, another mesh, or something that must be refused
 //!            perhaps an edit of a mesh
 //!            perhaps a query before it, and one after
-//!            one step in eight: the comparison   (`fresh`)
+//!            one step in eight: the comparison   (`fresh`), and of one kind with a copy of the world
 //! a parade   every body goes, always the same ones come and meet in one heap, all queries are asked
 //! ```
 //!
@@ -17,9 +17,11 @@
 
 mod edits;
 mod fresh;
+mod kinds;
 mod random;
 mod shapes;
 
+use kinds::{Much, every_kind};
 use pliant::{
     BodyId, CloseEdgeEdge, CloseTriangles, CloseVertexTriangle, EdgeEdge, EdgeEdgeImpact, Error,
     ErrorKind, Impact, Options, Pair, Scalar, Selection, VertexTriangle, VertexTriangleImpact,
@@ -244,10 +246,10 @@ impl<S: Scalar> Soak<S> {
             self.good("set_motion", set)?;
             self.known[number].end = Some(end);
         }
-        let near = Near::of(&mut self.world, FAR_APART);
-        self.good("what is near", near)?;
-        let close = AllClose::of(&mut self.world, FAR_BUT_CLOSE);
-        self.good("what is close", close)?;
+        for kind in every_kind::<S>() {
+            let all = (kind.ask)(&mut self.world, Selection::Everything, FAR_APART, Much::All);
+            self.good(kind.name, all)?;
+        }
         let met = Met::of(&mut self.world, 1e-6, 0.0);
         self.good("what meets", met)?;
         self.compare_with_a_fresh_world()?;
@@ -669,17 +671,15 @@ impl<S: Scalar> Soak<S> {
                 .map(drop),
             6 if a != b => self.world.distance(a, b, f64::INFINITY).map(drop),
             7 => self.world.nearest_body(a, SIDE / 4.0).map(drop),
-            8 => {
-                let close = self
-                    .world
-                    .close_triangle_pairs(Selection::World, FAR_BUT_CLOSE);
-                close.first().map(drop)
-            }
-            9 => {
-                let close = self
-                    .world
-                    .close_edge_edge_pairs(Selection::Within(a), FAR_BUT_CLOSE);
-                close.all().map(drop)
+            8 | 9 => {
+                let kinds = every_kind::<S>();
+                let kind = &kinds[self.random.index(kinds.len())];
+                let (of, much) = if self.random.one_in(2) {
+                    (Selection::World, Much::First)
+                } else {
+                    (Selection::Within(a), Much::All)
+                };
+                (kind.ask)(&mut self.world, of, FAR_BUT_CLOSE, much).map(drop)
             }
             _ => Ok(()),
         };

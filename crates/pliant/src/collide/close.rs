@@ -7,7 +7,6 @@ use super::request::Request;
 use crate::bodies::Bodies;
 use crate::bodies::Places;
 use crate::error::Error;
-use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::ids::BodyId;
 use crate::kernels::{Coordinate, Instructions, dispatch};
 use crate::queries::{Kind, Measurable, measure_all};
@@ -23,54 +22,6 @@ pub(crate) trait InBodies: Measurable {
 
     /// The corners in these bodies, in the caller's order.
     fn corners<'b, S: Coordinate>(&self, bodies: [&Places<'b, S>; 2]) -> Self::Corners<'b, S>;
-}
-
-impl InBodies for VertexTriangle {
-    fn bodies(&self) -> [BodyId; 2] {
-        [self.vertex_body, self.triangle_body]
-    }
-
-    #[inline]
-    fn corners<'b, S: Coordinate>(
-        &self,
-        [of_vertex, of_triangle]: [&Places<'b, S>; 2],
-    ) -> Self::Corners<'b, S> {
-        let [a, b, c] = of_triangle.triangle(self.triangle);
-        [of_vertex.vertex(self.vertex), a, b, c]
-    }
-}
-
-impl InBodies for EdgeEdge {
-    fn bodies(&self) -> [BodyId; 2] {
-        [self.body_a, self.body_b]
-    }
-
-    #[inline]
-    fn corners<'b, S: Coordinate>(
-        &self,
-        [of_a, of_b]: [&Places<'b, S>; 2],
-    ) -> Self::Corners<'b, S> {
-        let [a0, a1] = of_a.edge(self.edge_a);
-        let [b0, b1] = of_b.edge(self.edge_b);
-        [a0, a1, b0, b1]
-    }
-}
-
-impl InBodies for Pair {
-    fn bodies(&self) -> [BodyId; 2] {
-        [self.body_a, self.body_b]
-    }
-
-    #[inline]
-    fn corners<'b, S: Coordinate>(
-        &self,
-        [of_a, of_b]: [&Places<'b, S>; 2],
-    ) -> Self::Corners<'b, S> {
-        [
-            of_a.triangle(self.triangle_a),
-            of_b.triangle(self.triangle_b),
-        ]
-    }
 }
 
 impl<H: InBodies, K: Kind<Hit = H, Shown = H::Close>> Asked<K> {

@@ -7,14 +7,14 @@
 use super::asked::Common;
 use super::witness::{Witnesses, pair_of};
 use crate::bodies::Body;
-use crate::close_pairs::CloseTriangles;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Shape;
 use crate::held::held;
 use crate::ids::BodyId;
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
-    BodyBoxes, Candidate, NearestPair, Needs, close, closest_of_triangles, corners_of,
+    BodyBoxes, Candidate, CloseTriangles, NearestPair, Needs, close, closest_of_triangles,
+    corners_of,
 };
 use crate::threads::Interrupt;
 use crate::traversal::{NearestScratch, TreePair, gap_square, nearest};

@@ -12,10 +12,9 @@ use super::request::Request;
 use crate::bodies::Body;
 use crate::error::Error;
 use crate::held::{empty, held};
-use crate::impacts::Impact;
 use crate::kernels::Coordinate;
 use crate::queries::{
-    Candidates, Earliest, EdgeEdgeCandidates, First, Impacts, Kind, LIMIT, Margin, Reach,
+    Candidates, Earliest, EdgeEdgeCandidates, First, Impact, Impacts, Kind, LIMIT, Margin, Reach,
     VertexTriangleCandidates,
 };
 use crate::selection::Selection;

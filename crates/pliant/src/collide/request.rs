@@ -1,8 +1,7 @@
 //! What a query is asked with, and who answers it.
 
-use crate::contacts::ContactKind;
 use crate::error::{Error, ErrorKind};
-use crate::queries::Margin;
+use crate::queries::{ContactKind, Margin};
 use crate::selection::Selection;
 use crate::threads::Question;
 use crate::traversal::Visitor;

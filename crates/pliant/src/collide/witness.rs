@@ -8,11 +8,10 @@
 use crate::bodies::Body;
 use crate::geometry::Bounds;
 use crate::held::{self, Held};
-use crate::hits::Pair;
 use crate::ids::BodyId;
 use crate::ids::TreeTriangle;
 use crate::kernels::Coordinate;
-use crate::queries::{CallerIds, Candidate, Intersections, Kind};
+use crate::queries::{CallerIds, Candidate, Intersections, Kind, Pair};
 use crate::statistics::Statistics;
 use crate::threads::Interrupt;
 use pliant_exact::{Triangle, intersect};

@@ -1,8 +1,8 @@
 //! What one thread has found, as keys: of so many bits as its largest numbers need; or as hits, where these are too many.
 
+use super::hit::Hit;
 use super::packing::Packing;
 use crate::held::held;
-use crate::hits::Hit;
 
 /// Keys, or hits in place of them.
 #[derive(Debug)]

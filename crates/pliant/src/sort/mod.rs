@@ -6,14 +6,15 @@
 //! No two hits are equal.
 
 mod buckets;
+mod hit;
 mod keys;
 mod packing;
 
 use crate::held::{Held, empty, held};
-use crate::hits::{Hit, Numbered};
 use crate::kernels::Instructions;
 use crate::threads::{Executor, PerThread};
 use buckets::{Buckets, lengthen};
+pub(crate) use hit::{Hit, Numbered};
 use keys::{Keys, NOTHING, both};
 use packing::Packing;
 

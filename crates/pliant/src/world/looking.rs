@@ -1,4 +1,4 @@
-//! What a body is, and what its tree looks like.
+//! What a body is, what its tree looks like, and what the last query did.
 
 use super::handle::World;
 use super::scalar::Scalar;
@@ -6,8 +6,9 @@ use crate::bodies::NodeBox;
 use crate::bodies::TreeShape;
 use crate::error::Error;
 use crate::ids::BodyId;
+use crate::statistics::Statistics;
 
-/// What a body is, and what its tree looks like.
+/// What a body is, what its tree looks like, and what the last query did.
 impl<S: Scalar> World<S> {
     /// The triangles of a body as they were added and edited, shape (m, 3): three times [`u32::MAX`] for a number that an [`Edit`](crate::Edit) has left
     /// empty.
@@ -159,6 +160,11 @@ impl<S: Scalar> World<S> {
     /// ```
     pub fn tree_boxes(&self, body: BodyId, level: u32) -> Result<Vec<NodeBox<S>>, Error> {
         self.verbs.tree_boxes(body, level)
+    }
+
+    /// What the last query did, with what [`Query::prepare`](crate::Query::prepare) did before it.
+    pub fn statistics(&self) -> &Statistics {
+        &self.state().common.statistics
     }
 
     /// How many bytes of memory this world holds: bodies, trees, boxes, and the lists that queries keep for the next ones, with all

@@ -1,6 +1,6 @@
 //! What a world holds: bodies, options, and what is kept for each kind of query.
 
-use super::kinds::Kinds;
+use super::kept::Kinds;
 use crate::bodies::{Bodies, Body};
 use crate::collide::{BodyPairs, Common, Distances, FloatingOrigin, Witnesses};
 use crate::error::{Error, ErrorKind};

@@ -2,19 +2,16 @@
 //!
 //! [`World`](super::World) holds a state behind this trait. What is short it does itself, with the state.
 
-use super::kinds::AskAll;
+use super::kept::AskAll;
 use super::state::{State, about};
 use crate::bodies::{Body, NodeBox, validate};
-use crate::close_pairs::CloseTriangles;
 use crate::collide::{Ask, Common, OfKind, Request, check, in_common, others_by_gap};
 use crate::edit::{Edit, Edited};
 use crate::error::{Error, ErrorKind};
 use crate::held::{self, Held};
-use crate::hits::Pair;
 use crate::ids::BodyId;
-use crate::impacts::Impact;
 use crate::kernels::Coordinate;
-use crate::queries::NearestPair;
+use crate::queries::{CloseTriangles, Impact, NearestPair, Pair};
 use crate::selection::Selection;
 use crate::threads::{Interrupt, Question};
 use std::convert::Infallible;

@@ -1,8 +1,8 @@
 //! Edges near edges.
 
+use super::hit::EdgeEdge;
 use super::{Candidates, keep};
 use crate::geometry::larger;
-use crate::hits::EdgeEdge;
 use crate::kernels::ring::Ring;
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::near::runs::{RUNS_AT_ONCE, RunPairs, near_runs};

@@ -10,6 +10,7 @@
 //! `near` has the boxes of what belongs to a run, `kernels::gaps` compares them eight at a time, and few are left to exact arithmetic.
 
 mod edge_edge;
+mod hit;
 mod vertex_triangle;
 
 use super::{Found, LeafTest, Needs, OF_MOTIONS, Reach, Shown, Which};
@@ -18,6 +19,7 @@ use crate::ids::TreeVertex;
 use crate::kernels::Coordinate;
 use crate::kernels::gaps::Limits;
 pub(crate) use edge_edge::EdgeEdgeCandidates;
+pub use hit::{EdgeEdge, VertexTriangle};
 use std::marker::PhantomData;
 pub(crate) use vertex_triangle::VertexTriangleCandidates;
 

@@ -1,8 +1,8 @@
 //! Vertices near triangles.
 
+use super::hit::VertexTriangle;
 use super::{Candidates, keep};
 use crate::geometry::larger;
-use crate::hits::VertexTriangle;
 use crate::ids::{TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::near::runs::{RUNS_AT_ONCE, RunPairs, near_runs};

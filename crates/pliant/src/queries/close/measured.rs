@@ -2,10 +2,11 @@
 //! them.
 
 use super::closest::closest_of;
-use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
-use crate::hits::{EdgeEdge, Hit, VertexTriangle};
+use super::hit::{CloseEdgeEdge, CloseVertexTriangle};
 use crate::kernels::closest::Corners;
 use crate::kernels::{Coordinate, Simd};
+use crate::queries::{EdgeEdge, VertexTriangle};
+use crate::sort::Hit;
 use crate::threads::Interrupt;
 use pliant_exact::distance::Closest;
 

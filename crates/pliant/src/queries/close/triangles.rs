@@ -5,16 +5,15 @@
 //! by exact arithmetic (`pliant_exact::distance`).
 
 use super::closest::{ACCURACY, half};
+use super::hit::CloseTriangles;
 use super::measured::{Measurable, measure_all};
-use crate::close_pairs::CloseTriangles;
 use crate::geometry::{Real, Shape};
-use crate::hits::Pair;
 use crate::ids::TreeTriangle;
 use crate::kernels::closest::{TwoClosest, apart_along, of_triangles};
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
     Batch, CallerIds, Candidate, FoundBy, Intersections, Kind, LeafTest, Margin, Needs,
-    OF_GROWN_SHAPES,
+    OF_GROWN_SHAPES, Pair,
 };
 use crate::threads::Interrupt;
 use pliant_exact::Triangle;

@@ -5,16 +5,19 @@
 //! (`pliant_exact::motion`). What is found of a pair is its cell of a grid of times, which depends on nothing but the pair.
 
 mod earliest;
+mod hit;
 
 use super::close::{ElementCandidates, ElementPair, corners_at, primitives};
-use super::{Batch, CallerIds, Found, FoundBy, Kind, LeafTest, Needs, Reach, shows_hits};
+use super::{
+    Batch, CallerIds, EdgeEdge, Found, FoundBy, Kind, LeafTest, Needs, Reach, VertexTriangle,
+    shows_hits,
+};
 use crate::geometry::Real;
-use crate::hits::{EdgeEdge, VertexTriangle};
-use crate::impacts::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use crate::kernels::apart::{MovingCorners, apart};
 use crate::kernels::{Buffer, Simd, dispatch};
 use crate::statistics::Statistics;
 pub(crate) use earliest::{Earliest, First};
+pub use hit::{EdgeEdgeImpact, Impact, VertexTriangleImpact};
 use pliant_exact::distance::are_within_distance;
 use pliant_exact::motion::{Decided, Grid, Moving, distant_until, impact, starts_surely_within};
 

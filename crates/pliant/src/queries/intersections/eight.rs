@@ -37,7 +37,7 @@ struct Crossing {
 
 /// Decides candidates, and appends those that intersect to `hits`; the order depends on nothing but the candidates. Returns how many of
 /// them, the first, are known to cross, by signs that are not zero.
-pub(super) fn decide<S: Coordinate>(
+pub(in crate::queries) fn decide<S: Coordinate>(
     leaves: &LeafTest<S>,
     candidates: &mut Buffer<Candidate>,
     undecided: &mut Undecided,

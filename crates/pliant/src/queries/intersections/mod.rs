@@ -1,18 +1,16 @@
 //! Triangles that intersect, as closed sets: exactly, as `pliant_exact` says, on the shape of now.
 //!
 //! Within a body, triangles that share a vertex of the mesh are left out: they always touch. `eight` decides candidates side by side on
-//! signs that single precision makes certain, and leaves few to `pliant_exact`. `contacts` tells how pairs intersect, if that is asked.
+//! signs that single precision makes certain, and leaves few to `pliant_exact`.
 
-mod contacts;
-mod eight;
-
-pub(crate) use contacts::Contacts;
+pub(super) mod eight;
+mod hit;
 
 use super::{Batch, CallerIds, Candidate, FoundBy, Kind, LeafTest, Needs, shows_hits};
-use crate::Pair;
 use crate::held::empty;
 use crate::kernels::Coordinate;
 use eight::Undecided;
+pub use hit::Pair;
 use std::marker::PhantomData;
 
 /// Pairs of triangles that intersect.

@@ -2,12 +2,15 @@
 //!
 //! What `eight` decides on signs that are certain and not zero crosses. Only pairs that were left to exact signs are asked for their kind.
 
-use super::eight::{self, Undecided};
-use super::{Candidate, Intersections, Kind};
-use crate::contacts::{Contact, ContactKind};
+mod hit;
+
+use super::intersections::eight::{self, Undecided};
+use super::{
+    Batch, CallerIds, Candidate, FoundBy, Intersections, Kind, LeafTest, Needs, shows_hits,
+};
 use crate::held::held;
 use crate::kernels::{Buffer, Coordinate};
-use crate::queries::{Batch, CallerIds, FoundBy, LeafTest, Needs, shows_hits};
+pub use hit::{Contact, ContactKind};
 use pliant_exact::contact_kind;
 
 /// Pairs of triangles that intersect, with their kinds.

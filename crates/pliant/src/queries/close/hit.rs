@@ -1,6 +1,6 @@
-//! What queries for close pairs find: two elements, how far apart they are, and where they are closest.
+//! Close pairs, as callers get them: two elements, how far apart they are, and where they are closest.
 
-use crate::hits::{EdgeEdge, Pair, VertexTriangle};
+use crate::queries::{EdgeEdge, Pair, VertexTriangle};
 
 /// The smallest parts of two elements that hold the points in which they are closest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,6 +1,7 @@
-//! How two triangles that intersect do so.
+//! Contacts, as callers get them: two triangles that intersect, and how.
 
-use crate::hits::{Numbered, Pair};
+use crate::queries::Pair;
+use crate::sort::Numbered;
 pub use pliant_exact::ContactKind;
 
 /// Two triangles that intersect, and how.

@@ -1,6 +1,7 @@
-//! What queries for impacts find: two elements that meet during a motion, and when first.
+//! Impacts, as callers get them: two elements that meet during a motion, and when first.
 
-use crate::hits::{EdgeEdge, Numbered, VertexTriangle};
+use crate::queries::{EdgeEdge, VertexTriangle};
+use crate::sort::Numbered;
 
 /// A vertex and a triangle, of which it is no corner, that meet during a motion.
 ///

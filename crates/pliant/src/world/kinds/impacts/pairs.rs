@@ -7,7 +7,7 @@ use crate::error::{Error, ErrorKind};
 use crate::kernels::apart::apart;
 use crate::kernels::{Instructions, dispatch};
 use crate::threads::Interrupt;
-use crate::world::Scalar;
+use crate::world::scalar::Scalar;
 use pliant_exact::motion::{Grid, Moving, impact};
 
 /// When vertices first meet triangles that move: of each pair the vertex and the three corners, at the start and at the end of the motion.

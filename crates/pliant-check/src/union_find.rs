@@ -1,8 +1,8 @@
-//! Union-find over numbers: the smallest of a set leads it.
+//! Union-find over numbers, with the smallest number of a set as its root.
 //!
-//! Each number has one above it in its set, or itself if it leads.
+//! Each number has a parent in its set; a root is its own parent.
 
-/// The smallest number of the set that one is in; the way to it is halved in passing.
+/// Union-find root of `vertex`, with path halving.
 pub(crate) fn find(leader: &mut [u32], mut vertex: u32) -> u32 {
     while leader[vertex as usize] != vertex {
         let above = leader[leader[vertex as usize] as usize];
@@ -12,7 +12,7 @@ pub(crate) fn find(leader: &mut [u32], mut vertex: u32) -> u32 {
     vertex
 }
 
-/// Makes one set of two.
+/// Union of the sets of `a` and `b`. The smaller root wins.
 pub(crate) fn join(leader: &mut [u32], a: u32, b: u32) {
     let (a, b) = (find(leader, a), find(leader, b));
     leader[a.max(b) as usize] = a.min(b);

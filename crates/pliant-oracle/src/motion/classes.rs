@@ -2,7 +2,7 @@
 //!
 //! Every coordinate is finite and at most `f32::MAX` in magnitude. The motions depend on the seed
 //! alone. Most are built from integers: corners that meet at some time, and their moves in a part
-//! of the step. So the contact is exact, and a step to a neighbouring number makes the other answer
+//! of the way. So the contact is exact, and a move to a neighbouring number makes the other answer
 //! likely.
 
 use super::{Elements, Moving};

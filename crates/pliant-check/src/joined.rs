@@ -29,7 +29,7 @@ pub(crate) struct Joined {
     sources: Vec<Slots>,
     /// Source and vertex of each slot.
     vertices: Vec<[u32; 2]>,
-    leaders: Vec<u32>,
+    parents: Vec<u32>,
     /// Source and triangle of each hit.
     triangles: Vec<[u32; 2]>,
 }
@@ -52,7 +52,7 @@ impl Joined {
         for [source, triangle] in self.triangles.drain(..) {
             self.sources[source as usize].of_triangles[triangle as usize] = NONE;
         }
-        self.leaders.clear();
+        self.parents.clear();
     }
 
     /// Joins a pair of triangles of sources and returns the slot of the first triangle's first
@@ -63,7 +63,7 @@ impl Joined {
         let [source_a, a, source_b, b] = of_sources;
         let of_a = self.take(meshes, source_a, a)?;
         let of_b = self.take(meshes, source_b, b)?;
-        join(&mut self.leaders, of_a, of_b);
+        join(&mut self.parents, of_a, of_b);
         Some(of_a)
     }
 
@@ -96,16 +96,16 @@ impl Joined {
         let of_corners = corners.map(|vertex| {
             let slot = &mut slots.of_vertices[vertex as usize];
             if *slot == NONE {
-                *slot = self.leaders.len() as u32;
-                self.leaders.push(*slot);
+                *slot = self.parents.len() as u32;
+                self.parents.push(*slot);
                 self.vertices.push([source, vertex]);
             }
             *slot
         });
         slots.of_triangles[triangle as usize] = of_corners[0];
         self.triangles.push([source, triangle]);
-        join(&mut self.leaders, of_corners[0], of_corners[1]);
-        join(&mut self.leaders, of_corners[1], of_corners[2]);
+        join(&mut self.parents, of_corners[0], of_corners[1]);
+        join(&mut self.parents, of_corners[1], of_corners[2]);
         Some(of_corners[0])
     }
 
@@ -132,7 +132,7 @@ impl Joined {
     }
 
     /// Root of the set of a slot: its smallest slot.
-    pub(crate) fn leader(&mut self, slot: u32) -> u32 {
-        find(&mut self.leaders, slot)
+    pub(crate) fn root(&mut self, slot: u32) -> u32 {
+        find(&mut self.parents, slot)
     }
 }

@@ -30,10 +30,10 @@ impl Pieces {
     /// Finds the connected components. Every corner is below `vertices`. Amortised O(t log v) for t
     /// triangles and v vertices.
     pub(crate) fn of(triangles: &[[u32; 3]], vertices: usize) -> Self {
-        let mut leader: Vec<u32> = (0..vertices as u32).collect();
+        let mut parents: Vec<u32> = (0..vertices as u32).collect();
         for &[a, b, c] in triangles {
-            join(&mut leader, a, b);
-            join(&mut leader, b, c);
+            join(&mut parents, a, b);
+            join(&mut parents, b, c);
         }
         let mut piece_of_vertex = vec![NONE; vertices];
         let mut pieces = Self {
@@ -41,8 +41,8 @@ impl Pieces {
             all: Vec::new(),
         };
         for (&[a, b, c], triangle) in triangles.iter().zip(0..) {
-            let lead = find(&mut leader, a);
-            let mut number = piece_of_vertex[lead as usize];
+            let root = find(&mut parents, a);
+            let mut number = piece_of_vertex[root as usize];
             if number == NONE {
                 number = pieces.all.len() as u32;
                 pieces.all.push(Piece {
@@ -53,7 +53,7 @@ impl Pieces {
             }
             let piece = &mut pieces.all[number as usize];
             piece.triangles += 1;
-            for vertex in [lead, a, b, c] {
+            for vertex in [root, a, b, c] {
                 let of_vertex = &mut piece_of_vertex[vertex as usize];
                 piece.vertices += u32::from(*of_vertex == NONE);
                 *of_vertex = number;

@@ -126,8 +126,8 @@ impl Places {
         let mut found: Vec<Place> = Vec::new();
         let mut place_of = vec![0_u32; self.pairs.len()];
         for slot in 0..self.pairs.len() {
-            let leader = self.hits.leader(slot as u32) as usize;
-            if leader == slot {
+            let root = self.hits.root(slot as u32) as usize;
+            if root == slot {
                 place_of[slot] = found.len() as u32;
                 found.push(Place {
                     number: usize::MAX,
@@ -138,7 +138,7 @@ impl Places {
                     upper: [f64::NEG_INFINITY; 3],
                 });
             } else {
-                place_of[slot] = place_of[leader];
+                place_of[slot] = place_of[root];
             }
             let place = &mut found[place_of[slot] as usize];
             let (count, smallest) = self.pairs[slot];

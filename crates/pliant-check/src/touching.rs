@@ -73,7 +73,7 @@ pub(crate) fn only_touch(meshes: &impl Meshes, pairs: &[(Row, ContactKind)]) -> 
         .map(|&(row, _)| hits.join(meshes, row).unwrap_or(NONE))
         .collect();
     for place in place_of.iter_mut().filter(|place| **place != NONE) {
-        *place = hits.leader(*place);
+        *place = hits.root(*place);
     }
     let mut is_kept = vec![false; hits.vertices().len()];
     let with_places = || {
@@ -157,7 +157,7 @@ impl Surfaces {
     fn of(meshes: &impl Meshes, hits: &mut Joined, is_kept: &[bool]) -> Self {
         let slots = 0..hits.vertices().len() as u32;
         let is_open: Vec<bool> = slots
-            .map(|slot| !is_kept[hits.leader(slot) as usize])
+            .map(|slot| !is_kept[hits.root(slot) as usize])
             .collect();
         let is_open = |source, vertex| {
             let slot = hits.slot(source, vertex);
@@ -312,7 +312,7 @@ impl Surfaces {
 /// The parity says whether two triangles turn in different directions.
 struct Patches {
     /// Parent of each triangle, and whether the two turn differently.
-    leaders: Vec<(u32, bool)>,
+    parents: Vec<(u32, bool)>,
     /// Whether the patch of a root cannot turn one way round.
     has_one_side: Vec<bool>,
 }
@@ -320,7 +320,7 @@ struct Patches {
 impl Patches {
     fn of(count: usize) -> Self {
         Self {
-            leaders: (0..count as u32).map(|it| (it, false)).collect(),
+            parents: (0..count as u32).map(|it| (it, false)).collect(),
             has_one_side: vec![false; count],
         }
     }
@@ -328,13 +328,13 @@ impl Patches {
     fn find(&mut self, mut triangle: u32) -> (u32, bool) {
         let mut is_turned = false;
         loop {
-            let (above, turns) = self.leaders[triangle as usize];
-            if above == triangle {
+            let (parent, turns) = self.parents[triangle as usize];
+            if parent == triangle {
                 return (triangle, is_turned);
             }
-            let (next, turns_above) = self.leaders[above as usize];
-            self.leaders[triangle as usize] = (next, turns != turns_above);
-            is_turned ^= turns != turns_above;
+            let (next, parent_turns) = self.parents[parent as usize];
+            self.parents[triangle as usize] = (next, turns != parent_turns);
+            is_turned ^= turns != parent_turns;
             triangle = next;
         }
     }
@@ -345,7 +345,7 @@ impl Patches {
         if a == b {
             self.has_one_side[a as usize] |= turns;
         } else {
-            self.leaders[b as usize] = (a, turns);
+            self.parents[b as usize] = (a, turns);
             self.has_one_side[a as usize] |= self.has_one_side[b as usize];
         }
     }

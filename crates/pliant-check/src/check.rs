@@ -3,11 +3,11 @@
 use crate::any_world::AnyWorld;
 use crate::baseline;
 use crate::bodies::{Bodies, BodyFacts};
-use crate::elements::Elements as Owners;
+use crate::elements::Owners;
 use crate::error::Error;
 use crate::filter::Filter;
 use crate::found::{Closeness, Found, Gap, How, MOST_COUNTED, Stop, Taker};
-use crate::interval::{Elements, Impact, ImpactTaker, Interval, WIDTH};
+use crate::interval::{ElementPair, Impact, ImpactTaker, Interval, WIDTH};
 use crate::joined::Meshes;
 use crate::lives::{Life, Lives};
 use crate::one_point;
@@ -37,7 +37,7 @@ pub struct Check {
     of: Selection,
     /// Frames still to be checked.
     frames: Frames,
-    baseline: Option<Baseline>,
+    baseline: Option<KnownPairs>,
     remarks: Remarks,
     places: Places,
     lives: Lives,
@@ -97,9 +97,9 @@ struct Wanted {
 }
 
 /// Sources together with the map from their triangles to bodies.
-struct Split<'a>(&'a [Source], &'a Bodies);
+struct SplitSources<'a>(&'a [Source], &'a Bodies);
 
-impl Meshes for Split<'_> {
+impl Meshes for SplitSources<'_> {
     fn sizes(&self, source: u32) -> [usize; 2] {
         let source = &self.0[source as usize];
         [source.vertex_count(), source.triangles().len()]
@@ -119,7 +119,7 @@ impl Meshes for Split<'_> {
 }
 
 /// Known pairs, which are left out, and the meshes for which they hold.
-struct Baseline {
+struct KnownPairs {
     frame: usize,
     /// Sorted; `None` until the frame was checked.
     pairs: Option<Vec<Row>>,
@@ -129,7 +129,7 @@ struct Baseline {
     comparable: Vec<bool>,
 }
 
-impl Baseline {
+impl KnownPairs {
     fn of(frame: usize, pairs: Option<Vec<Row>>, sources: usize) -> Self {
         Self {
             frame,
@@ -225,12 +225,12 @@ impl Check {
             None => None,
             Some(settings::Baseline::Frame(frame)) => {
                 there("the baseline", *frame)?;
-                Some(Baseline::of(*frame, None, sequence.sources.len()))
+                Some(KnownPairs::of(*frame, None, sequence.sources.len()))
             }
             Some(settings::Baseline::File(file)) => {
                 let most = settings.max_list;
                 let pairs = baseline::read(file, &sequence.sources, &bodies, most)?;
-                Some(Baseline::of(0, Some(pairs), sequence.sources.len()))
+                Some(KnownPairs::of(0, Some(pairs), sequence.sources.len()))
             }
         };
         let all = Frames {
@@ -495,7 +495,7 @@ impl Check {
         // Set first, so that an error on any way out leaves it set.
         self.failed = true;
         self.from = None;
-        if let Some(Baseline {
+        if let Some(KnownPairs {
             frame, pairs: None, ..
         }) = self.baseline
         {
@@ -526,7 +526,7 @@ impl Check {
         if wanted.places {
             let places = self
                 .places
-                .end(&Split(&self.sequence.sources, &self.bodies));
+                .end(&SplitSources(&self.sequence.sources, &self.bodies));
             self.lives.take(frame, &places);
             found.places = Some(places);
         }
@@ -804,9 +804,9 @@ impl Check {
         let bodies_of = (0..owners.len()).map(|source| bodies.of_source(source).start);
         let bodies_of: Vec<u32> = bodies_of.collect();
         let is_asked = |&[a, b]: &[u32; 2]| (a != b || *itself) && filter.meet(a, b);
-        let mut take = |pair: Elements, cell: [f64; 2]| {
-            let (Elements::VertexTriangle([source_a, a, source_b, b])
-            | Elements::EdgeEdge([source_a, a, source_b, b])) = pair;
+        let mut take = |pair: ElementPair, cell: [f64; 2]| {
+            let (ElementPair::VertexTriangle([source_a, a, source_b, b])
+            | ElementPair::EdgeEdge([source_a, a, source_b, b])) = pair;
             let of_element = |source: u32, of: &dyn Fn(&Owners) -> &[u32]| {
                 let source = source as usize;
                 let whole = || std::slice::from_ref(&bodies_of[source]);
@@ -814,12 +814,12 @@ impl Check {
             };
             // An element between two bodies is of both. Of the pairs that may meet, the smallest
             // counts.
-            let pair = if let Elements::VertexTriangle(_) = pair {
+            let pair = if let ElementPair::VertexTriangle(_) = pair {
                 let of_a = of_element(source_a, &|it| it.of_vertex(a));
                 let of_b = of_element(source_b, &|it| it.of_triangle(b));
                 let mut pairs = of_a.iter().flat_map(|&a| of_b.iter().map(move |&b| [a, b]));
                 let row = pairs.find(is_asked);
-                row.map(|[body_a, body_b]| Elements::VertexTriangle([body_a, a, body_b, b]))
+                row.map(|[body_a, body_b]| ElementPair::VertexTriangle([body_a, a, body_b, b]))
             } else {
                 let of_a = of_element(source_a, &|it| it.of_edge(a));
                 let of_b = of_element(source_b, &|it| it.of_edge(b));
@@ -829,7 +829,7 @@ impl Check {
                     let ((body_a, a), (body_b, b)) = (one.min(other), one.max(other));
                     [body_a, a, body_b, b]
                 });
-                rows.min().map(Elements::EdgeEdge)
+                rows.min().map(ElementPair::EdgeEdge)
             };
             pair.map_or(ControlFlow::Continue(()), |pair| taker.take(pair, cell))
         };
@@ -943,7 +943,7 @@ impl Check {
                 let before = taker.count();
                 stop = taker.take(row, how, degenerate, comparable == [true; 2]);
                 if wanted.places && taker.count() > before {
-                    places.take(&Split(sources, bodies), of_sources, row);
+                    places.take(&SplitSources(sources, bodies), of_sources, row);
                 }
             }
             if stop.is_break() {
@@ -1008,7 +1008,7 @@ impl Check {
         if visited.is_break() {
             return Ok(ControlFlow::Break(Stop::Full));
         }
-        let only_touch = only_touch(&Split(sources, bodies), &pairs);
+        let only_touch = only_touch(&SplitSources(sources, bodies), &pairs);
         taker.leave_touching(only_touch.iter().filter(|&&it| it).count());
         let mut only_touch = only_touch.into_iter();
         pairs.retain(|_| only_touch.next() == Some(false));

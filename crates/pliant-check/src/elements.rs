@@ -6,21 +6,21 @@
 use crate::pieces::NONE;
 
 /// Owners of the vertices, edges and triangles of a source.
-pub(crate) struct Elements {
-    vertices: Owners,
-    edges: Owners,
+pub(crate) struct Owners {
+    vertices: Lists,
+    edges: Lists,
     /// Body of each triangle, or [`NONE`].
     triangles: Vec<u32>,
 }
 
 /// Ascending lists of bodies, one for each element, as compressed sparse rows (CSR).
-struct Owners {
+struct Lists {
     /// Start of each element's list, and at the end the length of all: a prefix sum.
     starts: Vec<u32>,
     bodies: Vec<u32>,
 }
 
-impl Elements {
+impl Owners {
     /// Owners of the elements of a mesh. `edges` are sorted, the smaller vertex first in each.
     ///
     /// `body` returns the body of a triangle, or `None` if the triangle does not count. O(t log t)
@@ -47,8 +47,8 @@ impl Elements {
             of_edges.extend(numbers.map(|edge| [edge as u32, body]));
         }
         Self {
-            vertices: Owners::of(vertices, of_vertices),
-            edges: Owners::of(edges.len(), of_edges),
+            vertices: Lists::of(vertices, of_vertices),
+            edges: Lists::of(edges.len(), of_edges),
             triangles: of_triangles,
         }
     }
@@ -69,7 +69,7 @@ impl Elements {
     }
 }
 
-impl Owners {
+impl Lists {
     /// Builds the lists of `count` elements from pairs of element and body.
     fn of(count: usize, mut pairs: Vec<[u32; 2]>) -> Self {
         pairs.sort_unstable();
@@ -107,7 +107,7 @@ mod tests {
         let triangles = [[0, 1, 2], [3, 2, 1], [3, 2, 4]];
         let edges = [[0, 1], [0, 2], [1, 2], [1, 3], [2, 3], [2, 4], [3, 4]];
         let of = |triangle| [Some(7), Some(5), None][triangle as usize];
-        let elements = Elements::of(&triangles, 6, &edges, of);
+        let elements = Owners::of(&triangles, 6, &edges, of);
         let vertices: Vec<&[u32]> = (0..7).map(|it| elements.of_vertex(it)).collect();
         assert_eq!(vertices, [&[7][..], &[5, 7], &[5, 7], &[5], &[], &[], &[]]);
         let edges: Vec<&[u32]> = (0..8).map(|it| elements.of_edge(it)).collect();

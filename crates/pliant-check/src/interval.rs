@@ -104,24 +104,24 @@ impl Interval {
 ///
 /// Body and vertex, body and triangle; or body and edge, twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Elements {
+pub(crate) enum ElementPair {
     VertexTriangle([u32; 4]),
     EdgeEdge([u32; 4]),
 }
 
-impl From<VertexTriangle> for Elements {
+impl From<VertexTriangle> for ElementPair {
     fn from(pair: VertexTriangle) -> Self {
         Self::VertexTriangle(pair.into())
     }
 }
 
-impl From<EdgeEdge> for Elements {
+impl From<EdgeEdge> for ElementPair {
     fn from(pair: EdgeEdge) -> Self {
         Self::EdgeEdge(pair.into())
     }
 }
 
-impl From<pliant::Impact> for Elements {
+impl From<pliant::Impact> for ElementPair {
     fn from(impact: pliant::Impact) -> Self {
         match impact {
             pliant::Impact::VertexTriangle(impact) => impact.pair.into(),
@@ -139,7 +139,7 @@ pub(crate) struct ImpactTaker {
     /// Time interval of the earliest impacts.
     cell: [f64; 2],
     /// Impacts in `cell`.
-    earliest: Vec<Elements>,
+    earliest: Vec<ElementPair>,
 }
 
 impl ImpactTaker {
@@ -156,7 +156,7 @@ impl ImpactTaker {
     }
 
     /// Takes two elements that are apart up to `low` and have met at `high`.
-    pub(crate) fn take(&mut self, pair: Elements, [low, high]: [f64; 2]) -> ControlFlow<Stop> {
+    pub(crate) fn take(&mut self, pair: ElementPair, [low, high]: [f64; 2]) -> ControlFlow<Stop> {
         let found = &mut self.found;
         if found.count + found.at_start >= MOST_COUNTED {
             return ControlFlow::Break(Stop::Endless);
@@ -182,16 +182,16 @@ impl ImpactTaker {
         }
         let (vertices, edges) = (&mut found.vertex_triangle, &mut found.edge_edge);
         let has_room = match pair {
-            Elements::VertexTriangle(_) => vertices.try_reserve(1).is_ok(),
-            Elements::EdgeEdge(_) => edges.try_reserve(1).is_ok(),
+            ElementPair::VertexTriangle(_) => vertices.try_reserve(1).is_ok(),
+            ElementPair::EdgeEdge(_) => edges.try_reserve(1).is_ok(),
         };
         if !has_room || vertices.len() + edges.len() >= self.most {
             return ControlFlow::Break(Stop::Full);
         }
         match pair {
-            Elements::VertexTriangle(pair) => vertices.push(Impact { pair, low, high }),
+            ElementPair::VertexTriangle(pair) => vertices.push(Impact { pair, low, high }),
             // The edges' vertices are looked up at the end.
-            Elements::EdgeEdge([body_a, a, body_b, b]) => edges.push(Impact {
+            ElementPair::EdgeEdge([body_a, a, body_b, b]) => edges.push(Impact {
                 pair: [body_a, a, a, body_b, b, b],
                 low,
                 high,
@@ -239,10 +239,10 @@ impl ImpactTaker {
             };
             found.first = match first {
                 None => None,
-                Some(Elements::VertexTriangle(pair)) => {
+                Some(ElementPair::VertexTriangle(pair)) => {
                     Some(FirstImpact::VertexTriangle(Impact { pair, low, high }))
                 }
-                Some(Elements::EdgeEdge(pair)) => {
+                Some(ElementPair::EdgeEdge(pair)) => {
                     let pair = edges(pair)?;
                     Some(FirstImpact::EdgeEdge(Impact { pair, low, high }))
                 }
@@ -268,14 +268,14 @@ impl ImpactTaker {
 fn times<S: Scalar>(
     world: &World<S>,
     source_of: &impl Fn(u32) -> usize,
-    pairs: &[Elements],
+    pairs: &[ElementPair],
 ) -> Result<Vec<f64>, pliant::Error> {
     // Start and end positions of each source.
     let mut shapes: BTreeMap<u32, [Vec<[S; 3]>; 2]> = BTreeMap::new();
     let mut corners: [[Vec<[[S; 3]; 4]>; 2]; 2] = Default::default();
     for pair in pairs {
-        let (Elements::VertexTriangle([body_a, _, body_b, _])
-        | Elements::EdgeEdge([body_a, _, body_b, _])) = *pair;
+        let (ElementPair::VertexTriangle([body_a, _, body_b, _])
+        | ElementPair::EdgeEdge([body_a, _, body_b, _])) = *pair;
         let sources = [body_a, body_b].map(|body| source_of(body) as u32);
         for source in sources {
             if let Entry::Vacant(new) = shapes.entry(source) {
@@ -288,11 +288,11 @@ fn times<S: Scalar>(
         let [a, b] = sources.map(|source| &shapes[&source]);
         let [id_a, id_b] = sources.map(BodyId);
         let (kind, vertices) = match *pair {
-            Elements::VertexTriangle([_, vertex, _, triangle]) => {
+            ElementPair::VertexTriangle([_, vertex, _, triangle]) => {
                 let [p, q, r] = world.triangles(id_b)?[triangle as usize];
                 (0, [(a, vertex), (b, p), (b, q), (b, r)])
             }
-            Elements::EdgeEdge([_, one, _, other]) => {
+            ElementPair::EdgeEdge([_, one, _, other]) => {
                 let [p, q] = world.edges(id_a)?[one as usize];
                 let [r, s] = world.edges(id_b)?[other as usize];
                 (1, [(a, p), (a, q), (b, r), (b, s)])
@@ -309,8 +309,8 @@ fn times<S: Scalar>(
     let time =
         |cell: Option<Option<[f64; 2]>>| cell.flatten().map_or(f64::INFINITY, |[_, high]| high);
     let times = pairs.iter().map(|pair| match pair {
-        Elements::VertexTriangle(_) => time(vertices.next()),
-        Elements::EdgeEdge(_) => time(edges.next()),
+        ElementPair::VertexTriangle(_) => time(vertices.next()),
+        ElementPair::EdgeEdge(_) => time(edges.next()),
     });
     Ok(times.collect())
 }
@@ -323,7 +323,7 @@ mod tests {
     fn of_very_many_equally_early_ones_the_lowest_are_compared() {
         let mut taker = ImpactTaker::new(0, 1, false, false, 0);
         let count = 5 * MOST_COMPARED as u32;
-        let pair = |number: u32| Elements::EdgeEdge([0, number, 1, 0]);
+        let pair = |number: u32| ElementPair::EdgeEdge([0, number, 1, 0]);
         // A later one first, then an order in which the lowest are neither first nor last.
         assert!(taker.take(pair(0), [0.75, 1.0]).is_continue());
         for number in 0..count {
@@ -349,7 +349,7 @@ mod tests {
     fn no_more_is_counted_than_anybody_waits_for() {
         let mut taker = ImpactTaker::new(0, 1, false, false, 0);
         taker.found.at_start = MOST_COUNTED - 1;
-        let pair = Elements::VertexTriangle([0; 4]);
+        let pair = ElementPair::VertexTriangle([0; 4]);
         assert!(taker.take(pair, [0.0, 0.5]).is_continue());
         assert_eq!(
             taker.take(pair, [0.0; 2]),

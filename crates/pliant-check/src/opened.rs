@@ -41,8 +41,8 @@ impl Opened {
                 opened.sources.extend(open(argument)?);
                 continue;
             };
-            let place = place(file);
-            let source = match files.entry(place) {
+            let path = canonical_path(file);
+            let source = match files.entry(path) {
                 Entry::Occupied(known) => *known.get(),
                 Entry::Vacant(new) => {
                     let source = *new.insert(opened.sources.len());
@@ -61,7 +61,7 @@ impl Opened {
 }
 
 /// Canonical path of a file, or of a pattern in a folder: equal for every spelling of it.
-fn place(file: &str) -> PathBuf {
+fn canonical_path(file: &str) -> PathBuf {
     let path = Path::new(file);
     let in_folder = || {
         let folder = match path.parent()? {

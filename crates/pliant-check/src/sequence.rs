@@ -105,18 +105,18 @@ impl Sequence {
             return Ok(Vec::new());
         }
         self.read_to(frame)?;
-        let changes = |&place: &usize| self.sources[place].mesh_number() != self.meshes[place];
+        let changes = |&number: &usize| self.sources[number].mesh_number() != self.meshes[number];
         let changed = (0..self.sources.len()).filter(changes);
         let changed: Vec<usize> = changed.collect();
         if !changed.is_empty() {
             return Ok(changed);
         }
-        for (place, source) in self.sources.iter().enumerate() {
+        for (number, source) in self.sources.iter().enumerate() {
             if source.frame_count() == 1 {
                 continue;
             }
-            if !is_mesh_of(&self.world, self.ids[place], source) {
-                let given = with_common_seams(&mut self.world, self.ids[place], source);
+            if !is_mesh_of(&self.world, self.ids[number], source) {
+                let given = with_common_seams(&mut self.world, self.ids[number], source);
                 given.map_err(|error| not_taken(error.into(), source, frame))?;
                 self.given += 1;
                 // The seams differ from the frame's now.
@@ -124,7 +124,7 @@ impl Sequence {
             }
             let taken =
                 self.world
-                    .set_motion(self.ids[place], source.positions(), &mut self.widened);
+                    .set_motion(self.ids[number], source.positions(), &mut self.widened);
             taken.map_err(|why| not_taken(why, source, frame))?;
         }
         self.moves_to = Some(frame);
@@ -163,19 +163,19 @@ impl Sequence {
 
     /// Gives the world the sources' current frame. The first call makes the bodies.
     fn give(&mut self, frame: usize) -> Result<(), Error> {
-        for (place, source) in self.sources.iter().enumerate() {
-            let makes = self.ids.len() == place;
+        for (number, source) in self.sources.iter().enumerate() {
+            let makes = self.ids.len() == number;
             let stands = source.frame_count() == 1;
             if !makes && stands {
                 continue;
             }
             let frame = if stands { 0 } else { frame };
             let mesh = source.mesh_number();
-            if mesh != FIRST && (makes || mesh != self.meshes[place]) {
+            if mesh != FIRST && (makes || mesh != self.meshes[number]) {
                 one_point::check(source)?;
             }
-            self.meshes[place] = mesh;
-            let keeps_mesh = !makes && is_mesh_of(&self.world, self.ids[place], source);
+            self.meshes[number] = mesh;
+            let keeps_mesh = !makes && is_mesh_of(&self.world, self.ids[number], source);
             self.given += usize::from(!keeps_mesh);
             let (triangles, positions) = (source.triangles(), source.positions());
             let Self { world, widened, .. } = self;
@@ -183,9 +183,9 @@ impl Sequence {
                 let added = world.add(triangles, positions, widened);
                 added.map(|id| self.ids.push(id))
             } else if keeps_mesh {
-                world.set_positions(self.ids[place], positions, widened)
+                world.set_positions(self.ids[number], positions, widened)
             } else {
-                world.set_mesh(self.ids[place], triangles, positions, widened)
+                world.set_mesh(self.ids[number], triangles, positions, widened)
             };
             taken.map_err(|why| not_taken(why, source, frame))?;
         }

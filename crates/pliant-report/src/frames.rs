@@ -38,7 +38,7 @@ pub(crate) struct BodyRecord {
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     /// Index among all frames, from 0.
-    pub(crate) place: usize,
+    pub(crate) index: usize,
     /// Shape for each record; `None` if the body does not have that mesh in this frame.
     pub(crate) shapes: Vec<Option<Shape>>,
     pub(crate) hits: Hits,
@@ -159,7 +159,7 @@ impl Motion {
     /// Numbers of the frames that the page shows, ascending.
     pub fn shown(&self) -> impl Iterator<Item = u32> {
         let frames = self.frames.iter().filter(|frame| frame.moment.is_none());
-        frames.map(|frame| self.numbers[frame.place])
+        frames.map(|frame| self.numbers[frame.index])
     }
 
     /// Whether the page shows a frame, by its number.

@@ -16,14 +16,14 @@ pub(crate) const STEPS: f64 = 65_535.0;
 
 /// Map from a motion to the page's coordinates: this point is the origin, this distance is 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct View {
+pub(crate) struct Normalisation {
     pub(crate) centre: [f64; 3],
     pub(crate) radius: f64,
 }
 
 impl Motion {
-    /// View that fits the bounding box of all frames that are shown.
-    pub(crate) fn view(&self) -> View {
+    /// Normalisation that fits the bounding box of all frames that are shown.
+    pub(crate) fn normalisation(&self) -> Normalisation {
         let (mut lower, mut upper) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for shape in self.shapes() {
             for axis in 0..3 {
@@ -40,7 +40,7 @@ impl Motion {
             .map(|axis| (upper[axis] - lower[axis]) / 2.0)
             .fold(0.0, f64::max);
         let is_real = radius.is_finite() && radius > 0.0;
-        View {
+        Normalisation {
             centre: if is_real {
                 std::array::from_fn(|axis| f64::midpoint(lower[axis], upper[axis]))
             } else {
@@ -66,7 +66,7 @@ impl Motion {
 
     /// Encodes and compresses everything but names and numbers.
     pub(crate) fn pack(&self) -> Vec<u8> {
-        let view = self.view();
+        let normalisation = self.normalisation();
         let mut out = Packer::new();
         for body in &self.bodies {
             out.body(body);
@@ -84,7 +84,9 @@ impl Motion {
                     continue;
                 };
                 for axis in 0..3 {
-                    out.float((shape.lower[axis] - view.centre[axis]) / view.radius);
+                    out.float(
+                        (shape.lower[axis] - normalisation.centre[axis]) / normalisation.radius,
+                    );
                 }
                 let steps = if sides[body] > 0.0 {
                     STEPS * (shape.side / sides[body])
@@ -110,7 +112,9 @@ impl Motion {
             for gap in &frame.gaps {
                 for point in gap.points {
                     for axis in 0..3 {
-                        out.float((point[axis] - view.centre[axis]) / view.radius);
+                        out.float(
+                            (point[axis] - normalisation.centre[axis]) / normalisation.radius,
+                        );
                     }
                 }
             }
@@ -346,7 +350,7 @@ mod tests {
             ]
         };
         let frame = |frame: u32| Frame {
-            place: frame as usize,
+            index: frame as usize,
             shapes: [heap(frame), grown(frame)]
                 .iter()
                 .map(|positions| Some(Shape::of(positions)))
@@ -395,13 +399,13 @@ mod tests {
     #[test]
     fn what_is_packed_can_be_read_back() {
         let motion = motion();
-        let view = motion.view();
+        let normalisation = motion.normalisation();
         // The second body reaches from -1 to 17.
-        let expected = View {
+        let expected = Normalisation {
             centre: [8.0, -0.25, 3.5],
             radius: 9.0,
         };
-        assert_eq!(view, expected);
+        assert_eq!(normalisation, expected);
         assert_eq!([motion.side(0), motion.side(1)], [1.0, 18.0]);
 
         let mut packed = Unpacker::new(&motion.pack());
@@ -430,8 +434,8 @@ mod tests {
                 };
                 assert_eq!(is_there, 1);
                 for axis in 0..3 {
-                    let lower =
-                        f64::from_le_bytes(packed.array()) * view.radius + view.centre[axis];
+                    let lower = f64::from_le_bytes(packed.array()) * normalisation.radius
+                        + normalisation.centre[axis];
                     assert!((lower - shape.lower[axis]).abs() < 1e-12);
                 }
                 let count = shape.inside.len();
@@ -466,8 +470,8 @@ mod tests {
                 assert_eq!([a[number], b[number]], gap.triangles);
                 for point in gap.points {
                     for axis in 0..3 {
-                        let x = f64::from_le_bytes(packed.array()) * view.radius;
-                        assert!((x + view.centre[axis] - point[axis]).abs() < 1e-12);
+                        let x = f64::from_le_bytes(packed.array()) * normalisation.radius;
+                        assert!((x + normalisation.centre[axis] - point[axis]).abs() < 1e-12);
                     }
                 }
             }

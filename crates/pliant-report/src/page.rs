@@ -9,7 +9,7 @@ use crate::chart::Chart;
 use crate::colours::{BODIES, HIT, NEAR, of_line};
 use crate::escape::escape;
 use crate::frames::{Elements, Frame, Motion};
-use crate::pack::{STEPS, View};
+use crate::pack::{Normalisation, STEPS};
 use crate::report::{Play, Report};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -125,7 +125,7 @@ fn thinned(motion: &Motion, along: &str) -> Option<String> {
 }
 
 fn motion(motion: &Motion) -> Value {
-    let view = motion.view();
+    let normalisation = motion.normalisation();
     let bodies = motion.bodies.iter().enumerate().map(|(number, body)| {
         json!({
             "name": body.label.name,
@@ -135,15 +135,15 @@ fn motion(motion: &Motion) -> Value {
             "triangles": body.triangles.len(),
             "levels": body.starts.iter().map(Vec::len).collect::<Value>(),
             "faces": body.label.faces.is_some(),
-            "step": motion.side(number) / STEPS / view.radius,
+            "step": motion.side(number) / STEPS / normalisation.radius,
         })
     });
     json!({
         "numbers": motion.numbers,
         "pairs": motion.pairs,
-        "places": motion.frames.iter().map(|frame| spots(frame, view)).collect::<Value>(),
+        "places": motion.frames.iter().map(|frame| spots(frame, normalisation)).collect::<Value>(),
         "placeCounts": motion.frames.iter().map(|frame| frame.all_spots).collect::<Value>(),
-        "frames": motion.frames.iter().map(|frame| frame.place).collect::<Value>(),
+        "frames": motion.frames.iter().map(|frame| frame.index).collect::<Value>(),
         "moments": motion.frames.iter().map(moment).collect::<Value>(),
         "bodies": bodies.collect::<Value>(),
     })
@@ -173,9 +173,11 @@ fn moment(frame: &Frame) -> Value {
 
 /// JSON of a frame's places, in the page's coordinates: number, pairs, lower and upper corner,
 /// label.
-fn spots(frame: &Frame, view: View) -> Value {
+fn spots(frame: &Frame, normalisation: Normalisation) -> Value {
     let inside = |corner: [f64; 3]| -> [f64; 3] {
-        std::array::from_fn(|axis| (corner[axis] - view.centre[axis]) / view.radius)
+        std::array::from_fn(|axis| {
+            (corner[axis] - normalisation.centre[axis]) / normalisation.radius
+        })
     };
     let spots = frame.spots.iter();
     let spots = spots.map(|it| {

@@ -124,16 +124,16 @@ impl Recorder {
         spots: &[Spot],
         gaps: &[Gap],
     ) {
-        let place = self.numbers.len();
+        let index = self.numbers.len();
         self.numbers.push(number);
         self.pairs.push(pairs.len() as u64);
-        if place == 0 {
+        if index == 0 {
             self.meet_bodies(world);
         }
         if self.too_large || !self.meet_meshes(world) {
             return;
         }
-        let mut frame = self.look(place, world, pairs, gaps);
+        let mut frame = self.look(index, world, pairs, gaps);
         frame.spots = spots.iter().take(MOST_SPOTS).cloned().collect();
         frame.all_spots = spots.len();
         let kept = self.with_meshes(frame);
@@ -141,7 +141,7 @@ impl Recorder {
         if count > 0 && self.first_contact.is_none() {
             self.first_contact = Some(kept.clone());
         }
-        let most = |worst: &Arc<Kept>| self.pairs[worst.frame.place];
+        let most = |worst: &Arc<Kept>| self.pairs[worst.frame.index];
         if count > self.worst.as_ref().map_or(0, most) {
             self.worst = Some(kept.clone());
         }
@@ -155,11 +155,11 @@ impl Recorder {
     /// bodies at the time of an impact.
     pub fn moment<S: Scalar>(&mut self, world: &World<S>, moment: &Moment) {
         // If the frame is not drawn, its moment is not either.
-        let Some(place) = self.numbers.len().checked_sub(1) else {
+        let Some(index) = self.numbers.len().checked_sub(1) else {
             return;
         };
         let last = self.last.clone();
-        let Some(last) = last.filter(|last| last.frame.place == place) else {
+        let Some(last) = last.filter(|last| last.frame.index == index) else {
             return;
         };
         let shape = |mesh: &Arc<BodyRecord>| {
@@ -169,7 +169,7 @@ impl Recorder {
         };
         let contacts = moment.contacts.iter().take(MOST_CONTACTS);
         let frame = Frame {
-            place,
+            index,
             shapes: last.meshes.iter().map(shape).collect(),
             hits: Hits::Pairs(Vec::new()),
             near: Vec::new(),
@@ -208,14 +208,14 @@ impl Recorder {
 
     /// Keeps a frame, and drops what does not fit.
     fn keep(&mut self, kept: Arc<Kept>) {
-        if kept.frame.place.is_multiple_of(self.stride) {
+        if kept.frame.index.is_multiple_of(self.stride) {
             self.cost += kept.frame.cost();
             self.kept.push(kept);
         }
         while self.cost + self.cost_of_meshes() > self.budget && self.kept.len() > 1 {
             self.stride *= 2;
             let stride = self.stride;
-            self.kept.retain(|it| it.frame.place.is_multiple_of(stride));
+            self.kept.retain(|it| it.frame.index.is_multiple_of(stride));
             self.cost = self.kept.iter().map(|it| it.frame.cost()).sum();
         }
         self.meshes.retain(|mesh| mesh.strong_count() > 0);
@@ -231,7 +231,7 @@ impl Recorder {
         );
         kept.extend(self.first_moment.into_iter().flatten());
         // A moment comes after its frame.
-        let key = |it: &Arc<Kept>| (it.frame.place, it.frame.moment.is_some());
+        let key = |it: &Arc<Kept>| (it.frame.index, it.frame.moment.is_some());
         kept.sort_by_key(key);
         kept.dedup_by_key(|it| key(it));
         // Numbers all triangles consecutively. A mesh that no shown frame has is left out.
@@ -344,7 +344,7 @@ impl Recorder {
 
     fn look<S: Scalar>(
         &self,
-        place: usize,
+        index: usize,
         world: &World<S>,
         pairs: &[[u32; 4]],
         gaps: &[Gap],
@@ -422,7 +422,7 @@ impl Recorder {
             }
         }
         Frame {
-            place,
+            index,
             shapes,
             hits,
             near,
@@ -647,7 +647,7 @@ mod tests {
         let places: Vec<_> = motion
             .frames
             .iter()
-            .map(|it| (it.place, it.moment.is_some()))
+            .map(|it| (it.index, it.moment.is_some()))
             .collect();
         assert_eq!(places, [(0, false), (0, true), (1, false)]);
         assert!(motion.shown().eq([5, 8]) && motion.pairs() == [0, 0]);
@@ -685,10 +685,10 @@ mod tests {
             let frames = recorder.finish().frames;
             // Each moment follows its frame.
             for (at, frame) in frames.iter().enumerate() {
-                assert!(frame.moment.is_none() || frames[at - 1].place == frame.place);
+                assert!(frame.moment.is_none() || frames[at - 1].index == frame.index);
             }
             let moments = frames.iter().filter(|it| it.moment.is_some());
-            moments.map(|it| it.place).collect()
+            moments.map(|it| it.index).collect()
         };
         assert_eq!(moments(1 << 20), (5..64).collect::<Vec<_>>());
         // A moment costs 118 bytes.
@@ -742,7 +742,7 @@ mod tests {
             shown,
             [[true, true], [false, true], [false, false], [false, false]]
         );
-        assert!(!motion.pack().is_empty() && motion.view().radius > 0.0);
+        assert!(!motion.pack().is_empty() && motion.normalisation().radius > 0.0);
     }
 
     #[test]
@@ -812,7 +812,7 @@ mod tests {
                     _ => Vec::new(),
                 };
                 recorder.frame(frame as u32, world, &pairs);
-                let is_drawn = recorder.last.as_ref().unwrap().frame.place == frame;
+                let is_drawn = recorder.last.as_ref().unwrap().frame.index == frame;
                 assert!(!is_drawn || cost(&recorder) <= budget || recorder.kept.len() == 1);
             }
             recorder.finish()
@@ -838,7 +838,7 @@ mod tests {
             let shown = motion.bodies.iter().zip(&frame.shapes);
             let shown: Vec<_> = shown.filter(|(_, shape)| shape.is_some()).collect();
             let sizes: Vec<_> = shown.iter().map(|(it, _)| it.triangles.len()).collect();
-            let number = frame.place;
+            let number = frame.index;
             assert_eq!(sizes, [1, 1 + number - number % 25 / 24], "frame {number}");
             let start = |at: &BodyRecord| {
                 let before = motion.bodies.iter().take_while(|it| !std::ptr::eq(*it, at));

@@ -119,7 +119,7 @@ impl Picture {
     pub fn of<S: Scalar>(world: &World<S>, pairs: &[[u32; 4]], size: [usize; 2]) -> Self {
         let directions = View::Corner.directions();
         let triangles = seen_of(world, pairs, directions);
-        draw(&triangles, size, frame_of(corners_of(&triangles)))
+        draw(&triangles, size, rectangle_of(corners_of(&triangles)))
     }
 
     /// Draws a picture of a world with the settings of a [`Shot`].
@@ -131,11 +131,11 @@ impl Picture {
         };
         let directions = shot.view.directions();
         let triangles = seen_of(world, pairs, directions);
-        let whole = frame_of(corners_of(&triangles));
+        let whole = rectangle_of(corners_of(&triangles));
         let mut picture = match shot.spot {
             None => draw(&triangles, size, whole),
             Some(spot) => {
-                let there = frame_of(box_seen(spot, directions).into_iter());
+                let there = rectangle_of(box_seen(spot, directions).into_iter());
                 let mut picture = draw(&triangles, size, near(there, whole));
                 let inset = size.map(|length| (INSET * length as f64) as usize);
                 if inset.iter().all(|&length| length > 16) {
@@ -272,13 +272,13 @@ fn seen_of<S: Scalar>(
 }
 
 /// A rectangle in the view: lower and upper corner.
-type Frame = [[f64; 2]; 2];
+type Rectangle = [[f64; 2]; 2];
 
 fn corners_of(triangles: &[Seen]) -> impl Iterator<Item = [f64; 3]> {
     triangles.iter().flat_map(|triangle| triangle.corners)
 }
 
-fn frame_of(corners: impl Iterator<Item = [f64; 3]>) -> Frame {
+fn rectangle_of(corners: impl Iterator<Item = [f64; 3]>) -> Rectangle {
     let (mut lower, mut upper) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for corner in corners {
         for axis in 0..2 {
@@ -298,19 +298,19 @@ fn box_seen(spot: &Spot, [eye, right, up]: [[f64; 3]; 3]) -> [[f64; 3]; 8] {
     })
 }
 
-/// Frame of a place and its surroundings, at least a twentieth of everything.
-fn near([lower, upper]: Frame, [all_lower, all_upper]: Frame) -> Frame {
+/// Rectangle of a place and its surroundings, at least a twentieth of everything.
+fn near([lower, upper]: Rectangle, [all_lower, all_upper]: Rectangle) -> Rectangle {
     let side = |lower: [f64; 2], upper: [f64; 2]| (upper[0] - lower[0]).max(upper[1] - lower[1]);
     let half = (1.1 * side(lower, upper)).max(0.025 * side(all_lower, all_upper));
     let middle: [f64; 2] = std::array::from_fn(|axis| f64::midpoint(lower[axis], upper[axis]));
     [middle.map(|x| x - half), middle.map(|x| x + half)]
 }
 
-/// Scale in samples a unit, so that a frame fills a picture with a margin of a twentieth on every
+/// Scale in samples a unit, so that a rectangle fills a picture with a margin of a twentieth on every
 /// side.
 ///
 /// There are two samples a pixel in each direction.
-fn scale_of([lower, upper]: Frame, size: [usize; 2]) -> f64 {
+fn scale_of([lower, upper]: Rectangle, size: [usize; 2]) -> f64 {
     let scale = (0..2)
         .map(|axis| 0.9 * 2.0 * size[axis] as f64 / (upper[axis] - lower[axis]))
         .fold(f64::INFINITY, f64::min);
@@ -319,7 +319,7 @@ fn scale_of([lower, upper]: Frame, size: [usize; 2]) -> f64 {
 
 /// Rectangle of a place in a picture of everything, in pixels: left, top, right, bottom; large
 /// enough to be seen.
-fn mark(there: Frame, whole: Frame, size: [usize; 2]) -> [usize; 4] {
+fn mark(there: Rectangle, whole: Rectangle, size: [usize; 2]) -> [usize; 4] {
     let scale = scale_of(whole, size) / 2.0;
     let pixel = |axis: usize, x: f64, room: f64| {
         let from_middle = (x - f64::midpoint(whole[0][axis], whole[1][axis])) * scale;
@@ -338,9 +338,9 @@ fn mark(there: Frame, whole: Frame, size: [usize; 2]) -> [usize; 4] {
     ]
 }
 
-fn draw(triangles: &[Seen], size: [usize; 2], frame: Frame) -> Picture {
-    let scale = scale_of(frame, size);
-    let [lower, upper] = frame;
+fn draw(triangles: &[Seen], size: [usize; 2], rectangle: Rectangle) -> Picture {
+    let scale = scale_of(rectangle, size);
+    let [lower, upper] = rectangle;
     let samples = size.map(|length| 2.0 * length as f64);
     let middle: [f64; 2] = std::array::from_fn(|axis| f64::midpoint(lower[axis], upper[axis]));
     let mut canvas = Canvas::new(size.map(|length| 2 * length), PAPER);

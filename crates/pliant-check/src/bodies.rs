@@ -156,7 +156,7 @@ impl Bodies {
             parts.extend(into.map(|into| (number, into)));
         }
         if split == Some(Split::Groups) && parts.is_empty() {
-            // Not an error beside sources that are split: this one is then one body.
+            // No error beside sources that are split: this source is then one body.
             let why = |source: &Source| Some((source.name().to_owned(), source.why_no_groups()?));
             if let Some((source_name, why)) = sources.iter().find_map(why) {
                 return Err(Error::NoGroups { source_name, why });

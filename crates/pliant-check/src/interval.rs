@@ -16,7 +16,8 @@ use std::ops::ControlFlow;
 /// Largest width of an impact's time interval, in units of the way between two frames.
 pub(crate) const WIDTH: f64 = 1e-6;
 
-/// Most equally early impacts that are compared again; of more, those with the lowest numbers are.
+/// Most equally early impacts that are compared again, which bounds memory. Of more, those with the
+/// lowest numbers are.
 const MOST_COMPARED: usize = 1 << 16;
 
 /// Impacts on the way from a frame to the next that is checked.

@@ -18,16 +18,17 @@ use std::sync::{Arc, Weak};
 /// much.
 const BUDGET: usize = 30 << 20;
 
-/// Most pairs of a frame that are kept as pairs; of more, only the triangles are kept.
+/// Most pairs of a frame that are kept as pairs; of more, only the triangles are kept. Bounds the
+/// page.
 const MOST_PAIRS: usize = 100_000;
 
-/// Most gaps of a frame that are kept.
+/// Most gaps of a frame that are kept, the nearest. Bounds the page.
 const MOST_GAPS: usize = 5_000;
 
-/// Most places of a frame that are kept.
+/// Most places of a frame that are kept, the largest. Bounds the page.
 const MOST_SPOTS: usize = 40;
 
-/// Most impacts between two frames that are kept: the earliest.
+/// Most impacts between two frames that are kept, the earliest. Bounds the page.
 const MOST_CONTACTS: usize = 1_000;
 
 /// Most levels of a tree that are shown.

@@ -306,10 +306,10 @@ fn near([lower, upper]: Rectangle, [all_lower, all_upper]: Rectangle) -> Rectang
     [middle.map(|x| x - half), middle.map(|x| x + half)]
 }
 
-/// Scale in samples a unit, so that a rectangle fills a picture with a margin of a twentieth on every
-/// side.
+/// Scale in samples a unit, at which a rectangle fills a picture.
 ///
-/// There are two samples a pixel in each direction.
+/// The margin is a twentieth of the picture on every side. There are two samples a pixel in each
+/// direction.
 fn scale_of([lower, upper]: Rectangle, size: [usize; 2]) -> f64 {
     let scale = (0..2)
         .map(|axis| 0.9 * 2.0 * size[axis] as f64 / (upper[axis] - lower[axis]))

@@ -28,7 +28,7 @@
 //! | `crossing`, `swept`, `skip_degenerate` | what was asked, if it was |
 //! | `groups` | numbers of bodies by name of the group, if it was asked |
 //! | `frames` | [`FrameEntry`] each; with `swept` an [`IntervalEntry`] between two |
-//! | `places` | places of pairs, over all frames: [`LifeEntry`]; absent with `--count` and `--first` |
+//! | `places` | places over all frames: [`LifeEntry`]; absent with `--count` and `--first` |
 //! | `places_left_out` | number of places not in the list, which has the thousand largest |
 
 use super::form::Form;

@@ -1,4 +1,4 @@
-//! `pliant formats`: what is read of each kind of file, as which surface, and what to export instead of what is not read.
+//! `pliant formats`: prints which files are read, as which surface, and what to export instead.
 
 use crate::outcome::Outcome;
 use crate::terminal::print_all;
@@ -50,7 +50,7 @@ Not read
   .fbx, .abc, .blend, .ma, .mb, .max, .dae, .3ds, .c4d, .hip, .step, .iges
                   export glTF (.glb) with its animation; or a mesh and its point cache (.obj and .pc2 or .mdd); or a file a frame";
 
-/// Prints it.
+/// Prints the list of formats.
 pub(crate) fn print(_: &Arguments) -> anyhow::Result<Outcome> {
     print_all(&format!("{TEXT}\n"))?;
     Ok(Outcome::Clear)

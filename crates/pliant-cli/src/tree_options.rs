@@ -1,11 +1,11 @@
-//! The library's options as flags.
+//! Flags for the library's options of trees, updates, the broad phase and threads.
 
 use clap::{Args, ValueEnum};
 use pliant::Options;
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::str::FromStr;
 
-/// How trees are built and updated, and bodies that may meet are found.
+/// Flags that set [`Options`].
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Trees and threads (no choice changes an answer)")]
 pub(crate) struct TreeOptions {
@@ -56,7 +56,7 @@ enum Broad {
 }
 
 impl TreeOptions {
-    /// The library's options.
+    /// Converts the flags to the library's options.
     pub(crate) fn to_options(&self) -> anyhow::Result<Options> {
         if self.level.is_some() && self.update != Update::Hybrid {
             anyhow::bail!("--level is the hybrid update's; it goes with --update hybrid");
@@ -92,7 +92,7 @@ impl TreeOptions {
         Ok(options)
     }
 
-    /// The flags and their values, by name.
+    /// Flags and their values by name, for JSON.
     pub(crate) fn named(&self) -> serde_json::Map<String, serde_json::Value> {
         let serde_json::Value::Object(named) = serde_json::json!({
             "degree": self.degree.parse::<u32>().unwrap_or_default(),
@@ -108,7 +108,7 @@ impl TreeOptions {
         named
     }
 
-    /// One line for people.
+    /// Summary of the flags in one line, for people.
     pub(crate) fn describe(&self) -> String {
         let update = match (self.update, self.level) {
             (Update::Hybrid, Some(level)) => format!("hybrid at level {level}"),
@@ -131,13 +131,13 @@ impl TreeOptions {
     }
 }
 
-/// A number of things of which one must be there.
+/// Parses a count of at least one.
 pub(crate) fn at_least_one<N: FromStr>(text: &str) -> Result<N, String> {
     text.parse()
         .map_err(|_| "write a whole number, 1 or more".to_owned())
 }
 
-/// A value as it is written on the command line.
+/// Name of a value, as it is written on the command line.
 pub(crate) fn value_name(value: impl ValueEnum + Copy) -> String {
     value
         .to_possible_value()

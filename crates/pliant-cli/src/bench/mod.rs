@@ -1,4 +1,4 @@
-//! `pliant bench`: methods side by side, and what the paper claims about them.
+//! `pliant bench`: compares methods side by side, and tests the paper's claims.
 
 mod report;
 mod tables;
@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     over: Overwrite,
 }
 
-/// How every record begins.
+/// Beginning of every record, by which the program recognises its own files.
 const RECORD: &str = r#"{"format":1,"machine":{"processor":"#;
 
 const EXAMPLES: &str = "\
@@ -53,7 +53,7 @@ Examples:
   pliant bench degrees --rounds 9                  medians of more rounds
   pliant bench levels --quiet --json record.json   where it is quiet: a record";
 
-/// Whether other libraries take part in it that this program was built without.
+/// Whether an experiment needs other libraries that this program was built without.
 fn is_missing(title: &Title) -> bool {
     EXPERIMENTS
         .iter()
@@ -77,7 +77,7 @@ fn experiments_help() -> String {
     format!("Experiments:\n{lines}\n{EXAMPLES}")
 }
 
-/// Runs experiments and prints what was found.
+/// Runs the chosen experiments and prints their results.
 pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let asked: Vec<&Title> = TITLES
         .iter()
@@ -104,7 +104,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
         .collect();
     let over = arguments.over;
     if let Some(file) = &arguments.json {
-        // Before hours are spent: can it be written?
+        // Checked before hours are spent.
         output::prepare(file, RECORD, over)?;
     }
     if let Some(page) = &arguments.report {
@@ -149,7 +149,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
         }
         record.experiments.push(done);
         if let Some(file) = &arguments.json {
-            // After each experiment: what was measured is not lost if a later one fails.
+            // After each experiment, so that nothing is lost if a later one fails.
             let text = serde_json::to_string(&record)?;
             output::write(file, RECORD, over, |out| writeln!(out, "{text}"))?;
         }

@@ -1,4 +1,4 @@
-//! What is asked of `pliant check`.
+//! Arguments of `pliant check`.
 
 use super::names::{self, Names};
 use crate::frames::Frames;
@@ -127,14 +127,14 @@ Exit code 0: nothing intersects, is as close as that, or meets on the way. 1: so
 Memory: at most 3.5 times two frames (positions and triangles) and 12 MB, however many frames there are, 7.5 times two frames where the mesh changes from file to file, and 11 times with --swept; beside it the pairs of one frame, where they are listed, left out or written, their places (up to 60 bytes a vertex that is hit), with --crossing 32 bytes a pair and 200 a triangle near one, and of glTF bodies that move the rest positions, joints, deltas and keys.
 Too much? Check fewer bodies at once, or with --count or --first; --max-memory refuses larger frames before they are read.";
 
-/// What files are split into.
+/// Parts of a file that become bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Split {
     Components,
     Groups,
 }
 
-/// How answers are printed.
+/// Output formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
     Table,
@@ -143,7 +143,7 @@ pub(super) enum Format {
     Lines,
 }
 
-/// A distance that triangles may have from each other.
+/// Parses a distance: at least 0 and finite.
 fn distance(text: &str) -> Result<f64, String> {
     let distance = text.parse().ok();
     distance

@@ -1,6 +1,7 @@
-//! `pliant convert`: a mesh or a sequence in another format.
+//! `pliant convert`: writes a mesh or a sequence in another format.
 //!
-//! Streamed like a check: in memory is one frame. Vertices stay as they are in the file, of a group those that it has; an STL file has none of its own, so its
+//! Frames are streamed, as in a check: one is in memory at a time. Vertices stay as they are in the
+//! file; a group keeps the vertices that it uses. An STL file has no shared vertices, so its
 //! corners are welded and each place is written once.
 
 use crate::frames::Frames;
@@ -69,7 +70,7 @@ Examples:
 A file appears under its name when it is whole; nothing is written over without --force. glTF is read, not written.
 STL, PC2 and MDD have 32-bit coordinates: others are rounded, and a note says so.";
 
-/// Reads, writes, and says what was written.
+/// Reads a body, writes its frames, and says how much was written.
 pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let is_stl = arguments.from.to_ascii_lowercase().ends_with(".stl");
     let mut body = pliant_io::open(
@@ -124,7 +125,9 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         if let Some(parted) = body.parted_seams() {
             let [a, b] = parted.vertices;
             bail!(
-                "{name}: vertices {a} and {b} are one in frame 0 and {:.1e} of the body's size apart in frame {frame}; what is written has one mesh: use `--no-weld`, or `--weld` with more than that",
+                "{name}: vertices {a} and {b} are one in frame 0 and {:.1e} of the body's size \
+                 apart in frame {frame}; what is written has one mesh: use `--no-weld`, \
+                 or `--weld` with more than that",
                 parted.farthest
             );
         }
@@ -142,8 +145,9 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Clear)
 }
 
-/// The vertices to write, None for all, and the triangles between them: without those that were welded away, and of a group those
-/// that it has.
+/// Vertices to write (`None`: all), and the triangles and outlines between them.
+///
+/// Leaves out vertices that were welded away, or that a group does not use.
 fn kept(body: &Body) -> (Option<Vec<u32>>, Vec<[u32; 3]>, Outlines) {
     let (mut triangles, mut outlines) = (body.triangles().to_vec(), body.outlines());
     if body.welded() == 0 && !body.is_part() {
@@ -157,17 +161,17 @@ fn kept(body: &Body) -> (Option<Vec<u32>>, Vec<[u32; 3]>, Outlines) {
             vertices.len() as u32 - 1
         });
     }
-    // Every corner of a polygon is one of its triangles.
+    // Corners of polygons are corners of triangles, so each has a number.
     for corner in outlines.values_mut().flatten() {
         *corner = number[*corner as usize].unwrap_or_default();
     }
     (Some(vertices), triangles, outlines)
 }
 
-/// The corners of polygons that are no fans.
+/// Corners of polygons that did not become fans, by the number of the polygon.
 type Outlines = BTreeMap<u32, Vec<u32>>;
 
-/// Some of the positions of a frame.
+/// Positions of the vertices to write, picked from all positions of a frame.
 #[derive(Default)]
 struct Picked {
     narrow: Vec<[f32; 3]>,

@@ -1,4 +1,4 @@
-//! `pliant run`: play a scene, time every step, report.
+//! `pliant run`: plays a built-in scene, times every step, and reports.
 
 mod query;
 mod record;
@@ -66,7 +66,7 @@ Examples:
   pliant run --partition centre --leaf-size 1 --degree 4 --update top-down
   pliant run gather --format json > gather.json  a figure for every step";
 
-/// A seed as people write it.
+/// Parses a seed.
 fn seed(text: &str) -> Result<u64, String> {
     text.parse()
         .map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
@@ -84,7 +84,7 @@ enum Format {
     Json,
 }
 
-/// Plays the scene and prints what happened.
+/// Plays the scene and prints the record.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     let scene = AnyScene::new(&arguments.scene, arguments.triangles, arguments.seed)?;
     let last = arguments.steps.unwrap_or(scene.steps());
@@ -134,7 +134,9 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
     Ok(Outcome::Clear)
 }
 
-/// One world, step by step. Positions are computed before the clock starts, so vertices are in cache where they fit.
+/// Plays one world step by step, and measures every step.
+///
+/// Positions are computed before the clock starts, so vertices are in the cache where they fit.
 fn play<S: Scalar>(
     arguments: &Arguments,
     scene: &AnyScene,
@@ -157,7 +159,7 @@ fn play<S: Scalar>(
     let mut shapes = vec![Vec::new(); scene.body_count()];
     let mut bodies = Vec::new();
     for (body, positions) in shapes.iter_mut().enumerate() {
-        // Trees are built on the shape of the first step, whatever steps are played.
+        // Trees are built on the shape of the first step, whichever steps are played.
         shape(body, None, positions);
         bodies.push(
             world
@@ -174,7 +176,7 @@ fn play<S: Scalar>(
     let mut played = Vec::with_capacity(steps.len());
     let mut before = 0;
     for &step in steps {
-        // What happens in steps that are not played happens off the clock.
+        // Changes in steps that are not played happen off the clock.
         for passed in (before + 1..step).filter(|&step| scene.changes(step)) {
             for (body, positions) in shapes.iter_mut().enumerate() {
                 shape(body, Some(passed), positions);
@@ -188,7 +190,7 @@ fn play<S: Scalar>(
         let start = Instant::now();
         scene.change(&mut world, &bodies, step, &shapes)?;
         for (&body, positions) in bodies.iter().zip(&shapes) {
-            // A body that is fused with another is no more.
+            // A body that was fused with another is gone.
             if !positions.is_empty() {
                 world.set_positions(body, positions)?;
             }

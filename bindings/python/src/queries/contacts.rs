@@ -7,14 +7,14 @@ use pliant::{Contact, ContactKind, Scalar};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// The numbers that Python has for them.
+/// Kinds in the order of their numbers in Python.
 const KINDS: [ContactKind; 3] = [
     ContactKind::Touching,
     ContactKind::Overlapping,
     ContactKind::Crossing,
 ];
 
-/// The one kind that is asked for.
+/// Kind of contact that alone is asked for.
 #[derive(Clone, Copy)]
 pub(crate) struct Only(ContactKind);
 
@@ -28,7 +28,7 @@ impl<'py> FromPyObject<'_, 'py> for Only {
     }
 }
 
-/// Triangles that intersect, perhaps only those of one kind.
+/// Question which triangles intersect, perhaps of one kind alone.
 #[derive(Clone, Copy)]
 pub(crate) struct Contacts {
     pub(crate) only: Option<Only>,
@@ -73,23 +73,34 @@ impl Hit for Contact {
 }
 
 query_class! {
-    /// A question which triangles intersect and how, that waits to be told how much is wanted: all(), the first(), or visit_some(...). Each call
-    /// asks anew, about the shapes that the bodies have then. A call raises pliant.Error as those of Query do.
+    /// A question which triangles intersect and how, answered when it says how much is wanted.
+    ///
+    /// World.contacts makes it. Ask for all(), the first(), or visit_some(...). Each call asks
+    /// anew, about the shapes that the bodies have then. A call raises the errors and exceptions of
+    /// Query.
     ContactQuery of Contacts;
 
-    /// All contacts, sorted, as a Contacts of arrays; the same for every option, history and number of threads.
+    /// All contacts, a Contacts of arrays, sorted by their numbers.
     ///
-    /// at_most refuses more than this with pliant.Error, kind "TooManyHits", instead of making arrays that may fill the memory.
+    /// Options, history and number of threads do not change it. at_most refuses a longer list with
+    /// pliant.Error: TooManyHits, before it fills the memory.
+    ///
+    /// Cost: that of Query.all. Pairs whose kind rounded signs leave open take their exact signs
+    /// once more.
     all;
 
-    /// Some contact, or None if there is none: much cheaper than all where there are many. Which one may depend on options and history;
-    /// whether there is one never does.
+    /// Some contact, a Contact, or None if there is none.
+    ///
+    /// Much cheaper than all() where there are many. Options and history may change which one it
+    /// is, never whether there is one.
     first;
 
-    /// Calls visit(contacts) with some contacts at a time, a Contacts, until it returns True (or anything true). Returns whether it did.
-    /// Each comes once; no list of all is made. The order, and how many come at a time, is deterministic; visit may not ask this world.
+    /// Calls visit(contacts) with some contacts at a time, a Contacts, until it returns true.
+    ///
+    /// Returns whether it did. Every contact comes once, and no list of all is made. The order and
+    /// the sizes are deterministic. visit may not ask this world; its exceptions pass through.
     visit_some;
 
-    /// Does early what the query would do first, and asks nothing; see Query.prepare.
+    /// Does early what the query would do first, and asks nothing: see Query.prepare.
     prepare;
 }

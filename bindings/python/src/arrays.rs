@@ -10,8 +10,9 @@ use crate::copies::{self, Copied};
 use crate::error::{Refused, Result, refused};
 use numpy::{Element, PyArray2, PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods, dtype};
 use pliant_check::double;
-use pliant_io::Positions;
+use pliant_io::{Positions, shown_within};
 use pyo3::basic::CompareOp;
+use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyEllipsis, PyList, PySlice, PyTuple};
@@ -37,20 +38,24 @@ pub(crate) enum CopiedFaces<'py> {
 impl<'py> Coordinates<'py> {
     /// Reads an (n, 3) array of float32 or float64, or an object that numpy converts to one.
     pub(crate) fn read(given: &Any<'py>) -> Result<Self> {
-        let array = as_array(given, "positions", "n")?;
+        Self::of_array(&as_array(given, "positions", "n")?, "positions")
+    }
+
+    /// Reads an (n, 3) array, called `what` in messages.
+    fn of_array(array: &Bound<'py, PyUntypedArray>, what: &str) -> Result<Self> {
         let dtype = array.dtype();
         match (dtype.kind(), dtype.itemsize()) {
-            (b'f', 4) => typed(&array).map(Self::F32),
-            (b'f', 8) => typed(&array).map(Self::F64),
+            (b'f', 4) => typed(array).map(Self::F32),
+            (b'f', 8) => typed(array).map(Self::F64),
             (kind, _) => {
-                let hint = if matches!(kind, b'i' | b'u') {
+                let hint = if matches!(kind, b'i' | b'u') && what == "positions" {
                     "; or were faces and positions exchanged?"
                 } else {
                     ""
                 };
                 Err(refused!(BadArray:
-                    "positions are of type {dtype}; they must be float32 or float64: use \
-                     positions.astype(numpy.float64){hint}"))
+                    "{what} are of type {dtype}; they must be float32 or float64: use \
+                     {what}.astype(numpy.float64){hint}"))
             }
         }
     }
@@ -67,7 +72,11 @@ impl<'py> Coordinates<'py> {
 impl<'py> CopiedCoordinates<'py> {
     /// Copies an (n, 3) array of float32 or float64, or an object that numpy converts to one.
     pub(crate) fn of(given: &Any<'py>) -> Result<Self> {
-        Ok(match Coordinates::read(given)? {
+        Self::anew(Coordinates::read(given)?)
+    }
+
+    fn anew(given: Coordinates<'py>) -> Result<Self> {
+        Ok(match given {
             Coordinates::F32(array) => Self::F32(copies::anew(&array)?),
             Coordinates::F64(array) => Self::F64(copies::anew(&array)?),
         })
@@ -192,16 +201,83 @@ pub(crate) fn pairs_of_elements(given: &Any<'_>) -> Result<Vec<[[f64; 3]; 4]>> {
             "corners have shape {shape}; it must be (k, 4, 3): four corners of each pair"));
     }
     let rows = array.call_method1(intern!(py, "reshape"), (-1, 3))?;
-    let copied = CopiedCoordinates::of(&rows)?;
+    let rows = rows.cast_into::<PyUntypedArray>().map_err(PyErr::from)?;
+    let copied = CopiedCoordinates::anew(Coordinates::of_array(&rows, "corners")?)?;
     let mut wide = Vec::new();
     let rows = double(copied.get()?, &mut wide);
     let (pairs, _) = rows.as_chunks::<4>();
     Ok(pairs.to_vec())
 }
 
-/// Three numbers, rounded to float64.
-pub(crate) fn point(given: &Any<'_>) -> PyResult<[f64; 3]> {
-    given.extract()
+/// Copies one position, an array (3,) of float32 or float64, as an array of one row.
+pub(crate) fn position<'py>(given: &Any<'py>) -> Result<CopiedCoordinates<'py>> {
+    refuse_masks(given, "position")?;
+    let array = as_numpy(given, "position")?;
+    let shape = array.getattr("shape")?;
+    if array.shape() != [3] {
+        return Err(refused!(BadArray: "position has shape {shape}; it must be (3,)"));
+    }
+    let row = array.call_method1(intern!(array.py(), "reshape"), (1, 3))?;
+    CopiedCoordinates::of(&row)
+}
+
+/// Number of a vertex, a triangle or a level, or a mask of 32 bits.
+#[derive(Clone, Copy)]
+pub(crate) struct Number(pub(crate) u32);
+
+impl<'py> FromPyObject<'_, 'py> for Number {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let number = given.extract().map(Self);
+        number.map_err(|error| expected(given, error, "an integer from 0 to 4294967295"))
+    }
+}
+
+/// Corners of one triangle.
+#[derive(Clone, Copy)]
+pub(crate) struct Triangle(pub(crate) [u32; 3]);
+
+impl<'py> FromPyObject<'_, 'py> for Triangle {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let corners = given.extract().map(Self);
+        corners.map_err(|error| expected(given, error, "three vertex numbers, 0 to 4294967295"))
+    }
+}
+
+/// Lower and upper corner of a box, rounded to float64.
+#[derive(Clone, Copy)]
+pub(crate) struct BoxCorners(pub(crate) ([f64; 3], [f64; 3]));
+
+impl<'py> FromPyObject<'_, 'py> for BoxCorners {
+    type Error = PyErr;
+
+    fn extract(given: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let corners = given.extract().map(Self);
+        let wanted = "a tuple (lower, upper), three numbers each, or None";
+        corners.map_err(|error| expected(given, error, wanted))
+    }
+}
+
+/// Exception of the same class that says what was expected; pyo3 adds the name of the argument.
+pub(crate) fn expected(given: Borrowed<'_, '_, PyAny>, error: PyErr, wanted: &str) -> PyErr {
+    let py = given.py();
+    let Ok(given) = given.repr() else {
+        return error;
+    };
+    let given = given.to_string();
+    let text = format!("{} is not {wanted}", shown_within(&given, 60));
+    if error.is_instance_of::<PyOverflowError>(py) {
+        PyOverflowError::new_err(text)
+    } else if error.is_instance_of::<PyTypeError>(py) {
+        PyTypeError::new_err(text)
+    } else if error.is_instance_of::<PyValueError>(py) {
+        PyValueError::new_err(text)
+    } else {
+        error
+    }
 }
 
 /// An array of rows of three, without a mask.

@@ -3,13 +3,12 @@
 //! Their results, `Edited`, `Piece` and `Fused`, are named tuples of arrays.
 
 use crate::answers::{Any, Column, class};
-use crate::arrays::{self, CopiedCoordinates, CopiedFaces};
+use crate::arrays::{self, CopiedCoordinates, CopiedFaces, Number, Triangle};
 use crate::error::{Refused, Result, alone};
 use crate::state::{State, of_body};
 use pliant::{BodyId, Edited, Error, ErrorKind, Fused, Piece};
 use pliant_check::{AnyWorld, double, single};
 use pyo3::prelude::*;
-use pyo3::types::PyList;
 use std::sync::Mutex;
 
 /// Name and meaning of an array of triangle numbers, for messages.
@@ -142,13 +141,12 @@ impl Edit {
     /// Uses an empty vertex number again, at a position of three floats, (3,) float32 or float64.
     ///
     /// Raises pliant.Error: BadArray, Precision. World.apply raises VertexInUse if it is not empty.
-    fn place_vertex(&self, vertex: u32, position: &Any<'_>) -> Result<()> {
+    fn place_vertex(&self, vertex: Number, position: &Any<'_>) -> Result<()> {
         let about = self.of_body()?;
-        let one = PyList::new(position.py(), [position])?;
-        let copied = CopiedCoordinates::of(one.as_any()).map_err(about)?;
+        let copied = arrays::position(position).map_err(about)?;
         step!(self, edit, rows of copied.get()? => {
             if let Some(&position) = rows.first() {
-                edit.place_vertex(vertex, position);
+                edit.place_vertex(vertex.0, position);
             }
         })
     }
@@ -160,14 +158,14 @@ impl Edit {
     ///
     /// Raises pliant.Error: BadArray. World.apply raises NotACorner if a triangle does not have the
     /// vertex.
-    fn split_vertex(&self, vertex: u32, triangles: &Any<'_>) -> Result<u32> {
+    fn split_vertex(&self, vertex: Number, triangles: &Any<'_>) -> Result<u32> {
         let triangles = arrays::numbers(triangles, TRIANGLES)?;
-        step!(self, edit => edit.split_vertex(vertex, &triangles))
+        step!(self, edit => edit.split_vertex(vertex.0, &triangles))
     }
 
     /// Replaces the vertex gone by the vertex kept in all triangles. kept stays where it is.
-    fn merge_vertices(&self, kept: u32, gone: u32) -> Result<()> {
-        step!(self, edit => edit.merge_vertices(kept, gone))
+    fn merge_vertices(&self, kept: Number, gone: Number) -> Result<()> {
+        step!(self, edit => edit.merge_vertices(kept.0, gone.0))
     }
 
     /// Adds triangles, faces (k, 3) of any integer type; returns their numbers, (k,) uint32.
@@ -185,8 +183,8 @@ impl Edit {
     }
 
     /// Gives a triangle other corners, three vertex numbers; uses an empty triangle number again.
-    fn set_triangle(&self, triangle: u32, corners: [u32; 3]) -> Result<()> {
-        step!(self, edit => edit.set_triangle(triangle, corners))
+    fn set_triangle(&self, triangle: Number, corners: Triangle) -> Result<()> {
+        step!(self, edit => edit.set_triangle(triangle.0, corners.0))
     }
 
     /// Removes triangles, (k,) of any integer type. Their numbers become empty.

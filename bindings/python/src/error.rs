@@ -1,11 +1,11 @@
 //! Refusals as `pliant.Error`: facts of the Rust error as attributes, advice in words of Python.
 //!
-//! A message of the Rust libraries says what is wrong and where, and names no keyword. The functions
-//! `after_...` append what to do in Python. The class is in `_types.py`: there it is a few lines, and
-//! can be pickled.
+//! A message of the Rust libraries says what is wrong and where, and names no keyword. Functions
+//! `after_...` append what to do in Python. The class is in `_types.py`: there it is a few lines,
+//! and can be pickled.
 
 use pliant::{BodyId, ErrorKind};
-use pliant_io::Reason;
+use pliant_io::{Place, Reason};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 use std::fmt::{Debug, Display};
@@ -92,6 +92,17 @@ impl Refused {
         self
     }
 
+    /// Names the argument that a refused distance was given as.
+    pub(crate) fn distance_is(self, argument: &str) -> Self {
+        match &self {
+            Self::Error { kind, .. } if kind == "BadDistance" => {
+                let advice = format!("this is the argument {argument}");
+                self.advising(Some(&advice))
+            }
+            _ => self,
+        }
+    }
+
     /// Names the body that an array was given for, or a new one.
     pub(crate) fn of_body(self, body: Option<BodyId>) -> Self {
         match body {
@@ -130,7 +141,8 @@ macro_rules! with_facts {
 
 impl From<pliant::Error> for Refused {
     fn from(error: pliant::Error) -> Self {
-        let mut refused = Self::new(&variant(&error.kind), error.to_string());
+        let mut refused = Self::new(&variant(&error.kind), error.to_string())
+            .advising(after_calling(&error.kind));
         if let Some(body) = error.body {
             refused = refused.with("body", body);
         }
@@ -153,11 +165,60 @@ impl From<pliant::Error> for Refused {
     }
 }
 
+/// Advice about a call that the library refused.
+pub(crate) fn after_calling(kind: &ErrorKind) -> Option<&'static str> {
+    Some(match kind {
+        ErrorKind::TooLarge { .. } => "split the mesh",
+        ErrorKind::TooManyBodies => "go on with a new pliant.World()",
+        ErrorKind::VertexOutOfRange {
+            vertex, vertices, ..
+        } if *vertex as usize == *vertices => "if the faces are counted from 1, give faces - 1",
+        ErrorKind::WrongLength { .. } => "give one for each vertex, empty ones included",
+        ErrorKind::NotWritten { .. } => "write must fill every row of the array that it is given",
+        ErrorKind::OutsideLooseBox { .. } => "World.set_loose_box does either",
+        ErrorKind::NoSuchBody => "World.bodies() lists all that are there",
+        ErrorKind::SameBody => {
+            "name two different bodies, or give Selection.within(body) where a selection is taken"
+        }
+        ErrorKind::TooManyHits { .. } => "this is at_most=, and visit_some(...) makes no list",
+        ErrorKind::BadMargin { .. } => "this is the argument radius",
+        ErrorKind::DifferentCounts { .. } => "start and end have one row for each pair",
+        ErrorKind::EmptyTriangle { .. } => "Edit.set_triangle does that",
+        ErrorKind::EmptyVertex { .. } => "Edit.place_vertex does that",
+        ErrorKind::VertexInUse { .. } => "World.set_positions does that",
+        ErrorKind::NotACorner { .. } => "give split_vertex triangles that have it for a corner",
+        ErrorKind::OutdatedEdit => "World.edit begins one",
+        _ => return None,
+    })
+}
+
 /// Advice about a file that `pliant.check` cannot read.
-fn after_reading(reason: &Reason) -> Option<&'static str> {
-    match reason {
+fn after_reading(error: &pliant_io::Error) -> Option<&'static str> {
+    match error.reason() {
+        Reason::NotFound if matches!(error.place(), Place::Part(..)) => {
+            Some("the glTF file keeps data there: copy it along, to where that file is")
+        }
+        Reason::NotFound => Some("the path is taken from the current folder, os.getcwd()"),
+        Reason::NoMatch => Some("the pattern is taken from the current folder, os.getcwd()"),
+        Reason::Pattern(_) => Some("in a pattern, write [[] for the [ of a name"),
+        Reason::Io(_) => Some("see that you may read it and that its disk is there"),
+        Reason::Malformed(_)
+        | Reason::FewCorners { .. }
+        | Reason::RepeatedCorners { .. }
+        | Reason::VertexIndex { .. }
+        | Reason::Coordinate { .. }
+        | Reason::NoVertices
+        | Reason::NoFaces
+        | Reason::NoFrames => Some("mend it, or export it again"),
+        Reason::Truncated(_) | Reason::Checksum { .. } => Some("copy it or export it again"),
         // Python has no say in how much memory a frame may take.
-        Reason::TooLarge { .. } => Some("split the mesh"),
+        Reason::TooMany { .. } | Reason::TooLarge { .. } => Some("split the mesh"),
+        Reason::OutOfMemory => Some("split the mesh, or free some memory"),
+        Reason::FacesDiffer { .. } | Reason::FaceCount { .. } | Reason::VertexCount { .. } => {
+            Some("export all of them from one mesh")
+        }
+        Reason::NoBody { .. } => Some("choose one of these"),
+        Reason::AfterError => Some("begin another pliant.check"),
         Reason::SeamsTooLarge { .. } => Some("split the mesh, or give weld=False"),
         Reason::SeamsTooDense | Reason::BadTolerance { .. } => Some("give another weld_tolerance="),
         Reason::BadRate { .. } => Some("give another fps="),
@@ -172,6 +233,13 @@ fn after_reading(reason: &Reason) -> Option<&'static str> {
 pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str> {
     use pliant_check::Error;
     match error {
+        Error::NoSources => Some("name files, as in pliant.check(\"cloth_*.obj\")"),
+        Error::FrameCounts { .. } => {
+            Some("export the same frames of each, or one frame of what stands still")
+        }
+        Error::Missing { .. } => Some("wait until it is written, then check again"),
+        Error::NoSuchFrame { .. } | Error::NoSuchName { .. } => Some("choose one of these"),
+        Error::AfterError => Some("begin another pliant.check"),
         Error::BadBaseline { .. } => {
             Some("name a file that `pliant check --format json` wrote of these bodies")
         }
@@ -195,7 +263,7 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
         | Error::EndlessImpacts { .. } => {
             Some("ask for one pair of each frame with first=True, without crossing=")
         }
-        Error::OnePoint { .. } => Some("export the mesh without them"),
+        Error::OnePoint { .. } => Some("mend it, or export it without them"),
         _ => None,
     }
 }
@@ -203,7 +271,7 @@ pub(crate) fn after_checking(error: &pliant_check::Error) -> Option<&'static str
 impl From<pliant_io::Error> for Refused {
     fn from(error: pliant_io::Error) -> Self {
         let refused = Self::new("CannotRead", error.to_string())
-            .advising(after_reading(error.reason()))
+            .advising(after_reading(&error))
             .with("file", error.file().display().to_string());
         // Displayed behind a file's name, a place begins with a comma.
         let place = error.place().to_string();

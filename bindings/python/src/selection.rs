@@ -1,7 +1,7 @@
 //! `Selection` of Python, and bodies by their numbers.
 
 use crate::answers::Any;
-use crate::error::refused;
+use crate::error::{after_calling, refused};
 use pliant::{BodyId, ErrorKind};
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
@@ -18,7 +18,8 @@ impl<'py> FromPyObject<'_, 'py> for Body {
             Ok(number) => Ok(Self(BodyId(number))),
             Err(error) if error.is_instance_of::<PyOverflowError>(given.py()) => {
                 let kind = ErrorKind::NoSuchBody;
-                Err(refused!(NoSuchBody: "body {}: {kind}", given.str()?).into())
+                let refused = refused!(NoSuchBody: "body {}: {kind}", given.str()?);
+                Err(refused.advising(after_calling(&kind)).into())
             }
             Err(error) => Err(error),
         }

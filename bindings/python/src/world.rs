@@ -1,7 +1,7 @@
 //! `World` of Python: the world of the Rust library, method by method.
 
 use crate::answers::{Any, Column, Owned, Rows, counted, named};
-use crate::arrays::{self, Coordinates, CopiedCoordinates, CopiedMesh};
+use crate::arrays::{self, BoxCorners, Coordinates, CopiedCoordinates, CopiedMesh, Number};
 use crate::edit::{self, AnyEdit, Edit};
 use crate::error::{Refused, Result};
 use crate::options::Keywords;
@@ -362,7 +362,8 @@ impl World {
     /// Raises pliant.Error: NoSuchBody, BadDistance if tolerance is negative, infinite or NaN.
     /// Cost: O(m log m).
     fn weld<'py>(&self, py: Python<'py>, body: Body, tolerance: f64) -> Answer<'py> {
-        let edited = search!(self, py, world => world.weld(body.0, tolerance))?;
+        let edited = search!(self, py, world => world.weld(body.0, tolerance))
+            .map_err(|refused| refused.distance_is("tolerance"))?;
         Ok(edit::edited(py, edited)?)
     }
 
@@ -516,8 +517,14 @@ impl World {
     /// do not.
     ///
     /// Raises pliant.Error: NoSuchBody. OverflowError for a number outside 0 to 2^32 - 1.
-    fn set_filter(&self, py: Python<'_>, body: Body, membership: u32, mask: u32) -> Result<()> {
-        ask!(self, py, world => world.set_filter(body.0, membership, mask)?)
+    fn set_filter(
+        &self,
+        py: Python<'_>,
+        body: Body,
+        membership: Number,
+        mask: Number,
+    ) -> Result<()> {
+        ask!(self, py, world => world.set_filter(body.0, membership.0, mask.0)?)
     }
 
     /// Collision filter of a body, a tuple (membership, mask): see set_filter.
@@ -557,16 +564,8 @@ impl World {
     /// Raises pliant.Error: NoSuchBody, OutsideLooseBox if the body is not inside now. BadLooseBox
     /// for corners that are not finite or above 3.4e38 in magnitude, or a lower one above the
     /// upper.
-    fn set_loose_box(
-        &self,
-        py: Python<'_>,
-        body: Body,
-        corners: Option<(Any<'_>, Any<'_>)>,
-    ) -> Result<()> {
-        let corners = match corners {
-            Some((lo, hi)) => Some((arrays::point(&lo)?, arrays::point(&hi)?)),
-            None => None,
-        };
+    fn set_loose_box(&self, py: Python<'_>, body: Body, corners: Option<BoxCorners>) -> Result<()> {
+        let corners = corners.map(|BoxCorners(corners)| corners);
         let state = &self.state;
         state.with(py, |state| Ok(state.set_loose_box(body.0, corners)?))
     }
@@ -608,8 +607,8 @@ impl World {
     /// has 0xFFFFFFFF.
     ///
     /// Raises pliant.Error: NoSuchBody. Cost: O(m).
-    fn tree_cut(&self, py: Python<'_>, body: Body, level: u32) -> Result<Column<u32>> {
-        ask!(self, py, world => Column(world.tree_cut(body.0, level)?))
+    fn tree_cut(&self, py: Python<'_>, body: Body, level: Number) -> Result<Column<u32>> {
+        ask!(self, py, world => Column(world.tree_cut(body.0, level.0)?))
     }
 
     /// Faces of a body as added and edited, a new array (m, 3) uint32.
@@ -634,9 +633,9 @@ impl World {
     /// the box for the present shape, or it is stale. Makes no box, and reads none.
     ///
     /// Raises pliant.Error: NoSuchBody. Cost: O(m).
-    fn tree_boxes<'py>(&self, py: Python<'py>, body: Body, level: u32) -> Answer<'py> {
+    fn tree_boxes<'py>(&self, py: Python<'py>, body: Body, level: Number) -> Answer<'py> {
         let (lower, upper, valid) = ask!(self, py, world => {
-            let boxes = world.tree_boxes(body.0, level)?.into_iter();
+            let boxes = world.tree_boxes(body.0, level.0)?.into_iter();
             let row = |node: NodeBox<_>| (node.lower, node.upper, node.valid);
             let (lower, upper, valid): (Vec<_>, Vec<_>, Vec<_>) = boxes.map(row).collect();
             (Owned::from(lower), Owned::from(upper), Column(valid))
@@ -770,7 +769,8 @@ impl World {
     /// The closest triangles of the last time are measured first.
     #[pyo3(signature = (a, b, cut_off=f64::INFINITY))]
     fn distance<'py>(&self, py: Python<'py>, a: Body, b: Body, cut_off: f64) -> Maybe<'py> {
-        let found = search!(self, py, world => world.distance(a.0, b.0, cut_off))?;
+        let found = search!(self, py, world => world.distance(a.0, b.0, cut_off))
+            .map_err(|refused| refused.distance_is("cut_off"))?;
         Ok(found.map(|pair| pair.one(py)).transpose()?)
     }
 
@@ -783,7 +783,8 @@ impl World {
     /// Cost: that of distance, for the bodies whose boxes are nearer than the nearest is.
     #[pyo3(signature = (body, cut_off=f64::INFINITY))]
     fn nearest_body<'py>(&self, py: Python<'py>, body: Body, cut_off: f64) -> Maybe<'py> {
-        let found = search!(self, py, world => world.nearest_body(body.0, cut_off))?;
+        let found = search!(self, py, world => world.nearest_body(body.0, cut_off))
+            .map_err(|refused| refused.distance_is("cut_off"))?;
         Ok(found.map(|pair| pair.one(py)).transpose()?)
     }
 
@@ -859,7 +860,8 @@ impl World {
     /// intersection.
     #[pyo3(signature = (of, min_distance=0.0))]
     fn free_step<'py>(&self, py: Python<'py>, of: Selection, min_distance: f64) -> Answer<'py> {
-        let step = search!(self, py, world => world.free_step(of.0, min_distance))?;
+        let step = search!(self, py, world => world.free_step(of.0, min_distance))
+            .map_err(|refused| refused.distance_is("min_distance"))?;
         let pair = step.begins_in_contact.map(|pair| match pair {
             InContact::Triangles(pair) => pair.one(py),
             InContact::VertexTriangle(pair) => pair.one(py),
@@ -884,6 +886,7 @@ impl World {
     #[pyo3(signature = (of, min_distance=0.0))]
     fn collision_free_step(&self, py: Python<'_>, of: Selection, min_distance: f64) -> Result<f64> {
         search!(self, py, world => world.collision_free_step(of.0, min_distance))
+            .map_err(|refused| refused.distance_is("min_distance"))
     }
 
     /// How far each vertex may move before anything can touch: a dict of body to (n,) float64.
@@ -904,7 +907,8 @@ impl World {
         of: Selection,
         cut_off: f64,
     ) -> Result<Bound<'py, PyDict>> {
-        let clearances = search!(self, py, world => world.clearance(of.0, cut_off))?;
+        let clearances = search!(self, py, world => world.clearance(of.0, cut_off))
+            .map_err(|refused| refused.distance_is("cut_off"))?;
         let of_bodies = PyDict::new(py);
         for (body, clearance) in clearances {
             of_bodies.set_item(body.0, Column(clearance))?;

@@ -23,11 +23,12 @@ impl Kind for Close {
         of: pliant::Selection,
         wanted: Wanted<'w, W>,
     ) -> Result<W::Answer> {
-        match self {
+        let answer = match self {
             Self::VertexTriangle(most) => wanted.of(world.close_vertex_triangle_pairs(of, most)),
             Self::EdgeEdge(most) => wanted.of(world.close_edge_edge_pairs(of, most)),
             Self::Triangles(most) => wanted.of(world.close_triangle_pairs(of, most)),
-        }
+        };
+        answer.map_err(|refused| refused.distance_is("distance"))
     }
 
     fn said(self) -> String {

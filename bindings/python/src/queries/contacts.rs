@@ -1,6 +1,7 @@
 //! `ContactQuery`: which triangles intersect, and how, with numbers in arrays side by side.
 
 use crate::answers::{Any, Column, Rows, class};
+use crate::arrays::expected;
 use crate::error::Result;
 use crate::queries::{Hit, Kind, Want, Wanted, query_class};
 use pliant::{Contact, ContactKind, Scalar};
@@ -14,6 +15,10 @@ const KINDS: [ContactKind; 3] = [
     ContactKind::Crossing,
 ];
 
+/// Values of `only`, for messages.
+const WANTED: &str = "a pliant.ContactKind: give only=ContactKind.CROSSING, OVERLAPPING or \
+                      TOUCHING, or None for all";
+
 /// Kind of contact that alone is asked for.
 #[derive(Clone, Copy)]
 pub(crate) struct Only(ContactKind);
@@ -22,9 +27,10 @@ impl<'py> FromPyObject<'_, 'py> for Only {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let number: usize = object.extract()?;
+        let number = object.extract::<usize>();
+        let number = number.map_err(|error| expected(object, error, WANTED))?;
         let kind = KINDS.get(number).copied().map(Self);
-        kind.ok_or_else(|| PyValueError::new_err(format!("{number} is no pliant.ContactKind")))
+        kind.ok_or_else(|| PyValueError::new_err(format!("{number} is not {WANTED}")))
     }
 }
 

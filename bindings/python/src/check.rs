@@ -106,7 +106,7 @@ impl Name {
     }
 }
 
-/// Checks files frame by frame, as the program `pliant check` does; returns a Check, an iterator.
+/// Checks files frame by frame, as the program `pliant check` does: an iterator of Frame.
 ///
 ///     for frame in pliant.check("cloth_*.obj", "body.npz", itself=True):
 ///         print(frame.frame, frame.count, frame.pairs)
@@ -121,7 +121,7 @@ impl Name {
 /// - USD (.usd, .usda, .usdc, .usdz), with pip install 'pliant[usd]': each mesh that is seen, or
 ///   those at or below a prim, "walk.usdc#/scene/shirt"
 ///
-/// Who is asked about:
+/// Returns a Check. Who is asked about:
 ///
 /// - itself: also each body with itself; a body alone always is
 /// - split: "components" makes each connected piece of a file a body, "cloth.ply#1", "cloth.ply#2",
@@ -330,8 +330,7 @@ impl Check {
             interval = interval.transpose()?)?))
     }
 
-    /// Places of the frames so far, a tuple of Life, most pairs in a frame first; at most a
-    /// thousand.
+    /// Places of the frames so far, a tuple of at most 1000 Life, most pairs in a frame first.
     #[getter]
     fn places<'py>(&self, py: Python<'py>) -> Result<Bound<'py, PyTuple>> {
         let (_, lives) = alone_with(py, &self.running, |running| Ok(running.places()))?;

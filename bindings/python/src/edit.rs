@@ -125,10 +125,9 @@ impl Edit {
         self.with(|edit| Ok(edit.body().0))
     }
 
-    /// Adds vertices at positions (k, 3), as World.add takes them; returns their numbers, (k,)
-    /// uint32.
+    /// Adds vertices at positions (k, 3); returns their numbers, (k,) uint32.
     ///
-    /// They have group 0. Positions are float32 or float64.
+    /// Positions are float32 or float64, as World.add takes them. The vertices have group 0.
     ///
     /// Raises pliant.Error: BadArray, Precision.
     fn add_vertices(&self, positions: &Any<'_>) -> Result<Column<u32>> {
@@ -138,7 +137,7 @@ impl Edit {
         Ok(Column(added.collect()))
     }
 
-    /// Uses an empty vertex number again, at a position of three floats, (3,) float32 or float64.
+    /// Uses an empty vertex number again, at a position (3,) of float32 or float64.
     ///
     /// Raises pliant.Error: BadArray, Precision. World.apply raises VertexInUse if it is not empty.
     fn place_vertex(&self, vertex: Number, position: &Any<'_>) -> Result<()> {
@@ -151,10 +150,10 @@ impl Edit {
         })
     }
 
-    /// Adds a vertex in the place of another, which the given triangles have instead from now on.
+    /// Adds a vertex in the place of another, for the given triangles; returns its number.
     ///
-    /// Returns its number. triangles is (k,) of any integer type. The new vertex has the group of
-    /// the other.
+    /// triangles is (k,) of any integer type. They have the new vertex as a corner instead of the
+    /// other. The new vertex has the group of the other.
     ///
     /// Raises pliant.Error: BadArray. World.apply raises NotACorner if a triangle does not have the
     /// vertex.
@@ -182,7 +181,7 @@ impl Edit {
         Ok(Column(added.collect()))
     }
 
-    /// Gives a triangle other corners, three vertex numbers; uses an empty triangle number again.
+    /// Gives a triangle other corners, three vertex numbers; an empty number is used again.
     fn set_triangle(&self, triangle: Number, corners: Triangle) -> Result<()> {
         step!(self, edit => edit.set_triangle(triangle.0, corners.0))
     }

@@ -188,12 +188,12 @@ impl World {
         })
     }
 
-    /// The options of this world, a dict of the keyword arguments that make another like it.
+    /// Options of this world, a dict of the keyword arguments that make another like it.
     fn options(&self) -> Keywords {
         self.keywords.clone()
     }
 
-    /// The dtype of all positions, numpy.float32 or numpy.float64; None while there was no body.
+    /// Dtype of all positions, numpy.float32 or numpy.float64; None before the first body.
     #[getter]
     fn dtype<'py>(&self, py: Python<'py>) -> Maybe<'py> {
         let precision = self.state.with(py, |state| Ok(state.precision()))?;
@@ -263,7 +263,7 @@ impl World {
             .map(Edit::new)
     }
 
-    /// Makes the changes of an edit, all or none, and returns an Edited: what changed, by number.
+    /// Makes the changes of an edit, all or none; returns an Edited, the changes by number.
     ///
     /// Triangles and vertices that the edit does not name keep their numbers. Edges keep theirs
     /// while they stay. A triangle number left empty is 0xFFFFFFFF three times in triangles, and in
@@ -286,14 +286,14 @@ impl World {
         Ok(edit::edited(py, edited)?)
     }
 
-    /// Which triangle numbers of a body are in use, (m,) bool: False where an edit left one empty.
+    /// Whether each triangle number of a body is in use, (m,) bool; False if left empty.
     ///
     /// Raises pliant.Error: NoSuchBody. Cost: O(m).
     fn live_triangles(&self, py: Python<'_>, body: Body) -> Result<Column<bool>> {
         ask!(self, py, world => Column(world.live_triangles(body.0)?))
     }
 
-    /// Which vertex numbers of a body are in use, (n,) bool: False where an edit left one empty.
+    /// Whether each vertex number of a body is in use, (n,) bool; False if left empty.
     ///
     /// Raises pliant.Error: NoSuchBody. Cost: O(n).
     fn live_vertices(&self, py: Python<'_>, body: Body) -> Result<Column<bool>> {
@@ -352,7 +352,7 @@ impl World {
         Ok(edit::fused(py, fused)?)
     }
 
-    /// Joins boundary edges of a body that coincide within a tolerance, and returns an Edited.
+    /// Joins boundary edges of a body that coincide within a tolerance; returns an Edited.
     ///
     /// A boundary edge belongs to exactly one triangle. Two coincide if their ends, one by one, are
     /// at most tolerance apart, in the unit of the positions, decided exactly. Of joined vertices
@@ -379,7 +379,7 @@ impl World {
         ask!(self, py, world => world.bodies().map(|body| body.0).collect())
     }
 
-    /// Gives a body a new shape: positions (n, 3), a row for each vertex, as numbered when added.
+    /// Gives a body a new shape: positions (n, 3), a row for each vertex.
     ///
     /// Float32 is widened in a float64 world. The array is copied once, whatever its layout, into
     /// memory that the world keeps. The copy is checked, and taken only if every coordinate is
@@ -417,7 +417,7 @@ impl World {
         py.detach(|| state.write_positions(body, written))
     }
 
-    /// Begins a motion: end (n, 3) is where the vertices of a body are at the end of the step.
+    /// Begins a motion of a body: end (n, 3) is its shape at the end of the step.
     ///
     /// Vertices move on straight lines from the present shape at time 0 to end at time 1.
     /// Candidates and impacts look at the whole way; all other queries at the present shape. A body
@@ -432,12 +432,12 @@ impl World {
         self.with_shape(py, body, end, State::set_motion)
     }
 
-    /// Ends all motions: every body that has one takes the shape at its end, without a copy.
+    /// Ends all motions: bodies that have one take the shape at its end, without a copy.
     fn finish_motion(&self, py: Python<'_>) -> Result<()> {
         ask!(self, py, world => world.finish_motion())
     }
 
-    /// Ends all motions on the way: every body that has one takes its shape at time t, 0 to 1.
+    /// Ends all motions on the way: bodies that have one take their shape at time t, 0 to 1.
     ///
     /// Each coordinate is x0 + t (x1 - x0), computed in float64, kept between x0 and x1, and
     /// rounded to the world's dtype. At t = 1 it is x1.
@@ -447,7 +447,7 @@ impl World {
         ask!(self, py, world => world.advance_motion(t)?)
     }
 
-    /// Shape at the end of a body's motion, a new array (n, 3) of the world's dtype, or None.
+    /// Shape at the end of a body's motion, a new array (n, 3) of the world's dtype or None.
     ///
     /// Raises pliant.Error: NoSuchBody.
     fn end_positions(&self, py: Python<'_>, body: Body) -> Result<Option<Owned>> {
@@ -510,7 +510,7 @@ impl World {
         ask!(self, py, world => world.rebuild(body.0)?)
     }
 
-    /// Sets the collision filter of a body, two 32-bit masks: what it is, and what it meets.
+    /// Sets the collision filter of a body, two 32-bit masks: what it is and what it meets.
     ///
     /// Two bodies meet if the membership of each has a bit in common with the mask of the other. At
     /// first both are 0xFFFFFFFF. Selection.WORLD and EVERYTHING heed filters; between and within
@@ -534,9 +534,10 @@ impl World {
         ask!(self, py, world => world.filter(body.0)?)
     }
 
-    /// Keeps two bodies apart in queries of the whole world; a body from itself if named twice.
+    /// Keeps two bodies apart in queries of the whole world, or one body from itself.
     ///
-    /// Selection.between and within do not heed it. unignore takes it back.
+    /// A body that is named twice does not meet itself. Selection.between and within do not heed
+    /// it. unignore takes it back.
     ///
     /// Raises pliant.Error: NoSuchBody.
     fn ignore(&self, py: Python<'_>, a: Body, b: Body) -> Result<()> {
@@ -584,14 +585,14 @@ impl World {
         ask!(self, py, world => world.triangle_count(body.0)?)
     }
 
-    /// Number of vertices of a body, empty ones included: the rows that its positions must have.
+    /// Number of vertices of a body, empty ones included; the rows of its positions.
     ///
     /// Raises pliant.Error: NoSuchBody. Cost: O(1).
     fn vertex_count(&self, py: Python<'_>, body: Body) -> Result<usize> {
         ask!(self, py, world => world.vertex_count(body.0)?)
     }
 
-    /// Size of a body's tree, a TreeShape: depth, nodes, leaves. Movement does not change it.
+    /// Size of a body's tree, a TreeShape: depth, nodes, leaves.
     ///
     /// Raises pliant.Error: NoSuchBody.
     fn tree_shape<'py>(&self, py: Python<'py>, body: Body) -> Answer<'py> {
@@ -620,17 +621,20 @@ impl World {
         ask!(self, py, world => Rows(world.triangles(body.0)?.to_vec()))
     }
 
-    /// Present shape of a body, a new array (n, 3) of the world's dtype; NaN for empty vertices.
+    /// Present shape of a body, a new array (n, 3) of the world's dtype.
+    ///
+    /// Rows of vertices that an edit left empty are NaN.
     ///
     /// Raises pliant.Error: NoSuchBody.
     fn positions(&self, py: Python<'_>, body: Body) -> Result<Owned> {
         ask!(self, py, world => Owned::from(world.positions(body.0)?))
     }
 
-    /// Boxes of a level of a body's tree, a TreeBoxes: lower (k, 3), upper (k, 3), valid (k,).
+    /// Boxes of a level of a body's tree, a TreeBoxes: lower, upper, valid.
     ///
-    /// A row is a part of tree_cut, the root being level 0. valid is bool: whether the tree holds
-    /// the box for the present shape, or it is stale. Makes no box, and reads none.
+    /// lower and upper are (k, 3), of the world's dtype, valid is (k,) bool. A row is a part of
+    /// tree_cut, the root being level 0. valid says whether the tree holds the box for the present
+    /// shape, or it is stale. Makes no box, and reads none.
     ///
     /// Raises pliant.Error: NoSuchBody. Cost: O(m).
     fn tree_boxes<'py>(&self, py: Python<'py>, body: Body, level: Number) -> Answer<'py> {
@@ -643,7 +647,7 @@ impl World {
         Ok(named!(py, "TreeBoxes": lower = lower, upper = upper, valid = valid)?)
     }
 
-    /// Order in which queries read the vertices of a body, (n,) uint32: vertex numbers as added.
+    /// Order in which queries read the vertices of a body, (n,) uint32.
     ///
     /// Queries are faster on a mesh whose vertices come in this order. To renumber, give
     /// positions[order], and faces with the new numbers.
@@ -653,7 +657,7 @@ impl World {
         ask!(self, py, world => Column(world.vertex_order(body.0)?.to_vec()))
     }
 
-    /// Asks which triangles intersect: a Query, whose all() is (k, 4) uint32, sorted.
+    /// Asks which triangles intersect: a Query, all() of which is (k, 4) uint32, sorted.
     ///
     /// A row is body, triangle, body, triangle. Triangles are closed sets: touching counts, and so
     /// does coplanar overlap. A degenerate triangle is the segment or point that it is. The
@@ -669,7 +673,7 @@ impl World {
         Query::new(&self.state, of, Pairs::Intersections)
     }
 
-    /// Asks which triangles intersect, and how: a ContactQuery, whose all() is a Contacts.
+    /// Asks which triangles intersect, and how: a ContactQuery, all() of which is a Contacts.
     ///
     /// Triangles are found as by intersections. Each pair is crossing, overlapping in one plane, or
     /// only touching, decided exactly: see ContactKind. only leaves out all other kinds. Where
@@ -689,7 +693,7 @@ impl World {
         ContactQuery::new(&self.state, of, Contacts { only })
     }
 
-    /// Asks which vertices are near which triangles: a Query, whose all() is (k, 4) uint32, sorted.
+    /// Asks which vertices are near which triangles: a Query, all() of which is (k, 4) uint32.
     ///
     /// A row is body, vertex, body, triangle. For solvers that then measure, or find when they
     /// touch; edge_edge_candidates is the other half. With a motion, the whole way to its end
@@ -709,7 +713,7 @@ impl World {
         Query::new(&self.state, of, Pairs::VertexTriangleCandidates(radius))
     }
 
-    /// Asks which edges are near which edges: a Query, whose all() is (k, 4) uint32, sorted.
+    /// Asks which edges are near which edges: a Query, all() of which is (k, 4) uint32.
     ///
     /// A row is body, edge, body, edge. The smaller (body, edge) comes first, or the body that the
     /// selection names first. Edges are numbered by rows of edges(body). Edges with an end in
@@ -735,28 +739,28 @@ impl World {
         CloseQuery::new(&self.state, of, Close::VertexTriangle(distance))
     }
 
-    /// Asks which edges are at most distance apart: a CloseQuery, whose all() is a ClosePairs.
+    /// Asks which edges are at most distance apart: a CloseQuery.
     ///
-    /// Edges are numbered by rows of edges(body). Edges with an end in common are left out. All
-    /// else is as for close_vertex_triangle_pairs.
+    /// Its all() is a ClosePairs. Edges are numbered by rows of edges(body). Edges with an end in
+    /// common are left out. All else is as for close_vertex_triangle_pairs.
     ///
     /// Nothing is computed until the query is asked. Errors are at CloseQuery.
     fn close_edge_edge_pairs(&self, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(&self.state, of, Close::EdgeEdge(distance))
     }
 
-    /// Asks which triangles are at most distance apart: a CloseQuery, whose all() is a ClosePairs.
+    /// Asks which triangles are at most distance apart: a CloseQuery.
     ///
-    /// For bodies that should keep a distance from each other. Triangles that intersect are close,
-    /// at distance 0. Within a body, triangles that share a vertex are left out. Decided exactly,
-    /// in the present shape.
+    /// Its all() is a ClosePairs. For bodies that should keep a distance from each other. Triangles
+    /// that intersect are close, at distance 0. Within a body, triangles that share a vertex are
+    /// left out. Decided exactly, in the present shape.
     ///
     /// Nothing is computed until the query is asked. Errors are at CloseQuery.
     fn close_triangle_pairs(&self, of: Selection, distance: f64) -> CloseQuery {
         CloseQuery::new(&self.state, of, Close::Triangles(distance))
     }
 
-    /// Distance of the surfaces of two bodies: the ClosePair of their closest triangles, or None.
+    /// Distance of the surfaces of two bodies, a ClosePair of their closest triangles.
     ///
     /// None if they are further apart than cut_off, which may be infinite. The distance is 0
     /// exactly if any of their triangles intersect. A body wholly inside another is as far from it
@@ -774,9 +778,10 @@ impl World {
         Ok(found.map(|pair| pair.one(py)).transpose()?)
     }
 
-    /// Distance of a body to the nearest other that may meet it, as filters say: a ClosePair.
+    /// Distance of a body to the nearest other that it may meet, a ClosePair.
     ///
-    /// Its pair names the other body. None if no other is within cut_off, which may be infinite.
+    /// Its pair names the other body. Filters say whom it may meet. None if no other is within
+    /// cut_off, which may be infinite.
     ///
     /// Raises pliant.Error: NoSuchBody, BadDistance if cut_off is negative or NaN.
     ///
@@ -806,11 +811,10 @@ impl World {
         ImpactQuery::new(&self.state, of, Impacts::VertexTriangle(width))
     }
 
-    /// Asks which edges meet during the motion, and when: an ImpactQuery, whose all() is an
-    /// Impacts.
+    /// Asks which edges meet during the motion, and when: an ImpactQuery.
     ///
-    /// Edges are numbered by rows of edges(body). Edges with an end in common are left out. All
-    /// else is as for vertex_triangle_impacts, width included.
+    /// Its all() is an Impacts. Edges are numbered by rows of edges(body). Edges with an end in
+    /// common are left out. All else is as for vertex_triangle_impacts, width included.
     ///
     /// Nothing is computed until the query is asked. Errors are at ImpactQuery.
     #[pyo3(signature = (of, width=1e-6))]
@@ -834,7 +838,7 @@ impl World {
         Ok(impact.transpose()?)
     }
 
-    /// How far everything may go without collision, a FreeStep: t, begins_in_contact, moves.
+    /// How far everything may go without collision: FreeStep(t, begins_in_contact, moves).
     ///
     /// t, from 0 to 1, is the time of collision_free_step, to call advance_motion with. Up to t,
     /// everything stays further apart than min_distance, in the unit of the positions. It promises
@@ -889,7 +893,7 @@ impl World {
             .map_err(|refused| refused.distance_is("min_distance"))
     }
 
-    /// How far each vertex may move before anything can touch: a dict of body to (n,) float64.
+    /// How far each vertex may move before anything can touch: dict of body to (n,) float64.
     ///
     /// It is half the least distance of the elements that the vertex is a corner of, at most
     /// cut_off / 2. Elements are the pairs of close_vertex_triangle_pairs and
@@ -916,7 +920,7 @@ impl World {
         Ok(of_bodies)
     }
 
-    /// Counters of the work of the last query, a Statistics, Query.prepare before it included.
+    /// Counters of the work of the last query, Query.prepare included: a Statistics.
     fn statistics<'py>(&self, py: Python<'py>) -> Answer<'py> {
         let statistics = ask!(self, py, world => *world.statistics())?;
         Ok(named!(py, "Statistics" of statistics:
@@ -924,7 +928,7 @@ impl World {
             candidate_pairs, scalar_decisions, exact_decisions, pairs)?)
     }
 
-    /// Bytes of memory that this world holds, an int: bodies, trees, boxes, lists kept for queries.
+    /// Bytes of memory that this world holds: bodies, trees, boxes, lists kept for queries.
     ///
     /// Reserved memory counts, and so does the copy that set_positions keeps. Arrays that were
     /// handed out, threads and a query under way do not.
@@ -933,7 +937,7 @@ impl World {
         ask!(self, py, world => world.memory_usage() + room)
     }
 
-    /// Checks every invariant of every tree. For tests and bug reports; it should never fail.
+    /// Checks every invariant of every tree, for tests and bug reports. Should never fail.
     ///
     /// Raises pliant.Error: Broken if an invariant does not hold. Cost: O(m) for each level of a
     /// tree.

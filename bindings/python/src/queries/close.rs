@@ -88,7 +88,7 @@ close!(CloseEdgeEdge, 4, close => both(close.barycentric_a, close.barycentric_b)
 close!(CloseTriangles, 6, close => both(close.barycentric_a, close.barycentric_b));
 
 query_class! {
-    /// A question which elements are close, which is answered when it says how much is wanted.
+    /// A question which elements are close, answered by all() or first().
     ///
     /// World.close_vertex_triangle_pairs, close_edge_edge_pairs and close_triangle_pairs make it.
     /// Ask for all(), the first(), or visit_some(...). Each call asks anew, about the shapes that
@@ -112,7 +112,7 @@ query_class! {
     /// is, never whether there is one.
     first;
 
-    /// Calls visit(close) with some close pairs at a time, a ClosePairs, until it returns true.
+    /// Calls visit(close) with a ClosePairs of some at a time, until it returns true.
     ///
     /// Returns whether it did. Every pair comes once, and no list of all is made. The order and the
     /// sizes are deterministic. visit may not ask this world; its exceptions pass through.

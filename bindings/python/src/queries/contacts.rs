@@ -79,7 +79,7 @@ impl Hit for Contact {
 }
 
 query_class! {
-    /// A question which triangles intersect and how, answered when it says how much is wanted.
+    /// A question which triangles intersect and how, answered by all() or first().
     ///
     /// World.contacts makes it. Ask for all(), the first(), or visit_some(...). Each call asks
     /// anew, about the shapes that the bodies have then. A call raises the errors and exceptions of
@@ -101,7 +101,7 @@ query_class! {
     /// is, never whether there is one.
     first;
 
-    /// Calls visit(contacts) with some contacts at a time, a Contacts, until it returns true.
+    /// Calls visit(contacts) with a Contacts of some at a time, until it returns true.
     ///
     /// Returns whether it did. Every contact comes once, and no list of all is made. The order and
     /// the sizes are deterministic. visit may not ask this world; its exceptions pass through.

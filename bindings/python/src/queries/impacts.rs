@@ -63,7 +63,7 @@ impacts!(VertexTriangleImpact);
 impacts!(EdgeEdgeImpact);
 
 query_class! {
-    /// A question which elements meet during the motion, answered when it says how much is wanted.
+    /// A question which elements meet during the motion, answered by all() or first().
     ///
     /// World.vertex_triangle_impacts and edge_edge_impacts make it. Ask for all(), the first(), or
     /// visit_some(...). Each call asks anew, about the shapes and the motions that the bodies have
@@ -86,7 +86,7 @@ query_class! {
     /// Of several at one time it is the first by number. Much faster than all().
     first;
 
-    /// Calls visit(impacts) with some impacts at a time, an Impacts, until it returns true.
+    /// Calls visit(impacts) with an Impacts of some at a time, until it returns true.
     ///
     /// Returns whether it did. Every impact comes once, and no list of all is made. The order and
     /// the sizes are deterministic. visit may not ask this world; its exceptions pass through.

@@ -70,7 +70,7 @@ rows!(VertexTriangle, "VertexTriangle");
 rows!(EdgeEdge, "EdgeEdge");
 
 query_class! {
-    /// A question to a world, which is answered when it says how much is wanted.
+    /// A question to a world, answered by all(), first() or visit().
     ///
     /// World.intersections and the two methods for candidates make it. Ask for all() hits, the
     /// first(), or a visit(...). Each call asks anew, about the shapes that the bodies have then.
@@ -104,16 +104,17 @@ query_class! {
     /// is, never whether there is one.
     first;
 
-    /// Calls visit(rows) with some hits at a time, arrays (k, 4) uint32, until it returns true.
+    /// Calls visit(rows) with some hits at a time, (k, 4) uint32, until it returns true.
     ///
     /// Returns whether it did. Every hit comes once, and no list of all is made. The order and the
     /// sizes are deterministic. visit may not ask this world; its exceptions pass through.
     visit_some;
 
-    /// Does early what the query would do first, and asks nothing: for timing, or in spare time.
+    /// Does early what the query would do first, and asks nothing.
     ///
     /// Finds the bodies that may meet, and refits the upper levels of their trees. Refits all
-    /// levels in a body that meets itself. Never needed for right answers.
+    /// levels in a body that meets itself. Never needed for right answers; for timing, or in spare
+    /// time.
     prepare;
 
     /// Calls visit(hit) for every hit once, until it returns true. Returns whether it did.

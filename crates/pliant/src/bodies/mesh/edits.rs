@@ -117,7 +117,7 @@ impl<S: Coordinate> BodyMesh<S> {
         if edit.mesh != self.version {
             return Err(ErrorKind::OutdatedEdit);
         }
-        let (topology, order, edits) = self.to_edit();
+        let (topology, order, edits) = self.editable();
         let position_of = |vertex: u32| shape.get(edits.slot(vertex), order.vertex_order());
         let mut draft = Draft::new(topology, &edits.at, &edits.empty, &position_of);
         for step in &edit.steps {
@@ -127,7 +127,7 @@ impl<S: Coordinate> BodyMesh<S> {
     }
 
     /// The things that an edit changes. Its lists are made the first time.
-    fn to_edit(&mut self) -> (&mut Topology, &mut Order, &mut Edits<S>) {
+    fn editable(&mut self) -> (&mut Topology, &mut Order, &mut Edits<S>) {
         let (topology, order) = (&mut self.topology, &mut self.order);
         let new = || Box::new(Edits::new(topology, order));
         let edits = self.edits.get_or_insert_with(new);
@@ -164,7 +164,7 @@ impl<S: Coordinate> BodyMesh<S> {
 
     /// Makes all vertices exist: none is empty any more.
     pub(crate) fn fill(&mut self) {
-        let (_, _, edits) = self.to_edit();
+        let (_, _, edits) = self.editable();
         edits.empty = Bits::default();
     }
 
@@ -204,7 +204,7 @@ impl<S: Coordinate> BodyMesh<S> {
     /// Takes changed triangles out of tree order, and puts new vertices behind all others. Returns
     /// the triangles that have corners now: they are still to be put in.
     pub(crate) fn take_out(&mut self, outcome: &Outcome<S>, new_vertices: usize) -> Vec<u32> {
-        let (_, order, edits) = self.to_edit();
+        let (_, order, edits) = self.editable();
         let slots = order.vertex_order().len() as u32..;
         let first = edits.slots.len() as u32;
         edits.slots.extend(slots.map(TreeVertex).take(new_vertices));
@@ -227,7 +227,7 @@ impl<S: Coordinate> BodyMesh<S> {
     /// These stand where vertices do that are near them in the tree, each where another does. Boxes
     /// over nothing but orphans are as large as others, and no more of them are in one place.
     pub(crate) fn leave_orphans(&mut self, changed: &[Changed], shape: &mut BodyShape<S>) {
-        let (topology, order, edits) = self.to_edit();
+        let (topology, order, edits) = self.editable();
         let lost = edits.lost(changed, order.used_vertices());
         let some = || {
             let mut all = topology.triangles().iter();
@@ -267,7 +267,7 @@ impl<S: Coordinate> BodyMesh<S> {
         again: &[(u32, [S; 3])],
         shape: &mut BodyShape<S>,
     ) {
-        let (_, order, edits) = self.to_edit();
+        let (_, order, edits) = self.editable();
         for &(vertex, position) in again {
             edits.empty.remove(vertex);
             shape.place(CallerVertex(vertex), edits.slot(vertex), position, order);
@@ -288,7 +288,7 @@ impl<S: Coordinate> BodyMesh<S> {
         triangles: &[u32],
         shape: &BodyShape<S>,
     ) -> (Vec<[u32; 3]>, Vec<[S; 3]>) {
-        let (topology, order, edits) = self.to_edit();
+        let (topology, order, edits) = self.editable();
         let all = topology.triangles();
         let corners = triangles.iter().map(|&it| all[it as usize]);
         let corners: Vec<[u32; 3]> = corners.collect();
@@ -314,7 +314,7 @@ impl<S: Coordinate> BodyMesh<S> {
         triangles: &[u32],
         shape: &mut BodyShape<S>,
     ) {
-        let (topology, order, edits) = self.to_edit();
+        let (topology, order, edits) = self.editable();
         edits.gone.cut_back(first);
         let (used, slots) = (first_vertex.index(), &mut edits.slots);
         let mut moved = |moved| shape.follow(&moved);

@@ -16,7 +16,7 @@ pub enum AnyWorld {
     F64(World<f64>),
 }
 
-/// Evaluates an expression with the [`World`](pliant::World) of an [`AnyWorld`].
+/// Evaluates an expression with the [`World`] of an [`AnyWorld`].
 ///
 /// Compiles it for either precision: `with_world!(any_world, world => world.bodies().len())`.
 #[macro_export]

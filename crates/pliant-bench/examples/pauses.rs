@@ -15,6 +15,7 @@ use pliant_scenes::Scene;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
+/// Measurements of each figure, the best of which counts.
 const TRIES: usize = 5;
 
 fn main() {

@@ -33,7 +33,7 @@ fn reading(error: &pliant_io::Error) -> Option<&'static str> {
         Reason::NotFound if matches!(error.place(), Place::Part(..)) => {
             "the glTF file keeps data there: copy it along, to where that file is"
         }
-        Reason::NotFound => "the path is taken from the current folder",
+        Reason::NotFound => "check its path, which is taken from the current folder",
         Reason::NoMatch => {
             "the pattern is taken from the current folder; \
              `ls` with it, not quoted, shows what it matches"
@@ -64,7 +64,7 @@ fn reading(error: &pliant_io::Error) -> Option<&'static str> {
         Reason::BadRate { .. } => "choose another with `--fps`",
         Reason::ClipTooLong { .. } => "ask for fewer with `--fps`",
         Reason::MeshMoves { .. } => "write it to a file with `pliant convert --frames 0`",
-        Reason::Exists => "use `--force` to write over it",
+        Reason::Exists => "choose another name, or use `--force` to write over it",
         Reason::HoldsOneFrame { .. } => {
             "name a file a frame ('name_%04d.obj'), or choose one with `--frames`"
         }

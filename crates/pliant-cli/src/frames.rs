@@ -39,7 +39,7 @@ impl FromStr for Frames {
             None => (end, 1),
         };
         if step == 0 {
-            return Err("there is no 0th frame after each; 10..20:3 is every third".to_owned());
+            return Err("a step of 0 frames goes nowhere; 10..20:3 is every third".to_owned());
         }
         let start = if start.is_empty() { 0 } else { number(start)? };
         let end = if end.is_empty() {
@@ -49,7 +49,7 @@ impl FromStr for Frames {
         };
         if end.is_some_and(|end| end <= start) {
             return Err(format!(
-                "no frame is from {start} up to, but not, {}; \
+                "{start}..{} has no frames, for its end is not one of them; \
                  write the first frame, and the one behind the last",
                 end.unwrap_or(0)
             ));
@@ -67,7 +67,8 @@ impl Frames {
         let last = last.map(|last| last - (last - start) % step);
         if last.is_none_or(|last| last >= count) {
             bail!(
-                "there are frames 0 to {}; choose among these with `--frames`",
+                "not all of the chosen frames exist; there are frames 0 to {}; \
+                 choose among these with `--frames`",
                 count - 1
             );
         }

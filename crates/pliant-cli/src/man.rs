@@ -12,7 +12,8 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// The folder to write pliant.1, pliant-run.1, ... into; it is made if it is not there. Without it, pliant.1 goes to standard output
+    /// The folder for pliant.1, pliant-run.1, ...; it is made if it is not there. Without a folder,
+    /// pliant.1 goes to standard output
     #[arg(value_name = "DIR")]
     folder: Option<PathBuf>,
 }

@@ -17,16 +17,25 @@ use std::str::FromStr;
 /// Flags for the page and the picture.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct PictureOptions {
-    /// Write a page about what was found, one file that needs no network: the bodies in motion, what intersects in red
+    /// Write a page about what was found: one file that needs no network, with the bodies in motion
+    /// and what intersects in red
     #[arg(long, value_name = "FILE.html", value_parser = page_name)]
     report: Option<PathBuf>,
-    /// Draw one frame as an image: the place with the most pairs, and everything in an inset; what intersects in red, faintly so where it is hidden
+    /// Draw one frame as an image: the place with the most pairs, and everything in an inset. What
+    /// intersects is red, and faintly red where it is hidden
     #[arg(long, value_name = "FILE.png", value_parser = image_name)]
     png: Option<PathBuf>,
     /// The frame, or the step, that --png draws; needed unless there is only one
-    #[arg(long, value_name = "N", requires = "png", allow_negative_numbers = true, value_parser = frame::<u32>)]
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "png",
+        allow_negative_numbers = true,
+        value_parser = frame::<u32>
+    )]
     frame: Option<u32>,
-    /// From where --png looks, y up: corner (from the right, above and in front), front, back, left, right, top, bottom
+    /// The side from which --png looks, y up: corner (from the right, above and in front), front,
+    /// back, left, right, top, bottom
     #[arg(long, value_name = "SIDE", requires = "png")]
     view: Option<View>,
     /// How large --png is, in pixels: 1280x960
@@ -157,7 +166,7 @@ impl Watcher {
         let last = numbers.last().unwrap_or_default();
         match options.frame {
             Some(frame) if is_missing => bail!(
-                "--frame {frame}: no such {along} is looked at; \
+                "--frame {frame}: no such {along} is looked at; choose another: \
                  the first is {first}, the last {last}"
             ),
             None if options.png.is_some() && first != last => bail!(

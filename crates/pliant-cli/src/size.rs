@@ -25,7 +25,7 @@ pub(crate) fn parse(text: &str) -> Result<u64, String> {
     let number: u64 = digits.parse().map_err(|_| help.to_owned())?;
     number
         .checked_mul(1 << shift)
-        .ok_or_else(|| "more bytes than any memory has".to_owned())
+        .ok_or_else(|| "more bytes than any memory has; write fewer: 4G".to_owned())
 }
 
 #[cfg(test)]

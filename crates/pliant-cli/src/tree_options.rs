@@ -12,19 +12,24 @@ pub(crate) struct TreeOptions {
     /// The most children of a node
     #[arg(long, value_name = "N", default_value = "8", value_parser = ["2", "4", "8"])]
     degree: String,
-    /// How triangles are divided into a tree: at the centre of a node's box, at the mean of the triangles' midpoints, along the mesh into connected pieces (all in the paper), or into equal parts
+    /// How triangles are divided into a tree. centre: at the centre of a node's box. mean: at the
+    /// mean of the triangles' midpoints. connectivity: along the mesh, into connected pieces.
+    /// balanced: into equal parts, which is not in the paper
     #[arg(long, value_enum, default_value_t = Partition::Balanced)]
     partition: Partition,
     /// The most triangles in a leaf; 1 in the paper
     #[arg(long, value_name = "K", default_value = "8", value_parser = at_least_one::<NonZeroU32>)]
     leaf_size: NonZeroU32,
-    /// Which boxes are made when
+    /// Which boxes are made when. bottom-up: all before a query. top-down: each when the query
+    /// reaches it. hybrid: some levels before, the rest when reached
     #[arg(long, value_enum, default_value_t = Update::Hybrid)]
     update: Update,
-    /// The level down to which the hybrid makes boxes bottom-up; the root is 0 [default: n/2, where n is the level of the deepest leaf]
+    /// The level down to which the hybrid makes boxes bottom-up; the root is 0 [default: n/2, where
+    /// n is the level of the deepest leaf]
     #[arg(long, value_name = "L")]
     level: Option<u32>,
-    /// How bodies that may meet are found: every pair of boxes, sweep and prune, a tree of bodies, or by the number of bodies
+    /// How bodies that may meet are found. brute: every pair of boxes. sweep: sweep and prune.
+    /// tree: a tree of bodies. auto: by the number of bodies
     #[arg(long, value_enum, default_value_t = Broad::Auto)]
     broad: Broad,
     /// How many threads share the work of a query
@@ -59,7 +64,9 @@ impl TreeOptions {
     /// Converts the flags to the library's options.
     pub(crate) fn to_options(&self) -> anyhow::Result<Options> {
         if self.level.is_some() && self.update != Update::Hybrid {
-            anyhow::bail!("--level is the hybrid update's; it goes with --update hybrid");
+            anyhow::bail!(
+                "--level is for the hybrid update alone; leave it out, or choose --update hybrid"
+            );
         }
         let mut options = Options::default();
         options.degree = match self.degree.as_str() {

@@ -104,6 +104,7 @@ impl Proposer for BruteForce {
     }
 }
 
+/// Number of boxes in a row, which are compared together.
 const WIDTH: usize = 8;
 
 /// Eight boxes side by side: lower and upper sides for each axis. Missing boxes are empty.

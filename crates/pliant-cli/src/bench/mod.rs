@@ -22,7 +22,12 @@ pub(crate) struct Arguments {
     /// The experiment, or `all`
     name: String,
     /// How often every method plays every step; figures are medians
-    #[arg(long, value_name = "R", default_value = "5", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(
+        long,
+        value_name = "R",
+        default_value = "5",
+        value_parser = clap::value_parser!(u16).range(1..)
+    )]
     rounds: u16,
     /// A small form that takes seconds, to see what there is; its times mean nothing
     #[arg(long)]
@@ -30,13 +35,14 @@ pub(crate) struct Arguments {
     /// Write everything that was measured to a file, as benchmarks/record.schema.json describes it
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write a page about it, one file that needs no network: charts of every contest, and its bodies in motion
+    /// Write a page about it: one file that needs no network, with charts of every contest, and its
+    /// bodies in motion
     #[arg(long, value_name = "FILE.html", value_parser = crate::report::page_name)]
     report: Option<PathBuf>,
     /// Write every chart as SVG into a folder
     #[arg(long, value_name = "FOLDER")]
     svg: Option<PathBuf>,
-    /// Nothing on standard output, and no progress; for --json
+    /// Print nothing on standard output, and show no progress; for --json
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
@@ -86,7 +92,7 @@ pub(crate) fn bench(arguments: &Arguments) -> anyhow::Result<Outcome> {
     if asked.is_empty() {
         let names: Vec<_> = TITLES.iter().map(|title| title.name).collect();
         bail!(
-            "there is no experiment \"{}\"; there are {} and all",
+            "there is no experiment \"{}\"; there are {} and all; choose one of these",
             shown(&arguments.name),
             names.join(", ")
         );

@@ -79,7 +79,7 @@ impl Hits {
             let name = path.file_name().unwrap_or_default();
             if !name.to_string_lossy().chars().all(is_xml) {
                 bail!(
-                    "--hits {}: of several frames a file of XML names all others, \
+                    "--hits {}: with several frames a .pvd file, which is XML, lists the others, \
                      and cannot hold this name; give another",
                     shown(path)
                 );

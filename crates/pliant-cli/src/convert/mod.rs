@@ -17,13 +17,17 @@ use std::collections::BTreeMap;
 #[derive(Args, Debug)]
 #[command(after_help = FORMATS)]
 pub(crate) struct Arguments {
-    /// What to read, as for `pliant check`: a mesh, a sequence, a quoted pattern ('cloth_*.obj'), a mesh with its positions (mesh.obj+walk.pc2), a body of a glTF file (scene.glb#arm), a group of an OBJ file (scan.obj#arm)
+    /// The input, as for `pliant check`: a mesh, a sequence, a quoted pattern ('cloth_*.obj'), or a
+    /// mesh with its positions (mesh.obj+walk.pc2). Or one body of a glTF file (scene.glb#arm), or
+    /// one group of an OBJ file (scan.obj#arm)
     #[arg(value_name = "IN")]
     from: String,
-    /// What to write: a mesh (.obj, .ply, .stl), a sequence (.npz, mesh.obj+walk.pc2, mesh.obj+walk.mdd), or a mesh a frame (cloth_%04d.obj)
+    /// The output: a mesh (.obj, .ply, .stl), a sequence (.npz, mesh.obj+walk.pc2,
+    /// mesh.obj+walk.mdd), or a mesh for each frame (cloth_%04d.obj)
     #[arg(value_name = "OUT")]
     to: String,
-    /// Only these frames: 10..20 are 10 to 19; 10.. and ..20 are open; 10 is one; 10..20:3 is every third
+    /// Only these frames: 10..20 are 10 to 19; 10.. and ..20 are open; 10 is one; 10..20:3 is every
+    /// third
     #[arg(
         long,
         value_name = "A..B:STEP",
@@ -34,19 +38,27 @@ pub(crate) struct Arguments {
     /// The animation of a glTF file, by name; the first if none is named
     #[arg(long, value_name = "NAME")]
     clip: Option<String>,
-    /// Frames a second: at which an animation of a glTF file is evaluated, and that an MDD file says it has
-    #[arg(long, value_name = "N", default_value = "30", allow_negative_numbers = true, value_parser = rate::parse)]
+    /// Frames a second, at which an animation of a glTF file is evaluated, and which an MDD file
+    /// states
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "30",
+        allow_negative_numbers = true,
+        value_parser = rate::parse
+    )]
     fps: f64,
     /// Write over files that are there
     #[arg(long)]
     force: bool,
-    /// Nothing on standard output
+    /// Print nothing on standard output
     #[arg(short, long)]
     quiet: bool,
     /// Keep the corners of an STL file apart
     #[arg(long)]
     no_weld: bool,
-    /// Join boundary edges that are no further apart than TOL times the diagonal of the body, and write each place once
+    /// Join boundary edges that are at most TOL times the diagonal of the body apart, and write
+    /// each place once
     #[arg(
         long,
         value_name = "TOL",
@@ -55,7 +67,8 @@ pub(crate) struct Arguments {
         conflicts_with = "no_weld"
     )]
     weld: f64,
-    /// The most memory that a frame may take (4GiB, 512MiB, 1G, bytes); a frame that says it is larger is refused before it is read
+    /// The most memory that a frame may take: 4GiB, 512MiB, 1G, bytes. A frame that says it is
+    /// larger is refused before it is read
     #[arg(long, value_name = "SIZE", default_value = "4GiB", value_parser = size::parse)]
     max_memory: u64,
 }
@@ -67,7 +80,8 @@ Examples:
   pliant convert fox.glb fox.obj+fox.pc2 --clip Run  a mesh and its positions
   pliant convert walk.npz pose.stl --frames 12       one frame
 
-A file appears under its name when it is whole; nothing is written over without --force. glTF is read, not written.
+A file appears under its name when it is whole; nothing is written over without --force.
+glTF is read, not written.
 STL, PC2 and MDD have 32-bit coordinates: others are rounded, and a note says so.";
 
 /// Reads a body, writes its frames, and says how much was written.
@@ -117,7 +131,9 @@ pub(crate) fn convert(arguments: &Arguments) -> anyhow::Result<Outcome> {
         next = frame + 1;
         let name = shown(body.name());
         let positions = body.next_frame()?;
-        let positions = positions.with_context(|| format!("{name}: frame {frame} is missing"))?;
+        let positions = positions.with_context(|| {
+            format!("{name}: frame {frame} is missing; wait until it is written, then try again")
+        })?;
         writer.frame(match &vertices {
             None => positions,
             Some(vertices) => some.pick(positions, vertices),

@@ -21,7 +21,10 @@ use std::time::Instant;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Arguments {
-    /// spheres: two move into each other; crowd: 27 jostle; arms: 27 bodies with arms; gather: many move to one place; cloth: a sheet folds onto itself. Meshes change in cut: a sphere is sliced; tear: a sheet is torn, then folds; fuse: two merge; shuffle: pieces that all go elsewhere; remesh: triangles are split and collapsed
+    /// The scene. spheres: two move into each other. crowd: 27 jostle. arms: 27 bodies with arms.
+    /// gather: many move to one place. cloth: a sheet folds onto itself. In the others meshes
+    /// change. cut: a sphere is sliced. tear: a sheet is torn, then folds. fuse: two merge.
+    /// shuffle: pieces that all go elsewhere. remesh: triangles are split and collapsed
     #[arg(default_value = "spheres")]
     scene: String,
     /// Triangles of a body [default: the scene's]
@@ -31,21 +34,34 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
     /// Play every S-th step: S, 2 S, ...
-    #[arg(long, value_name = "S", default_value = "1", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(
+        long,
+        value_name = "S",
+        default_value = "1",
+        value_parser = clap::value_parser!(u32).range(1..)
+    )]
     stride: u32,
-    /// All pairs between bodies, the first pair between bodies, all pairs of each body with itself, or both [default: all; self for cloth; everything where meshes change]
+    /// Pairs to find. all: between bodies. first: one pair between bodies. self: of each body with
+    /// itself. everything: all and self [default: all; self for cloth; everything where meshes
+    /// change]
     #[arg(long, value_enum)]
     query: Option<Query>,
-    /// Coordinates; f64 are the same values widened
+    /// Type of coordinates; f64 has the values of f32, widened
     #[arg(long, value_enum, default_value_t = Precision::F32)]
     precision: Precision,
     /// A scene of the same kind with other bumps
-    #[arg(long, value_name = "SEED", allow_negative_numbers = true, value_parser = seed, default_value_t = Scene::DEFAULT_SEED)]
+    #[arg(
+        long,
+        value_name = "SEED",
+        allow_negative_numbers = true,
+        value_parser = seed,
+        default_value_t = Scene::DEFAULT_SEED
+    )]
     seed: u64,
     /// A table, or one JSON object with a figure for every step
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
-    /// Nothing on standard output, and no progress
+    /// Print nothing on standard output, and show no progress
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]
@@ -164,7 +180,7 @@ fn play<S: Scalar>(
         bodies.push(
             world
                 .add(scene.triangles(body), positions)
-                .context("the scene is not as it should be")?,
+                .context("a bug of pliant, please report it: a built-in scene is refused")?,
         );
     }
 

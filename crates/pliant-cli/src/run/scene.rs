@@ -1,9 +1,11 @@
 //! Scenes of both kinds: with fixed meshes, or with meshes that change.
 
 use super::query::Query;
+use anyhow::bail;
 use pliant::{BodyId, Scalar, World};
 use pliant_bench::methods::add_step;
-use pliant_scenes::{Asks, ChangingScene, Event, Scene, SceneError};
+use pliant_io::shown;
+use pliant_scenes::{Asks, ChangingScene, Event, Scene};
 
 /// A scene to play.
 pub(super) enum AnyScene {
@@ -12,11 +14,18 @@ pub(super) enum AnyScene {
 }
 
 impl AnyScene {
-    pub(super) fn new(name: &str, triangles: Option<usize>, seed: u64) -> Result<Self, SceneError> {
+    pub(super) fn new(name: &str, triangles: Option<usize>, seed: u64) -> anyhow::Result<Self> {
         if ChangingScene::NAMES.contains(&name) {
-            return ChangingScene::new(name, triangles, seed).map(Self::Changing);
+            let scene = ChangingScene::new(name, triangles, seed)?;
+            return Ok(Self::Changing(scene));
         }
-        Scene::new(name, triangles, seed).map(Self::Still)
+        // The library's error names scenes of one kind alone.
+        if !Scene::NAMES.contains(&name) {
+            let names = [Scene::NAMES, ChangingScene::NAMES].concat().join(", ");
+            let name = shown(name);
+            bail!("there is no scene \"{name}\"; there are {names}; choose one of these");
+        }
+        Ok(Self::Still(Scene::new(name, triangles, seed)?))
     }
 
     pub(super) fn name(&self) -> &'static str {

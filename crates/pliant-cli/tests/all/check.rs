@@ -529,7 +529,7 @@ fn frames_are_chosen() {
     };
     refused(&["--frames", "8..11"], &["frame 10", "0 to 9"]);
     refused(&["--frames", "10.."], &["frame 10", "0 to 9"]);
-    refused(&["--frames", "5..5"], &["no frame is from 5"]);
+    refused(&["--frames", "5..5"], &["5..5 has no frames"]);
     refused(&["--frames", "1..5:0"], &["10..20:3"]);
     refused(&["--frames", "1-5"], &["10..20:3"]);
     refused(&["--frames", "3", "--swept"], &["--swept"]);

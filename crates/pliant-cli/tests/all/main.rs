@@ -10,6 +10,7 @@ mod crossing;
 mod formats;
 mod hits;
 mod memory;
+mod messages;
 mod names;
 mod outputs;
 mod parting;

@@ -101,6 +101,7 @@ fn positions(vertices: u32) -> Vec<u8> {
 fn says_next(lines: &[(&str, &str)]) {
     for (line, next) in lines {
         let said = in_folder(&line.split_whitespace().collect::<Vec<_>>());
+        println!("$ pliant {line}\n{}", said.err);
         assert_eq!(said.code, 2, "{line}: {}", said.out);
         assert!(said.err.contains(next), "{line}: {}", said.err);
         // Without arguments, the help is shown.
@@ -123,7 +124,7 @@ fn every_error_says_what_to_do_next() {
     says_next(&[
         ("", "Usage: pliant <COMMAND>"),
         ("chek a.obj", "similar subcommand exists: 'check'"),
-        ("run sphere", "there are spheres, crowd"),
+        ("run sphere", "shuffle, remesh; choose one of these\n"),
         ("run --steps 500", "leave it out"),
         ("run --stride 300", "choose a smaller one"),
         ("run --triangles 100", "nearest possible numbers"),
@@ -131,7 +132,7 @@ fn every_error_says_what_to_do_next() {
         ("run --update topdown", "'top-down'"),
         (
             "run --level 3 --update top-down",
-            "goes with --update hybrid",
+            "leave it out, or choose --update hybrid",
         ),
         ("run --threads 0", "write a whole number, 1 or more"),
         ("run --leaf-size x", "write a whole number, 1 or more"),
@@ -212,7 +213,7 @@ fn every_error_says_what_to_do_next() {
         ("check a.obj --threads 0", "write a whole number, 1 or more"),
         ("check a.obj --hits x.obj", "must end in .vtp or .vtu"),
         ("check a.obj --hits no/x.vtp", "make its folder first"),
-        ("bench experiment-2", "there are experiment-1"),
+        ("bench experiment-2", "all; choose one of these\n"),
         ("bench splits --json no/x.json", "make its folder first"),
         ("bench splits --json .", "name a file in it"),
         ("completions ksh", "[possible values: bash"),
@@ -316,7 +317,7 @@ fn every_error_of_a_format_or_a_conversion_says_what_to_do_next() {
         ),
         (
             "convert still.gltf#arm a.obj",
-            "a.obj: is there already; use `--force` to write over it\n",
+            "a.obj: is there already; choose another name, or use `--force` to write over it\n",
         ),
         ("convert still.gltf#arm no/x.obj", "make it first"),
         ("convert still.gltf#arm x.glb", "what can: a mesh: .obj"),

@@ -242,7 +242,7 @@ struct PlaceEntry {
     /// Number of pairs.
     count: usize,
     #[serde(flatten)]
-    lies: Lies,
+    location: Location,
 }
 
 /// A place over all frames, located in the frame that has most of its pairs.
@@ -257,12 +257,12 @@ struct LifeEntry {
     /// The frame that has them.
     most_in: usize,
     #[serde(flatten)]
-    lies: Lies,
+    location: Location,
 }
 
 /// Location of a place in one frame.
 #[derive(Serialize)]
-struct Lies {
+struct Location {
     /// Smallest and largest coordinates of its triangles.
     #[serde(rename = "box")]
     around: [[f64; 3]; 2],
@@ -281,7 +281,7 @@ struct BodyEntry {
     first_triangle: u32,
 }
 
-impl Lies {
+impl Location {
     fn of(place: &Place) -> Self {
         let bodies = place.bodies.iter().map(|it| BodyEntry {
             body: it.body,
@@ -301,7 +301,7 @@ impl PlaceEntry {
         Self {
             number: place.number,
             count: place.count,
-            lies: Lies::of(place),
+            location: Location::of(place),
         }
     }
 }
@@ -313,7 +313,7 @@ impl LifeEntry {
             frames: [life.first_frame, life.last_frame],
             most_pairs: life.worst.count,
             most_in: life.worst_frame,
-            lies: Lies::of(&life.worst),
+            location: Location::of(&life.worst),
         }
     }
 }

@@ -137,7 +137,7 @@ def test_groups_of_an_obj_file(tmp_path: Path) -> None:
         assert [body.name for body in named.bodies] == [f"{path}#{name}" for name in names]
         assert [frame.pairs.tolist() for frame in named] == [pairs]
 
-    with pytest.raises(pliant.Error, match='no body "arm"; there is: flat, next, up/skin'):
+    with pytest.raises(pliant.Error, match='no body "arm"; it has: flat, next, up/skin'):
         pliant.check(f"{path}#arm")
     with pytest.raises(pliant.Error, match="connected pieces stand their numbers; split the whole file$"):
         pliant.check(f"{path}#up", split="components")

@@ -239,7 +239,7 @@ fn every_error_about_groups_says_what_to_do_next() {
         ("check no.obj#b", "from the current folder"),
         (
             "convert groups.obj#head x.obj",
-            "there is: arm, arm/hand, leg; choose one of these\n",
+            "it has: arm, arm/hand, leg; choose one of these\n",
         ),
     ]);
 }
@@ -277,12 +277,12 @@ fn every_error_of_a_format_or_a_conversion_says_what_to_do_next() {
         ("check draco.gltf", "export it without compression"),
         (
             "check still.gltf#head",
-            "there is: arm, leg; choose one of these",
+            "it has: arm, leg; choose one of these",
         ),
         ("check still.gltf --clip Run", "leave out `--clip`\n"),
         (
             "check moves.gltf --clip Run",
-            "there is: 0; choose one of these with `--clip`\n",
+            "it has: 0; choose one of these with `--clip`\n",
         ),
         (
             "check moves.gltf --fps 1e300",

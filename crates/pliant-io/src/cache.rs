@@ -70,17 +70,17 @@ pub(crate) fn open(
     let length = input.get_ref().length();
     let big_endian = format == Format::Mdd;
     let (frames, count, head) = if big_endian {
-        let [frames, count] = whole(&mut input, length, u32::from_be_bytes)?;
+        let [frames, count] = whole(&mut input, [length, 8], u32::from_be_bytes)?;
         let times = 4 * u64::from(frames);
         (frames, count, times.saturating_add(8))
     } else {
         let mut start = [0; 16];
-        fill(&mut input, &mut start, length)?;
+        fill(&mut input, &mut start, [length, 32])?;
         if start != PC2 {
-            let reason = "does not begin as a PC2 file of version 1 does";
+            let reason = "is not a PC2 file of version 1";
             return Err(Reason::Malformed(reason.into()).at(Place::Byte(0)));
         }
-        let [count, _, _, frames] = whole(&mut input, length, u32::from_le_bytes)?;
+        let [count, _, _, frames] = whole(&mut input, [length, 32], u32::from_le_bytes)?;
         (frames, count, 32)
     };
     if frames == 0 {
@@ -115,27 +115,27 @@ pub(crate) fn open(
     }))
 }
 
-/// Reads the next unsigned integers.
+/// Reads the next unsigned integers of a header; `lengths` as in [`fill`].
 fn whole<const N: usize>(
     input: &mut impl Read,
-    length: u64,
+    lengths: [u64; 2],
     number: fn([u8; 4]) -> u32,
 ) -> Result<[u32; N], Fault> {
     let mut numbers = [0; N];
     for each in &mut numbers {
         let mut bytes = [0; 4];
-        fill(input, &mut bytes, length)?;
+        fill(input, &mut bytes, lengths)?;
         *each = number(bytes);
     }
     Ok(numbers)
 }
 
-/// Reads bytes of the header of a file of `length` bytes.
-fn fill(input: &mut impl Read, bytes: &mut [u8], length: u64) -> Result<(), Reason> {
+/// Reads bytes of a header. The lengths of file and header, in bytes, are for the message.
+fn fill(input: &mut impl Read, bytes: &mut [u8], [file, header]: [u64; 2]) -> Result<(), Reason> {
     input.read_exact(bytes).map_err(|error| match error.kind() {
-        io::ErrorKind::UnexpectedEof => {
-            Reason::Truncated(format!("the header is longer than {length} bytes"))
-        }
+        io::ErrorKind::UnexpectedEof => Reason::Truncated(format!(
+            "the header needs {header} bytes, the file has {file}"
+        )),
         _ => error.into(),
     })
 }
@@ -170,7 +170,7 @@ impl Cache {
                 .read_exact(&mut self.chunk)
                 .map_err(|error| match error.kind() {
                     io::ErrorKind::UnexpectedEof => {
-                        Reason::Truncated("the file announces more".into())
+                        Reason::Truncated("the file ends within this frame".into())
                     }
                     _ => error.into(),
                 })

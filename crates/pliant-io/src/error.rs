@@ -76,7 +76,10 @@ pub enum Reason {
     Checksum { array: &'static str },
     #[error("face {face} has {corners} corners; a face needs at least 3")]
     FewCorners { face: u64, corners: usize },
-    #[error("face {face} has {corners} corners, of which only {different} are different")]
+    #[error(
+        "face {face} visits {different} vertices {corners} times in all, \
+         which no face of a surface does"
+    )]
     RepeatedCorners {
         face: u64,
         corners: usize,
@@ -102,7 +105,7 @@ pub enum Reason {
     NoFaces,
     #[error("holds no frames")]
     NoFrames,
-    #[error("holds more than 4294967295 {what}, more than can be numbered")]
+    #[error("holds more than 4294967295 {what}, the most that are supported")]
     TooMany { what: &'static str },
     #[error(
         "a frame needs at least {} of memory, {} are allowed", Size(*needed), Size(*limit)
@@ -120,9 +123,9 @@ pub enum Reason {
         names: String,
         example: String,
     },
-    #[error("there is no body \"{}\"; there is: {names}", shown(name))]
+    #[error("has no body \"{}\"; it has: {names}", shown(name))]
     NoBody { name: String, names: String },
-    #[error("there is no clip \"{}\"; there is: {names}", shown(name))]
+    #[error("has no clip \"{}\"; it has: {names}", shown(name))]
     NoClip { name: String, names: String },
     #[error("{fps} frames a second cannot be evaluated; a rate must be finite and above 0")]
     BadRate { fps: f64 },
@@ -130,18 +133,18 @@ pub enum Reason {
     ClipTooLong { seconds: f64, most: u32, fps: f64 },
     #[error("has {frames} frames; the mesh beside positions must have one")]
     MeshMoves { frames: usize },
-    #[error("is there already")]
+    #[error("exists already")]
     Exists,
-    #[error("holds one frame, there are {frames}")]
+    #[error("this format holds one frame a file, but {frames} are to be written")]
     HoldsOneFrame { frames: usize },
     #[error("cannot be written: {0}")]
     Write(io::Error),
-    #[error("a polygon of more than {most} corners")]
+    #[error("a polygon has more than {most} corners, the most that are read")]
     ManyCorners { most: usize },
-    #[error("does not fit in memory")]
+    #[error("the system has no memory left for it")]
     OutOfMemory,
     #[error(
-        "face {face} is not that of {}; the frames of a body need the same faces",
+        "face {face} has other corners than in {}; the frames of a body need the same faces",
         shown(than)
     )]
     FacesDiffer { face: u64, than: PathBuf },
@@ -171,11 +174,11 @@ pub enum Reason {
     Precision { than: PathBuf },
     #[error("too many boundary edges are too close to each other to be joined at this tolerance")]
     SeamsTooDense,
-    #[error("edges cannot be joined at a tolerance of {tolerance}; it is 0, or from 1e-15 to 0.1")]
+    #[error("a tolerance of {tolerance} is not possible; it must be 0, or from 1e-15 to 0.1")]
     BadTolerance { tolerance: f64 },
     #[error("changed while it was being read; wait until it is written, or copy it first")]
     Changed,
-    #[error("an earlier frame could not be read, so the frames after it are not handed out")]
+    #[error("an earlier frame could not be read, so no later one is read")]
     AfterError,
 }
 
@@ -210,7 +213,7 @@ fn numbering(first: i64, last: i64) -> String {
     if last < first {
         "there are no vertices yet".to_owned()
     } else if last >= i64::from(u32::MAX) - 1 {
-        "no vertex can have that number".to_owned()
+        format!("vertices are numbered from {first} to {last} at most")
     } else {
         format!("the vertices are numbered {first} to {last} here")
     }
@@ -343,7 +346,7 @@ mod tests {
         assert_eq!(
             message,
             concat!(
-                r"bad\r\nname.ply, line 7: face 3 is not that of first\nframe.ply; ",
+                r"bad\r\nname.ply, line 7: face 3 has other corners than in first\nframe.ply; ",
                 "the frames of a body need the same faces"
             )
         );

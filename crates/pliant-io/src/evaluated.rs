@@ -91,19 +91,23 @@ impl FrameSource for Source {
             taken.map_err(|reason| reason.at(place.clone()))?;
         }
         if self.next == 0 {
+            let differ = || {
+                let needed: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+                let has = corners.len();
+                let why = format!("lists {has} corners, but its polygons need {needed}");
+                Fault::from(Reason::Malformed(why))
+            };
             let mut left = corners;
             for &count in counts {
                 let Some((polygon, others)) = left.split_at_checked(count as usize) else {
-                    let why = "has fewer corners than its polygons need".to_owned();
-                    return Err(Reason::Malformed(why).into());
+                    return Err(differ());
                 };
                 left = others;
                 let taken = frame.face(polygon, || place.clone());
                 taken.map_err(|reason| reason.at(place.clone()))?;
             }
             if !left.is_empty() {
-                let why = "has more corners than its polygons need".to_owned();
-                return Err(Reason::Malformed(why).into());
+                return Err(differ());
             }
         } else {
             frame.same_faces();

@@ -17,16 +17,16 @@ use crate::source::FrameSource;
 use crate::{gltf, npz, obj, ply, stl};
 
 /// Advice for a file of an unknown format, as the end of a message.
-const READABLE: &str = "what can: a frame a file: .obj, .ply, .stl; \
-    a sequence a file: .npz, .glb, .gltf, .vrm; \
-    positions beside a mesh: 'mesh.obj+positions.pc2', .mdd, .npy";
+const READABLE: &str = "these can: one frame per file (.obj, .ply, .stl); \
+    a sequence per file (.npz, .glb, .gltf, .vrm); \
+    positions beside a mesh ('mesh.obj+positions.pc2', .mdd, .npy)";
 /// Advice for a format of another program, as the end of a message.
 const EXPORT: &str = "export glTF (.glb) with its animation; \
-    or a mesh and its point cache (.obj and .pc2 or .mdd); or a file a frame";
+    or a mesh and its point cache (.obj and .pc2 or .mdd); or one file per frame";
 /// Advice for a USD file, as the end of a message.
 const USD: &str = "the Python package reads it (pip install 'pliant[usd]'); \
     or export glTF (.glb) with its animation; \
-    or a mesh and its point cache (.obj and .pc2 or .mdd); or a file a frame";
+    or a mesh and its point cache (.obj and .pc2 or .mdd); or one file per frame";
 
 /// The format of a file.
 

@@ -498,7 +498,7 @@ mod tests {
         }
         for name in ["", "leg", "arm/", "hand", "left"] {
             let refused = groups.called(name).unwrap_err().to_string();
-            let words = format!("no body \"{name}\"; there is: arm, legs, legs/left, arm/hand");
+            let words = format!("has no body \"{name}\"; it has: arm, legs, legs/left, arm/hand");
             assert!(refused.contains(&words), "{refused}");
         }
     }

@@ -45,7 +45,7 @@ pub enum Note {
     },
     /// A text file lacks the keyword that should end it, behind a complete triangle.
     NoEnd {
-        /// The missing keyword, or the text in its place, as the rest of "ends ...".
+        /// The missing keyword, and any text in its place, as the rest of "ends ...".
         end: &'static str,
     },
     /// A glTF file has no scene: all its nodes are read.
@@ -79,24 +79,25 @@ impl fmt::Display for Note {
             Self::SeamsByWeights { count } => write!(
                 f,
                 "{count} vertices were welded to others at their place, \
-                 though the weights of their joints differ in the fifth place or behind it"
+                 though the weights of their joints agree only within 1e-5 of their sum"
             ),
             Self::StillTargets { count, first } => write!(
                 f,
-                "{count} channels of its animation move what stands still here (the first: {})",
+                "{count} animation channels have no effect here: they move something that is \
+                 not evaluated, or part of no body (the first: {})",
                 shown_within(first, 100)
             ),
             Self::BentPolygons { count, first } => write!(
                 f,
                 "{count} polygons are far from flat (the first is face {first}); \
-                 as which triangles these are meant, the file does not say"
+                 their triangulation is a guess; triangulate the mesh to choose it"
             ),
             Self::Segments { count, first } => write!(
                 f,
                 "{count} faces have two corners (the first is face {first}) \
                  and are read as segments"
             ),
-            Self::NoEnd { end } => write!(f, "ends {end}; what stands before it is read"),
+            Self::NoEnd { end } => write!(f, "ends {end}; all its triangles were read"),
             Self::NoScene => write!(f, "has no scene; all its nodes are read"),
             Self::Array { holds, is } => {
                 write!(f, "the array of {holds} {}", shown_within(is, 100))
@@ -104,7 +105,8 @@ impl fmt::Display for Note {
             Self::CrossedPolygons { count, first } => write!(
                 f,
                 "{count} polygons cross themselves (the first is face {first}) \
-                 and are made into fans; mend them or triangulate the mesh"
+                 and were triangulated as fans, which may add intersections; \
+                 mend them or triangulate the mesh"
             ),
         }
     }

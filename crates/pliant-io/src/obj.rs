@@ -103,7 +103,7 @@ fn corner(word: &[u8], frame: &Frame) -> Result<u32, Reason> {
     let zero_based = match index {
         0 => {
             return Err(Reason::Malformed(format!(
-                "vertices are numbered from 1, found {}",
+                "found vertex number {}, but numbers begin at 1",
                 quoted(word)
             )));
         }
@@ -159,7 +159,7 @@ impl<R: BufRead> Statements<R> {
                 break;
             }
             if (self.text.len() + self.lines.line().len()) as u64 > LONGEST_LINE {
-                let reason = "a statement of more than 16 MiB";
+                let reason = "the statement has more than 16 MiB, the most that is read";
                 return Err(Reason::Malformed(reason.into()).at(place));
             }
             self.text.extend_from_slice(self.lines.line());
@@ -287,7 +287,7 @@ mod tests {
         );
         assert_eq!(
             with("f 1 0 3"),
-            ", line 5: vertices are numbered from 1, found \"0\""
+            ", line 5: found vertex number \"0\", but numbers begin at 1"
         );
         assert_eq!(
             with("f 1 two 3"),
@@ -303,7 +303,8 @@ mod tests {
         );
         assert_eq!(
             with("\\\nf 1 \\\n2 4294967296"),
-            ", line 5: face 0 uses vertex 4294967296, but no vertex can have that number"
+            ", line 5: face 0 uses vertex 4294967296, \
+             but vertices are numbered from 1 to 4294967295 at most"
         );
         assert_eq!(
             with("v 1"),

@@ -407,7 +407,7 @@ mod tests {
         };
         assert_eq!(
             push(&to_and_fro(80_000, 2)).unwrap_err(),
-            "face 0 has 80000 corners, of which only 2 are different"
+            "face 0 visits 2 vertices 80000 times in all, which no face of a surface does"
         );
         for (count, different, is_taken) in [
             (64, 2, true),

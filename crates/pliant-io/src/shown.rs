@@ -27,7 +27,8 @@ pub fn shown(name: impl AsRef<OsStr>) -> String {
 
 /// Escapes a name like [`shown`], in at most `most` characters.
 ///
-/// A longer name keeps its beginning, two thirds, and its end, one third.
+/// A longer name keeps its beginning, two thirds, and its end, one third. In 0 characters nothing
+/// of it is left.
 ///
 /// ```
 /// assert_eq!(pliant_io::shown_within("a_very_long_name.obj", 12), "a_very_….obj");
@@ -35,7 +36,7 @@ pub fn shown(name: impl AsRef<OsStr>) -> String {
 pub fn shown_within(name: impl AsRef<OsStr>, most: usize) -> String {
     let name = name.as_ref().to_string_lossy();
     let (whole, is_whole) = fitting(pieces(&name), most);
-    if is_whole {
+    if is_whole || most == 0 {
         return whole.concat();
     }
     let end = most / 3;
@@ -137,9 +138,10 @@ mod tests {
     #[test]
     fn long_names_keep_both_ends_and_no_escape_is_cut() {
         let name = format!("{}{}", "\u{1b}".repeat(1000), "é".repeat(1000));
-        for most in 0..60 {
+        assert_eq!(shown_within(&name, 0), "");
+        for most in 1..60 {
             let shown = shown_within(&name, most);
-            assert!(shown.chars().count() <= most.max(1), "{shown}");
+            assert!(shown.chars().count() <= most, "{shown}");
             let (head, tail) = shown.split_once('…').unwrap();
             assert_eq!(head.replace(r"\u{1b}", ""), "");
             assert_eq!(tail, "é".repeat(most / 3));

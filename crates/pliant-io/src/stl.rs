@@ -70,8 +70,8 @@ pub(crate) fn read(
             needed(count)
         )),
         Some(count) => Reason::Malformed(format!(
-            "{count} triangles need {} bytes, the file has {length}, as {} have",
-            needed(count),
+            "the header counts {count} triangles, but {} bytes follow it, enough for {}",
+            length - HEAD as u64,
             (length - HEAD as u64) / TRIANGLE as u64
         )),
     }
@@ -103,7 +103,7 @@ fn read_binary(mut input: impl BufRead, count: u32, frame: &mut Frame) -> Result
         input.read_exact(&mut bytes).map_err(|error| {
             let reason = match error.kind() {
                 io::ErrorKind::UnexpectedEof => {
-                    Reason::Truncated(format!("the file announces {count} triangles"))
+                    Reason::Truncated(format!("the header counts {count} triangles"))
                 }
                 _ => error.into(),
             };
@@ -167,7 +167,7 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
                     .next()
                     .is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) =>
             {
-                let end = "with \"end solid\", in place of \"endsolid\"";
+                let end = "with \"end solid\" in place of \"endsolid\"";
                 if !is_noted {
                     frame.note(Note::NoEnd { end });
                 }
@@ -202,7 +202,7 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
     if let [b"endsolid"] = open[..]
         && frame.next_face() > 0
     {
-        let end = "behind a triangle, without \"endsolid\"";
+        let end = "without \"endsolid\"";
         frame.note(Note::NoEnd { end });
         open.clear();
     }
@@ -430,7 +430,12 @@ mod tests {
         for more in [1, 3] {
             let longer = [&whole[..], &vec![0; 50 * more]].concat();
             let said = read_bytes(&longer).unwrap_err();
-            assert!(said.ends_with(&format!("as {} have", 2 + more)), "{said}");
+            let words = format!(
+                "the header counts 2 triangles, but {} bytes follow it, enough for {}",
+                100 + 50 * more,
+                2 + more
+            );
+            assert!(said.ends_with(&words), "{said}");
         }
         assert!(
             read_bytes(&[0; 30])

@@ -49,7 +49,8 @@ impl<R: BufRead> Lines<R> {
             return Ok(false);
         }
         if self.line.len() as u64 > LONGEST_LINE {
-            let reason = "a line of more than 16 MiB; is this a binary file?";
+            let reason =
+                "the line has more than 16 MiB, the most that is read; is this a binary file?";
             return Err(Reason::Malformed(reason.into()).at(self.place()));
         }
         if self.line.last() == Some(&b'\n') {

@@ -353,7 +353,7 @@ fn what_cannot_be_told_apart_is_refused() {
             assert!(matches!(error, Error::NamedTwice { .. }), "{error}");
         }
         let error = refused(&["seams.obj#left", "seams.obj#right"], split).to_string();
-        let words = "there is no body \"right\"; there is: left, left/top, left/right, left/1";
+        let words = "has no body \"right\"; it has: left, left/top, left/right, left/1";
         assert!(error.contains(words), "{error}");
         let error = refused(&["plain.obj#left"], split).to_string();
         assert!(error.contains("holds one body"), "{error}");

@@ -69,7 +69,7 @@ fn no_message_names_an_option_of_the_program() {
 #[test]
 fn options_are_known_by_their_looks() {
     for line in [
-        r#"#[error("is there already; use `--force` to write over it")]"#,
+        r#"#[error("exists already; use `--force` to write over it")]"#,
         r#"return Err(unsupported("ask for fewer with --fps"));"#,
         r#"format!("leave out `--{name}`")"#,
         r#""write it to a file with `pliant convert ...`""#,

@@ -144,7 +144,7 @@ fn gltf_is_evaluated_and_not_written() {
     );
     refused(
         &["check", &file, "--clip", "run"],
-        &["there is no clip \"run\"; there is: bend, stand"],
+        &["has no clip \"run\"; it has: bend, stand"],
     );
     refused(
         &["check", "s.npz", "--clip", "bend"],
@@ -170,7 +170,7 @@ fn what_is_there_is_written_over_only_by_force() {
     let before = fs::read_dir(path).unwrap().count();
     pliant(path, &["convert", "s?.obj", "precious.npz"]).assert_refused(&[
         "precious.npz",
-        "is there already",
+        "exists already",
         "--force",
     ]);
     // A failure half way, at the third of three frames, leaves nothing.

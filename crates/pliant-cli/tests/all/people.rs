@@ -234,8 +234,7 @@ fn every_error_about_groups_says_what_to_do_next() {
         ),
         (
             "check groups.obj#head",
-            "groups.obj: there is no body \"head\"; there is: arm, arm/hand, leg; choose one of \
-             these\n",
+            "groups.obj: has no body \"head\"; it has: arm, arm/hand, leg; choose one of these\n",
         ),
         (
             "check groups.obj#arm --split components",
@@ -250,7 +249,7 @@ fn every_error_about_groups_says_what_to_do_next() {
         ("check no.obj#b", "from the current folder"),
         (
             "convert groups.obj#head x.obj",
-            "there is: arm, arm/hand, leg; choose one of these\n",
+            "it has: arm, arm/hand, leg; choose one of these\n",
         ),
     ]);
 }
@@ -288,12 +287,12 @@ fn every_error_of_a_format_or_a_conversion_says_what_to_do_next() {
         ("check draco.gltf", "export it without compression"),
         (
             "check still.gltf#head",
-            "there is: arm, leg; choose one of these",
+            "it has: arm, leg; choose one of these",
         ),
         ("check still.gltf --clip Run", "leave out `--clip`\n"),
         (
             "check moves.gltf --clip Run",
-            "there is: 0; choose one of these with `--clip`\n",
+            "it has: 0; choose one of these with `--clip`\n",
         ),
         (
             "check moves.gltf --fps 1e300",
@@ -317,14 +316,14 @@ fn every_error_of_a_format_or_a_conversion_says_what_to_do_next() {
         ),
         (
             "convert still.gltf#arm a.obj",
-            "a.obj: is there already; choose another name, or use `--force` to write over it\n",
+            "a.obj: exists already; choose another name, or use `--force` to write over it\n",
         ),
         ("convert still.gltf#arm no/x.obj", "make it first"),
-        ("convert still.gltf#arm x.glb", "what can: a mesh: .obj"),
+        ("convert still.gltf#arm x.glb", "these can: a mesh (.obj"),
         (
             "convert s_*.obj x.obj",
-            "holds one frame, there are 3; name a file a frame ('name_%04d.obj'), or choose one \
-             with `--frames`\n",
+            "this format holds one frame a file, but 3 are to be written; name a file a frame \
+             ('name_%04d.obj'), or choose one with `--frames`\n",
         ),
         (
             "convert s_*.obj x.obj --frames 9",

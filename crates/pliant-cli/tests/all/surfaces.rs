@@ -419,7 +419,7 @@ fn files_that_people_have_are_read_and_what_was_wrong_is_said() {
             "line.obj",
             &["1 faces have two corners (the first is face 1) and are read as segments"],
         ),
-        ("cut.stl", &["ends behind a triangle, without \"endsolid\""]),
+        ("cut.stl", &["ends without \"endsolid\""]),
         ("end.stl", &["ends with \"end solid\""]),
         (
             "m.obj+walk.npy",
@@ -429,8 +429,8 @@ fn files_that_people_have_are_read_and_what_was_wrong_is_said() {
             "a.npz",
             &[
                 "of type <i2",
-                "the array of vertices is the one called `v`",
-                "the array of faces is the one called `f`",
+                "the array of vertices is called `v`, not `vertices`",
+                "the array of faces is called `f`, not `faces`",
             ],
         ),
     ] {

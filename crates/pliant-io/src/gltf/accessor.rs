@@ -9,6 +9,7 @@ use super::buffers::Buffers;
 use super::document::{Accessor, Document, Sparse};
 use crate::error::{Fault, Place, Reason};
 use crate::memory::{Account, bytes_of};
+use crate::text::quoted;
 
 /// Rows read at a time, into a buffer of at most 1 MiB (at the largest stride).
 const ROWS: u64 = 4096;
@@ -120,6 +121,21 @@ impl Wanted {
     };
 }
 
+impl Wanted {
+    /// Message for an accessor of another type.
+    fn refusal(&self, entry: &Accessor) -> String {
+        let numbers = self.components.iter().map(|it| it.number().to_string());
+        format!(
+            "has type {} and componentType {}; {} need \"{}\" and one of: {}",
+            quoted(&entry.shape),
+            entry.component_type,
+            self.what,
+            self.shape,
+            numbers.collect::<Vec<_>>().join(", ")
+        )
+    }
+}
+
 impl Component {
     fn of(number: u32) -> Option<Self> {
         Some(match number {
@@ -131,6 +147,18 @@ impl Component {
             5126 => F32,
             _ => return None,
         })
+    }
+
+    /// Its `componentType` in the JSON.
+    fn number(self) -> u32 {
+        match self {
+            I8 => 5120,
+            U8 => 5121,
+            I16 => 5122,
+            U16 => 5123,
+            U32 => 5125,
+            F32 => 5126,
+        }
     }
 
     fn size(self) -> usize {
@@ -199,10 +227,7 @@ impl Reader {
         let component = Component::of(entry.component_type)
             .filter(|component| wanted.components.contains(component));
         let (Some(component), true) = (component, entry.shape == wanted.shape) else {
-            return Err(wrong(
-                accessor,
-                format!("its type is not one that {} can have", wanted.what),
-            ));
+            return Err(wrong(accessor, wanted.refusal(entry)));
         };
         if component != F32 && wanted.normalised && !entry.normalized {
             return Err(wrong(
@@ -321,9 +346,14 @@ impl Reader {
         let mut replaced: Vec<(u64, [f64; 4])> = Vec::new();
         self.rows(places, |account, _, row| {
             let place = whole(row[0]);
-            let rises = replaced.last().is_none_or(|(last, _)| *last < place);
-            if !rises || place >= count {
-                let reason = format!("sparse index {place} does not rise, or is not below {count}");
+            if let Some((last, _)) = replaced.last()
+                && *last >= place
+            {
+                let reason = format!("sparse index {place} is not larger than {last} before it");
+                return Err(Reason::Malformed(reason).into());
+            }
+            if place >= count {
+                let reason = format!("sparse index {place} is not below the {count} rows");
                 return Err(Reason::Malformed(reason).into());
             }
             Ok(account.push(&mut replaced, (place, [0.0; 4]), 0)?)
@@ -369,8 +399,12 @@ impl Reader {
         let size = rows.component.size();
         let row = (size * rows.width) as u64;
         let stride = view.byte_stride.filter(|_| rows.gaps).unwrap_or(row);
-        if stride < row || stride > WIDEST.max(row) {
-            let reason = format!("rows of {row} bytes cannot be {stride} bytes apart");
+        if stride < row {
+            let reason = format!("byteStride {stride} is too small for rows of {row} bytes");
+            return Err(Reason::Malformed(reason).into());
+        }
+        if stride > WIDEST.max(row) {
+            let reason = format!("byteStride {stride} is above {WIDEST}, the largest in glTF");
             return Err(Reason::Malformed(reason).into());
         }
         if rows.count == 0 {

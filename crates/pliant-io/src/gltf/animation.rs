@@ -317,7 +317,8 @@ impl Sampler {
         let malformed =
             |why: String| Fault::from(Reason::Malformed(format!("sampler {number}: {why}")));
         let Some(entry) = reader.document.animations[animation].samplers.get(number) else {
-            return Err(malformed("does not exist".into()));
+            let reason = format!("a channel names sampler {number}, which does not exist");
+            return Err(Reason::Malformed(reason).into());
         };
         let (input, output) = (entry.input, entry.output);
         let interpolation = match &entry.interpolation[..] {
@@ -326,7 +327,7 @@ impl Sampler {
             "CUBICSPLINE" => Interpolation::CubicSpline,
             other => {
                 return Err(malformed(format!(
-                    "interpolation {} is none of the format",
+                    "interpolation {} is unknown; it must be STEP, LINEAR or CUBICSPLINE",
                     quoted(other)
                 )));
             }
@@ -340,9 +341,15 @@ impl Sampler {
         let times = &mut sampler.times;
         reader.each_row(input, Wanted::TIMES, |account, key, row| {
             let time = row[0] as f32;
-            let rises = times.last().is_none_or(|last| *last < time);
-            if !rises || !time.is_finite() {
-                return Err(malformed(format!("the time of key {key} does not rise")));
+            if !time.is_finite() {
+                return Err(malformed(format!("the time of key {key} is not finite")));
+            }
+            if let Some(last) = times.last()
+                && *last >= time
+            {
+                return Err(malformed(format!(
+                    "the time of key {key}, {time:?}, is not later than {last:?} before it"
+                )));
             }
             Ok(account.push(times, time, 0)?)
         })?;

@@ -43,6 +43,8 @@ const GLB: &[u8; 4] = b"glTF";
 const HEAD: u64 = 12;
 /// Size in bytes of a chunk's header: length and kind.
 const CHUNK: u64 = 8;
+/// A chunk's header, for messages.
+const CHUNK_HEADER: &str = "the header of a chunk";
 
 /// Compressed bytes read at a time: memory grows with data that exists, not with its claim.
 const AT_A_TIME: u64 = 1 << 16;
@@ -88,13 +90,13 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
             .map_err(|_| Reason::Truncated(format!("{what} is missing")).at(Place::Byte(at)))?;
         Ok(u32::from_le_bytes(bytes).into())
     };
-    let version = number("the version", 4)?;
+    let version = number("the version in the GLB header", 4)?;
     if version != 2 {
         let reason =
             format!("is GLB of version {version}; only version 2 can be read, so convert it");
         return Err(Reason::Unsupported(reason).into());
     }
-    let announced = number("the length", 8)?;
+    let announced = number("the length in the GLB header", 8)?;
     if announced > length {
         let reason = format!("the file announces {announced} bytes, and has {length}");
         return Err(Reason::Truncated(reason).at(Place::Byte(8)));
@@ -103,7 +105,7 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
         if at + CHUNK > announced {
             return Ok(None);
         }
-        let (size, found) = (number("a chunk", at)?, number("a chunk", at + 4)?);
+        let (size, found) = (number(CHUNK_HEADER, at)?, number(CHUNK_HEADER, at + 4)?);
         if found != u64::from(u32::from_le_bytes(*kind)) {
             return Ok(None);
         }
@@ -160,8 +162,10 @@ impl Buffers {
             .and_then(|rest| rest.get(..bytes.len()));
         let there = there.ok_or_else(|| {
             let has = decoded.len();
+            let needed = bytes.len();
             Reason::Truncated(format!(
-                "byte {offset} and more are asked for, it has {has}"
+                "{needed} bytes from byte {offset} on are needed of buffer view {number}, \
+                 but it has {has}"
             ))
         })?;
         bytes.copy_from_slice(there);
@@ -223,10 +227,11 @@ impl Buffers {
         let Some(entry) = document.buffers.get(buffer) else {
             return Err(at(Reason::Malformed("there is no such buffer".into())));
         };
-        let end = offset.saturating_add(bytes.len() as u64);
+        let needed = bytes.len() as u64;
+        let end = offset.saturating_add(needed);
         let beyond = |has: u64| {
             at(Reason::Truncated(format!(
-                "bytes {offset} to {end} are asked for, it has {has}"
+                "{needed} bytes from byte {offset} on are needed, but it has {has}"
             )))
         };
         if end > entry.byte_length {
@@ -280,18 +285,19 @@ impl Buffers {
         };
         if let Some(data) = uri.strip_prefix("data:") {
             let Some((kind, text)) = data.split_once(',') else {
-                return Err(Reason::Malformed("a data URI without a comma".into()).into());
+                return Err(Reason::Malformed("its data URI has no comma".into()).into());
             };
             if !kind.ends_with(";base64") {
                 return Err(Reason::Unsupported(
-                    "a data URI that is not base64; export the file as .glb".into(),
+                    "its data URI is not base64; export the file as .glb".into(),
                 )
                 .into());
             }
             account.enter(text.len() as u64)?;
             let bytes = STANDARD.decode(text).map_err(|error| {
                 let error = error.to_string();
-                Reason::Malformed(format!("a data URI: {}", error.trim_end_matches('.')))
+                let why = error.trim_end_matches('.');
+                Reason::Malformed(format!("its data URI is not valid base64: {why}"))
             })?;
             return Ok(Bytes::Within(bytes));
         }

@@ -288,7 +288,7 @@ impl Document {
                 );
                 return Reason::Truncated(message);
             }
-            Reason::Malformed(format!("the JSON is not that of a glTF file: {message}"))
+            Reason::Malformed(format!("the JSON does not describe a glTF file: {message}"))
         })?;
         document.asset.check_version()?;
         document.refuse_extensions()?;

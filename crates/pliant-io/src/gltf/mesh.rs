@@ -88,10 +88,11 @@ impl Mesh {
                 .iter()
                 .filter(|primitive| (TRIANGLES..=FAN).contains(&primitive.mode))
         };
-        if primitives.iter().any(|primitive| primitive.mode > FAN) {
-            return Err(malformed(
-                "a primitive has a mode that the format does not have",
-            ));
+        if let Some(primitive) = primitives.iter().find(|primitive| primitive.mode > FAN) {
+            let mode = primitive.mode;
+            return Err(malformed(&format!(
+                "a primitive has mode {mode}; glTF has modes 0 to {FAN}"
+            )));
         }
         let mut mesh = Self {
             rest: Vec::new(),
@@ -190,7 +191,8 @@ impl Mesh {
             let most = most_that_stay(reader.buffers.bytes());
             if reader.stay > most {
                 return Err(Reason::Malformed(format!(
-                    "its morph targets say more than {most} times that a vertex stays where it is"
+                    "its morph targets hold more than {most} zero displacements, the most that \
+                     are read; sparse accessors leave them out"
                 ))
                 .into());
             }
@@ -307,7 +309,7 @@ impl Mesh {
                 .find(|it| usize::from(it.joint) >= joints)
             {
                 return Err(Reason::Malformed(format!(
-                    "vertex {vertex} is held by joint {}, the skin has {joints}",
+                    "vertex {vertex} names joint {}, but the skin has {joints} joints",
                     bad.joint
                 )));
             }
@@ -538,13 +540,14 @@ fn read_triangles(
             }
         }
     }
-    let whole = if mode == TRIANGLES {
-        met % 3 == 0
+    let wrong = if mode == TRIANGLES {
+        (met % 3 != 0).then_some("which is no multiple of 3")
     } else {
-        met != 1 && met != 2
+        (met == 1 || met == 2).then_some("but its first triangle needs 3")
     };
-    if !whole {
-        return Err(Reason::Malformed(format!("{met} corners do not make whole triangles")).into());
+    if let Some(wrong) = wrong {
+        let reason = format!("a primitive of mode {mode} has {met} corners, {wrong}");
+        return Err(Reason::Malformed(reason).into());
     }
     if triangles.len() > u32::MAX as usize {
         return Err(Reason::TooMany { what: "triangles" }.into());

@@ -16,6 +16,7 @@
 use super::document::Compressed;
 use crate::error::Reason;
 use crate::memory::Account;
+use crate::text::quoted;
 
 /// Widest row of attributes, in bytes.
 const WIDEST: usize = 256;
@@ -30,7 +31,7 @@ const GROUP: usize = 16;
 type Wrong = &'static str;
 
 const CUT_SHORT: Wrong = "are cut short";
-const NOT_SUCH: Wrong = "do not begin as the mode says";
+const NOT_SUCH: Wrong = "begin with another byte than their mode needs";
 const TOO_MANY: Wrong = "are more than its rows need";
 
 /// Decodes a compressed view to exactly the bytes that `compressed` announces.
@@ -48,29 +49,43 @@ pub(super) fn decode(
     let (count, width) = (count as usize, width as usize);
     let filter = Filter::of(compressed.filter.as_deref().unwrap_or("NONE"), width);
     let filter = filter.map_err(|why| match why {
-        Some(why) => malformed(why),
-        None => Reason::Unsupported(
-            "is compressed by meshopt with a filter that is not evaluated; \
-             export it without compression"
-                .into(),
-        ),
+        Some(why) => malformed(&format!("{why}: {width}")),
+        None => Reason::Unsupported(format!(
+            "is compressed by meshopt with filter {}, which is not evaluated; \
+             export it without compression",
+            quoted(compressed.filter.as_deref().unwrap_or_default())
+        )),
     })?;
     let is_plain = matches!(filter, Filter::None);
     let mut rows = Vec::new();
     let decoded = match &compressed.mode[..] {
         "ATTRIBUTES" if width == 0 || width > WIDEST || !width.is_multiple_of(4) => {
-            return Err(malformed("has rows of a width that attributes cannot have"));
+            return Err(malformed(&format!(
+                "has byteStride {width}; ATTRIBUTES need a multiple of 4, from 4 to {WIDEST}"
+            )));
         }
         "ATTRIBUTES" => attributes(stream, count, width, &mut rows),
-        "TRIANGLES" | "INDICES" if !is_plain || ![2, 4].contains(&width) => {
-            return Err(malformed("has numbers that are neither of 2 nor 4 bytes"));
+        mode @ ("TRIANGLES" | "INDICES") if !is_plain => {
+            return Err(malformed(&format!("has a filter; {mode} have none")));
+        }
+        mode @ ("TRIANGLES" | "INDICES") if ![2, 4].contains(&width) => {
+            return Err(malformed(&format!(
+                "has byteStride {width}; {mode} need 2 or 4"
+            )));
         }
         "TRIANGLES" if !count.is_multiple_of(3) => {
-            return Err(malformed("has triangles that are not whole"));
+            return Err(malformed(&format!(
+                "has {count} corners of triangles, which is no multiple of 3"
+            )));
         }
         "TRIANGLES" => triangles(stream, count / 3, width, &mut rows),
         "INDICES" => indices(stream, count, width, &mut rows),
-        _ => return Err(malformed("has a mode that the format does not have")),
+        mode => {
+            return Err(malformed(&format!(
+                "has mode {}; there are ATTRIBUTES, TRIANGLES and INDICES",
+                quoted(mode)
+            )));
+        }
     };
     decoded.map_err(|why| Reason::Malformed(format!("its compressed bytes {why}")))?;
     filter.apply(&mut rows);
@@ -146,7 +161,7 @@ impl Channel {
             (0, 0) => Ok(Self::Bytes),
             (1, 0) => Ok(Self::Pairs),
             (2, by) => Ok(Self::Bits(by.into())),
-            _ => Err("have a channel of no known mode"),
+            _ => Err("name an unknown channel mode"),
         }
     }
 
@@ -272,7 +287,7 @@ impl<T: Copy> Recent<T> {
     /// The item `back` pushes before the latest.
     fn get(&self, back: u8) -> Result<T, Wrong> {
         let before = self.count.checked_sub(1 + usize::from(back));
-        let before = before.ok_or("name what was not there yet")?;
+        let before = before.ok_or("refer to an entry before the first")?;
         Ok(self.items[before % 16])
     }
 }
@@ -286,7 +301,7 @@ fn triangles(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> R
     let table = stream.tail(16)?;
     let is_whole = |both: &u8| both >> 4 != 15 && both & 15 != 15;
     if table[14..] != [0; 2] || !table.iter().all(is_whole) {
-        return Err("end in no table of triangles");
+        return Err("end in an invalid table of triangles");
     }
     let codes = stream.take(count)?;
     let mut numbers = Numbers {
@@ -399,7 +414,7 @@ fn indices(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> Res
 fn put(rows: &mut Vec<u8>, width: usize, numbers: &[u32]) -> Result<(), Wrong> {
     for number in numbers {
         if width == 2 && *number > u16::MAX.into() {
-            return Err("have a number of more than the 16 bits that it has");
+            return Err("have a number above 65535 for a row of 2 bytes");
         }
         rows.extend_from_slice(&number.to_le_bytes()[..width]);
     }
@@ -432,7 +447,7 @@ impl Filter {
         if is_width {
             Ok(filter)
         } else {
-            Err(Some("has rows of a width that its filter cannot have"))
+            Err(Some("has a byteStride that its filter cannot have"))
         }
     }
 
@@ -608,29 +623,47 @@ mod tests {
             decoded(stream, &compressed).unwrap_err().to_string()
         };
         for (mode, filter, count, width, words) in [
-            ("ATTRIBUTES", "NONE", 1, 0, "a width that attributes"),
-            ("ATTRIBUTES", "NONE", 1, 6, "a width that attributes"),
-            ("ATTRIBUTES", "NONE", 1, 260, "a width that attributes"),
-            ("ATTRIBUTES", "QUATERNION", 1, 12, "a width that its filter"),
+            ("ATTRIBUTES", "NONE", 1, 0, "byteStride 0; ATTRIBUTES need"),
+            ("ATTRIBUTES", "NONE", 1, 6, "byteStride 6; ATTRIBUTES need"),
+            ("ATTRIBUTES", "NONE", 1, 260, "byteStride 260; ATTRIBUTES"),
+            ("ATTRIBUTES", "QUATERNION", 1, 12, "filter cannot have: 12"),
             (
                 "ATTRIBUTES",
                 "COLOR",
                 1,
                 4,
-                "with a filter that is not evaluated",
+                "with filter \"COLOR\", which is not evaluated",
             ),
-            ("ATTRIBUTES", "NONE", 1, 4, "do not begin as the mode says"),
-            ("TRIANGLES", "NONE", 3, 8, "neither of 2 nor 4 bytes"),
-            ("TRIANGLES", "EXPONENTIAL", 3, 4, "neither of 2 nor 4 bytes"),
-            ("TRIANGLES", "NONE", 4, 4, "not whole"),
-            ("TRIANGLES", "NONE", 3, 4, "do not begin as the mode says"),
-            ("INDICES", "NONE", 3, 2, "do not begin as the mode says"),
+            ("ATTRIBUTES", "NONE", 1, 4, "begin with another byte"),
+            (
+                "TRIANGLES",
+                "NONE",
+                3,
+                8,
+                "byteStride 8; TRIANGLES need 2 or 4",
+            ),
+            (
+                "TRIANGLES",
+                "EXPONENTIAL",
+                3,
+                4,
+                "a filter; TRIANGLES have none",
+            ),
+            (
+                "TRIANGLES",
+                "NONE",
+                4,
+                4,
+                "4 corners of triangles, which is no",
+            ),
+            ("TRIANGLES", "NONE", 3, 4, "begin with another byte"),
+            ("INDICES", "NONE", 3, 2, "begin with another byte"),
             (
                 "POINTS",
                 "NONE",
                 3,
                 2,
-                "a mode that the format does not have",
+                "has mode \"POINTS\"; there are ATTRIBUTES",
             ),
             ("ATTRIBUTES", "NONE", 1 << 40, 256, "of memory"),
             ("ATTRIBUTES", "NONE", u64::MAX, 256, "of memory"),
@@ -640,7 +673,7 @@ mod tests {
         }
         // A triangle on an edge before the first, and a number that does not end.
         let first = [&[0xe1, 0x00][..], &[0; 16]].concat();
-        assert!(said("TRIANGLES", "NONE", 3, 4, &first).contains("not there yet"));
+        assert!(said("TRIANGLES", "NONE", 3, 4, &first).contains("before the first"));
         let endless = [&[0xd1][..], &[0xff; 9], &[0; 4]].concat();
         assert!(said("INDICES", "NONE", 1, 4, &endless).contains("more than 32 bits"));
     }

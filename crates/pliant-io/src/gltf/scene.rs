@@ -93,8 +93,8 @@ impl Scene {
         }
         for channel in clip.iter().flat_map(|clip| &clip.channels) {
             if channel.path.places() && matches!(rest[channel.node], Local::Matrix(_)) {
-                let reason = "is placed by a matrix, and animated; \
-                    only a place of translation, rotation and scale can be";
+                let reason = "has a matrix and is animated; \
+                    only translation, rotation and scale can be";
                 return Err(Reason::Malformed(reason.into()).at(Place::Part("node", channel.node)));
             }
         }
@@ -139,7 +139,7 @@ impl Scene {
             })?;
             if inverse_bind.len() < joints.len() {
                 let reason = format!(
-                    "{} matrices for {} joints",
+                    "has {} inverse bind matrices for {} joints",
                     inverse_bind.len(),
                     joints.len()
                 );
@@ -327,7 +327,10 @@ fn tree(nodes: &[Node]) -> Result<(Vec<Option<u32>>, Vec<u32>), Fault> {
         let mut reached = vec![false; nodes.len()];
         order.iter().for_each(|&node| reached[node as usize] = true);
         let lost = reached.iter().position(|reached| !reached).unwrap_or(0);
-        return Err(at(lost, "is, over others, its own child".into()));
+        return Err(at(
+            lost,
+            "its ancestors form a cycle; the nodes of a scene form trees".into(),
+        ));
     }
     Ok((parents, order))
 }
@@ -349,7 +352,7 @@ fn local(node: &Node) -> Result<Local, Reason> {
     }
     if trs.rotation == [0.0; 4] {
         return Err(Reason::Malformed(
-            "its rotation is zero, which is none".into(),
+            "its rotation is the zero quaternion; the identity is [0, 0, 0, 1]".into(),
         ));
     }
     Ok(Local::Trs(trs))

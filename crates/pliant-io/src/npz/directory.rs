@@ -63,7 +63,7 @@ pub(super) fn find<R: Read + Seek>(
     for _ in 0..records {
         let fixed: [u8; 46] = bytes(archive)?;
         if !fixed.starts_with(b"PK\x01\x02") {
-            return Err(damaged("a record of its directory is none"));
+            return Err(damaged("a record of its directory has a wrong signature"));
         }
         let [name_length, extra_length, comment] =
             [28, 30, 32].map(|at| usize::from(short(&fixed, at)));

@@ -63,7 +63,7 @@ impl Header {
         let length = u32::from_le_bytes(length) as usize;
         if length > LONGEST {
             return Err(Reason::Malformed(format!(
-                "a header of {length} bytes, more than {LONGEST}"
+                "the header of the array has {length} bytes; at most {LONGEST} are read"
             )));
         }
         let mut text = vec![0; length];
@@ -192,8 +192,12 @@ impl<'a> Parser<'a> {
 
 impl Dtype {
     fn parse(text: &[u8]) -> Result<Self, Reason> {
-        let malformed =
-            || Reason::Malformed(format!("{} is not the type of an array", quoted(text)));
+        let malformed = || {
+            Reason::Malformed(format!(
+                "type {} cannot be read; a type is byte order, kind and size, such as \"<f4\"",
+                quoted(text)
+            ))
+        };
         let written = std::str::from_utf8(text).map_err(|_| malformed())?;
         let mut letters = written.chars();
         let (order, kind) = (

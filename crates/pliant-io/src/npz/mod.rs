@@ -117,7 +117,10 @@ impl Npz {
             }
         }
         if vertices.name != VERTICES[0] {
-            note(format!("is the one called `{}`", vertices.name));
+            note(format!(
+                "is called `{}`, not `{}`",
+                vertices.name, VERTICES[0]
+            ));
         }
         if frames == 0 {
             return Err(Reason::NoFrames.into());
@@ -202,7 +205,7 @@ impl Npz {
             self.notes.push(Note::Array { holds, is });
         };
         if faces.name != FACES[0] {
-            note(format!("is the one called `{}`", faces.name));
+            note(format!("is called `{}`, not `{}`", faces.name, FACES[0]));
         }
         if header.fortran_order {
             note("is in Fortran order".to_owned());

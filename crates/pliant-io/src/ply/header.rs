@@ -152,10 +152,10 @@ impl Header {
             };
             declared.map_err(|reason| reason.at(lines.place()))?;
         }
-        Err(
-            Reason::Malformed(format!("a header of more than {MOST_LINES} lines"))
-                .at(lines.place()),
-        )
+        Err(Reason::Malformed(format!(
+            "the header has more than {MOST_LINES} lines, the most that are read"
+        ))
+        .at(lines.place()))
     }
 
     pub(super) fn element(&self, name: &str) -> Option<&Element> {
@@ -206,7 +206,7 @@ fn property(words: &[&[u8]]) -> Result<Property, Reason> {
             let (count, item) = (scalar(count)?, scalar(item)?);
             if !count.is_integer() {
                 return Err(Reason::Malformed(format!(
-                    "list {} is counted in a type of fractions",
+                    "list {} has a float type for its count; it must be an integer type",
                     quoted(name)
                 )));
             }
@@ -215,7 +215,8 @@ fn property(words: &[&[u8]]) -> Result<Property, Reason> {
         [one, name] => (name, Kind::One(scalar(one)?)),
         _ => {
             return Err(Reason::Malformed(
-                "a property is declared by its type and name".into(),
+                "a property line is `property TYPE NAME`, or `property list COUNT ITEM NAME`"
+                    .into(),
             ));
         }
     };

@@ -148,13 +148,18 @@ fn corners_of(face: &Element) -> Result<usize, Reason> {
             .position(|property| property.name == name)
     };
     let property = listed(b"vertex_indices").or_else(|| listed(b"vertex_index"));
-    let property = property
-        .ok_or_else(|| Reason::Malformed("element face has no property vertex_indices".into()))?;
+    let element = String::from_utf8_lossy(&face.name);
+    let property = property.ok_or_else(|| {
+        Reason::Malformed(format!(
+            "element {element} has no list vertex_indices or vertex_index"
+        ))
+    })?;
     match face.properties[property].kind {
         Kind::List { item, .. } if item.is_integer() => Ok(property),
-        _ => Err(Reason::Malformed(
-            "property vertex_indices of element face is not a list of whole numbers".into(),
-        )),
+        _ => Err(Reason::Malformed(format!(
+            "property {} of element {element} is not a list of integers",
+            String::from_utf8_lossy(&face.properties[property].name)
+        ))),
     }
 }
 
@@ -275,8 +280,9 @@ fn skip(kind: Kind, values: &mut impl Values) -> Result<(), Fault> {
 
 fn list_length(count: Scalar, values: &mut impl Values) -> Result<u64, Fault> {
     let length = values.integer(count)?;
-    u64::try_from(length)
-        .map_err(|_| Reason::Malformed(format!("a list of {length} values")).at(values.place()))
+    u64::try_from(length).map_err(|_| {
+        Reason::Malformed(format!("a list has the length {length}")).at(values.place())
+    })
 }
 
 #[cfg(test)]

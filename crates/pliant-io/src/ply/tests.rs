@@ -183,18 +183,18 @@ fn ascii_errors_name_the_line() {
         with("3 0 1 2", "1 0"),
         ", line 14: face 0 has 1 corners; a face needs at least 3"
     );
-    assert_eq!(with("3 0 1 2", "-1"), ", line 14: a list of -1 values");
+    assert_eq!(with("3 0 1 2", "-1"), ", line 14: a list has the length -1");
     assert_eq!(
         with("3 0 1 2", "3 0 1 3"),
         ", line 14: face 0 uses vertex 3, but the vertices are numbered 0 to 2 here"
     );
     assert_eq!(
         with("3 0 1 2", "3 0 1 -1"),
-        ", line 14: face 0 uses vertex -1, but no vertex can have that number"
+        ", line 14: face 0 uses vertex -1, but vertices are numbered from 0 to 4294967294 at most"
     );
     assert_eq!(
         with("3 0 1 2\n", "\n"),
-        ", line 15: ends too early: face 0 is missing; the header announces 1 of them"
+        ", line 15: ends too early: element face has 0 rows; the header announces 1"
     );
 }
 
@@ -213,15 +213,15 @@ fn binary_errors_name_the_element() {
     let announced = "ends too early: the header announces";
     assert_eq!(
         message(&file[..end - 1]),
-        format!(", face 0: {announced} 1 of them")
+        format!(", face 0: {announced} 1 of this element")
     );
     assert_eq!(
         message(&file[..end - 14]),
-        format!(", vertex 2: {announced} 3 of them")
+        format!(", vertex 2: {announced} 3 of this element")
     );
     assert_eq!(
         message(&file[..end - 13 - 36]),
-        format!(", vertex 0: {announced} 3 of them")
+        format!(", vertex 0: {announced} 3 of this element")
     );
     let mut infinite = file.clone();
     infinite[end - 13 - 8..end - 13 - 4].copy_from_slice(&f32::INFINITY.to_le_bytes());

@@ -30,7 +30,7 @@ pub(super) trait Values {
 fn truncated(element: &Element, row: u64) -> Reason {
     let name = String::from_utf8_lossy(&element.name);
     Reason::Truncated(format!(
-        "{name} {row} is missing; the header announces {} of them",
+        "element {name} has {row} rows; the header announces {}",
         element.count
     ))
 }
@@ -170,7 +170,10 @@ impl<R: BufRead, E: Endian> Binary<R, E> {
 
     fn fault(&self, error: io::Error) -> Fault {
         let reason = if error.kind() == io::ErrorKind::UnexpectedEof {
-            Reason::Truncated(format!("the header announces {} of them", self.announced))
+            Reason::Truncated(format!(
+                "the header announces {} of this element",
+                self.announced
+            ))
         } else {
             error.into()
         };

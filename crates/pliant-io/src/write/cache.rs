@@ -28,8 +28,13 @@ impl Cache {
     ) -> Result<Self, Error> {
         let counts = [shape.frame_count, shape.vertex_count].map(i32::try_from);
         let [Ok(frames), Ok(vertices)] = counts else {
-            let what = "frames or vertices for this format";
-            return Err(Error::new(path, Reason::TooMany { what }));
+            let reason = format!(
+                "has {} frames of {} vertices; this format holds at most {} of each, so write .npz",
+                shape.frame_count,
+                shape.vertex_count,
+                i32::MAX
+            );
+            return Err(Error::new(path, Reason::Unsupported(reason)));
         };
         let mut bytes = Vec::new();
         if big_endian {

@@ -93,8 +93,8 @@ struct Pair {
 }
 
 /// Formats that can be written, as the end of a message.
-const WRITABLE: &str = "a mesh: .obj, .ply, .stl; \
-    a sequence: .npz, 'mesh.obj+positions.pc2' or .mdd, or a file a frame: 'name_%04d.obj'";
+const WRITABLE: &str = "a mesh (.obj, .ply, .stl); a sequence \
+    (.npz, 'mesh.obj+positions.pc2' or .mdd, or one file per frame: 'name_%04d.obj')";
 
 impl Writer {
     /// Prepares to write the body that `argument` names.
@@ -178,10 +178,10 @@ impl Writer {
                  name a mesh to write beside it: 'mesh.obj+{argument}'"
             ))),
             Ok(Format::Gltf) => Err(unsupported(format!(
-                "glTF can be read but not written; what can: {WRITABLE}"
+                "glTF can be read but not written; these can: {WRITABLE}"
             ))),
             Err(_) | Ok(Format::Evaluated) => Err(unsupported(format!(
-                "this kind of file cannot be written; what can: {WRITABLE}"
+                "this kind of file cannot be written; these can: {WRITABLE}"
             ))),
         }
     }

@@ -27,16 +27,21 @@ pub struct Shape {
 impl Shape {
     /// Returns an error if the parts do not agree.
     pub(super) fn check(&self) -> Result<(), Reason> {
-        let malformed = |why: &str| Err(Reason::Malformed(why.into()));
+        let malformed = |why: String| Err(Reason::Malformed(why));
+        let vertices = self.vertex_count;
+        let is_beyond = |corner: &&u32| **corner as usize >= vertices;
         if self.frame_count == 0 {
             return Err(Reason::NoFrames);
         }
         if self.triangles.is_empty() {
             return Err(Reason::NoFaces);
         }
-        let mut corners = self.triangles.as_flattened().iter();
-        if corners.any(|&corner| corner as usize >= self.vertex_count) {
-            return malformed("a triangle to be written has a vertex that does not exist");
+        for (number, triangle) in self.triangles.iter().enumerate() {
+            if let Some(vertex) = triangle.iter().find(is_beyond) {
+                return malformed(format!(
+                    "triangle {number} uses vertex {vertex}; the shape has {vertices} vertices"
+                ));
+            }
         }
         if u32::try_from(self.vertex_count).is_err() || u32::try_from(self.triangles.len()).is_err()
         {
@@ -44,13 +49,21 @@ impl Shape {
                 what: "vertices or triangles",
             });
         }
-        let mut corners = self.outlines.values().flatten();
-        if corners.any(|&corner| corner as usize >= self.vertex_count) {
-            return malformed("a polygon to be written has a vertex that does not exist");
+        for (number, outline) in &self.outlines {
+            if let Some(vertex) = outline.iter().find(is_beyond) {
+                return malformed(format!(
+                    "polygon {number} uses vertex {vertex}; the shape has {vertices} vertices"
+                ));
+            }
         }
-        let faces = self.faces.as_ref();
-        if faces.is_some_and(|faces| faces.len() != self.triangles.len()) {
-            return malformed("to be written are not as many faces as triangles");
+        let triangles = self.triangles.len();
+        if let Some(faces) = &self.faces
+            && faces.len() != triangles
+        {
+            return malformed(format!(
+                "`faces` has {} entries for {triangles} triangles; it needs one for each",
+                faces.len()
+            ));
         }
         Ok(())
     }

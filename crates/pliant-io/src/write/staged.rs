@@ -155,7 +155,7 @@ impl StagedFile {
             position: _,
         } = self;
         if has_failed {
-            let error = io::Error::other("an earlier part of it could not be written");
+            let error = io::Error::other("an earlier write to it failed");
             return Err(Error::new(path, Reason::Write(error)));
         }
         let error = |error: io::Error| Error::new(&path, Reason::Write(error));

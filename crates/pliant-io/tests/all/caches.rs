@@ -155,7 +155,7 @@ fn what_does_not_agree_is_refused() {
         ),
         (
             "m.obj+head.pc2",
-            "head.pc2: ends too early: the header is longer than 20 bytes",
+            "head.pc2: ends too early: the header needs 32 bytes, the file has 20",
         ),
         (
             "m.obj+cut.mdd",
@@ -172,11 +172,11 @@ fn what_does_not_agree_is_refused() {
         ),
         (
             "m.obj+other.pc2",
-            "other.pc2, byte 0: does not begin as a PC2 file of version 1 does",
+            "other.pc2, byte 0: is not a PC2 file of version 1",
         ),
         (
             "m.obj+old.pc2",
-            "old.pc2, byte 0: does not begin as a PC2 file of version 1 does",
+            "old.pc2, byte 0: is not a PC2 file of version 1",
         ),
         ("m.obj+empty.pc2", "empty.pc2: ends too early"),
         ("m.obj+none.pc2", "none.pc2: holds no frames"),

@@ -87,8 +87,14 @@ fn what_is_wrong_is_said() {
     let changes: [(fn(&mut Square), &str); 8] = [
         (|square| square.frames.clear(), "no frames"),
         (|square| square.corners[3] = 4, "4"),
-        (|square| square.counts[0] = 5, "fewer corners"),
-        (|square| square.counts[0] = 3, "more corners"),
+        (
+            |square| square.counts[0] = 5,
+            "lists 4 corners, but its polygons need 5",
+        ),
+        (
+            |square| square.counts[0] = 3,
+            "lists 4 corners, but its polygons need 3",
+        ),
         (|square| square.counts[0] = 1, "1 corners"),
         (
             |square| square.frames[1] = Err("the sun is down".into()),

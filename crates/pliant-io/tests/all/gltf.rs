@@ -133,7 +133,7 @@ fn the_fox_runs_as_in_three_js() {
     assert!(
         error
             .to_string()
-            .ends_with("there is no clip \"Fly\"; there is: Survey, Walk, Run"),
+            .ends_with("has no clip \"Fly\"; it has: Survey, Walk, Run"),
         "{error}"
     );
 }
@@ -168,13 +168,13 @@ fn bodies_are_the_nodes_with_meshes_in_the_default_scene() {
         .unwrap_err()
         .to_string();
     assert!(
-        error.contains("there is no body \"leg\"; there is: mirrored, "),
+        error.contains("has no body \"leg\"; it has: mirrored, "),
         "{error}"
     );
     let error = open(&part("elsewhere"), &OpenOptions::default())
         .unwrap_err()
         .to_string();
-    assert!(error.contains("there is no body"), "{error}");
+    assert!(error.contains("has no body \"elsewhere\""), "{error}");
 
     let file = fixture("kinds.glb");
     let bodies = open_all(file.to_str().unwrap(), &OpenOptions::default()).unwrap();
@@ -404,7 +404,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/nodes/1/children/0",
             json!(1),
-            "node 1: is, over others, its own child",
+            "node 1: its ancestors form a cycle",
         ),
         (
             "/nodes/1/children/0",
@@ -421,12 +421,12 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/nodes/1/rotation",
             json!([0, 0, 0, 0]),
-            "node 1: its rotation is zero",
+            "node 1: its rotation is the zero quaternion",
         ),
         (
             "/nodes/1/matrix",
             json!([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]),
-            "node 1: is placed by a matrix, and animated",
+            "node 1: has a matrix and is animated",
         ),
         (
             "/nodes/1/scale",
@@ -436,7 +436,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/skins/0/joints",
             json!([1]),
-            "node 0: vertex 1 is held by joint 1, the skin has 1",
+            "node 0: vertex 1 names joint 1, but the skin has 1 joints",
         ),
         (
             "/skins/0/joints/0",
@@ -446,7 +446,8 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/skins/0/inverseBindMatrices",
             json!(0),
-            "accessor 0: its type is not one that inverse bind matrices can have",
+            "accessor 0: has type \"VEC3\" and componentType 5126; \
+             inverse bind matrices need \"MAT4\" and one of: 5126",
         ),
         (
             "/meshes/0/primitives/0/attributes",
@@ -471,13 +472,14 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/meshes/0/primitives/0/mode",
             json!(7),
-            "mode that the format does not have",
+            "mesh 0: a primitive has mode 7; glTF has modes 0 to 6",
         ),
         ("/meshes/0/primitives/0/mode", json!(1), "holds no faces"),
         (
             "/meshes/0/primitives/0/indices",
             json!(1),
-            "accessor 1: its type is not one that indices can have",
+            "accessor 1: has type \"VEC4\" and componentType 5123; \
+             indices need \"SCALAR\" and one of: 5121, 5123, 5125",
         ),
         (
             "/accessors/0/count",
@@ -495,7 +497,11 @@ fn what_is_wrong_is_said_in_a_line() {
             json!(u64::MAX),
             "more than 4294967295 vertices",
         ),
-        ("/accessors/0/count", json!(-1), "not that of a glTF file"),
+        (
+            "/accessors/0/count",
+            json!(-1),
+            "does not describe a glTF file",
+        ),
         (
             "/accessors/0/byteOffset",
             json!(u64::MAX),
@@ -504,7 +510,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/accessors/0/componentType",
             json!(5125),
-            "its type is not one that positions can have",
+            "componentType 5125; positions need \"VEC3\" and one of: 5126, 5120, 5121, 5122, 5123",
         ),
         (
             "/accessors/0/bufferView",
@@ -524,12 +530,12 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/accessors/3/byteOffset",
             json!(100),
-            "the time of key 1 does not rise",
+            "the time of key 1, 0.0, is not later than",
         ),
         (
             "/animations/0/samplers/0/interpolation",
             json!("ROUND"),
-            "interpolation \"ROUND\" is none",
+            "sampler 0: interpolation \"ROUND\" is unknown",
         ),
         (
             "/animations/0/channels/0/target/node",
@@ -539,7 +545,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/animations/0/channels/0/sampler",
             json!(5),
-            "sampler 5: does not exist",
+            "a channel names sampler 5, which does not exist",
         ),
         (
             "/bufferViews/0/byteLength",
@@ -554,7 +560,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/bufferViews/0/byteStride",
             json!(4),
-            "rows of 12 bytes cannot be 4 bytes apart",
+            "byteStride 4 is too small for rows of 12 bytes",
         ),
         (
             "/bufferViews/0/buffer",
@@ -565,10 +571,14 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/buffers/0/uri",
             json!("data:;base64,AAAA"),
-            "buffer 0: ends too early: bytes 96 to 104 are asked for, it has 3",
+            "buffer 0: ends too early: 8 bytes from byte 96 on are needed, but it has 3",
         ),
         ("/buffers/0/uri", Value::Null, "neither a URI nor bytes"),
-        ("/buffers/0/uri", json!("data:;base64,@@@@"), "a data URI: "),
+        (
+            "/buffers/0/uri",
+            json!("data:;base64,@@@@"),
+            "its data URI is not valid base64: ",
+        ),
         (
             "/buffers/0/uri",
             json!("data:text/plain,hello"),
@@ -621,7 +631,7 @@ fn what_is_wrong_is_said_in_a_line() {
         .unwrap_err()
         .to_string();
     assert!(
-        error.ends_with("there is no clip \"walk\"; there is: 0"),
+        error.ends_with("has no clip \"walk\"; it has: 0"),
         "{error}"
     );
     folder.write("deep.gltf", format!("{{\"a\":{}", "[".repeat(1 << 20)));
@@ -1306,7 +1316,7 @@ fn what_is_wrong_with_compressed_views_is_said() {
         (
             "/byteOffset",
             json!(3),
-            "buffer view 1: its compressed bytes do not begin as the mode says",
+            "buffer view 1: its compressed bytes begin with another byte than their mode needs",
         ),
         (
             "/buffer",
@@ -1317,12 +1327,12 @@ fn what_is_wrong_with_compressed_views_is_said() {
         (
             "/mode",
             json!("POINTS"),
-            "a mode that the format does not have",
+            "has mode \"POINTS\"; there are ATTRIBUTES",
         ),
         (
             "/filter",
             json!("QUATERNION"),
-            "a width that its filter cannot have",
+            "a byteStride that its filter cannot have",
         ),
         (
             "/filter",

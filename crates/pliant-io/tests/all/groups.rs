@@ -87,7 +87,7 @@ fn other_files_have_none() {
     for (name, words) in [
         (
             "two.obj#",
-            "there is no body \"\"; there is: default, left, right/1",
+            "has no body \"\"; it has: default, left, right/1",
         ),
         ("gone.obj#left", "no such file"),
         ("gone_*.obj#left", "no file matches"),

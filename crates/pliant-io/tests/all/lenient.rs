@@ -76,11 +76,11 @@ fn an_stl_file_may_lack_its_end() {
         (STL.to_owned(), ""),
         (
             STL.replace("endsolid a", "end solid"),
-            "ends with \"end solid\", in place of \"endsolid\"; what stands before it is read",
+            "ends with \"end solid\" in place of \"endsolid\"; all its triangles were read",
         ),
         (
             STL.replace("endsolid a\n", ""),
-            "ends behind a triangle, without \"endsolid\"; what stands before it is read",
+            "ends without \"endsolid\"; all its triangles were read",
         ),
     ] {
         let body = folder.write("a.stl", text).open("a.stl").unwrap();

@@ -212,7 +212,7 @@ fn the_frames_of_several_files_follow_one_another() {
     assert!(
         folder
             .error("a*.npz")
-            .starts_with("a2.npz, array `faces`: face 0 is not that of a1.npz")
+            .starts_with("a2.npz, array `faces`: face 0 has other corners than in a1.npz")
     );
 
     let mut body = folder.open("a1*.npz").unwrap();

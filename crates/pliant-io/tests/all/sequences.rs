@@ -83,9 +83,9 @@ fn what_names_nothing_readable_is_an_error() {
         .write("t.npz", "")
         .write("cut.obj", "v 0 0");
     std::fs::create_dir(folder.path().join("d.obj")).unwrap();
-    let readable = "a frame a file: .obj, .ply, .stl; \
-        a sequence a file: .npz, .glb, .gltf, .vrm; \
-        positions beside a mesh: 'mesh.obj+positions.pc2', .mdd, .npy";
+    let readable = "one frame per file (.obj, .ply, .stl); \
+        a sequence per file (.npz, .glb, .gltf, .vrm); \
+        positions beside a mesh ('mesh.obj+positions.pc2', .mdd, .npy)";
     assert_eq!(folder.error("none.obj"), "none.obj: no such file");
     assert_eq!(
         folder.error("none_*.obj"),
@@ -103,11 +103,11 @@ fn what_names_nothing_readable_is_an_error() {
     );
     assert_eq!(
         folder.error("t.npt"),
-        format!("t.npt: this kind of file cannot be read; what can: {readable}")
+        format!("t.npt: this kind of file cannot be read; these can: {readable}")
     );
     assert_eq!(
         folder.error("t.npt*"),
-        format!("t.npt: this kind of file cannot be read; what can: {readable}")
+        format!("t.npt: this kind of file cannot be read; these can: {readable}")
     );
     assert_eq!(folder.error("t.obj"), "t.obj: holds no vertices");
     assert_eq!(folder.error("t.ply"), "t.ply: is empty");
@@ -213,7 +213,7 @@ fn polygons_carry_their_number() {
     assert!(
         folder
             .error("b*.obj")
-            .starts_with("b2.obj, line 10: face 1 is not that of b1.obj")
+            .starts_with("b2.obj, line 10: face 1 has other corners than in b1.obj")
     );
 }
 

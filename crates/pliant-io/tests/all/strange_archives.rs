@@ -194,7 +194,7 @@ fn archives_that_lie() {
             "a directory where the data is",
             STORED,
             |file, _, end| put(file, end + 16, 0),
-            "a record of its directory is none",
+            "a record of its directory has a wrong signature",
         ),
         (
             "a directory that is the end of itself",

@@ -141,7 +141,7 @@ fn counts_offsets_and_strides_that_overflow() {
                 file["buffers"][0]["byteLength"] = json!(MOST);
                 file["accessors"][0]["byteOffset"] = json!(MOST - 40);
             },
-            "are asked for, it has 128",
+            "are needed, but it has 128",
         ),
         (
             |file| {
@@ -153,15 +153,15 @@ fn counts_offsets_and_strides_that_overflow() {
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(0),
-            "cannot be 0 bytes apart",
+            "byteStride 0 is too small for rows of 12 bytes",
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(253),
-            "cannot be 253 bytes apart",
+            "byteStride 253 is above 252",
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(MOST),
-            "cannot be 18446744073709551615 bytes apart",
+            "byteStride 18446744073709551615 is above 252",
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(252),
@@ -185,7 +185,7 @@ fn counts_offsets_and_strides_that_overflow() {
                         "values": {"bufferView": 0}}),
                 );
             },
-            "sparse index 0 does not rise",
+            "sparse index 0 is not larger than",
         ),
         (
             |file| {
@@ -195,7 +195,7 @@ fn counts_offsets_and_strides_that_overflow() {
                         "componentType": 5121}, "values": {"bufferView": 0}}),
                 );
             },
-            "sparse index 128 does not rise, or is not below 3",
+            "sparse index 128 is not below the 3 rows",
         ),
         (
             |file| {
@@ -205,7 +205,7 @@ fn counts_offsets_and_strides_that_overflow() {
                         "componentType": 5121}, "values": {"bufferView": 0}}),
                 );
             },
-            "sparse index 0 does not rise",
+            "sparse index 0 is not larger than",
         ),
         (
             |file| {
@@ -265,7 +265,7 @@ fn counts_offsets_and_strides_that_overflow() {
                         "values": {"bufferView": 0}}),
                 );
             },
-            "not that of a glTF file",
+            "does not describe a glTF file",
         ),
         (
             |file| {
@@ -282,7 +282,7 @@ fn counts_offsets_and_strides_that_overflow() {
                 let matrices = append(file, "MAT4", 1, &[0.0; 16]);
                 file["skins"][0]["inverseBindMatrices"] = json!(matrices);
             },
-            "1 matrices for 2 joints",
+            "has 1 inverse bind matrices for 2 joints",
         ),
         (
             |file| {
@@ -320,11 +320,11 @@ fn counts_offsets_and_strides_that_overflow() {
         ),
         (
             |file| file["accessors"][0]["count"] = json!(3.5),
-            "not that of a glTF file",
+            "does not describe a glTF file",
         ),
         (
             |file| file["accessors"][0]["count"] = json!(1e30),
-            "not that of a glTF file",
+            "does not describe a glTF file",
         ),
     ]);
 }
@@ -386,19 +386,19 @@ fn numbers_that_are_not_finite() {
         // Times of keys.
         (
             |file| put(file, 96, f32::NAN),
-            "the time of key 0 does not rise",
+            "the time of key 0 is not finite",
         ),
         (
             |file| put(file, 100, f32::NAN),
-            "the time of key 1 does not rise",
+            "the time of key 1 is not finite",
         ),
         (
             |file| put(file, 96, f32::NEG_INFINITY),
-            "the time of key 0 does not rise",
+            "the time of key 0 is not finite",
         ),
         (
             |file| put(file, 100, f32::INFINITY),
-            "the time of key 1 does not rise",
+            "the time of key 1 is not finite",
         ),
         (|file| put(file, 100, f32::MAX), "more than 16777216 frames"),
         // Animated values, between keys and at the last.
@@ -516,7 +516,7 @@ fn numbers_that_are_not_finite() {
         folder.write("bad.gltf", text.replace("0.125", number));
         let error = folder.error("bad.gltf");
         assert_eq!(error.lines().count(), 1, "{error}");
-        assert!(error.contains("not that of a glTF file"), "{error}");
+        assert!(error.contains("does not describe a glTF file"), "{error}");
     }
     // The bone that this turns has no vertex, so it does not matter.
     folder.write(
@@ -552,11 +552,11 @@ fn nodes_that_go_round_and_depths() {
     assert_refused(&[
         (
             |file| file["nodes"][2]["children"] = json!([1]),
-            "is, over others, its own child",
+            "its ancestors form a cycle",
         ),
         (
             |file| file["nodes"][0]["children"] = json!([0]),
-            "node 0: is, over others, its own child",
+            "node 0: its ancestors form a cycle",
         ),
         (
             // Two cycles that the scene does not reach.
@@ -564,7 +564,7 @@ fn nodes_that_go_round_and_depths() {
                 let nodes = file["nodes"].as_array_mut().unwrap();
                 nodes.extend([json!({"children": [4]}), json!({"children": [3]})]);
             },
-            "node 3: is, over others, its own child",
+            "node 3: its ancestors form a cycle",
         ),
         (
             |file| file["nodes"][0]["children"] = json!([2]),
@@ -586,7 +586,7 @@ fn nodes_that_go_round_and_depths() {
         whole.replace("\"deep\"", &format!("{open}{close}")),
     );
     let error = folder.error("children.gltf");
-    assert!(error.contains("not that of a glTF file"), "{error}");
+    assert!(error.contains("does not describe a glTF file"), "{error}");
     // A root that is another node's child, or is listed repeatedly, is shown once.
     folder.write(
         "roots.gltf",

@@ -190,7 +190,7 @@ fn what_is_there_is_kept_and_what_fails_leaves_nothing() {
             error.file() == Path::new(&last) && matches!(error.reason(), Reason::Exists),
             "{error}"
         );
-        assert_eq!(error.to_string(), format!("{last}: is there already"));
+        assert_eq!(error.to_string(), format!("{last}: exists already"));
         let left: Vec<_> = fs::read_dir(folder.path().join(&sub)).unwrap().collect();
         assert_eq!(
             (left.len(), fs::read(&last).unwrap()),
@@ -254,9 +254,9 @@ fn what_cannot_be_written_says_what_can() {
         (
             "a.obj",
             "a.glb",
-            "glTF can be read but not written; what can: a mesh: .obj",
+            "glTF can be read but not written; these can: a mesh (.obj",
         ),
-        ("a.obj", "a.fbx", "cannot be written; what can"),
+        ("a.obj", "a.fbx", "cannot be written; these can"),
         (
             "a.obj",
             "a.pc2",
@@ -269,7 +269,7 @@ fn what_cannot_be_written_says_what_can() {
         (
             "[ab].obj",
             "one.obj",
-            "one.obj: holds one frame, there are 2",
+            "one.obj: this format holds one frame a file, but 2 are to be written",
         ),
     ] {
         let error = error(from, to);
@@ -285,34 +285,66 @@ fn what_cannot_be_written_says_what_can() {
         precision: Precision::F32,
     };
     let bad = [
-        Shape {
-            triangles: vec![[0, 1, 3]],
-            ..good.clone()
-        },
-        Shape {
-            triangles: vec![],
-            ..good.clone()
-        },
-        Shape {
-            faces: Some(vec![0, 0]),
-            ..good.clone()
-        },
-        Shape {
-            frame_count: 0,
-            ..good.clone()
-        },
+        (
+            Shape {
+                triangles: vec![[0, 1, 2], [0, 1, 3]],
+                ..good.clone()
+            },
+            "triangle 1 uses vertex 3; the shape has 3 vertices",
+        ),
+        (
+            Shape {
+                outlines: BTreeMap::from([(0, vec![0, 1, 2, 5])]),
+                ..good.clone()
+            },
+            "polygon 0 uses vertex 5; the shape has 3 vertices",
+        ),
+        (
+            Shape {
+                triangles: vec![],
+                ..good.clone()
+            },
+            "holds no faces",
+        ),
+        (
+            Shape {
+                faces: Some(vec![0, 0]),
+                ..good.clone()
+            },
+            "`faces` has 2 entries for 1 triangles; it needs one for each",
+        ),
+        (
+            Shape {
+                frame_count: 0,
+                ..good.clone()
+            },
+            "holds no frames",
+        ),
     ];
-    for shape in bad {
+    for (shape, words) in bad {
         for name in ["x.obj", "x.npz", "x.stl", "m.ply+x.mdd"] {
             let created = Writer::create(
                 &argument(&folder, ".", name),
                 shape.clone(),
                 WriteOptions::default(),
             );
-            assert!(created.is_err());
+            let error = created.err().unwrap().to_string();
+            assert!(error.contains(words), "{error}");
         }
     }
     assert!(!folder.path().join("x.npz").exists());
+    // Counts of point caches are signed and have 32 bits.
+    for name in ["m.obj+x.pc2", "m.obj+x.mdd"] {
+        let shape = Shape {
+            frame_count: 1 << 31,
+            ..good.clone()
+        };
+        let name = argument(&folder, ".", name);
+        let created = Writer::create(&name, shape, WriteOptions::default());
+        let error = created.err().unwrap().to_string();
+        let words = "has 2147483648 frames of 3 vertices; this format holds at most 2147483647";
+        assert!(error.contains(words), "{error}");
+    }
 }
 
 /// Other programs read these files: their bytes are as the formats say.

@@ -137,7 +137,7 @@ def test_groups_of_an_obj_file(tmp_path: Path) -> None:
         assert [body.name for body in named.bodies] == [f"{path}#{name}" for name in names]
         assert [frame.pairs.tolist() for frame in named] == [pairs]
 
-    with pytest.raises(pliant.Error, match='no body "arm"; there is: flat, next, up/skin'):
+    with pytest.raises(pliant.Error, match='no body "arm"; it has: flat, next, up/skin'):
         pliant.check(f"{path}#arm")
     with pytest.raises(pliant.Error, match="connected pieces stand their numbers; split the whole file$"):
         pliant.check(f"{path}#up", split="components")
@@ -183,8 +183,8 @@ def test_arrays_and_files_that_people_have_are_read_and_that_is_said(tmp_path: P
     faces, positions = grid(3)
     frames = np.stack([positions, positions + 1])
     cases: list[tuple[dict[str, Any], str]] = [
-        ({"verts": frames, "faces": faces}, "the one called `verts`"),
-        ({"v": frames, "f": faces}, "the one called `f`"),
+        ({"verts": frames, "faces": faces}, "is called `verts`, not `vertices`"),
+        ({"v": frames, "f": faces}, "is called `f`, not `faces`"),
         ({"vertices": np.asfortranarray(frames), "faces": faces}, "Fortran order"),
         ({"vertices": frames, "faces": np.asfortranarray(faces)}, "the array of faces is in Fortran order"),
         ({"vertices": frames.astype(np.float16), "faces": faces}, "float32"),
@@ -344,7 +344,7 @@ def test_gltf_is_evaluated() -> None:
     # 0.7 seconds at 10 a second, both ends.
     assert [frame.frame for frame in checked] == list(range(8)) and checked.frame_count == 8
     assert pliant.check(f"{fixtures / 'hierarchy.gltf'}#ground").bodies[0].vertices == 4
-    with pytest.raises(pliant.Error, match='there is no clip "fly"; there is: turn, steps, .*; choose one of these with clip=$'):
+    with pytest.raises(pliant.Error, match='has no clip "fly"; it has: turn, steps, .*; choose one of these with clip=$'):
         pliant.check(fixtures / "hierarchy.gltf", clip="fly")
     with pytest.raises(pliant.Error, match="0 frames a second cannot be evaluated; .*above 0; give another fps=$"):
         pliant.check(fixtures / "hierarchy.gltf", fps=0)

@@ -1,4 +1,4 @@
-//! Reads bodies and says what is in them and how long it took: `frames [--no-weld] BODY...`.
+//! Reads bodies, prints their contents and the time it took: `frames [--no-weld] BODY...`.
 
 use std::time::Instant;
 

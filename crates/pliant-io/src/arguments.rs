@@ -1,17 +1,16 @@
-//! An argument is a file, a pattern whose files are the frames, a body of a glTF file, a group of an OBJ or STL file or of a pattern of them,
-//! or a mesh with a cache of its positions.
+//! Arguments: the file, pattern, body, group or cache that a command-line argument names.
 //!
 //! ```text
 //! shirt.obj            a file
 //! shirt_*.obj          the files that match, in natural order
 //! scene.glb#arm        the body of this name in a file that holds several
-//! shirt_*.obj#collar   the group of this name in each of the files
+//! shirt_*.obj#collar   the group of this name in each of the files (OBJ or STL)
 //! shirt.obj+walk.pc2   the mesh before the last `+`, the positions behind it
 //! ```
 //!
 //! An existing file of exactly that name wins, so that `scan[1].obj` can be read without escapes.
-//! Everything is made sure here that can be before a file is opened: it exists and is a regular
-//! file (a pipe would make us wait, and can be read once only).
+//! Files must exist and be regular before any is opened: a pipe would block, and can be read only
+//! once.
 
 use std::path::Path;
 
@@ -22,20 +21,20 @@ use crate::groups::holds_one_body;
 use crate::natural;
 use crate::pattern::{is_pattern, matching};
 
-/// What an argument names.
+/// The files that an argument names, found.
 #[derive(Debug)]
 pub(crate) enum Named {
-    /// The frames of a body, in order; at least one file.
+    /// Frames of a body, in order; at least one file.
     Files(Vec<Found>),
-    /// A body in a file of several.
-    Part { file: Found, name: String },
-    /// A group of the body whose frames these files are.
+    /// One body of a file that holds several.
+    Body { file: Found, name: String },
+    /// A group of the body whose frames are in these files.
     Group { files: Vec<Found>, name: String },
     /// A mesh, and the positions of its vertices.
     Cache { mesh: Found, positions: Found },
 }
 
-/// What `argument` names.
+/// Parses `argument` and finds its files.
 pub(crate) fn named(argument: &str) -> Result<Named, Error> {
     let named = |name: &str| name.to_owned();
     match read(argument) {
@@ -44,7 +43,7 @@ pub(crate) fn named(argument: &str) -> Result<Named, Error> {
             mesh: file(mesh)?,
             positions: file(positions)?,
         }),
-        Meant::Part { path, name, format } if format.holds_bodies() => Ok(Named::Part {
+        Meant::Part { path, name, format } if format.holds_bodies() => Ok(Named::Body {
             file: file(path)?,
             name: named(name),
         }),
@@ -56,9 +55,10 @@ pub(crate) fn named(argument: &str) -> Result<Named, Error> {
     }
 }
 
-/// The file, or the pattern of files, and the name, of an argument that names a group of an OBJ file, `scan.obj#arm`, or a solid of an
-/// STL file. Arguments
-/// that name groups of one file are best opened as one body, the file: triangles that share a vertex are then known to.
+/// Splits an argument that names a group of an OBJ or STL file into file and group.
+///
+/// The file may be a pattern. None for any other argument. Arguments that name groups of one file
+/// are best opened as one body, the file: triangles that share a vertex are then known to.
 ///
 /// ```
 /// assert_eq!(pliant_io::group_argument("walk_*.obj#arm"), Some(("walk_*.obj", "arm")));
@@ -71,7 +71,7 @@ pub fn group_argument(argument: &str) -> Option<(&str, &str)> {
     }
 }
 
-/// How an argument is read.
+/// The syntax of an argument.
 enum Meant<'a> {
     Files,
     Part {
@@ -85,6 +85,7 @@ enum Meant<'a> {
     },
 }
 
+/// Parses an argument; looks at which files exist where the syntax is ambiguous.
 fn read(argument: &str) -> Meant<'_> {
     if Path::new(argument).exists() {
         return Meant::Files;
@@ -97,7 +98,7 @@ fn read(argument: &str) -> Meant<'_> {
         return Meant::Cache { mesh, positions };
     }
     match part {
-        // Of a file that is not there its own message says most; a pattern may have a # of its own.
+        // For a missing file, its own message says most. A pattern may contain a `#`.
         Some((path, name, format))
             if format.holds_bodies()
                 || Path::new(path).exists()
@@ -109,8 +110,10 @@ fn read(argument: &str) -> Meant<'_> {
     }
 }
 
-/// The file, its format, and the name of a part in `scene.glb#arm`. Folders and bodies may have a `#` in their names: of the places
-/// where it may end, the first where there is a file is meant.
+/// Splits `scene.glb#arm` into file, name of the part, and format of the file.
+///
+/// Folders and bodies may have a `#` in their names. Of the places to split, the first where there
+/// is a file wins.
 fn file_and_name(argument: &str) -> Option<(&str, &str, Format)> {
     let cut = |(at, _)| {
         let (path, name): (&str, &str) = (&argument[..at], &argument[at + 1..]);
@@ -122,7 +125,9 @@ fn file_and_name(argument: &str) -> Option<(&str, &str, Format)> {
         .or_else(|| cuts().next())
 }
 
-/// The two names in `shirt.obj+walk.pc2`, if folders have a `+` in theirs too: those of two files, where there are such.
+/// Splits `shirt.obj+walk.pc2` into mesh and positions.
+///
+/// Folders may have a `+` in their names: a split into two existing files is preferred.
 fn cache(argument: &str) -> Option<(&str, &str)> {
     let cut = |(at, _): (usize, &str)| as_cache(&argument[..at], &argument[at + 1..]);
     let are_files = |(mesh, positions): &(&str, &str)| is_file(mesh) && is_file(positions);
@@ -136,19 +141,19 @@ fn is_file(path: &str) -> bool {
     Path::new(path).is_file()
 }
 
-/// The two names in `shirt.obj+walk.pc2`.
+/// Splits `shirt.obj+walk.pc2` at its last `+` into mesh and positions.
 pub(crate) fn mesh_and_positions(argument: &str) -> Option<(&str, &str)> {
     let (mesh, positions) = argument.rsplit_once('+')?;
     as_cache(mesh, positions)
 }
 
-/// A mesh and positions, if the one may be a mesh and the other is called as positions are.
+/// Returns mesh and positions if the positions have the ending of a cache and the mesh has a name.
 fn as_cache<'a>(mesh: &'a str, positions: &'a str) -> Option<(&'a str, &'a str)> {
     let is_cache = Format::of(Path::new(positions)).is_ok_and(Format::is_cache);
     (is_cache && !mesh.is_empty()).then_some((mesh, positions))
 }
 
-/// One file of exactly this name.
+/// Finds one file of exactly this name.
 fn file(name: &str) -> Result<Found, Error> {
     let error = |reason: Reason| Error::new(name, reason);
     Found::find(name.into()).map_err(|reason| match reason {
@@ -159,7 +164,7 @@ fn file(name: &str) -> Result<Found, Error> {
     })
 }
 
-/// The files that `argument` names, in natural order; at least one.
+/// Finds the files that `argument` names, in natural order; at least one.
 fn files(argument: &str) -> Result<Vec<Found>, Error> {
     let error = |reason: Reason| Error::new(argument, reason);
     if Path::new(argument).metadata().is_ok() || !is_pattern(argument) {
@@ -168,7 +173,7 @@ fn files(argument: &str) -> Result<Vec<Found>, Error> {
     let mut files = Vec::new();
     for path in matching(argument)? {
         match path.metadata() {
-            // A pattern for files may well match folders beside them.
+            // A pattern for files may match folders beside them.
             Ok(metadata) if metadata.is_dir() => {}
             Ok(metadata) if metadata.is_file() => files.push(Found::new(path, &metadata)),
             Ok(_) => return Err(Error::new(path, Reason::NotAFile)),

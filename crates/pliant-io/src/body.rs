@@ -1,11 +1,10 @@
-//! Files in a row are one body: the first frame fixes what holds for all, the others follow one by
-//! one.
+//! Bodies: a row of files whose first frame fixes the mesh, streamed frame by frame.
 //!
-//! Which seams are closed each frame says for itself; of the mesh, the first frame's are kept, with which they are compared.
-//!
-//! Where that is allowed ([`Body::let_mesh_change`]) a file may have another mesh than the first. It then stands for itself: its seams
-//! and polygons are those of its own first frame. So what a frame is depends on its file and on the first of all, whichever were read
-//! before it. Held are the mesh of the first file, with which every other is compared, and that of the present one.
+//! Each frame has the seams that close in it; a later frame keeps its seams only while they differ
+//! from the first frame's. After [`Body::let_mesh_change`] a file may have another mesh than the
+//! first. Its seams and polygons then come from its own first frame. So a frame depends only on its
+//! file and on the first frame of the body, whichever frames were read before. Two meshes are held
+//! at most: the mesh of the first file, with which every other is compared, and the current one.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -29,53 +28,53 @@ use crate::source::FrameSource;
 use crate::weld::{PartedSeams, Seams, Welding};
 use crate::{cache, gltf, obj, stl};
 
-/// One body: connectivity known, frames still to come.
+/// A body: its mesh is known, and its frames are read one after another.
 pub struct Body {
     argument: Arc<str>,
     name: String,
     files: Vec<FrameFile>,
-    /// The frames of the file that is being read.
+    /// Reader of the current file, whose number is `file`.
     source: Box<dyn FrameSource>,
     file: usize,
     first: Mesh,
-    /// That of the file that is being read, if it has another mesh than the first.
+    /// Mesh of the current file, if it differs from the first.
     other: Option<Box<Mesh>>,
-    /// Its number, 0 without one, and what makes such numbers: others in every body.
+    /// Random hash of `other`, 0 without one; and the keys of that hash, different in every body.
     mesh_number: u64,
     numbering: RandomState,
-    /// The file that the mesh is from, where frames are from another one.
+    /// File that the mesh is from, where it is not the file of the frames.
     mesh_file: Option<Box<Found>>,
-    /// What it is of its mesh, if it is a group.
-    part: Option<Box<Part>>,
+    /// Triangles of the group, where the body is a group of its file.
+    group: Option<Box<GroupMesh>>,
     mesh_may_change: bool,
     options: Arc<OpenOptions>,
-    /// The number that follows the frame read last, and the frame handed out or skipped last.
+    /// Number of the frame that the source reads next, and of the frame to hand out next.
     read: usize,
     handed_out: usize,
     failed: bool,
 }
 
-/// Some triangles of a mesh.
-struct Part {
-    /// Which.
+/// Triangles of a group of the file.
+struct GroupMesh {
+    /// Their numbers in the mesh, ascending.
     numbers: Vec<u32>,
     triangles: Vec<[u32; 3]>,
-    /// The polygons, numbered anew.
+    /// Polygon of each triangle, renumbered without gaps.
     faces: Option<Vec<u32>>,
 }
 
-/// A frame, and the mesh that it fixed.
+/// A frame buffer and the mesh that its first frame fixed.
 struct Mesh {
     frame: Frame,
-    /// Those of its first frame.
+    /// Seams of the first frame of the mesh.
     seams: Seams,
-    /// Those of the frame read last, where they are others.
+    /// Seams of the frame read last, where they differ from the first frame's.
     now: Option<Box<Seams>>,
     notes: Vec<Note>,
 }
 
 impl Mesh {
-    /// Reads the next frame of a file into an empty one.
+    /// Reads the first frame of a mesh into an empty frame.
     fn read(
         source: &mut dyn FrameSource,
         mut frame: Frame,
@@ -108,7 +107,7 @@ impl Mesh {
 
     /// Finds the seams of a later frame, which was just read.
     fn find_seams(&mut self, tolerance: f64) -> Result<(), Reason> {
-        // What has parted mostly stays so for a while.
+        // Seams that differ from the first frame's mostly stay the same for a while.
         let positions = self.frame.positions();
         if tolerance == 0.0 && self.now.as_ref().is_some_and(|now| now.hold(positions)) {
             return Ok(());
@@ -132,7 +131,7 @@ impl Mesh {
     }
 }
 
-/// In place of the source of a body of one frame, which is never read again: what that one held is free.
+/// Placeholder source of a body of one frame: replaces the real one to free its memory.
 struct AllRead {
     clip: Option<Arc<str>>,
 }
@@ -143,7 +142,7 @@ impl FrameSource for AllRead {
     }
 
     fn read(&mut self, _: &mut Frame) -> Result<Complete, Fault> {
-        Err(Reason::NoFrames.into()) // not called: none is left
+        Err(Reason::NoFrames.into()) // not called: no frame is left
     }
 
     fn skip(&mut self, _: usize) -> Result<(), Fault> {
@@ -155,7 +154,7 @@ impl FrameSource for AllRead {
     }
 }
 
-/// A file and the number of the body's frame that follows its last.
+/// A file, and the number of frames up to its end: the body's frame number behind its last.
 #[derive(Debug)]
 struct FrameFile {
     found: Found,
@@ -164,7 +163,7 @@ struct FrameFile {
 }
 
 impl FrameFile {
-    /// Opens the file, which had so many `frames` when the body was opened.
+    /// Opens the file; an error if its number of frames is not `frames`, as found before.
     fn open(&self, frames: usize, options: &OpenOptions) -> Result<Box<dyn FrameSource>, Error> {
         let source = self.format.open(&self.found, options);
         let source = source.map_err(|fault| Error::new(self.path(), fault))?;
@@ -179,33 +178,43 @@ impl FrameFile {
     }
 }
 
-/// Opens the body that `argument` names: a file, a pattern whose files are its frames, a body of a file
-/// (`scene.glb#arm`, `scan.obj#arm`), or a mesh with its positions (`shirt.obj+walk.pc2`). Reads its first frame.
+/// Opens the body that `argument` names, and reads its first frame.
+///
+/// The argument is one of:
+///
+/// - a file;
+/// - a pattern whose files are the frames of the body;
+/// - a body or group of a file: `scene.glb#arm`, `scan.obj#arm`;
+/// - a mesh and a cache of its positions: `shirt.obj+walk.pc2`.
 ///
 /// # Errors
 ///
-/// Nothing found, no format known for the ending, several bodies in the file ([`open_all`] opens
-/// them), or a first frame that cannot be read: [`Reason`] lists what can be wrong.
+/// [`Reason`] lists them. Among them:
+///
+/// - nothing is found, or the ending belongs to no known format;
+/// - the file holds several bodies, which [`open_all`] opens;
+/// - the first frame cannot be read.
 pub fn open(argument: &str, options: &OpenOptions) -> Result<Body, Error> {
     let mut bodies = open_all(argument, options)?;
     match bodies.pop() {
         Some(body) if bodies.is_empty() => Ok(body),
         last => {
             bodies.extend(last);
-            // Behind the argument and a `#`.
-            let part = |body: &Body| body.name.get(argument.len() + 1..).map(str::to_owned);
-            let names: Vec<_> = bodies.iter().filter_map(part).collect();
+            // A body's own name follows the argument and a `#`.
+            let own_name = |body: &Body| body.name.get(argument.len() + 1..).map(str::to_owned);
+            let names: Vec<_> = bodies.iter().filter_map(own_name).collect();
             Err(Error::new(argument, gltf::many_bodies(&names, argument)))
         }
     }
 }
 
-/// Opens the bodies that `argument` names: those of a glTF file, in the order of its nodes; of every other argument the one.
-/// Reads the first frame of each.
+/// Opens all bodies that `argument` names, and reads the first frame of each.
+///
+/// A glTF file may hold several, in the order of its nodes. Any other argument names one.
 ///
 /// # Errors
 ///
-/// As [`open`], but for several bodies.
+/// As [`open`], except that several bodies are no error.
 pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Error> {
     let tolerance = options.weld_tolerance;
     if tolerance != 0.0 && !near::TOLERANCES.contains(&tolerance) {
@@ -224,7 +233,7 @@ pub fn open_all(argument: &str, options: &OpenOptions) -> Result<Vec<Body>, Erro
             }
         }
         Named::Files(files) => asked.open_files(files).map(|body| vec![body]),
-        Named::Part { file, name } => asked.open_scene(&file, Some(&name)),
+        Named::Body { file, name } => asked.open_scene(&file, Some(&name)),
         Named::Group { files, name } => Ok(vec![asked.open_files(files)?.only(&name)?]),
         Named::Cache { mesh, positions } => {
             let format = format_of(&positions)?;
@@ -248,7 +257,7 @@ fn format_of(found: &Found) -> Result<Format, Error> {
     Format::of(found.path()).map_err(|reason| Error::new(found.path(), reason))
 }
 
-/// What was asked; the bodies of a file, of which there may be very many, share it.
+/// The request, shared by the bodies of a file, which may be very many.
 #[derive(Clone)]
 struct Asked {
     argument: Arc<str>,
@@ -256,7 +265,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// The body whose frames are these files.
+    /// Opens the body whose frames are in these files.
     fn open_files(self, found: Vec<Found>) -> Result<Body, Error> {
         let mut files = Vec::new();
         let mut end = 0_usize;
@@ -276,14 +285,14 @@ impl Asked {
         Body::begin(self, argument, files, source, 0)
     }
 
-    /// The bodies of a file that holds several, or the one that is called `name`. Together they keep to the limit of memory.
+    /// Opens all bodies of a glTF file, or the one called `name`. They share the memory limit.
     fn open_scene(&self, found: &Found, name: Option<&str>) -> Result<Vec<Body>, Error> {
         let scene = gltf::open(found, name, &self.options)
             .map_err(|fault| Error::new(found.path(), fault))?;
         let mut held = scene.held;
         let alone = scene.bodies.len() == 1;
         let mut bodies = Vec::new();
-        for (part, source) in scene.bodies {
+        for (own_name, source) in scene.bodies {
             let files = vec![FrameFile {
                 found: found.clone(),
                 format: Format::Gltf,
@@ -293,9 +302,9 @@ impl Asked {
             let name = if alone {
                 argument.to_string()
             } else {
-                format!("{argument}#{part}")
+                format!("{argument}#{own_name}")
             };
-            // The part is counted already.
+            // The body's own name is already in the scene's account.
             let itself = argument.len() + size_of::<Body>() + size_of::<FrameFile>();
             held = held.saturating_add(itself as u64);
             let body = Body::begin(self.clone(), name, files, Box::new(source), held)?;
@@ -307,7 +316,9 @@ impl Asked {
 }
 
 impl Body {
-    /// Reads the first frame, by which all others are held; `held` is what is held already for bodies that are counted with it.
+    /// Reads the first frame, with which all later ones are compared.
+    ///
+    /// `held`: bytes already held by bodies that share the memory limit.
     fn begin(
         Asked { argument, options }: Asked,
         name: String,
@@ -341,7 +352,7 @@ impl Body {
             mesh_number: 0,
             numbering: RandomState::new(),
             mesh_file: None,
-            part: None,
+            group: None,
             mesh_may_change: false,
             options,
             read: 1,
@@ -350,7 +361,7 @@ impl Body {
         })
     }
 
-    /// One whose frames are evaluated by somebody else.
+    /// Opens a body whose frames the calling program evaluates.
     pub(crate) fn begin_evaluated(
         (argument, name): (Arc<str>, String),
         found: Found,
@@ -369,30 +380,34 @@ impl Body {
         Self::begin(asked, name, files, source, 0)
     }
 
-    /// The argument as given; where it names a file of several bodies, all of them have it.
+    /// The argument as given; shared by all bodies of a file of several.
     pub fn argument(&self) -> &str {
         &self.argument
     }
 
-    /// The argument; behind a `#` the name of the body, where it names several.
+    /// Name of the body: the argument, and `#` and its own name where the argument names several.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// From now on lets a file have another mesh than the first: other triangles, more or fewer vertices. It then stands for itself:
-    /// its seams, and what its polygons are, are those of its own first frame, which is read also where it is skipped.
+    /// Lets later files of the body have other meshes: other triangles, more or fewer vertices.
     ///
-    /// All that is said of the mesh is then of the frame that was handed out last: its triangles, faces and outlines, how many vertices
-    /// there are and how many were welded. Notes are those of the first frame.
+    /// The seams and polygons of a file with another mesh come from its own first frame, which is
+    /// read even where it is skipped. Such a file is read a second time when the difference is
+    /// found. The first mesh stays in memory beside the current one.
     ///
-    /// [`mesh_number`](Self::mesh_number) tells meshes apart. A file that has another mesh is read a second time when that is found out, and the mesh of the first is held beside its own.
+    /// [`triangles`](Self::triangles), [`faces`](Self::faces), [`outlines`](Self::outlines),
+    /// [`vertex_count`](Self::vertex_count) and [`welded`](Self::welded) then describe the mesh of
+    /// the current frame. Notes stay the first frame's. [`mesh_number`](Self::mesh_number) tells
+    /// meshes apart.
     ///
-    /// The mesh of a group ([`is_part`](Self::is_part)) does not change: a file that has another one stays an error.
+    /// Without effect on a group ([`is_part`](Self::is_part)): there a file with another mesh stays
+    /// an error.
     pub fn let_mesh_change(&mut self) {
-        self.mesh_may_change = self.part.is_none();
+        self.mesh_may_change = self.group.is_none();
     }
 
-    /// Why the file cannot have [`groups`](Self::groups), where it is one whose format names none.
+    /// Reason why the file cannot have [`groups`](Self::groups); None where its format can.
     pub fn why_no_groups(&self) -> Option<&'static str> {
         let file = self.mesh_file.as_deref();
         let file = file.unwrap_or(&self.files[0].found);
@@ -405,19 +420,22 @@ impl Body {
         }
     }
 
-    /// The groups of an OBJ file, or of an STL file, of the first where there are several, of the mesh where positions stand beside one. The file is read
-    /// once more for them, and is to be as it was. No names where it has none, and in every other format.
+    /// Reads the groups of an OBJ or STL file: a name for each triangle.
+    ///
+    /// Of several files, the first is read again; where positions move a mesh, the file of the
+    /// mesh. The result has no names where the file has none, and in every other format. Takes
+    /// O(size of the file).
     ///
     /// # Errors
     ///
-    /// The file changed, or names take more memory than is left.
+    /// The file has changed, or the names need more memory than is left.
     pub fn groups(&self) -> Result<Groups, Error> {
         let file = self.mesh_file.as_deref();
         let file = file.unwrap_or(&self.files[0].found);
         let path = file.shared_path();
         let polygons = self.first.frame.polygons();
         let read = || -> Result<Groups, Fault> {
-            // What a program evaluates by itself may be called as it likes.
+            // An evaluated body's file may have any ending, but is not read here.
             let is_evaluated = self.files[0].format == Format::Evaluated;
             if is_evaluated || !Format::of(file.path()).is_ok_and(Format::holds_groups) {
                 return Ok(Groups::none(path.clone()));
@@ -429,7 +447,7 @@ impl Body {
                 Format::Stl => stl::name_faces(&mut input, length, &mut naming),
                 _ => obj::name_faces(&mut input, &mut naming),
             };
-            // First: what looks wrong may be half of a change.
+            // Before the reader's own error: a change while reading is the likelier cause of it.
             input.get_ref().unchanged()?;
             named?;
             let count = polygons.triangles().len();
@@ -438,12 +456,15 @@ impl Body {
         read().map_err(|fault| Error::new(&*path, fault))
     }
 
-    /// Whether it is a group of an OBJ file. Its triangles then are some of the file's, and use some of its vertices; frames have all.
+    /// Whether the body is a group of its file.
+    ///
+    /// Its triangles are then some of the file's and use some of its vertices; frames have all
+    /// vertices.
     pub fn is_part(&self) -> bool {
-        self.part.is_some()
+        self.group.is_some()
     }
 
-    /// What is left if only the groups stay that a name stands for. Seams are those of the whole.
+    /// Keeps only the triangles of the groups that `name` names; the whole file decides on seams.
     fn only(mut self, name: &str) -> Result<Self, Error> {
         let groups = self.groups()?;
         let wanted = groups.called(name)?;
@@ -465,7 +486,7 @@ impl Body {
         let held = bytes_of(&numbers) + bytes_of(&triangles) + faces.as_deref().map_or(0, bytes_of);
         let entered = self.first.frame.enter(held);
         entered.map_err(|reason| Error::new(self.files[0].path(), reason))?;
-        self.part = Some(Box::new(Part {
+        self.group = Some(Box::new(GroupMesh {
             numbers,
             triangles,
             faces,
@@ -477,32 +498,38 @@ impl Body {
         self.other.as_deref().unwrap_or(&self.first)
     }
 
-    /// The triangles, in file order, polygons as fans; of welded vertices the smallest stands for
-    /// all. The same triangles in all frames of a mesh, with the seams of the frame handed out last.
+    /// Triangles of the mesh with the seams of the current frame, in file order.
+    ///
+    /// Polygons are triangulated, mostly as fans. The smallest of several welded vertices
+    /// represents them. All frames of a mesh have the same triangles, apart from their seams.
     pub fn triangles(&self) -> &[[u32; 3]] {
-        match &self.part {
-            Some(part) => &part.triangles,
+        match &self.group {
+            Some(group) => &group.triangles,
             None => self.mesh().triangles(),
         }
     }
 
-    /// The same with no vertex welded: as the file has them, whatever the frame.
+    /// Triangles as in the file, with no vertex welded: equal in all frames of a mesh. Takes O(n).
     pub fn unwelded(&self) -> Vec<[u32; 3]> {
         let all = self.mesh().frame.polygons().triangles();
-        match &self.part {
-            Some(part) => part.numbers.iter().map(|&it| all[it as usize]).collect(),
+        match &self.group {
+            Some(group) => group.numbers.iter().map(|&it| all[it as usize]).collect(),
             None => all.to_vec(),
         }
     }
 
-    /// A number for the mesh of the frame that was handed out last, whatever its seams: 0 for the first, the same for the same triangles
-    /// and as many vertices, and another for another mesh, but for a chance of 2^-63 that no file can bring about: numbers are random.
+    /// Number that tells meshes apart: 0 for the first mesh, whatever the seams of a frame.
+    ///
+    /// Equal triangles and equal numbers of vertices give equal numbers. Different meshes have
+    /// different numbers, except with a probability of 2^-63. Numbers are random, so no file can
+    /// force a collision.
     pub fn mesh_number(&self) -> u64 {
         self.mesh_number
     }
 
-    /// Which vertices are apart in the frame that was handed out last, and one in the first frame of its mesh. None where none are;
-    /// which are one there besides is not said.
+    /// Vertices that are one in the first frame of the mesh and apart in the current frame.
+    ///
+    /// None where there are none. Vertices that are one only in the current frame are not listed.
     pub fn parted_seams(&self) -> Option<PartedSeams> {
         let Mesh {
             frame, seams, now, ..
@@ -511,24 +538,26 @@ impl Body {
         seams.parted(now.as_deref()?, all, frame.positions())
     }
 
-    /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
+    /// Polygon of each triangle; None where every polygon is a triangle.
     pub fn faces(&self) -> Option<&[u32]> {
-        match &self.part {
-            Some(part) => part.faces.as_deref(),
+        match &self.group {
+            Some(group) => group.faces.as_deref(),
             None => self.mesh().frame.polygons().faces(),
         }
     }
 
-    /// Of polygons that did not become fans, by their number in [`faces`](Self::faces), the corners in their order; of welded vertices
-    /// the smallest stands for all.
+    /// Corners, in order, of the polygons that are no fans, by their number in
+    /// [`faces`](Self::faces).
+    ///
+    /// The smallest of several welded vertices represents them.
     pub fn outlines(&self) -> BTreeMap<u32, Vec<u32>> {
         let mesh = self.mesh();
         let frame = &mesh.frame;
         let mut outlines = frame.polygons().outlines().clone();
-        if let Some(part) = &self.part
-            && let (Some(all), Some(own)) = (frame.polygons().faces(), &part.faces)
+        if let Some(group) = &self.group
+            && let (Some(all), Some(own)) = (frame.polygons().faces(), &group.faces)
         {
-            let faces = part.numbers.iter().zip(own);
+            let faces = group.numbers.iter().zip(own);
             let faces = faces.map(|(&triangle, &own)| (all[triangle as usize], own));
             let kept = faces.filter_map(|(face, own)| Some((own, outlines.remove(&face)?)));
             outlines = kept.collect();
@@ -539,24 +568,26 @@ impl Body {
         outlines
     }
 
-    /// How many vertices each frame has: those of the file, welded or not.
+    /// Number of vertices of each frame, as in the file, welded or not.
     pub fn vertex_count(&self) -> usize {
         self.mesh().frame.vertex_count()
     }
 
-    /// How many vertices were welded away: no triangle uses them, in the frame handed out last.
+    /// Number of vertices welded away: no triangle of the current frame uses them.
     pub fn welded(&self) -> usize {
         let welding = self.mesh().seams().welding.as_ref();
         welding.map_or(0, Welding::count)
     }
 
-    /// Which vertices would be joined besides, in the frame that was read last, if boundary edges that are no further apart than
-    /// `tolerance` times the diagonal of the body's box were. None if there are none such, and it is not looked for where vertices
+    /// Finds further vertices of the frame read last that welding with a tolerance would join.
+    ///
+    /// Boundary edges count whose ends are at most `tolerance` times the diagonal of the body's
+    /// bounding box apart. None where there are none. Also None, without a search, where vertices
     /// are not welded or more than 65,536 boundary edges are left.
     ///
     /// # Errors
     ///
-    /// [`Reason::SeamsTooLarge`] or [`Reason::SeamsTooDense`]; the body is as before.
+    /// [`Reason::SeamsTooLarge`] or [`Reason::SeamsTooDense`]; the body is unchanged.
     pub fn near_seams(&mut self, tolerance: f64) -> Result<Option<NearSeams>, Error> {
         let Mesh {
             frame, seams, now, ..
@@ -565,50 +596,50 @@ impl Body {
         found.map_err(|reason| Error::new(self.files[self.file].path(), reason))
     }
 
-    /// What its reader did, or left undone, that the owner of the file would want to know.
+    /// Remarks of the reader about the body's file, for its owner.
     pub fn notes(&self) -> &[Note] {
         &self.first.notes
     }
 
-    /// The type of the coordinates of all frames.
+    /// Type of the coordinates of all frames.
     pub fn precision(&self) -> Precision {
         self.first.frame.precision()
     }
 
-    /// How many frames there are, at least one.
+    /// Number of frames, at least one.
     pub fn frame_count(&self) -> usize {
         self.files.last().map_or(0, |file| file.end)
     }
 
-    /// The file that a frame comes from; None if there is no such frame.
+    /// File of a frame; None if there is no such frame.
     pub fn frame_file(&self, frame: usize) -> Option<&Path> {
         let at = self.files.partition_point(|file| file.end <= frame);
         self.files.get(at).map(FrameFile::path)
     }
 
-    /// The name of the animation of a glTF file that moves the body; None where none does.
+    /// Name of the glTF animation that moves the body; None where none does.
     pub fn clip(&self) -> Option<&str> {
         self.source.clip().map(|clip| &**clip)
     }
 
-    /// Passes over so many frames, or all that are left: [`next_frame`](Self::next_frame) hands out the one behind them.
+    /// Skips `frames` frames, or all that are left.
     ///
-    /// Files of which no frame is wanted are not opened; within a file frames are passed over without reading them where the
-    /// format allows it (not in a deflated array). What is not read is not checked: neither its coordinates, nor its faces, nor
-    /// the checksum of the array that it is in.
+    /// [`next_frame`](Self::next_frame) then returns the frame behind them. Files of which no frame
+    /// is wanted are not opened. Within a file, frames are skipped without reading where the format
+    /// allows it, which a deflated array does not. Skipped data are not checked: coordinates,
+    /// faces, and the checksum of their array.
     pub fn skip(&mut self, frames: usize) {
         let after = self.handed_out.saturating_add(frames);
         self.handed_out = after.min(self.frame_count());
     }
 
-    /// The positions of the next frame, from frame 0 on; None after the last.
+    /// Reads the next frame and returns its positions, from frame 0 on; None after the last.
     ///
-    /// They are valid until the next call, which reads over them.
+    /// They are valid until the next call, which overwrites them.
     ///
     /// # Errors
     ///
-    /// The frame cannot be read, or does not agree with the first. No
-    /// frame follows: every later call is an error too.
+    /// The frame cannot be read, or does not agree with the first. All later calls are errors too.
     pub fn next_frame(&mut self) -> Result<Option<Positions<'_>>, Error> {
         if self.failed {
             let path = self.files[self.file].path();
@@ -627,18 +658,23 @@ impl Body {
         Ok(Some(self.positions()))
     }
 
-    /// The positions of the frame handed out last, also after [`rewind`](Self::rewind), and of frame 0 before any was; after an
-    /// error they mean nothing.
+    /// Positions of the frame handed out last, even after [`rewind`](Self::rewind).
+    ///
+    /// Before the first call of [`next_frame`](Self::next_frame) they are the positions of frame 0;
+    /// after an error they are meaningless.
     pub fn positions(&self) -> Positions<'_> {
         self.mesh().frame.positions()
     }
 
-    /// Begins again: the next frame is frame 0. Files that are read again must be those that were found; what is held of a glTF
-    /// file is not read again.
+    /// Returns to frame 0, which [`next_frame`](Self::next_frame) then reads.
+    ///
+    /// Files that are read again must not have changed. Data held of a glTF file are not read
+    /// again.
     ///
     /// # Errors
     ///
-    /// The first file cannot be opened or is another one now, or an earlier frame could not be read. No frame follows.
+    /// The first file cannot be opened or has changed, or an earlier frame could not be read. All
+    /// later calls are errors too.
     pub fn rewind(&mut self) -> Result<(), Error> {
         if self.failed {
             return Err(Error::new(self.files[self.file].path(), Reason::AfterError));
@@ -659,7 +695,7 @@ impl Body {
         Ok(())
     }
 
-    /// Reads the frame to hand out next over the last one read.
+    /// Reads the frame to hand out next, over the last one read.
     fn advance(&mut self) -> Result<(), Error> {
         let frame = self.handed_out;
         let at = self.files.partition_point(|file| file.end <= frame);
@@ -690,12 +726,12 @@ impl Body {
         Ok(())
     }
 
-    /// Goes back to the mesh of the first file.
+    /// Drops the current file's own mesh.
     fn return_to_first_mesh(&mut self) {
         (self.other, self.mesh_number) = (None, 0);
     }
 
-    /// Reads the first frame of a file, which may have another mesh than the first of all.
+    /// Reads the first frame of a file, which may have another mesh than the first file.
     fn read_mesh(&mut self) -> Result<(), Error> {
         self.return_to_first_mesh();
         match self.source.read(&mut self.first.frame) {
@@ -724,10 +760,10 @@ impl Body {
         let had_others = mesh.now.is_some();
         let found = mesh.find_seams(self.options.weld_tolerance);
         if (had_others || mesh.now.is_some())
-            && let Some(part) = &mut self.part
+            && let Some(group) = &mut self.group
         {
             let all = mesh.triangles();
-            let own = part.triangles.iter_mut().zip(&part.numbers);
+            let own = group.triangles.iter_mut().zip(&group.numbers);
             own.for_each(|(triangle, &number)| *triangle = all[number as usize]);
         }
         found.map_err(|reason| {
@@ -736,7 +772,7 @@ impl Body {
         })
     }
 
-    /// Goes to the beginning of a file.
+    /// Opens a file of the body at its first frame.
     fn open_file(&mut self, at: usize) -> Result<(), Error> {
         let file = &self.files[at];
         self.file = at;
@@ -745,13 +781,13 @@ impl Body {
         filled.map_err(|reason| Error::new(file.path(), reason))
     }
 
-    /// The number of the first frame of a file.
+    /// Number of the first frame of a file.
     fn begin_of(&self, file: usize) -> usize {
         file.checked_sub(1)
             .map_or(0, |before| self.files[before].end)
     }
 
-    /// Where in its file the frame just read is.
+    /// Place in its file of the frame just read.
     fn place(&self) -> Place {
         let begin = self.begin_of(self.file);
         if self.files[self.file].end - begin == 1 {

@@ -1,10 +1,11 @@
-//! Where a surface ends.
+//! Boundary edges of a surface.
 
 /// An edge: its end points, the smaller first.
 pub(crate) type Edge = [u32; 2];
 
-/// The edges used by exactly one triangle. A degenerate triangle uses an edge once, however often
-/// it runs along it.
+/// Boundary edges, ascending: the edges of exactly one triangle. Takes O(n log n) for n triangles.
+///
+/// A degenerate triangle uses an edge once, however often it runs along it.
 pub(crate) fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<Edge> {
     let mut edges: Vec<Edge> = Vec::with_capacity(3 * triangles.len());
     for &[a, b, c] in triangles {

@@ -1,12 +1,14 @@
-//! PC2 and MDD, and NPY, which `npz` reads: positions alone, frame after frame; the faces come from a mesh.
+//! Point caches: PC2 and MDD, positions of all frames without faces. NPY is read by `npz`.
 //!
 //! ```text
-//! PC2, little-endian    "POINTCACHE2\0", version 1, vertices n, first frame, frames a sample, samples T; then T x n x (x, y, z)
+//! PC2, little-endian    "POINTCACHE2\0", version 1, vertices n, first frame, frames a sample,
+//!                       samples T; then T x n x (x, y, z)
 //! MDD, big-endian       samples T, vertices n, T times; then T x n x (x, y, z)
 //! ```
 //!
-//! Whole numbers of 32 bits, everything else f32. A sample is a frame, whatever its time. The mesh is one frame of any format,
-//! has as many vertices, and of its positions nothing is kept. The length of the file is that of its header and samples exactly.
+//! Integers have 32 bits, everything else is f32. A sample is a frame, whatever its time. The faces
+//! come from a mesh: one frame of any format with the same number of vertices, whose positions are
+//! dropped. The length of the file must match its header exactly.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
@@ -20,30 +22,30 @@ use crate::options::OpenOptions;
 use crate::positions::Precision;
 use crate::source::FrameSource;
 
-/// How a PC2 file begins, and its version.
+/// First bytes of a PC2 file: signature and version.
 pub(crate) const PC2: [u8; 16] = *b"POINTCACHE2\0\x01\0\0\0";
 
-/// Bytes of a position.
+/// Size of a position in bytes.
 const POSITION: usize = 12;
-/// Positions read at a time.
+/// Positions read at a time: few calls, with a buffer of 48 KiB.
 const ROWS: u64 = 4096;
 
-/// The frames of a mesh whose positions are in a file.
+/// Frames of a mesh whose positions are in a point cache.
 pub(crate) struct Cache {
     mesh: Option<MovedMesh>,
     input: BufReader<Opened>,
     big_endian: bool,
-    /// Where positions begin.
+    /// Offset of the first position, in bytes.
     head: u64,
-    /// Vertices of a frame.
+    /// Number of vertices of a frame.
     count: u64,
     frames: u64,
     next: u64,
-    /// Reused: some positions, as they are in the file.
+    /// Reused buffer: positions as the file has them.
     chunk: Vec<u8>,
 }
 
-/// Opens the mesh, which must be one frame, and the positions, which are of this format.
+/// Opens the mesh, which must be one frame, and the positions, which have the given format.
 pub(crate) fn open(
     mesh: &Found,
     positions: &Found,
@@ -68,17 +70,17 @@ pub(crate) fn open(
     let length = input.get_ref().length();
     let big_endian = format == Format::Mdd;
     let (frames, count, head) = if big_endian {
-        let [frames, count] = whole(&mut input, length, u32::from_be_bytes)?;
+        let [frames, count] = whole(&mut input, [length, 8], u32::from_be_bytes)?;
         let times = 4 * u64::from(frames);
         (frames, count, times.saturating_add(8))
     } else {
         let mut start = [0; 16];
-        fill(&mut input, &mut start, length)?;
+        fill(&mut input, &mut start, [length, 32])?;
         if start != PC2 {
-            let reason = "does not begin as a PC2 file of version 1 does";
+            let reason = "is not a PC2 file of version 1";
             return Err(Reason::Malformed(reason.into()).at(Place::Byte(0)));
         }
-        let [count, _, _, frames] = whole(&mut input, length, u32::from_le_bytes)?;
+        let [count, _, _, frames] = whole(&mut input, [length, 32], u32::from_le_bytes)?;
         (frames, count, 32)
     };
     if frames == 0 {
@@ -113,26 +115,27 @@ pub(crate) fn open(
     }))
 }
 
-/// The next whole numbers, none of them negative.
+/// Reads the next unsigned integers of a header; `lengths` as in [`fill`].
 fn whole<const N: usize>(
     input: &mut impl Read,
-    length: u64,
+    lengths: [u64; 2],
     number: fn([u8; 4]) -> u32,
 ) -> Result<[u32; N], Fault> {
     let mut numbers = [0; N];
     for each in &mut numbers {
         let mut bytes = [0; 4];
-        fill(input, &mut bytes, length)?;
+        fill(input, &mut bytes, lengths)?;
         *each = number(bytes);
     }
     Ok(numbers)
 }
 
-fn fill(input: &mut impl Read, bytes: &mut [u8], length: u64) -> Result<(), Reason> {
+/// Reads bytes of a header. The lengths of file and header, in bytes, are for the message.
+fn fill(input: &mut impl Read, bytes: &mut [u8], [file, header]: [u64; 2]) -> Result<(), Reason> {
     input.read_exact(bytes).map_err(|error| match error.kind() {
-        io::ErrorKind::UnexpectedEof => {
-            Reason::Truncated(format!("the header is longer than {length} bytes"))
-        }
+        io::ErrorKind::UnexpectedEof => Reason::Truncated(format!(
+            "the header needs {header} bytes, the file has {file}"
+        )),
         _ => error.into(),
     })
 }
@@ -167,7 +170,7 @@ impl Cache {
                 .read_exact(&mut self.chunk)
                 .map_err(|error| match error.kind() {
                     io::ErrorKind::UnexpectedEof => {
-                        Reason::Truncated("the file announces more".into())
+                        Reason::Truncated("the file ends within this frame".into())
                     }
                     _ => error.into(),
                 })
@@ -193,13 +196,13 @@ impl FrameSource for Cache {
 
     fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
         let read = self.read_frame(frame);
-        // First: what looks wrong may be half of a change.
+        // Before the reader's own error: a change while reading is the likelier cause of it.
         self.input.get_ref().unchanged()?;
         read
     }
 
     fn skip(&mut self, frames: usize) -> Result<(), Fault> {
-        // At most what the file has: its length was compared.
+        // Bounded by the length of the file, which was checked.
         let bytes = (frames as u64).saturating_mul(self.count * POSITION as u64);
         self.input
             .seek_relative(i64::try_from(bytes).unwrap_or(i64::MAX))?;

@@ -1,6 +1,6 @@
-//! Which vertices are one.
+//! Union-find over vertices.
 
-/// Union-find; the smallest vertex of a class leads it.
+/// Union-find with path halving; the root of a class is its smallest vertex.
 pub(crate) struct Classes(Vec<u32>);
 
 impl Classes {
@@ -8,6 +8,7 @@ impl Classes {
         Self((0..vertices as u32).collect())
     }
 
+    /// Root of the class of `vertex`, with path halving.
     pub(crate) fn leader(&mut self, mut vertex: u32) -> u32 {
         let Self(parent) = self;
         while parent[vertex as usize] != vertex {
@@ -18,6 +19,7 @@ impl Classes {
         vertex
     }
 
+    /// Joins the classes of two vertices; the smaller root stays a root.
     pub(crate) fn join(&mut self, a: u32, b: u32) {
         let (a, b) = (self.leader(a), self.leader(b));
         self.0[a.max(b) as usize] = a.min(b);

@@ -1,12 +1,12 @@
-//! One error type whose message is one line: which file, where in it, what is wrong.
+//! The error type of the crate: one line that names the file, the place in it, and the fault.
 //!
-//! What to do is said here only where the file itself is to be changed, or named otherwise. A remedy that is an option of the
-//! caller has another name in a program than in Python, so a message names none: it says what the limit was, and whoever shows the
-//! message chooses the advice by its [`Reason`].
+//! A message says what to do only where the file itself must be changed, or named otherwise. The
+//! options of callers have other names in a program than in Python. So a message states the limit
+//! but names no option; whoever shows it chooses the advice by its [`Reason`].
 //!
-//! A reader knows *where* and *why* but not the name of its file; it returns a `Fault`, and the
-//! body, which opened the file, makes an [`Error`] of it. Vertices, faces and frames are numbered
-//! from zero, as in pliant's results; an index quoted from a file is quoted as the file writes it.
+//! A reader does not know the name of its file: it returns a `Fault`, of which the body makes an
+//! [`Error`]. Vertices, faces and frames are numbered from 0, as in pliant's results; an index
+//! quoted from a file is written as in the file.
 
 use std::fmt;
 use std::io;
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use crate::shown::{shown, shown_within};
 use crate::size::Size;
 
-/// Why a body could not be read. Its message is one line, whatever the file or its name holds.
+/// Why a body could not be read or written. Its message is one line, whatever names it quotes.
 #[derive(Debug)]
 pub struct Error {
     file: PathBuf,
@@ -23,7 +23,7 @@ pub struct Error {
     reason: Reason,
 }
 
-/// Where in the file.
+/// The place in a file to which an error refers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -43,7 +43,7 @@ pub enum Place {
     Part(&'static str, usize),
 }
 
-/// What is wrong there.
+/// The fault that an error reports.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 #[allow(missing_docs)] // the messages say it, and nothing is gained by saying it twice
@@ -76,7 +76,10 @@ pub enum Reason {
     Checksum { array: &'static str },
     #[error("face {face} has {corners} corners; a face needs at least 3")]
     FewCorners { face: u64, corners: usize },
-    #[error("face {face} has {corners} corners, of which only {different} are different")]
+    #[error(
+        "face {face} visits {different} vertices {corners} times in all, \
+         which no face of a surface does"
+    )]
     RepeatedCorners {
         face: u64,
         corners: usize,
@@ -92,7 +95,8 @@ pub enum Reason {
         last: i64,
     },
     #[error(
-        "{axis} of vertex {vertex} is {value:e}; coordinates must be finite and at most 3.4028235e38 in magnitude"
+        "{axis} of vertex {vertex} is {value:e}; coordinates must be finite and \
+         at most 3.4028235e38 in magnitude"
     )]
     Coordinate { vertex: u64, axis: char, value: f64 },
     #[error("holds no vertices")]
@@ -101,14 +105,16 @@ pub enum Reason {
     NoFaces,
     #[error("holds no frames")]
     NoFrames,
-    #[error("holds more than 4294967295 {what}, more than can be numbered")]
+    #[error("holds more than 4294967295 {what}, the most that are supported")]
     TooMany { what: &'static str },
     #[error(
         "a frame needs at least {} of memory, {} are allowed", Size(*needed), Size(*limit)
     )]
     TooLarge { needed: u64, limit: u64 },
     #[error(
-        "a frame needs at least {} of memory while its seams are found, {} are allowed", Size(*needed), Size(*limit)
+        "a frame needs at least {} of memory while its seams are found, {} are allowed",
+        Size(*needed),
+        Size(*limit)
     )]
     SeamsTooLarge { needed: u64, limit: u64 },
     #[error("holds {count} bodies: {names}; name one: '{}'", shown(example))]
@@ -117,9 +123,9 @@ pub enum Reason {
         names: String,
         example: String,
     },
-    #[error("there is no body \"{}\"; there is: {names}", shown(name))]
+    #[error("has no body \"{}\"; it has: {names}", shown(name))]
     NoBody { name: String, names: String },
-    #[error("there is no clip \"{}\"; there is: {names}", shown(name))]
+    #[error("has no clip \"{}\"; it has: {names}", shown(name))]
     NoClip { name: String, names: String },
     #[error("{fps} frames a second cannot be evaluated; a rate must be finite and above 0")]
     BadRate { fps: f64 },
@@ -127,18 +133,18 @@ pub enum Reason {
     ClipTooLong { seconds: f64, most: u32, fps: f64 },
     #[error("has {frames} frames; the mesh beside positions must have one")]
     MeshMoves { frames: usize },
-    #[error("is there already")]
+    #[error("exists already")]
     Exists,
-    #[error("holds one frame, there are {frames}")]
+    #[error("this format holds one frame a file, but {frames} are to be written")]
     HoldsOneFrame { frames: usize },
     #[error("cannot be written: {0}")]
     Write(io::Error),
-    #[error("a polygon of more than {most} corners")]
+    #[error("a polygon has more than {most} corners, the most that are read")]
     ManyCorners { most: usize },
-    #[error("does not fit in memory")]
+    #[error("the system has no memory left for it")]
     OutOfMemory,
     #[error(
-        "face {face} is not that of {}; the frames of a body need the same faces",
+        "face {face} has other corners than in {}; the frames of a body need the same faces",
         shown(than)
     )]
     FacesDiffer { face: u64, than: PathBuf },
@@ -161,31 +167,32 @@ pub enum Reason {
         than: PathBuf,
     },
     #[error(
-        "holds 64-bit coordinates, but the body began with 32-bit ones in {}; convert the frames to one type",
+        "holds 64-bit coordinates, but the body began with 32-bit ones in {}; \
+         convert the frames to one type",
         shown(than)
     )]
     Precision { than: PathBuf },
     #[error("too many boundary edges are too close to each other to be joined at this tolerance")]
     SeamsTooDense,
-    #[error("edges cannot be joined at a tolerance of {tolerance}; it is 0, or from 1e-15 to 0.1")]
+    #[error("a tolerance of {tolerance} is not possible; it must be 0, or from 1e-15 to 0.1")]
     BadTolerance { tolerance: f64 },
     #[error("changed while it was being read; wait until it is written, or copy it first")]
     Changed,
-    #[error("an earlier frame could not be read, so the frames after it are not handed out")]
+    #[error("an earlier frame could not be read, so no later one is read")]
     AfterError,
 }
 
-/// What a reader says of a file, in which it may quote it.
+/// A reader's sentence in at most 1000 characters; it may quote the file.
 fn sentence(text: &str) -> String {
     shown_within(text, 1000)
 }
 
-/// A name where there may be many: in a list, or before a number.
+/// A name in at most 40 characters, for lists and for places.
 pub(crate) fn listed_name(name: &str) -> String {
     shown_within(name, 40)
 }
 
-/// Names for a message: the first ten, each shortened.
+/// A list of names for a message: the first ten, each shortened, and the number of the others.
 pub(crate) fn listed<N: AsRef<str>>(names: impl Iterator<Item = N> + Clone) -> String {
     let count = names.clone().count();
     if count == 0 {
@@ -199,12 +206,14 @@ pub(crate) fn listed<N: AsRef<str>>(names: impl Iterator<Item = N> + Clone) -> S
     list
 }
 
-/// Which numbers there are; a file whose vertices are not counted yet allows all that a vertex can have.
+/// The range of valid vertex numbers, as the end of a message.
+///
+/// Where the number of vertices is not known yet, `last` is the largest that a vertex can have.
 fn numbering(first: i64, last: i64) -> String {
     if last < first {
         "there are no vertices yet".to_owned()
     } else if last >= i64::from(u32::MAX) - 1 {
-        "no vertex can have that number".to_owned()
+        format!("vertices are numbered from {first} to {last} at most")
     } else {
         format!("the vertices are numbered {first} to {last} here")
     }
@@ -224,22 +233,22 @@ impl Error {
         }
     }
 
-    /// The file, or the argument where no file was found for it.
+    /// Path of the file, or the argument where no file was found for it.
     pub fn file(&self) -> &Path {
         &self.file
     }
 
-    /// Where in the file.
+    /// Place in the file.
     pub fn place(&self) -> &Place {
         &self.place
     }
 
-    /// What is wrong there.
+    /// The fault.
     pub fn reason(&self) -> &Reason {
         &self.reason
     }
 
-    /// The same, for whoever says in its own words where it is.
+    /// Takes the fault out, for callers that say in their own words where it is.
     pub fn into_reason(self) -> Reason {
         self.reason
     }
@@ -272,17 +281,17 @@ impl fmt::Display for Place {
     }
 }
 
-/// An error without the name of the file: what a reader returns.
+/// An error without the name of its file: the error type of readers.
 #[derive(Debug)]
 pub(crate) struct Fault {
-    /// Another file than the one being read: one that it needs.
+    /// The file, where it is not the one being read but one that this one needs.
     pub(crate) file: Option<PathBuf>,
     pub(crate) place: Place,
     pub(crate) reason: Reason,
 }
 
 impl Fault {
-    /// Names the place, where none is named yet.
+    /// Sets the place, unless one is set.
     pub(crate) fn or_at(mut self, place: Place) -> Self {
         if self.place == Place::File {
             self.place = place;
@@ -290,7 +299,7 @@ impl Fault {
         self
     }
 
-    /// Names the file, where it is another than the one being read.
+    /// Sets the file, unless one is set: for a file other than the one being read.
     pub(crate) fn or_in(mut self, file: &Path) -> Self {
         self.file.get_or_insert_with(|| file.to_owned());
         self
@@ -298,7 +307,7 @@ impl Fault {
 }
 
 impl Reason {
-    /// Whether the faces, or how many vertices there are, are others than in the first frame, and nothing else is wrong.
+    /// Whether the only fault is that faces or number of vertices differ from the first frame.
     pub(crate) fn is_of_another_mesh(&self) -> bool {
         matches!(
             self,
@@ -336,7 +345,10 @@ mod tests {
         assert_eq!(message.lines().count(), 1);
         assert_eq!(
             message,
-            r"bad\r\nname.ply, line 7: face 3 is not that of first\nframe.ply; the frames of a body need the same faces"
+            concat!(
+                r"bad\r\nname.ply, line 7: face 3 has other corners than in first\nframe.ply; ",
+                "the frames of a body need the same faces"
+            )
         );
     }
 

@@ -1,6 +1,6 @@
-//! Bodies that a program evaluates by itself, frame by frame, from a file that nothing here reads.
+//! Bodies whose frames the calling program evaluates, from a file that is not read here.
 //!
-//! What comes is checked as that of a reader is: it is no more trusted.
+//! The frames are checked like a reader's: they are trusted no more.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,27 +13,29 @@ use crate::options::OpenOptions;
 use crate::positions::Precision;
 use crate::source::FrameSource;
 
-/// The frames of a body, evaluated when they are asked for.
+/// Frames of a body, evaluated by the calling program when they are asked for.
 pub trait Evaluated: Send {
-    /// How many there are.
+    /// Number of frames.
     fn frame_count(&self) -> usize;
 
-    /// How many corners each polygon has, and the corners of all of them, one polygon after the other.
+    /// Number of corners of each polygon, and the corners of all polygons in a row.
     fn polygons(&self) -> (&[u32], &[u32]);
 
-    /// Puts the positions of a frame into an empty list.
+    /// Appends the positions of a frame to `list`, which is empty.
     ///
     /// # Errors
     ///
-    /// Why there are none, in one line.
+    /// One line that says why the frame has no positions.
     fn positions(&mut self, frame: usize, list: &mut Vec<[f64; 3]>) -> Result<(), String>;
 }
 
-/// A body of `file` that is called `name`, and `argument` with all others that this names; its first frame is evaluated.
+/// Opens a body of `file` whose frames the calling program evaluates; evaluates the first.
+///
+/// `name` is the name of the body; `argument` is shared by all bodies that it names.
 ///
 /// # Errors
 ///
-/// There is no such file, or the first frame is none: as [`open`](crate::open).
+/// The file does not exist, or the first frame is invalid: as [`open`](crate::open).
 pub fn evaluated(
     file: &Path,
     argument: &str,
@@ -55,10 +57,11 @@ pub fn evaluated(
     Body::begin_evaluated(named, found, Box::new(source), options)
 }
 
+/// Source of evaluated frames.
 struct Source {
     frames: Box<dyn Evaluated>,
     next: usize,
-    /// Reused.
+    /// Reused buffer of positions.
     list: Vec<[f64; 3]>,
 }
 
@@ -88,19 +91,23 @@ impl FrameSource for Source {
             taken.map_err(|reason| reason.at(place.clone()))?;
         }
         if self.next == 0 {
+            let differ = || {
+                let needed: u64 = counts.iter().map(|&count| u64::from(count)).sum();
+                let has = corners.len();
+                let why = format!("lists {has} corners, but its polygons need {needed}");
+                Fault::from(Reason::Malformed(why))
+            };
             let mut left = corners;
             for &count in counts {
                 let Some((polygon, others)) = left.split_at_checked(count as usize) else {
-                    let why = "has fewer corners than its polygons need".to_owned();
-                    return Err(Reason::Malformed(why).into());
+                    return Err(differ());
                 };
                 left = others;
                 let taken = frame.face(polygon, || place.clone());
                 taken.map_err(|reason| reason.at(place.clone()))?;
             }
             if !left.is_empty() {
-                let why = "has more corners than its polygons need".to_owned();
-                return Err(Reason::Malformed(why).into());
+                return Err(differ());
             }
         } else {
             frame.same_faces();

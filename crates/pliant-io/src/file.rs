@@ -1,11 +1,11 @@
-//! A file that must stay as it was found.
+//! Detection of files that change while they are read.
 //!
-//! Reading takes time: a program may still be writing, a copy may not be done, a frame may be replaced before its turn comes.
-//! So a file is remembered as it was found ([`Found`]), and held to it when it is opened and after every frame: same file, same
-//! length, same time of change. What this cannot see is a change in place, of equal length, within one tick of the file system's
-//! clock; NPZ files have checksums besides.
-//!
-//! Opening never waits: where a pipe has taken the place of a file since, it is refused like any other change.
+//! A program may still be writing a file, a copy may not be done, or a frame may be replaced before
+//! its turn. So a file's identity, length and modification time are recorded when it is found
+//! ([`Found`]). They are compared when it is opened and after every frame. A change in place, of
+//! equal length and within one tick of the file system's clock, goes unseen; NPZ files also have
+//! checksums. Opening never waits: a pipe that has replaced a file is refused like any other
+//! change.
 
 use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek, SeekFrom};
@@ -15,7 +15,7 @@ use std::time::SystemTime;
 
 use crate::error::Reason;
 
-/// How a file begins that Git LFS left in the place of another.
+/// First bytes of a Git LFS pointer, which stands in for a file that was not fetched.
 const LFS_POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
 
 /// A regular file as it was found; not open.
@@ -25,17 +25,17 @@ pub(crate) struct Found {
     state: State,
 }
 
-/// An open file, as it was found until [`unchanged`](Self::unchanged) says otherwise.
+/// An open file, unchanged as far as the last [`unchanged`](Self::unchanged) could tell.
 #[derive(Debug)]
 pub(crate) struct Opened {
     file: File,
     state: State,
 }
 
-/// What tells a file from what it was.
+/// Properties of a file that reveal a change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct State {
-    /// Device and number; zero where the system has none.
+    /// Device and inode number; zero on systems without them.
     identity: [u64; 2],
     length: u64,
     changed: Option<SystemTime>,
@@ -59,7 +59,7 @@ impl State {
 }
 
 impl Found {
-    /// `metadata` is that of `path`, and of a regular file.
+    /// Records the state of a regular file; `metadata` is its metadata.
     pub(crate) fn new(path: PathBuf, metadata: &Metadata) -> Self {
         let state = State::of(metadata);
         let path = path.into();
@@ -70,12 +70,12 @@ impl Found {
         &self.path
     }
 
-    /// For the bodies of a file, of which there may be very many.
+    /// Shared path: the many bodies of one file need only one copy.
     pub(crate) fn shared_path(&self) -> Arc<Path> {
         self.path.clone()
     }
 
-    /// A file that was not named but is needed: found now.
+    /// Finds a file that was not named on its own but is needed by another.
     pub(crate) fn find(path: PathBuf) -> Result<Self, Reason> {
         let metadata = match path.metadata() {
             Err(absent) if absent.kind() == io::ErrorKind::NotFound => {
@@ -92,7 +92,7 @@ impl Found {
         Ok(Self::new(path, &metadata))
     }
 
-    /// Opens the file, if it is still the one found.
+    /// Opens the file if it has not changed since it was found.
     pub(crate) fn open(&self) -> Result<Opened, Reason> {
         let mut options = File::options();
         options.read(true);
@@ -111,12 +111,12 @@ impl Found {
 }
 
 impl Opened {
-    /// In bytes.
+    /// Length of the file in bytes.
     pub(crate) fn length(&self) -> u64 {
         self.state.length
     }
 
-    /// Refuses what stands for a file whose content was not fetched.
+    /// Refuses a Git LFS pointer.
     fn check_content(&mut self) -> Result<(), Reason> {
         let mut begin = Vec::with_capacity(LFS_POINTER.len());
         let begins = self.by_ref().take(LFS_POINTER.len() as u64);
@@ -128,7 +128,7 @@ impl Opened {
         Ok(())
     }
 
-    /// Refuses a file that is not as it was found.
+    /// Returns an error if the file has changed since it was found.
     pub(crate) fn unchanged(&self) -> Result<(), Reason> {
         if State::of(&self.file.metadata()?) == self.state {
             Ok(())

@@ -1,9 +1,9 @@
-//! Which ending is which reader: the one place to add a format.
+//! File formats: maps file endings to readers, and is the one place to add a format.
 //!
-//! A format is one file, or a folder. Where a file of it is one frame, it has a function `read(input,
-//! frame)` like `obj::read`; where a file is a sequence, a type that implements [`FrameSource`]
-//! like `npz::Npz`. Either way it fills a [`Frame`], which checks what it is given and hands out
-//! the proof that the frame is complete.
+//! A format is one file of code, or a folder. Where a file of the format holds one frame, the
+//! format has a function `read(input, frame)` like `obj::read`. Where it holds a sequence, a type
+//! implements [`FrameSource`] like `npz::Npz`. Both fill a [`Frame`], which checks the data and
+//! returns the proof that the frame is complete.
 
 use std::io::BufReader;
 use std::path::Path;
@@ -16,10 +16,19 @@ use crate::shown::shown;
 use crate::source::FrameSource;
 use crate::{gltf, npz, obj, ply, stl};
 
-/// What to do about a file that cannot be read, as the end of a message.
-const READABLE: &str = "what can: a frame a file: .obj, .ply, .stl; a sequence a file: .npz, .glb, .gltf, .vrm; positions beside a mesh: 'mesh.obj+positions.pc2', .mdd, .npy";
-const EXPORT: &str = "export glTF (.glb) with its animation; or a mesh and its point cache (.obj and .pc2 or .mdd); or a file a frame";
-const USD: &str = "the Python package reads it (pip install 'pliant[usd]'); or export glTF (.glb) with its animation; or a mesh and its point cache (.obj and .pc2 or .mdd); or a file a frame";
+/// Advice for a file of an unknown format, as the end of a message.
+const READABLE: &str = "these can: one frame per file (.obj, .ply, .stl); \
+    a sequence per file (.npz, .glb, .gltf, .vrm); \
+    positions beside a mesh ('mesh.obj+positions.pc2', .mdd, .npy)";
+/// Advice for a format of another program, as the end of a message.
+const EXPORT: &str = "export glTF (.glb) with its animation; \
+    or a mesh and its point cache (.obj and .pc2 or .mdd); or one file per frame";
+/// Advice for a USD file, as the end of a message.
+const USD: &str = "the Python package reads it (pip install 'pliant[usd]'); \
+    or export glTF (.glb) with its animation; \
+    or a mesh and its point cache (.obj and .pc2 or .mdd); or one file per frame";
+
+/// The format of a file.
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Format {
@@ -31,12 +40,12 @@ pub(crate) enum Format {
     Pc2,
     Mdd,
     Npy,
-    /// What a program evaluates by itself; no ending is of it.
+    /// Frames that the calling program evaluates; no file ending maps to it.
     Evaluated,
 }
 
 impl Format {
-    /// By the ending of the name, in either case.
+    /// Returns the format of a file by its ending, in either case of letters.
     pub(crate) fn of(path: &Path) -> Result<Self, Reason> {
         let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
         match ending.to_str() {
@@ -72,7 +81,7 @@ impl Format {
         matches!(self, Self::Pc2 | Self::Mdd | Self::Npy)
     }
 
-    /// How many frames `file` has, with as little reading as the format allows.
+    /// Number of frames of `file`, found with as little reading as the format allows.
     pub(crate) fn frame_count(self, file: &Found, options: &OpenOptions) -> Result<usize, Fault> {
         match self {
             Self::Obj | Self::Ply | Self::Stl => Ok(1),
@@ -82,6 +91,7 @@ impl Format {
         }
     }
 
+    /// Opens a file of this format; its frames are then read in order.
     pub(crate) fn open(
         self,
         file: &Found,
@@ -101,13 +111,13 @@ impl Format {
             Self::Npz => Ok(Box::new(npz::Npz::open(file, options.max_memory)?)),
             Self::Gltf => Ok(Box::new(gltf::open_one(file, options)?)),
             Self::Pc2 | Self::Mdd | Self::Npy => Err(without_faces(file.path()).into()),
-            // Not called: it begins again without being opened.
+            // Never called: evaluated frames rewind without being opened again.
             Self::Evaluated => Err(Reason::UnknownFormat { instead: READABLE }.into()),
         }
     }
 }
 
-/// Why positions alone cannot be read.
+/// The error for a file of positions that is named without a mesh.
 fn without_faces(path: &Path) -> Reason {
     let name = shown(path.file_name().unwrap_or_default());
     Reason::Unsupported(format!(
@@ -115,7 +125,7 @@ fn without_faces(path: &Path) -> Reason {
     ))
 }
 
-/// A file that is one frame.
+/// The source of a file that holds one frame.
 struct OneFrame {
     input: BufReader<Opened>,
     read: fn(&mut BufReader<Opened>, &mut Frame) -> Result<Complete, Fault>,
@@ -128,13 +138,13 @@ impl FrameSource for OneFrame {
 
     fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
         let read = (self.read)(&mut self.input, frame);
-        // First: what looks wrong may be half of a change.
+        // Before the reader's own error: a change while reading is the likelier cause of it.
         self.input.get_ref().unchanged()?;
         read
     }
 
     fn skip(&mut self, _: usize) -> Result<(), Fault> {
-        Ok(()) // none: one is left
+        Ok(()) // never needed: at least one frame must be left after skipping
     }
 }
 
@@ -157,13 +167,14 @@ mod tests {
     #[test]
     fn a_file_that_changes_under_its_reader_is_refused() {
         const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-        const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
-            property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n\
+        const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 3\n\
+            property float x\nproperty float y\nproperty float z\n\
+            element face 1\nproperty list uchar int vertex_index\nend_header\n\
             0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
         let folder = tempfile::tempdir().unwrap();
         for (name, text) in [("a.obj", OBJ), ("a.ply", PLY)] {
             let path = folder.path().join(name);
-            // Whole triangles more, half of it, nothing at all, and what it was.
+            // One triangle more, half of the file, nothing at all, and no change.
             for (change, refused) in [
                 (text.to_owned() + "\n3 0 1 2\n", true),
                 (text[..text.len() / 2].to_owned(), true),

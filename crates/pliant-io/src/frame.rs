@@ -1,7 +1,7 @@
-//! What a reader fills: the vertices and polygons of one frame, checked as they come.
+//! Frame buffer that readers fill: vertices and polygons, checked as they arrive.
 //!
-//! The first frame of a body fixes its precision, its faces and its number of vertices; the later
-//! ones are held to them. Readers need not know which they read.
+//! The first frame of a body fixes its precision, its faces and its number of vertices. Later
+//! frames are compared with them. Readers need not know which they read.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,45 +14,46 @@ use crate::polygons::Polygons;
 use crate::positions::{Positions, Precision, Vertices};
 use crate::weld::{self, Seams};
 
-/// One frame, reused for all frames of a body.
+/// Buffer for one frame, reused for all frames of a mesh.
 #[derive(Debug)]
 pub(crate) struct Frame {
     vertices: Vertices,
     polygons: Polygons,
     account: Account,
-    /// Of it, what the source of the frames holds.
+    /// Bytes of the account that the source of the frames holds.
     source: u64,
-    /// Whether seams will be looked for.
+    /// Whether seams will be searched for.
     weld: bool,
     /// The file that fixed the precision, once one has.
     precision_of: Option<Arc<Path>>,
     first: Option<First>,
-    /// What readers that are functions have to say of the first frame.
+    /// Remarks about the first frame, from readers that are functions and keep no state.
     notes: Vec<Note>,
 }
 
-/// How much a file says that it holds; 0 where it does not say.
+/// Numbers of vertices and faces that a file announces; 0 where it announces none.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Announced {
     pub(crate) vertices: u64,
     pub(crate) faces: u64,
 }
 
-/// What later frames are held to.
+/// Properties of the first frame with which later frames are compared.
 #[derive(Debug)]
 struct First {
     file: Arc<Path>,
     vertices: usize,
 }
 
-/// The proof that a reader came to the end of its frame and that the frame is whole; made by
-/// [`Frame::complete`] alone.
+/// Proof that a reader read its frame to the end and that the frame is complete.
+///
+/// Only [`Frame::complete`] makes it.
 #[derive(Debug)]
 #[must_use]
 pub(crate) struct Complete(());
 
 impl Frame {
-    /// `limit`: the bytes that all may take, with what finding seams takes if they are to be welded.
+    /// An empty frame. `limit`: the bytes that all data may take, including the search for seams.
     pub(crate) fn new(limit: u64, weld: bool) -> Self {
         Self {
             vertices: Vertices::new(),
@@ -66,7 +67,9 @@ impl Frame {
         }
     }
 
-    /// A frame for another mesh, of the same body and so of the same precision, held beside this one; the positions in this one are gone.
+    /// Returns a frame for another mesh of the same body, in the same precision.
+    ///
+    /// This frame stays in memory but loses its positions.
     pub(crate) fn for_another_mesh(&mut self) -> Self {
         let precision = self.precision();
         self.vertices.clear(0, &mut self.account);
@@ -77,28 +80,28 @@ impl Frame {
         another
     }
 
-    /// Enters what is held already, for other bodies that are counted with this one.
+    /// Counts `held` bytes that other bodies under the same limit hold.
     pub(crate) fn beside(mut self, held: u64) -> Self {
         self.account.enter_allowed(held);
         self
     }
 
-    /// Enters what is held for this frame's mesh outside of it.
+    /// Counts `more` bytes that belong to this frame's mesh but lie outside it.
     pub(crate) fn enter(&mut self, more: u64) -> Result<(), Reason> {
         Ok(self.account.enter(more)?)
     }
 
-    /// What is held, and the limit.
+    /// Memory account: bytes held, and the limit.
     pub(crate) fn account(&self) -> &Account {
         &self.account
     }
 
-    /// What is held in all.
+    /// Bytes held in all.
     pub(crate) fn held(&self) -> u64 {
         self.account.held()
     }
 
-    /// Enters what the source that now fills the frame holds, in place of what the last one held.
+    /// Counts the bytes held by the source that now fills the frame, in place of the last source's.
     pub(crate) fn fill_from(&mut self, held: u64) -> Result<(), Reason> {
         self.account.take_off(self.source);
         self.source = 0;
@@ -107,7 +110,10 @@ impl Frame {
         Ok(())
     }
 
-    /// Begins a frame whose file has coordinates of `precision`; refuses one that announces more than may be held.
+    /// Begins a frame with coordinates of `precision`.
+    ///
+    /// An error if the frame announces more than the limit allows, or a higher precision than the
+    /// first.
     pub(crate) fn begin(
         &mut self,
         precision: Precision,
@@ -137,8 +143,9 @@ impl Frame {
         self.check_seams(announced.faces, announced.vertices, frame)
     }
 
-    /// Refuses a first frame whose seams cannot be found with what may be held; `more` is what will be held by then and is not
-    /// now.
+    /// Refuses a first frame whose seams cannot be found within the limit.
+    ///
+    /// `more`: bytes that will be held by then and are not held yet.
     fn check_seams(&self, triangles: u64, vertices: u64, more: u64) -> Result<(), Reason> {
         let finding = weld::memory(triangles, vertices);
         let checked = self.account.check(more.saturating_add(finding));
@@ -150,7 +157,7 @@ impl Frame {
         }
     }
 
-    /// Keeps the faces of the first frame, which came from a mesh, and begins its vertices anew: those of a cache.
+    /// Drops the vertices of the first frame but keeps its faces: a cache supplies the positions.
     pub(crate) fn replace_vertices(
         &mut self,
         precision: Precision,
@@ -164,13 +171,14 @@ impl Frame {
         Ok(())
     }
 
-    /// Takes the next vertex.
+    /// Appends the next vertex.
     pub(crate) fn vertex(&mut self, position: [f64; 3]) -> Result<(), Reason> {
         self.vertices.push(position, &mut self.account)
     }
 
-    /// Takes the next polygon, corners counted from zero, their range checked when the frame is
-    /// complete; `place` is where it is written.
+    /// Appends the next polygon, its corners counted from 0, written at `place`.
+    ///
+    /// The range of the corners is checked once the frame is complete.
     pub(crate) fn face(
         &mut self,
         corners: &[u32],
@@ -187,12 +195,12 @@ impl Frame {
         }
     }
 
-    /// Says that the polygons of this frame are those already read.
+    /// Declares that this frame has the polygons already recorded.
     pub(crate) fn same_faces(&mut self) {
         self.polygons.repeat();
     }
 
-    /// Ends a frame. `first_index` is the file's number of its first vertex: 0, in OBJ 1.
+    /// Ends a frame. `first_index` is the number of the first vertex in the file: 0, or 1 in OBJ.
     pub(crate) fn complete(&mut self, first_index: i64) -> Result<Complete, Fault> {
         let vertices = self.vertices.len();
         let (faces, expected) = self.polygons.counts();
@@ -235,14 +243,14 @@ impl Frame {
         Ok(Complete(()))
     }
 
-    /// Takes what is to be said of the frame, if it is the first.
+    /// Adds a note, if this is the first frame.
     pub(crate) fn note(&mut self, note: Note) {
         if self.first.is_none() {
             self.notes.push(note);
         }
     }
 
-    /// Gives the polygons of the first frame, which is complete, their triangles; returns what is to be said of them.
+    /// Triangulates the polygons of the first frame, which is complete; returns notes about them.
     pub(crate) fn shape_polygons(&mut self) -> Result<Vec<Note>, Reason> {
         let mut notes = std::mem::take(&mut self.notes);
         let positions = self.vertices.positions();
@@ -250,7 +258,7 @@ impl Frame {
         Ok(notes)
     }
 
-    /// Holds all later frames to this one, which came from `file`.
+    /// Makes this the first frame, with which all later ones are compared; it came from `file`.
     pub(crate) fn becomes_first(&mut self, file: Arc<Path>) {
         let vertices = self.vertices.len();
         self.precision_of.get_or_insert_with(|| file.clone());
@@ -258,8 +266,9 @@ impl Frame {
         self.polygons.compare_from_now_on();
     }
 
-    /// The seams of the first frame, if it is to be welded. `alike`: see
-    /// [`FrameSource::alike`](crate::source::FrameSource::alike).
+    /// Finds the seams of the first frame, if it is to be welded.
+    ///
+    /// `alike`: see [`FrameSource::alike`](crate::source::FrameSource::alike).
     pub(crate) fn seams(
         &mut self,
         tolerance: f64,
@@ -274,12 +283,12 @@ impl Frame {
             seams.are_a_rule();
         }
         self.join_near(&mut seams, tolerance)?;
-        // Less than finding took, which was allowed.
+        // Fewer bytes than the search took, which were allowed.
         self.account.enter_allowed(seams.bytes());
         Ok(seams)
     }
 
-    /// The seams of a later frame, where they are not those of the first.
+    /// Finds the seams of a later frame; None where they equal the first frame's.
     pub(crate) fn other_seams(
         &mut self,
         first: &Seams,
@@ -308,12 +317,12 @@ impl Frame {
         Ok(Some(seams))
     }
 
-    /// Takes off what is not held any more.
+    /// Subtracts bytes that are no longer held.
     pub(crate) fn take_off(&mut self, less: u64) {
         self.account.take_off(less);
     }
 
-    /// The vertices that coincide, welded.
+    /// Welds the vertices that coincide.
     fn welded(&self, alike: Option<&[u64]>) -> Seams {
         let (triangles, positions) = (self.polygons.triangles(), self.vertices.positions());
         match alike {
@@ -324,7 +333,7 @@ impl Frame {
         }
     }
 
-    /// Joins what is near besides, where that is asked for.
+    /// Joins boundary edges that nearly coincide, if `tolerance` is not 0.
     fn join_near(&mut self, seams: &mut Seams, tolerance: f64) -> Result<(), Reason> {
         if tolerance == 0.0 {
             return Ok(());
@@ -339,7 +348,7 @@ impl Frame {
         Ok(())
     }
 
-    /// The near seams of the frame read last, which has these others.
+    /// Finds near seams of the frame read last, whose exact seams are `seams`.
     pub(crate) fn near_seams(
         &mut self,
         seams: &Seams,
@@ -353,12 +362,12 @@ impl Frame {
         NearSeams::among(open, triangles, positions, tolerance, &mut self.account)
     }
 
-    /// The number of the next vertex: how many there are so far.
+    /// Number of vertices so far: the number of the next one.
     pub(crate) fn vertex_count(&self) -> usize {
         self.vertices.len()
     }
 
-    /// The number of the next face of this frame.
+    /// Number of the next face of this frame.
     pub(crate) fn next_face(&self) -> u64 {
         self.polygons.next_face()
     }

@@ -1,4 +1,4 @@
-//! Groups of an OBJ file: which of its triangles `o` and `g` give a name, and which name. And the solids of an STL file of text.
+//! Groups of triangles by name: `o` and `g` of an OBJ file, and the solids of an STL text.
 //!
 //! ```text
 //! f ...           default            nothing was named yet
@@ -9,14 +9,17 @@
 //! o               default            no object
 //! ```
 //!
-//! So two objects whose groups are called alike stay two, and an exporter that writes `o`, or `g`, or both alike gives the names that
-//! it wrote. What has the same name is one group, however often it comes back. A name stands for its group and for what is below it:
-//! `shirt` for `shirt/collar` too. A name that is not UTF-8 is read as Latin-1, so that different names stay different.
+//! - Groups of equal names in two objects stay two. An exporter that writes `o`, or `g`, or both
+//!   alike gives the names that it wrote.
+//! - Equal full names are one group, however often they come back.
+//! - A name stands for its group and all groups below it: `shirt` also for `shirt/collar`.
+//! - A name that is not UTF-8 is read as Latin-1, so that different names stay different.
+//! - Every solid is a group of its own. Without a name, or with the name of an earlier one, it gets
+//!   its number: `solid 2`, `lid (solid 3)`.
 //!
-//! Every solid is a group of its own. One without a name, or with that of an earlier one, has its number in it: `solid 2`, `lid (solid 3)`.
-//!
-//! Groups are found by reading the file once more, when they are asked for: whoever does not ask pays nothing. A name is kept when
-//! the first face has it, so groups without faces are none; what is kept is counted before it is.
+//! Groups are found by reading the file a second time, on request, so that other callers pay
+//! nothing. A name is kept when its first face arrives: groups without faces do not exist. Memory
+//! is counted before it is taken.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -26,24 +29,26 @@ use crate::error::{Error, Reason, listed};
 use crate::memory::Account;
 use crate::shown::shown;
 
-/// What faces are called that no `o` and no `g` names.
+/// Name of the group of faces that no `o` and no `g` names.
 const DEFAULT: &str = "default";
 
-/// What a map takes for an entry, roughly, beside the bytes of a name.
+/// Rough size in bytes of a map entry, beside the bytes of its name.
 const ENTRY: u64 = 96;
 
-/// The groups of an OBJ file, or of an STL file.
+/// Groups of an OBJ or STL file: names, and the group of each triangle.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Groups {
     file: Arc<Path>,
-    /// Their names, all different, in the order of their lowest triangles; none where the file names nothing.
+    /// Names of the groups, all different, in the order of their lowest triangles.
+    ///
+    /// Empty where the file names no group.
     pub names: Vec<String>,
-    /// For each triangle the number of its group; empty where the file names nothing.
+    /// For each triangle the number of its group; empty where the file names none.
     pub of_triangles: Vec<u32>,
 }
 
 impl Groups {
-    /// Of a file that names nothing.
+    /// The groups of a file that names none.
     pub(crate) fn none(file: Arc<Path>) -> Self {
         Self {
             file,
@@ -52,7 +57,8 @@ impl Groups {
         }
     }
 
-    /// Whether a group of this name is meant by another: it is the same, or that of its object.
+    /// Whether the name `by` also stands for the group `name`: equal, or an object that it is
+    /// below.
     ///
     /// ```
     /// use pliant_io::Groups;
@@ -64,11 +70,12 @@ impl Groups {
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
     }
 
-    /// The numbers of the groups that a name stands for, ascending.
+    /// Numbers of the groups that `name` stands for, ascending. Takes O(number of groups).
     ///
     /// # Errors
     ///
-    /// [`Reason::NoBody`], which lists the names there are, or [`Reason::Unsupported`] where the file names nothing.
+    /// [`Reason::NoBody`], which lists the names there are, or [`Reason::Unsupported`] where the
+    /// file names none.
     pub fn called(&self, name: &str) -> Result<Vec<u32>, Error> {
         let numbered = self.names.iter().zip(0..);
         let meant = numbered.filter(|(known, _)| Self::is_meant(known, name));
@@ -88,7 +95,7 @@ impl Groups {
     }
 }
 
-/// Why a part of a file that is one body cannot be named.
+/// The error for a named part of a file that is one body.
 pub(crate) fn holds_one_body(name: &str) -> Reason {
     let name = shown(name);
     Reason::Unsupported(format!(
@@ -96,45 +103,46 @@ pub(crate) fn holds_one_body(name: &str) -> Reason {
     ))
 }
 
-/// Takes names and faces as they come in the file.
+/// State of the second reading: names and faces in the order of the file.
 pub(crate) struct Naming {
     account: Account,
     object: Standing,
     group: String,
-    /// The number of what the object and the group together are called; none until a face asks.
+    /// Number of the current full name, object and group; None until a face needs it.
     number: Option<u32>,
-    /// Numbers of objects, by their names.
+    /// Numbers of objects by name.
     objects: HashMap<Arc<str>, u32>,
-    /// Numbers of what faces were called, by the number of the object, as four characters, and the name of the group.
+    /// Numbers of full names. The key is the number of the object, as four characters, and the name
+    /// of the group.
     numbers: HashMap<Arc<str>, u32>,
-    /// The same, as they were numbered, with the names of the objects.
+    /// Full names by their number: the name of the object, and the key in `numbers`.
     called: Vec<(Arc<str>, Arc<str>)>,
-    /// The names of solids.
+    /// Names of solids.
     solids: HashSet<String>,
     are_named: bool,
-    /// Reused.
+    /// Reused buffer.
     key: String,
-    /// Where it changes: the number of a face, and what it and those behind it are called.
+    /// Runs of faces of one name: number of the first face, and number of the name.
     runs: Vec<(u32, u32)>,
     faces: u32,
 }
 
-/// The name of an object that stands until the next.
+/// The current object.
 #[derive(Default)]
 struct Standing {
     name: Arc<str>,
-    /// None until a face asks.
+    /// None until a face needs it.
     number: Option<u32>,
 }
 
-/// A number as characters: as many for each number.
+/// A number as four characters: a prefix of fixed length.
 fn characters(number: u32) -> impl Iterator<Item = char> {
     let digits = number.to_be_bytes().into_iter();
     digits.map(char::from)
 }
 
 impl Naming {
-    /// `account`: what is held already, and the limit.
+    /// `account`: bytes already held, and the limit.
     pub(crate) fn new(account: Account) -> Self {
         Self {
             account,
@@ -152,7 +160,7 @@ impl Naming {
         }
     }
 
-    /// Begins an object; without a name, ends one.
+    /// Begins an object; an empty name ends one.
     pub(crate) fn object(&mut self, name: String) {
         self.object = Standing {
             name: name.into(),
@@ -162,7 +170,7 @@ impl Naming {
         self.number = None;
     }
 
-    /// Begins a group of the object; without a name, ends one.
+    /// Begins a group of the object; an empty name ends one.
     pub(crate) fn group(&mut self, mut name: String) {
         if name == DEFAULT || *name == *self.object.name {
             name.clear();
@@ -171,7 +179,7 @@ impl Naming {
         self.number = None;
     }
 
-    /// Begins the solid of this number, a group that no earlier one is.
+    /// Begins a solid, with a name that no earlier one has.
     pub(crate) fn solid(&mut self, name: String, number: u32) -> Result<(), Reason> {
         let is_named = !name.is_empty();
         let mut own = if is_named {
@@ -189,7 +197,7 @@ impl Naming {
         Ok(())
     }
 
-    /// Takes a face.
+    /// Appends a face with the current name.
     pub(crate) fn face(&mut self) -> Result<(), Reason> {
         let number = match self.number {
             Some(number) => number,
@@ -204,7 +212,7 @@ impl Naming {
         Ok(())
     }
 
-    /// The number of what is named now.
+    /// Number of the current full name; a new one if the name is new.
     fn number(&mut self) -> Result<u32, Reason> {
         let object = match self.object.number {
             Some(number) => number,
@@ -227,7 +235,7 @@ impl Naming {
         Ok(number)
     }
 
-    /// The number of the object; the same name has the same.
+    /// Number of the current object; objects of one name share it.
     fn number_of_object(&mut self) -> Result<u32, Reason> {
         let Self {
             object, objects, ..
@@ -244,7 +252,9 @@ impl Naming {
         Ok(number)
     }
 
-    /// The groups of a body of so many triangles; `polygons`: see [`Body::faces`](crate::Body::faces).
+    /// Ends the reading: groups of a body of `triangles` triangles.
+    ///
+    /// `polygons`: see [`Body::faces`](crate::Body::faces).
     pub(crate) fn end(
         self,
         file: Arc<Path>,
@@ -274,7 +284,7 @@ impl Naming {
         for (object, key) in called {
             let behind = key.char_indices().nth(4).map_or(key.len(), |(at, _)| at);
             let group = &key[behind..];
-            // Before the name is made: that of one object may be that of very many groups.
+            // Before the name is made: one long object name may belong to very many groups.
             account.enter(2 * (object.len() + group.len()) as u64 + ENTRY)?;
             names.push(match (&*object, group) {
                 ("", "") => DEFAULT.to_owned(),
@@ -282,7 +292,7 @@ impl Naming {
                 (object, group) => format!("{object}/{group}"),
             });
         }
-        // Few are the same.
+        // Different keys may give equal full names, though few do.
         let mut known: HashMap<&str, u32> = HashMap::with_capacity(names.len());
         let (mut numbers, mut is_new) = (Vec::new(), Vec::new());
         for name in &names {
@@ -330,7 +340,7 @@ mod tests {
         Ok(naming.end(Path::new("a.obj").into(), None, faces)?)
     }
 
-    /// The name of each face.
+    /// The group name of each face.
     fn named(text: impl AsRef<[u8]>) -> Vec<String> {
         let Groups {
             names,
@@ -351,8 +361,9 @@ mod tests {
 
     #[test]
     fn a_group_has_the_name_of_its_object_and_its_own() {
-        let text = "f 1 2 3\no shirt\nf 1 2 3\ng collar\nf 1 2 3\ng\nf 1 2 3\ng left cuff\nf 1 2 3\n\
-            o trousers\nf 1 2 3\ng collar\nf 1 2 3\ng default\nf 1 2 3\ng trousers\nf 1 2 3\no\nf 1 2 3\n\
+        let text = "f 1 2 3\no shirt\nf 1 2 3\ng collar\nf 1 2 3\ng\nf 1 2 3\n\
+            g left cuff\nf 1 2 3\no trousers\nf 1 2 3\ng collar\nf 1 2 3\n\
+            g default\nf 1 2 3\ng trousers\nf 1 2 3\no\nf 1 2 3\n\
             g collar\nf 1 2 3\no shirt\nf 1 2 3\n";
         let names = [
             "default",
@@ -371,11 +382,11 @@ mod tests {
         assert_eq!(named(text), names);
     }
 
-    /// What exporters write.
+    /// Texts as exporters write them.
     #[test]
     fn names_are_those_that_were_written() {
         for (text, names) in [
-            // Blender: objects; with groups of materials.
+            // Blender: objects; objects with groups for materials.
             (
                 "o Cube\ns 0\nusemtl A\nf 1 2 3\no Ball\nf 1 2 3",
                 &["Cube", "Ball"][..],
@@ -389,12 +400,12 @@ mod tests {
                 "g default\nv 0 0 0\ns 1\ng pSphere1\nf 1 2 3\ng default\ng pCube1\nf 1 2 3",
                 &["pSphere1", "pCube1"],
             ),
-            // 3ds Max: both, alike.
+            // 3ds Max: object and group of one name.
             (
                 "o Box001\ng Box001\nf 1 2 3\no Box002\ng Box002\nf 1 2 3",
                 &["Box001", "Box002"],
             ),
-            // SketchUp: several names.
+            // SketchUp: several names in a line.
             (
                 "g Mesh1 Seat Model\nf 1 2 3\ng Mesh2 Seat Model\nf 1 2 3",
                 &["Mesh1 Seat Model", "Mesh2 Seat Model"],
@@ -446,7 +457,7 @@ mod tests {
                 assert_eq!(named(&text), names, "{text}");
             }
         }
-        // Of two triangles each, the first without any.
+        // Solids of two triangles each, the first of none.
         let text =
             format!("solid x\nendsolid\nsolid a\n{facet}{facet}endsolid\nsolid b\n{facet}{facet}");
         assert_eq!(named(&text), ["a", "a", "b", "b"]);
@@ -487,7 +498,7 @@ mod tests {
         }
         for name in ["", "leg", "arm/", "hand", "left"] {
             let refused = groups.called(name).unwrap_err().to_string();
-            let words = format!("no body \"{name}\"; there is: arm, legs, legs/left, arm/hand");
+            let words = format!("has no body \"{name}\"; it has: arm, legs, legs/left, arm/hand");
             assert!(refused.contains(&words), "{refused}");
         }
     }
@@ -501,7 +512,7 @@ mod tests {
         let file: Arc<Path> = Path::new("a.obj").into();
         let groups = naming.end(file.clone(), Some(&polygons), 7).unwrap();
         assert_eq!(groups.of_triangles, [0, 0, 0, 1, 1, 1, 0]);
-        // Another number of faces than was read before.
+        // Numbers of faces that differ from the first reading.
         for (polygons, count) in [(Some(&polygons[..5]), 5), (None, 3), (None, 0)] {
             let mut naming = Naming::new(Account::new(1 << 20));
             obj::name_faces(text.as_bytes(), &mut naming).unwrap();
@@ -515,7 +526,7 @@ mod tests {
         // A million groups without faces.
         let empty = "g a\ng b\n".repeat(500_000) + "f 1 2 3\n";
         assert_eq!(groups_within(1 << 10, empty).unwrap().names, ["b"]);
-        // Very many with one each.
+        // Very many groups of one face each.
         let group = |n: u32| format!("g {n}\nf 1 2 3\n");
         let many = (0..10_000).map(group).collect::<Vec<_>>().concat();
         assert_eq!(groups_within(8 << 20, &many).unwrap().names.len(), 10_000);

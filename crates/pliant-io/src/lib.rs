@@ -1,14 +1,18 @@
-//! Sequences of deforming meshes, read from files one frame at a time.
+//! Readers and writers of deforming triangle-mesh sequences, streamed one frame at a time.
 //!
-//! Every *argument* names one **body**: a file, or a pattern such as `cloth_*.obj` whose files, in
-//! natural order (`frame2` before `frame10`), are its frames. [`open`] reads what holds for the
-//! whole body (triangles, faces, how many frames there are) and the first frame;
-//! [`Body::next_frame`] then hands out one frame after another, [`Body::skip`] passes over some. Only
-//! the frame handed out is in memory: a sequence larger than memory is read with the memory of one
-//! frame. A glTF file holds several bodies: [`open_all`] opens them, `scene.glb#arm` names one. An OBJ file is one body,
-//! `scan.obj#arm` a group of it, and [`Body::groups`] says which triangle is of which. A
-//! cache of positions is named beside its mesh: `shirt.obj+walk.pc2`. [`evaluated`] takes a body that a program evaluates by
-//! itself. [`Writer`] writes.
+//! Every *argument* names one **body**: a file, or a pattern such as `cloth_*.obj`. The files of a
+//! pattern are its frames, in natural order (`frame2` before `frame10`). [`open`] reads the first
+//! frame and the data shared by all frames: triangles, faces, number of frames.
+//! [`Body::next_frame`] then returns one frame after another; [`Body::skip`] passes over some. Only
+//! the current frame is in memory, so a sequence larger than memory is read with the memory of one
+//! frame.
+//!
+//! - A glTF file holds several bodies: [`open_all`] opens them, `scene.glb#arm` names one.
+//! - An OBJ file is one body, `scan.obj#arm` a group of it. [`Body::groups`] maps triangles to
+//!   groups.
+//! - A cache of positions is named beside its mesh: `shirt.obj+walk.pc2`.
+//! - [`evaluated()`] opens a body whose frames the calling program evaluates.
+//! - [`Writer`] writes.
 //!
 //! ```
 //! # let folder = format!("pliant-io-front-page-{}", std::process::id());
@@ -41,70 +45,91 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # What is read
+//! # Formats that are read
 //!
-//! | ending | one file is | precision |
+//! | ending | content of one file | precision |
 //! |---|---|---|
-//! | `.obj` | one frame: `v`, and the `v` indices of `f`; groups: `o`, `g` | f64, the nearest to what is written |
-//! | `.ply` | one frame: ASCII, binary of either byte order; polygons, or else `tristrips` | as declared: `float` f32, `double` f64 |
-//! | `.stl` | one frame: text or binary, told apart by the length; what follows the triangles is passed over; groups: solids of text | f32 |
-//! | `.npz` | all frames: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3) | as the array: float32, float64; of others the one that holds them |
-//! | `.pc2`, `.mdd` | positions of all frames, for a mesh of one frame in any other format | f32 |
-//! | `.npy` | the same, (T, n, 3) or (n, 3) | as `.npz` |
-//! | `.glb`, `.gltf`, `.vrm` | bodies, and animations of which [`OpenOptions::clip`] is evaluated at [`OpenOptions::fps`] | f32 |
+//! | `.obj` | one frame: `v`, and the `v` indices of `f`; groups: `o`, `g` | f64 |
+//! | `.ply` | one frame: ASCII or binary; polygons or `tristrips` | as declared |
+//! | `.stl` | one frame: text or binary; groups: solids of text | f32 |
+//! | `.npz` | all frames: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3) | as the array |
+//! | `.npy` | positions of all frames, (T, n, 3) or (n, 3), for a mesh | as the array |
+//! | `.pc2`, `.mdd` | positions of all frames, for a mesh | f32 |
+//! | `.glb`, `.gltf`, `.vrm` | bodies and animations | f32 |
 //!
-//! - **Polygons become fans** around their first corner, triangles numbered in file order;
-//!   [`Body::faces`] then says which polygon each triangle is of. Where a fan would be wrong in the first frame, as of polygons
-//!   that bend inward, they become as many other triangles between the same corners ([`Body::outlines`]). Polygons that cross
-//!   themselves stay fans, and [`Body::notes`] says so, as of those that are far from flat.
-//! - **Seams are welded**: files split a vertex where texture coordinates or normals differ, STL
-//!   splits all. Vertices at the two ends of boundary edges that coincide bit for bit in a
-//!   frame become one there; [`Body::parted_seams`] says which of the first are apart in a later one,
-//!   [`Body::welded`] says how many went; [`OpenOptions::weld`] turns it off. In
-//!   glTF they must coincide at rest, morph targets move them alike to the bit, and each joint hold them alike but for 1e-5 of
-//!   the whole; the smallest vertex then stands for all, and [`Body::notes`] says how many were not alike to the bit.
-//! - **Groups** are the solids of an STL file of text. Those of an OBJ file have the name of their object (`o`), of their group (`g`), or `object/group`; a name is the rest of
-//!   its line. Faces without either are of the group `default`; the same name is the same group. `scan.obj#arm` is that group and
-//!   all below it (`arm/hand`), of every file of a pattern; groups are those of the first file.
-//! - **glTF**: the default scene, or all nodes where there is none; a body for each node whose mesh has triangles, strips or fans
-//!   (points and lines have no surface); nodes in nodes, skins, morph targets, sparse accessors;
-//!   steps, lines and cubic splines. Computed in double precision, rounded to f32. Frames at 0,
-//!   1/fps, 2/fps, ... and the clip's end; without animations one, of the file as it rests. Bytes
-//!   are read from the file, from files beside it and from data URIs. `KHR_mesh_quantization` is evaluated, and
-//!   `KHR_animation_pointer` where it moves nodes or morph targets; what an animation moves that is no part of a body, as
-//!   materials or other scenes, is noted. Views that meshoptimizer compressed are decoded, by
-//!   either of its extensions, where nothing stands in for them. Draco files, and what else a file requires and would
-//!   change shapes, are refused.
-//! - **The frames of a body agree**: same faces, same number of vertices, no later frame of a
-//!   higher precision than the first. Where [`Body::let_mesh_change`] allows it, a file may have another mesh, and stands for itself.
-//! - **Files are not trusted.** Every coordinate is finite and at most `f32::MAX` in magnitude,
-//!   every index in range, or there is an [`Error`]: one line that says which file, where in it,
-//!   what is wrong and what to do. No count in a header reserves memory; memory grows with the data
-//!   that arrives, up to [`OpenOptions::max_memory`]. A file that changes while it is read, or between
-//!   frames, is refused; pipes and devices are, and never waited for. Nothing is mapped into memory.
+//! - **Precision**: the f64 nearest to the text in OBJ. PLY declares `float` (f32) or `double`
+//!   (f64). Arrays of float32 and float64 are read as they are, arrays of other types in the
+//!   precision that holds them.
+//! - **PLY**: binary files may have either byte order. `tristrips` are read where the file has no
+//!   polygons.
+//! - **STL**: the length tells text and binary apart. Bytes behind the triangles of a binary file
+//!   are passed over.
+//! - **Positions alone** (`.pc2`, `.mdd`, `.npy`) move a mesh of one frame in any other format.
+//! - **Animations**: [`OpenOptions::clip`] is evaluated at [`OpenOptions::fps`].
+//!
+//! # How files are read
+//!
+//! - **Polygons become fans** around their first corner, with triangles numbered in file order.
+//!   [`Body::faces`] maps each triangle to its polygon. If the fan of a concave polygon would be
+//!   wrong in the first frame, it becomes as many other triangles between the same corners
+//!   ([`Body::outlines`]). Polygons that cross themselves stay fans; [`Body::notes`] reports them,
+//!   and polygons that are far from flat.
+//! - **Seams are welded.** Files split a vertex where texture coordinates or normals differ; STL
+//!   splits all. Vertices at both ends of boundary edges become one in every frame in which they
+//!   coincide bit for bit. [`Body::parted_seams`] lists vertices that were one in the first frame
+//!   and are apart in the current one. [`Body::welded`] counts the vertices welded away;
+//!   [`OpenOptions::weld`] turns welding off.
+//! - **Seams in glTF** are decided once. Vertices must coincide at rest, and morph targets must
+//!   move them alike to the bit. The weight of each joint may differ by at most 1e-5 of the sum.
+//!   The smallest vertex represents all; [`Body::notes`] counts vertices that were not alike to the
+//!   bit.
+//! - **Groups of an OBJ file** are named after their object (`o`), their group (`g`), or both:
+//!   `object/group`. A name is the rest of its line. Faces without either belong to the group
+//!   `default`. Equal names are one group. An argument `scan.obj#arm` means this group and all
+//!   below it (`arm/hand`), in every file of a pattern. The first file defines the groups.
+//! - **Groups of an STL file** are the solids of its text.
+//! - **glTF**: the default scene is read, or all nodes where the file has no scene. Each node whose
+//!   mesh has triangles, strips or fans is a body; points and lines have no surface. Evaluated are
+//!   nested nodes, skins, morph targets, sparse accessors, and step, linear and cubic-spline
+//!   interpolation. Computed in double precision, rounded to f32. Frames are at 0, 1/fps, 2/fps,
+//!   ... and the clip's end; a file without animations has one frame, at rest. Bytes are read from
+//!   the file, from files beside it and from data URIs.
+//! - **glTF extensions**: `KHR_mesh_quantization` is evaluated, and `KHR_animation_pointer` where
+//!   it moves nodes or morph targets. Animated properties that belong to no body, such as materials
+//!   or other scenes, are noted. Views compressed by meshoptimizer are decoded, by either of its
+//!   extensions, where the file has no uncompressed fallback. Draco is refused, as is any other
+//!   required extension that would change shapes.
+//! - **The frames of a body agree**: same faces, same number of vertices, and no later frame of a
+//!   higher precision than the first. After [`Body::let_mesh_change`] a file may have another mesh.
+//! - **Files are not trusted.** Every coordinate is finite and at most `f32::MAX` in magnitude, and
+//!   every index is in range. Otherwise there is an [`Error`]: one line that names the file, the
+//!   place in it and the fault. No count in a header reserves memory: memory grows with
+//!   the data that arrives, up to [`OpenOptions::max_memory`]. A file that changes while it is
+//!   read, or between frames, is refused. Pipes and devices are refused and never waited for.
+//!   Nothing is memory-mapped.
 //!
 //! # Map
 //!
 //! | file | idea |
 //! |---|---|
-//! | `arguments.rs`, `natural.rs` | what an argument names; the order of its files |
+//! | `arguments.rs`, `pattern.rs`, `natural.rs` | the files that an argument names, in order |
 //! | `series.rs` | a pattern that the shell expanded |
-//! | `options.rs`, `body.rs` | how bodies are read; files in a row are one body: the streaming loop |
+//! | `options.rs`, `body.rs` | how bodies are read: the streaming loop over the files of a body |
 //! | `file.rs` | a file must stay as it was found |
-//! | `source.rs` | what readers of sequences do |
-//! | `format.rs` | which ending is which reader: the one place to add a format |
-//! | `frame.rs`, `positions.rs`, `polygons.rs` | what readers fill, checked: recorded once, then compared |
-//! | `groups.rs` | which triangles of an OBJ or STL file have which name |
+//! | `source.rs` | the trait of readers |
+//! | `format.rs` | file endings and their readers: the one place to add a format |
+//! | `frame.rs`, `positions.rs`, `polygons.rs` | data of a frame: recorded once, then compared |
+//! | `groups.rs` | names of the triangles of an OBJ or STL file |
 //! | `obj.rs`, `ply/`, `stl.rs`, `npz/`, `cache.rs`, `gltf/` | one format each |
 //! | `moved_mesh.rs` | the mesh that the positions of a cache move |
-//! | `evaluated.rs` | bodies that a program evaluates by itself |
-//! | `write/` | one format each, and files that appear when they are whole |
-//! | `boundary.rs`, `classes.rs` | where a surface ends; which vertices are one |
-//! | `weld.rs`, `near.rs` | boundary edges that coincide, or nearly |
-//! | `triangulate.rs` | which triangles a polygon is |
-//! | `memory.rs`, `size.rs` | nothing is allocated on a claim, nor beyond the limit; bytes as people read them |
+//! | `evaluated.rs` | bodies that the calling program evaluates |
+//! | `write/` | one format each, and files that appear when they are complete |
+//! | `boundary.rs`, `classes.rs` | boundary edges; union-find of vertices |
+//! | `weld.rs`, `near.rs` | joining boundary edges that coincide, or nearly |
+//! | `triangulate.rs` | triangulation of polygons |
+//! | `memory.rs`, `size.rs` | memory account with a limit; bytes as people read them |
 //! | `text.rs` | lines and numbers of text formats |
-//! | `error.rs`, `note.rs`, `shown.rs` | one type, one line; what is no error and worth saying; names as people are shown them |
+//! | `error.rs`, `note.rs`, `shown.rs` | errors; remarks that are no errors; names for people |
 
 mod arguments;
 mod body;

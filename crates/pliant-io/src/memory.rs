@@ -1,18 +1,19 @@
-//! Memory grows with the data that has arrived, never on a claim, and never beyond a limit.
+//! Memory account: memory grows with the data that has arrived, up to a limit, never on a claim.
 //!
-//! A header may announce 2^60 vertices in a file of 100 bytes. So nothing is reserved by count: arrays double as they fill. Where
-//! a count is announced, it is used twice: to refuse a frame beyond the limit before it is read, and to stop the last doubling at
-//! the right size.
-//!
-//! One account for all that a body holds: positions, triangles, polygons, what was welded. It counts what is in the arrays; room
-//! that a doubling leaves unused is never touched, and so takes none.
+//! A header of 100 bytes may announce 2^60 vertices, so nothing is reserved by count: arrays double
+//! as they fill, in amortised O(1) per item. An announced count has two uses. It refuses a frame
+//! beyond the limit before it is read, and it caps the last doubling at the right size. A body has
+//! one account for positions, triangles, polygons and welding. It counts items, not capacity: the
+//! unused rest of a doubled array is never touched, and so takes no memory.
 
 use crate::error::Reason;
 
-/// The first reservation, in items: so few that a file of very many small bodies takes no more than it says.
+/// First reservation of an array, in items.
+///
+/// Small, so that a file of very many small bodies takes little more than its data.
 const FIRST: usize = 1 << 6;
 
-/// What a body holds, in bytes, and the most that it may.
+/// Bytes that a body holds, and the most that it may hold.
 #[derive(Debug, Clone)]
 pub(crate) struct Account {
     held: u64,
@@ -32,7 +33,7 @@ impl Account {
         self.limit
     }
 
-    /// What is held and `more`; an error where that is not allowed.
+    /// Bytes held once `more` are added; an error beyond the limit.
     pub(crate) fn check(&self, more: u64) -> Result<u64, Excess> {
         let needed = self.held.saturating_add(more);
         let Self { limit, .. } = *self;
@@ -42,23 +43,25 @@ impl Account {
         Ok(needed)
     }
 
-    /// Enters `more` bytes.
+    /// Adds `more` bytes; an error beyond the limit.
     pub(crate) fn enter(&mut self, more: u64) -> Result<(), Excess> {
         self.held = self.check(more)?;
         Ok(())
     }
 
-    /// Enters what [`check`](Self::check) has allowed.
+    /// Adds bytes that [`check`](Self::check) has allowed.
     pub(crate) fn enter_allowed(&mut self, more: u64) {
         self.held = self.held.saturating_add(more);
     }
 
-    /// Takes `less` bytes off: they are free again.
+    /// Subtracts `less` bytes, which are free again.
     pub(crate) fn take_off(&mut self, less: u64) {
         self.held = self.held.saturating_sub(less);
     }
 
-    /// Appends and enters, growing as described above; `announced` is the size at which doubling stops, if it is reached.
+    /// Appends an item and counts its bytes, in amortised O(1).
+    ///
+    /// `announced`: the number of items at which doubling stops, or 0 if it is not known.
     pub(crate) fn push<T>(
         &mut self,
         items: &mut Vec<T>,
@@ -74,6 +77,7 @@ impl Account {
     }
 }
 
+/// Grows a full array: doubles it, but not past `announced`.
 #[cold]
 fn grow<T>(items: &mut Vec<T>, announced: usize) -> Result<(), Reason> {
     let len = items.len();
@@ -86,12 +90,12 @@ fn grow<T>(items: &mut Vec<T>, announced: usize) -> Result<(), Reason> {
         .map_err(|_| Reason::OutOfMemory)
 }
 
-/// The bytes of items in an array.
+/// Size in bytes of the items of an array.
 pub(crate) fn bytes_of<T>(items: &[T]) -> u64 {
     size_of_val(items) as u64
 }
 
-/// More than the limit.
+/// A request for more bytes than the limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Excess {
     pub(crate) needed: u64,

@@ -1,4 +1,4 @@
-//! The mesh beside a file of positions: it has the faces, and each frame has its vertices.
+//! The mesh beside a cache of positions: it supplies the faces, the cache every position.
 
 use crate::error::{Fault, Reason};
 use crate::file::Found;
@@ -16,7 +16,7 @@ impl MovedMesh {
         Self { file, source }
     }
 
-    /// Reads the mesh, which must have `count` vertices: as many as there are positions.
+    /// Reads the mesh into `frame`; an error unless it has `count` vertices, one per position.
     pub(crate) fn read(mut self, count: u64, frame: &mut Frame) -> Result<(), Fault> {
         let path = self.file.path();
         let complete = self.source.read(frame);
@@ -33,7 +33,7 @@ impl MovedMesh {
         Ok(())
     }
 
-    /// The bytes that its source holds.
+    /// Bytes held by its source.
     pub(crate) fn held(&self) -> u64 {
         self.source.held()
     }

@@ -1,13 +1,13 @@
-//! Natural order: runs of digits compare as numbers, so that `frame2` comes before `frame10`.
+//! Natural order: digit sequences compare as numbers, so that `frame2` comes before `frame10`.
 
 use std::cmp::Ordering;
 use std::path::Path;
 
-/// Compares two paths in natural order.
+/// Compares two paths in natural order, in O(length).
 ///
-/// Numbers of any length, without conversion: among digits without leading zeros the longer is the
-/// larger. Names that differ in leading zeros alone (`a1`, `a01`) compare by their bytes, so that
-/// the order is total.
+/// Numbers may have any length and are not converted: of two digit sequences without leading zeros,
+/// the longer is the larger. Names that differ only in leading zeros (`a1`, `a01`) compare by their
+/// bytes, so that the order is total.
 pub(crate) fn compare(a: &Path, b: &Path) -> Ordering {
     let (a, b) = (
         a.as_os_str().as_encoded_bytes(),

@@ -1,22 +1,25 @@
-//! Seams that nearly coincide: two sides of a surface that meet, but whose vertices differ in their last digits.
+//! Near seams: joining boundary edges whose ends nearly coincide, within a tolerance.
 //!
-//! Bit for bit [`weld`](crate::weld) has joined what it could. What is left are boundary edges, and two of them are *near* if each
-//! end of the one is within a distance of an end of the other. Near edges are joined, the nearest first:
+//! Exact welding ([`weld`](crate::weld)) has joined all that coincides bit for bit. Two of the
+//! remaining boundary edges are *near* if each end of one is within a distance of an end of the
+//! other.
 //!
 //! ```text
-//! edges of exactly one triangle, longer than twice the distance       a shorter one is a point in this sense
-//! a table of them, by the cells that their two ends are in
-//! for each edge, those in the cells round its two ends: near ones, with the larger distance of their ends
-//! from the least distance on, then by number: join their ends          union-find, the smallest vertex leads
+//! edges of exactly one triangle, longer than twice the distance     a shorter one is a point here
+//! a table of them, by the cells of their two ends                   spatial hashing
+//! for each edge, the near ones in the cells round its two ends      by the larger distance of ends
+//! the nearest pair first, then by number: join the ends             union-find, the smallest leads
 //! ```
 //!
-//! Always true: no triangle gets two corners in one, which would make a hole; no vertex is further from the one that leads it than
-//! the distance, however long a chain of near vertices is; single points are never joined. A pair of edges that would break one of
-//! these is passed over. The result depends on nothing but the mesh and the distance.
+//! Invariants; a pair of edges that would break one is passed over:
 //!
-//! It is asked of every frame anew.
+//! - No triangle gets two corners in one vertex, which would make a hole.
+//! - No vertex is further from its leader than the distance, however long a chain of near vertices
+//!   is.
+//! - Single points are never joined.
 //!
-//! Time is that of sorting, unless very many edges are crowded into the reach of one: then it is refused, not waited for.
+//! The result depends only on the mesh and the distance, and every frame is searched anew. Takes
+//! O(n log n), unless very many edges are crowded within the distance of one: that is an error.
 
 use crate::boundary::boundary_edges;
 use crate::classes::Classes;
@@ -24,38 +27,46 @@ use crate::error::Reason;
 use crate::memory::Account;
 use crate::positions::Positions;
 
-/// Vertices joined to others near them.
+/// Vertices joined to others near them, within a tolerance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NearSeams {
-    /// Each vertex joined away, with the smaller vertex that takes its place; ascending.
+    /// Each vertex joined away, with the smaller vertex that replaces it; ascending.
     joined: Vec<(u32, u32)>,
     farthest: f64,
 }
 
-/// Tolerances that can be asked for, but for 0, which joins nothing: below, cells have no numbers; above, nothing is left of a shape.
+/// Tolerances that are allowed, besides 0, which joins nothing.
+///
+/// Smaller ones give cell numbers beyond i64; larger ones leave nothing of a shape.
 pub(crate) const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-15..=0.1;
 
-/// The side of a cell, in distances. Wider ones hold more edges that are not near, of narrower ones more are within reach.
+/// Side of a cell, in tolerance distances.
+///
+/// Larger cells hold more edges that are not near; of smaller cells, more are within reach.
 const CELL: f64 = 8.0;
 
-/// An edge may be compared with so many others, on average and beyond a number that is nothing.
+/// Comparisons allowed per edge, on average.
 const MOST_COMPARED: u64 = 1 << 9;
+/// Comparisons allowed in any case: few enough to take no noticeable time.
 const ALWAYS_COMPARED: u64 = 1 << 22;
 
-/// Two edges that are near: the larger distance of their ends, their numbers, and whether the one runs against the other.
+/// A pair of near edges: larger distance of their ends, their numbers, and whether their directions
+/// are opposite.
 type Near = (f64, u32, u32, bool);
 
 type Point = [f64; 3];
 
 impl NearSeams {
-    /// Finds the seams of `triangles` whose sides are at most `tolerance` times the diagonal of their box apart. None if there is none.
+    /// Finds near seams of `triangles`; None if there are none.
+    ///
+    /// Their sides are at most `tolerance` times the diagonal of the bounding box apart.
     pub(crate) fn find(
         triangles: &[[u32; 3]],
         positions: Positions<'_>,
         tolerance: f64,
         account: &mut Account,
     ) -> Result<Option<Self>, Reason> {
-        // While they are found, every triangle has three.
+        // During the search every triangle has three.
         let edges = 24 * triangles.len() as u64;
         account.enter(edges).map_err(too_large)?;
         let found = Self::among(
@@ -69,7 +80,7 @@ impl NearSeams {
         found
     }
 
-    /// The same, where the boundary edges of the triangles are known.
+    /// Finds near seams among `edges`, the boundary edges of `triangles`; see [`find`](Self::find).
     pub(crate) fn among(
         mut edges: Vec<[u32; 2]>,
         triangles: &[[u32; 3]],
@@ -93,7 +104,8 @@ impl NearSeams {
         };
         search.keep_long(&mut edges);
         let found = search.near(&edges, account).and_then(|near| {
-            // Of each of the two ends: its number, the ring, the size of a class, and some triangles.
+            // Both ends of each pair need their number, the ring, the size of a class, and some
+            // triangles.
             account.enter(2 * 100 * near.len() as u64)?;
             Ok(search.join(&edges, &near, diagonal))
         });
@@ -101,30 +113,30 @@ impl NearSeams {
         found.map_err(too_large)
     }
 
-    /// The vertex that stands for this one.
+    /// The vertex that represents `vertex` after joining. Takes O(log n).
     pub fn leader(&self, vertex: u32) -> u32 {
         let at = self.joined.binary_search_by_key(&vertex, |&(its, _)| its);
         at.map_or(vertex, |at| self.joined[at].1)
     }
 
-    /// How many vertices another one stands for.
+    /// Number of vertices joined away.
     pub fn count(&self) -> usize {
         self.joined.len()
     }
 
-    /// The largest distance of a vertex from the one that stands for it, in diagonals of the box.
+    /// The largest distance of a joined vertex from its leader, in diagonals of the bounding box.
     pub fn farthest(&self) -> f64 {
         self.farthest
     }
 
-    /// Puts leaders in the place of those that they stand for.
+    /// Replaces every corner by its leader.
     pub(crate) fn rewrite(&self, triangles: &mut [[u32; 3]]) {
         for corner in triangles.as_flattened_mut() {
             *corner = self.leader(*corner);
         }
     }
 
-    /// Those of the boundary edges that were joined to no other, by leaders, ascending.
+    /// Boundary edges that were joined to no other, by the leaders of their ends, ascending.
     pub(crate) fn still_open(&self, mut edges: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
         for edge in &mut edges {
             *edge = edge.map(|vertex| self.leader(vertex));
@@ -139,13 +151,13 @@ impl NearSeams {
         size_of_val(&self.joined[..]) as u64
     }
 
-    /// Each vertex joined away, with the one that stands for it; ascending.
+    /// Each vertex joined away, with its leader; ascending.
     pub(crate) fn joined(&self) -> &[(u32, u32)] {
         &self.joined
     }
 }
 
-/// Memory that is not allowed, as what finds seams says it.
+/// Turns an error of the memory account into the one for seams.
 fn too_large(reason: impl Into<Reason>) -> Reason {
     match reason.into() {
         Reason::TooLarge { needed, limit } => Reason::SeamsTooLarge { needed, limit },
@@ -153,13 +165,13 @@ fn too_large(reason: impl Into<Reason>) -> Reason {
     }
 }
 
-/// The distance of two points, without overflow or underflow on the way.
+/// Distance of two points, without overflow or underflow on the way.
 pub(crate) fn length(a: Point, b: Point) -> f64 {
     let [x, y, z] = std::array::from_fn(|axis| a[axis] - b[axis]);
     f64::hypot(f64::hypot(x, y), z)
 }
 
-/// The lowest corner and the diagonal of the box of all triangles; None where that is a point.
+/// Lowest corner and diagonal of the bounding box of all triangles; None if it is a point.
 pub(crate) fn extent(triangles: &[[u32; 3]], positions: Positions<'_>) -> Option<(Point, f64)> {
     let mut corners = triangles.as_flattened().iter().map(|&v| positions.get(v));
     let first = corners.next()?;
@@ -173,7 +185,7 @@ pub(crate) fn extent(triangles: &[[u32; 3]], positions: Positions<'_>) -> Option
     (diagonal > 0.0).then_some((low, diagonal))
 }
 
-/// What is searched.
+/// Input of one search, with the distance in the file's unit.
 struct Search<'a> {
     triangles: &'a [[u32; 3]],
     positions: Positions<'a>,
@@ -186,13 +198,14 @@ impl Search<'_> {
         length(self.positions.get(a), self.positions.get(b))
     }
 
-    /// Keeps the edges that are long enough.
+    /// Keeps the edges that are longer than twice the distance.
     fn keep_long(&self, edges: &mut Vec<[u32; 2]>) {
-        // So no two of them are near both ways round, for then one were no longer than twice the distance.
+        // So no two edges are near in both directions: one would be at most twice the distance
+        // long.
         edges.retain(|&[a, b]| self.apart(a, b) > 2.0 * self.distance);
     }
 
-    /// The cell of a place, moved by so many distances along every axis. Rounding never changes the order of cells along an axis.
+    /// Cell of a point moved by `by` distances along each axis. Rounding keeps cells in order.
     fn cell(&self, point: Point, by: [f64; 3]) -> [i64; 3] {
         std::array::from_fn(|axis| {
             let moved = (point[axis] - self.lowest[axis]) + by[axis] * self.distance;
@@ -200,16 +213,16 @@ impl Search<'_> {
         })
     }
 
-    /// The cells in which anything near a point can be: one to eight.
+    /// The one to eight cells that can hold a point near this one.
     fn cells_near(&self, point: Point) -> impl Iterator<Item = [i64; 3]> + use<> {
-        // A little more than the distance, for the rounding of the differences.
+        // A little more than 1, for the rounding of the differences.
         const REACH: f64 = 1.001;
         let [low, high] = [-REACH, REACH].map(|by| self.cell(point, [by; 3]));
         let axis = move |axis: usize| low[axis]..=high[axis];
         axis(0).flat_map(move |x| axis(1).flat_map(move |y| axis(2).map(move |z| [x, y, z])))
     }
 
-    /// All pairs of edges that are near, the nearest first, then by number.
+    /// All pairs of near edges, the nearest first, then by number.
     fn near(&self, edges: &[[u32; 2]], account: &mut Account) -> Result<Vec<Near>, Reason> {
         let cell = |vertex: u32| self.cell(self.positions.get(vertex), [0.0; 3]);
         let mut table = Vec::new();
@@ -246,7 +259,7 @@ impl Search<'_> {
         Ok(near)
     }
 
-    /// Joins the ends of near edges one after another.
+    /// Joins the ends of near edges, one pair after another.
     fn join(&self, edges: &[[u32; 2]], near: &[Near], diagonal: f64) -> Option<NearSeams> {
         let mut joining = Joining::new(self, edges, near);
         for &(_, one, other, against) in near {
@@ -255,7 +268,8 @@ impl Search<'_> {
             if against {
                 (c, d) = (d, c);
             }
-            // Neither end decides for the other: a triangle that had corners of all four would have two corners in one already.
+            // The order of the two joins does not matter: a triangle that has corners of all four
+            // vertices would already have two corners in one.
             if joining.may(a, c) && joining.may(b, d) {
                 joining.join(a, c);
                 joining.join(b, d);
@@ -277,7 +291,7 @@ impl Search<'_> {
     }
 }
 
-/// Two cells as one number; others may have the same, which costs comparisons and changes nothing.
+/// Hash of two cells. A collision costs comparisons and changes no result.
 fn key(first: [i64; 3], second: [i64; 3]) -> u64 {
     first.into_iter().chain(second).fold(0, |hash: u64, cell| {
         let mixed = (hash ^ cell.cast_unsigned()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -285,22 +299,24 @@ fn key(first: [i64; 3], second: [i64; 3]) -> u64 {
     })
 }
 
-/// Classes of joined vertices, and what must be known to join them. Vertices that may be joined have numbers of their own, in their
-/// order.
+/// Union-find of joined vertices, and the data that decides whether two classes may join.
+///
+/// Vertices that may be joined have numbers of their own, in ascending order.
 struct Joining<'a> {
     search: &'a Search<'a>,
-    /// Ascending.
+    /// Vertex of each number, ascending.
     vertices: Vec<u32>,
     classes: Classes,
-    /// The next vertex of the same class, in a ring.
+    /// Next vertex of the same class, in a ring.
     next: Vec<u32>,
-    /// Of a leader, how many its class has.
+    /// Size of the class of each leader.
     size: Vec<u32>,
-    /// For each triangle at a vertex the number of that, and of its other corners; sorted.
+    /// Triangles at each vertex, sorted: number of the vertex, and numbers of the other two
+    /// corners.
     corners: Vec<(u32, [u32; 2])>,
 }
 
-/// The number of a vertex that is not joined.
+/// Number of a vertex that cannot be joined.
 const NOT_JOINED: u32 = u32::MAX;
 
 impl<'a> Joining<'a> {
@@ -330,12 +346,13 @@ impl<'a> Joining<'a> {
         joining
     }
 
+    /// Number of a vertex, or [`NOT_JOINED`].
     fn number(&self, vertex: u32) -> u32 {
         let number = self.vertices.binary_search(&vertex);
         number.map_or(NOT_JOINED, |number| number as u32)
     }
 
-    /// The members of a class.
+    /// Members of a class, its leader first.
     fn members(&self, leader: u32) -> impl Iterator<Item = u32> + use<'_> {
         let mut vertex = Some(leader);
         std::iter::from_fn(move || {
@@ -346,7 +363,7 @@ impl<'a> Joining<'a> {
         })
     }
 
-    /// Whether the classes of two vertices may become one.
+    /// Whether the classes of two vertices may join.
     fn may(&mut self, a: u32, b: u32) -> bool {
         let [a, b] = [a, b].map(|vertex| self.classes.leader(vertex));
         if a == b {
@@ -413,7 +430,7 @@ mod tests {
         found.unwrap()
     }
 
-    /// Numbers from -1 to 1.
+    /// Random numbers from -1 to 1.
     fn noise(seed: u64) -> impl FnMut() -> f64 {
         let mut state = seed;
         move || {
@@ -424,7 +441,7 @@ mod tests {
         }
     }
 
-    /// Every corner of every triangle a vertex of its own, moved by up to so much along each axis.
+    /// Triangles that share no vertex, every corner moved by up to `by` along each axis.
     fn soup(triangles: &[[Point; 3]], by: f64, seed: u64) -> (Vec<[u32; 3]>, Vec<Point>) {
         let mut noise = noise(seed);
         let corners = triangles.as_flattened().iter();
@@ -435,7 +452,7 @@ mod tests {
         (numbers.collect(), positions)
     }
 
-    /// A cone of so many sides, and its base.
+    /// A cone with `sides` sides, and its base.
     fn cone(sides: u32) -> Vec<[Point; 3]> {
         let rim = |side: u32| {
             let angle = f64::from(side % sides) / f64::from(sides) * std::f64::consts::TAU;
@@ -463,12 +480,12 @@ mod tests {
                 assert!(a != b && b != c && c != a);
             }
         }
-        // Further apart than asked for, all stays as it is.
+        // Nothing is joined that is further apart than the tolerance.
         let (triangles, positions) = soup(&cone(12), 1e-4, 4);
         assert!(find(&triangles, &positions, 1e-6).is_none());
     }
 
-    /// Whatever the mesh and the distance, what is promised holds.
+    /// Invariants hold for any mesh and distance.
     #[test]
     fn leaders_are_near_and_no_triangle_loses_a_corner() {
         let mut joined = 0;
@@ -497,7 +514,7 @@ mod tests {
         assert!(joined > 1000, "{joined}");
     }
 
-    /// The table finds the pairs that comparing all with all finds.
+    /// The table finds exactly the pairs that brute force finds.
     #[test]
     fn near_edges_are_all_found() {
         let mut pairs = 0;
@@ -539,13 +556,14 @@ mod tests {
 
     #[test]
     fn the_nearest_come_first_and_points_stay_points() {
-        // An edge with two others near it, on a line: the chain is longer than the distance, and the nearer two join.
+        // An edge with two others near it, on a line. The chain is longer than the distance, so
+        // only the nearer two join.
         let at = |x: f64| [[x, 0.0, 0.0], [x, 1.0, 0.0], [x + 0.3, 0.5, 1.0]];
         let (triangles, positions) = soup(&[at(0.0), at(0.009), at(0.014)], 0.0, 1);
         let near = find(&triangles, &positions, 0.01 / 1.45).unwrap();
         let leaders: Vec<u32> = (0..9).map(|vertex| near.leader(vertex)).collect();
         assert_eq!(leaders, [0, 1, 2, 3, 4, 5, 3, 4, 5]);
-        // Two triangles that touch in a point, nearly.
+        // Two triangles that nearly touch in a point.
         let one = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         let other = [[-1e-9, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
         let (triangles, positions) = soup(&[one, other], 0.0, 1);
@@ -572,7 +590,7 @@ mod tests {
         let mut account = Account::new(1 << 30);
         let found = NearSeams::find(&triangles, Positions::F64(&positions), 1e-4, &mut account);
         assert!(matches!(found, Err(Reason::SeamsTooDense)));
-        // Nor is more held than may be.
+        // Nor is more memory held than allowed.
         let mut account = Account::new(1 << 18);
         let found = NearSeams::find(&triangles, Positions::F64(&positions), 1e-4, &mut account);
         assert!(matches!(found, Err(Reason::SeamsTooLarge { .. })));

@@ -1,65 +1,69 @@
-//! What a reader did, or left undone, that the owner of the file would want to know. No error: the body is read.
+//! Notes: remarks about a body that was read, worth telling the owner of the file. No errors.
 
 use std::fmt;
 
 use crate::shown::shown_within;
 
-/// About a body, or about the file that it is of. Its message is one line and names no file.
+/// A remark about a body, or about its file. Its message is one line and does not name the file.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
-    /// Vertices were joined to others near them, as [`weld_tolerance`](crate::OpenOptions::weld_tolerance) asked for.
+    /// Vertices were joined to others near them, as
+    /// [`weld_tolerance`](crate::OpenOptions::weld_tolerance) asked for.
     NearSeams {
-        /// How many.
+        /// Number of vertices joined away.
         count: usize,
-        /// The largest distance of a vertex from the one it was joined to, in diagonals of the body's box.
+        /// The largest distance of a joined vertex from the one that replaces it, in diagonals of
+        /// the body's bounding box.
         farthest: f64,
     },
-    /// Vertices were welded whose joints hold them nearly alike, not to the bit.
+    /// Vertices were welded whose joint weights are nearly equal, but not to the bit.
     SeamsByWeights {
-        /// How many.
+        /// Number of these vertices.
         count: usize,
     },
-    /// The animation of a glTF file moves what is not evaluated, or what is no part of any body.
+    /// The animation of a glTF file moves something that is not evaluated, or part of no body.
     StillTargets {
-        /// How many channels do.
+        /// Number of such channels.
         count: usize,
-        /// What the first of them moves: a place in the JSON, as `KHR_animation_pointer` writes it.
+        /// The target of the first, as a JSON pointer: the notation of `KHR_animation_pointer`.
         first: String,
     },
-    /// Polygons are far from flat, so that the surface depends on how they are cut into triangles.
+    /// Polygons are far from flat: the surface depends on how they are triangulated.
     BentPolygons {
-        /// How many.
+        /// Number of these polygons.
         count: usize,
-        /// The first, counted from 0.
+        /// The first of them, counted from 0.
         first: usize,
     },
-    /// Faces have two corners, and are read as the segments that they are.
+    /// Faces have two corners; they are read as line segments.
     Segments {
-        /// How many.
+        /// Number of these faces.
         count: usize,
-        /// The first, counted from 0.
+        /// The first of them, counted from 0.
         first: usize,
     },
-    /// A text ends behind a triangle, without what should end it.
+    /// A text file lacks the keyword that should end it, behind a complete triangle.
     NoEnd {
-        /// What that is, or stands in its place.
+        /// The missing keyword, and any text in its place, as the rest of "ends ...".
         end: &'static str,
     },
-    /// A glTF file has no scene: all its nodes are shown.
+    /// A glTF file has no scene: all its nodes are read.
     NoScene,
-    /// An array of an NPZ or NPY file is not what it is mostly, and was read all the same.
+    /// An array of an NPZ or NPY file has an unusual shape or type, and was read all the same.
     Array {
-        /// What it holds: `vertices` or `faces`.
+        /// Content of the array: `vertices` or `faces`.
         holds: &'static str,
-        /// What it is, as the end of a sentence that begins with it.
+        /// The peculiarity, as the end of a sentence whose subject is the array.
         is: String,
     },
-    /// Polygons cross themselves, or have two corners in one place: as triangles they are fans, which meet what the polygon does not.
+    /// Polygons cross themselves, or have two corners in one place.
+    ///
+    /// They are triangulated as fans, which meet things that the polygon does not.
     CrossedPolygons {
-        /// How many.
+        /// Number of these polygons.
         count: usize,
-        /// The first, counted from 0.
+        /// The first of them, counted from 0.
         first: usize,
     },
 }
@@ -69,33 +73,40 @@ impl fmt::Display for Note {
         match self {
             Self::NearSeams { count, farthest } => write!(
                 f,
-                "{count} vertices were joined to others near them, at most {farthest:.1e} of the body's size away"
+                "{count} vertices were joined to others near them, \
+                 at most {farthest:.1e} of the body's size away"
             ),
             Self::SeamsByWeights { count } => write!(
                 f,
-                "{count} vertices were welded to others at their place, though the weights of their joints differ in the fifth place or behind it"
+                "{count} vertices were welded to others at their place, \
+                 though the weights of their joints agree only within 1e-5 of their sum"
             ),
             Self::StillTargets { count, first } => write!(
                 f,
-                "{count} channels of its animation move what stands still here (the first: {})",
+                "{count} animation channels have no effect here: they move something that is \
+                 not evaluated, or part of no body (the first: {})",
                 shown_within(first, 100)
             ),
             Self::BentPolygons { count, first } => write!(
                 f,
-                "{count} polygons are far from flat (the first is face {first}); as which triangles these are meant, the file does not say"
+                "{count} polygons are far from flat (the first is face {first}); \
+                 their triangulation is a guess; triangulate the mesh to choose it"
             ),
             Self::Segments { count, first } => write!(
                 f,
-                "{count} faces have two corners (the first is face {first}) and are read as segments"
+                "{count} faces have two corners (the first is face {first}) \
+                 and are read as segments"
             ),
-            Self::NoEnd { end } => write!(f, "ends {end}; what stands before it is read"),
+            Self::NoEnd { end } => write!(f, "ends {end}; all its triangles were read"),
             Self::NoScene => write!(f, "has no scene; all its nodes are read"),
             Self::Array { holds, is } => {
                 write!(f, "the array of {holds} {}", shown_within(is, 100))
             }
             Self::CrossedPolygons { count, first } => write!(
                 f,
-                "{count} polygons cross themselves (the first is face {first}) and are made into fans; mend them or triangulate the mesh"
+                "{count} polygons cross themselves (the first is face {first}) \
+                 and were triangulated as fans, which may add intersections; \
+                 mend them or triangulate the mesh"
             ),
         }
     }

@@ -1,15 +1,15 @@
-//! OBJ: `v x y z`, `f a b c ...`, everything else passed over; `o` and `g` are read apart, where names are asked for.
+//! Wavefront OBJ reader: `v x y z` and `f a b c ...`; everything else is passed over.
 //!
-//! Own reader, since errors must name the line and connectivity is that of the `v` indices alone.
-//! What is read:
+//! Object and group names (`o`, `g`) are read separately, on request. The crate has its own reader
+//! because errors must name the line, and because only the `v` indices give the connectivity.
 //!
-//! - `v` with three numbers or more (weights and colours behind them are not positions); f64, the
-//!   nearest to what is written.
-//! - `f` (and its old name `fo`): vertex numbers from 1, or from -1 backwards; what follows a `/`
-//!   is texture and normal, passed over.
-//! - A `\` at the end of a line continues it. Not in a comment: a comment that ends in a Windows
-//!   folder would swallow a vertex and shift all numbers after it. What swallows less is a comment
-//!   that was really meant to go on: its second line is then an unknown statement, passed over.
+//! - `v` has at least three numbers; weights and colours behind them are no positions. Each is the
+//!   f64 nearest to the text.
+//! - `f` (formerly `fo`) has vertex numbers from 1, or backwards from -1. Texture and normal
+//!   numbers behind a `/` are passed over.
+//! - A `\` at the end of a line continues it, except in a comment. A comment that ends in a Windows
+//!   folder would otherwise swallow a vertex and shift all later numbers. The second line of a
+//!   comment that is really continued is passed over as an unknown statement.
 
 use std::io::BufRead;
 
@@ -19,7 +19,7 @@ use crate::groups::Naming;
 use crate::positions::Precision;
 use crate::text::{LONGEST_LINE, Lines, expected, number, quoted, two_coordinates, words};
 
-/// Reads one file, one frame.
+/// Reads one file, which is one frame.
 pub(crate) fn read(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> {
     frame.begin(Precision::F64, Announced::default())?;
     let mut statements = Statements {
@@ -45,7 +45,7 @@ pub(crate) fn read(input: impl BufRead, frame: &mut Frame) -> Result<Complete, F
     frame.complete(1)
 }
 
-/// Reads the names of faces, of a file that was read before.
+/// Reads the group names of faces, from a file that was read before.
 pub(crate) fn name_faces(input: impl BufRead, naming: &mut Naming) -> Result<(), Fault> {
     let mut statements = Statements {
         lines: Lines::new(input),
@@ -63,7 +63,9 @@ pub(crate) fn name_faces(input: impl BufRead, naming: &mut Naming) -> Result<(),
     Ok(())
 }
 
-/// All `words`, a `#` in them too: `o Cube #2` is not `o Cube #3`.
+/// Joins all `words` with blanks, including those behind a `#`: `o Cube #2` is not `o Cube #3`.
+///
+/// A name that is not UTF-8 is read as Latin-1.
 pub(crate) fn name<'a>(words: impl Iterator<Item = &'a [u8]>) -> String {
     let mut name = Vec::new();
     for word in words {
@@ -78,7 +80,7 @@ pub(crate) fn name<'a>(words: impl Iterator<Item = &'a [u8]>) -> String {
     })
 }
 
-/// The first three of `words`.
+/// Parses the first three of `words`.
 fn position<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<[f64; 3], Reason> {
     let mut position = [0.0; 3];
     for (axis, value) in position.iter_mut().enumerate() {
@@ -93,7 +95,7 @@ fn position<'a>(mut words: impl Iterator<Item = &'a [u8]>) -> Result<[f64; 3], R
     Ok(position)
 }
 
-/// The vertex, counted from zero, that `7`, `7/1`, `7//3`, `7/1/3` or, backwards, `-1` means.
+/// The vertex, counted from 0, that `7`, `7/1`, `7//3`, `7/1/3` or, backwards, `-1` means.
 fn corner(word: &[u8], frame: &Frame) -> Result<u32, Reason> {
     let written = word.split(|&c| c == b'/').next().unwrap_or(word);
     let index: i64 = number(written).ok_or_else(|| expected("a vertex number", Some(word)))?;
@@ -101,7 +103,7 @@ fn corner(word: &[u8], frame: &Frame) -> Result<u32, Reason> {
     let zero_based = match index {
         0 => {
             return Err(Reason::Malformed(format!(
-                "vertices are numbered from 1, found {}",
+                "found vertex number {}, but numbers begin at 1",
                 quoted(word)
             )));
         }
@@ -125,14 +127,14 @@ fn corner(word: &[u8], frame: &Frame) -> Result<u32, Reason> {
         })
 }
 
-/// Lines, with continued ones joined.
+/// Reader of statements: lines, with continued ones joined.
 struct Statements<R> {
     lines: Lines<R>,
     text: Vec<u8>,
 }
 
 impl<R: BufRead> Statements<R> {
-    /// Moves to the next statement and says where it begins; None at the end of the text.
+    /// Moves to the next statement and returns where it begins; None at the end of the text.
     fn advance(&mut self) -> Result<Option<Place>, Fault> {
         self.text.clear();
         if !self.lines.advance()? {
@@ -141,7 +143,7 @@ impl<R: BufRead> Statements<R> {
         let place = self.lines.place();
         let mut line = self.lines.line();
         if place == Place::Line(1) {
-            // The mark that some editors put before UTF-8.
+            // The byte order mark that some editors put before UTF-8.
             line = line.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(line);
             if line.starts_with(b"\xFF\xFE") || line.starts_with(b"\xFE\xFF") {
                 let reason = "is text in UTF-16; save it as UTF-8";
@@ -157,7 +159,7 @@ impl<R: BufRead> Statements<R> {
                 break;
             }
             if (self.text.len() + self.lines.line().len()) as u64 > LONGEST_LINE {
-                let reason = "a statement of more than 16 MiB";
+                let reason = "the statement has more than 16 MiB, the most that is read";
                 return Err(Reason::Malformed(reason.into()).at(place));
             }
             self.text.extend_from_slice(self.lines.line());
@@ -203,8 +205,9 @@ mod tests {
 
     #[test]
     fn everything_but_vertices_and_faces_is_passed_over() {
-        let text = "\u{feff}# from \\\nmtllib a.mtl\r\n  v 0.1 -2e-3 +3. 1 0.5 0.5\nvt 0 0\nvn 0 0 1\n\
-            vp 1\nv .5 1E-400 0 # oh\nv\t1\t1\t1\no thing\ng\ns off\nusemtl #1\nl 1 2\n\
+        let text = "\u{feff}# from \\\nmtllib a.mtl\r\n  v 0.1 -2e-3 +3. 1 0.5 0.5\n\
+            vt 0 0\nvn 0 0 1\nvp 1\nv .5 1E-400 0 # oh\nv\t1\t1\t1\n\
+            o thing\ng\ns off\nusemtl #1\nl 1 2\n\
             f 1/1/1 2//7 3/2 # 9\n\nfo -3 -2 -1\nstrange words\n";
         let frame = read_text(text).unwrap();
         assert_eq!(
@@ -284,7 +287,7 @@ mod tests {
         );
         assert_eq!(
             with("f 1 0 3"),
-            ", line 5: vertices are numbered from 1, found \"0\""
+            ", line 5: found vertex number \"0\", but numbers begin at 1"
         );
         assert_eq!(
             with("f 1 two 3"),
@@ -300,7 +303,8 @@ mod tests {
         );
         assert_eq!(
             with("\\\nf 1 \\\n2 4294967296"),
-            ", line 5: face 0 uses vertex 4294967296, but no vertex can have that number"
+            ", line 5: face 0 uses vertex 4294967296, \
+             but vertices are numbered from 1 to 4294967295 at most"
         );
         assert_eq!(
             with("v 1"),

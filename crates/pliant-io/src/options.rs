@@ -1,6 +1,6 @@
-//! How a body is read: what callers choose.
+//! Options for reading a body.
 
-/// How to read a body.
+/// Options for reading a body: welding, memory, and animation.
 ///
 /// ```
 /// use pliant_io::OpenOptions;
@@ -8,28 +8,45 @@
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpenOptions {
-    /// Weld vertices where boundary edges coincide bit for bit, in each frame those that do there. Default: true;
-    /// without, every seam of a file that splits vertices is a hit.
+    /// Whether to weld vertices whose boundary edges coincide bit for bit, in each frame. Default:
+    /// true.
+    ///
+    /// Without welding, every seam of a file that splits vertices is reported as an intersection.
     pub weld: bool,
-    /// Join boundary edges besides whose ends are no further apart in a frame than this times the diagonal of the body's box
-    /// there, the nearest first; never single points, and never two corners of one triangle. Joined vertices have one position, that
-    /// of the smallest. 0, or from 1e-15 to 0.1. Default: 0; not used where [`weld`](Self::weld) is off.
+    /// Tolerance for joining boundary edges that nearly coincide. Default: 0, which joins none.
+    ///
+    /// In diagonals of the body's bounding box in the current frame: 0, or from 1e-15 to 0.1. Both
+    /// ends of two edges must be at most this far apart; the nearest edges are joined first. Single
+    /// points are never joined, nor two corners of one triangle. Joined vertices have one position,
+    /// the position of the smallest. Ignored where [`weld`](Self::weld) is off.
     pub weld_tolerance: f64,
-    /// The most bytes that a frame may take. Default: 4 GiB.
+    /// Upper limit of the memory of a frame, in bytes. Default: 4 GiB.
     ///
-    /// Counted is all that is held at once: 12 or 24 per vertex, 12 per triangle, 4 more where there
-    /// are polygons of more corners, and, unless [`weld`](Self::weld) is off, 24 per triangle and 8 per
-    /// vertex while seams are found, of which at most 12 and 12 stay, twice where a later frame has others. A frame that announces more is
-    /// refused before it is read; an OBJ file announces nothing, and is refused when so much of it has
-    /// been read. Not counted: buffers, and the one line or polygon in hand (many MB only where a file
-    /// has a line or polygon so long).
+    /// All data held at once is counted:
     ///
-    /// The bodies of one glTF file share it, and beside their frames what the file says about their shape and motion is counted.
+    /// | bytes | for each |
+    /// |---|---|
+    /// | 12 or 24 | vertex (f32 or f64) |
+    /// | 12 | triangle |
+    /// | 4 | triangle, where the body has polygons of more than three corners |
+    /// | 24 | triangle, while seams are found; at most 12 of them stay |
+    /// | 8 | vertex, while seams are found; at most 12 stay |
+    ///
+    /// Without [`weld`](Self::weld) the last two are not needed. The bytes that stay are held twice
+    /// while a later frame has other seams.
+    ///
+    /// A frame that announces more is refused before it is read. An OBJ file announces nothing; it
+    /// is refused once as much has been read. Buffers are not counted, nor the line or polygon
+    /// being read; these take many MB only where a line or polygon is that long.
+    ///
+    /// The bodies of one glTF file share the limit. The description of their shape and motion
+    /// counts too.
     pub max_memory: u64,
-    /// The animation of a glTF file to evaluate, by name; one without a name is called by its number. Default: the first. A
-    /// file that has no animation stands still.
+    /// Name of the glTF animation to evaluate. Default: the first.
+    ///
+    /// An animation without a name is named by its number. A file without animations stands still.
     pub clip: Option<String>,
-    /// Frames a second at which an animation is evaluated. Default: 30.
+    /// Frames per second at which an animation is evaluated. Default: 30.
     pub fps: f64,
 }
 

@@ -1,8 +1,8 @@
-//! The files that a pattern names, as shells read patterns.
+//! Glob patterns for file names, matched as in shells.
 //!
-//! `*` and `?` match no leading dot and cross no folder; `**` is any number of folders, links to folders left out, so it ends. Names of
-//! files are bytes on most systems and need not be text: what is no text in one is matched by `*` and `?` like any character, and
-//! stands in nobody's way otherwise.
+//! `*` and `?` match no leading dot and do not cross folders. `**` is any number of folders; links
+//! to folders are not followed, so it ends. File names are bytes on most systems and need not be
+//! text: `*` and `?` match invalid bytes like any character.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -19,51 +19,51 @@ const AS_IN_SHELLS: MatchOptions = MatchOptions {
     require_literal_leading_dot: true,
 };
 
-/// A pattern for the names in one folder, or for any number of folders.
-enum Part {
+/// One segment of a pattern: a name, a pattern for names, or `**`.
+enum Segment {
     Literal(PathBuf),
     Names(Pattern),
     Folders,
 }
 
-/// Whether any character has a meaning in patterns.
+/// Whether any character has a special meaning in patterns.
 pub(crate) fn is_pattern(text: &str) -> bool {
     Pattern::escape(text) != text
 }
 
-/// What there is that matches, in no order; files, folders and all else.
+/// Files, folders and everything else that matches a pattern, in no order.
 pub(crate) fn matching(pattern: &str) -> Result<Vec<PathBuf>, Error> {
-    let parts = parts(pattern)?;
+    let segments = segments(pattern)?;
     let mut found = Vec::new();
-    walk(PathBuf::new(), &parts, &mut found)?;
+    walk(PathBuf::new(), &segments, &mut found)?;
     Ok(found)
 }
 
-/// Cuts a pattern where folders end.
-fn parts(pattern: &str) -> Result<Vec<Part>, Error> {
-    let mut parts: Vec<Part> = Vec::new();
+/// Splits a pattern into its segments.
+fn segments(pattern: &str) -> Result<Vec<Segment>, Error> {
+    let mut segments: Vec<Segment> = Vec::new();
     for component in Path::new(pattern).components() {
         let text = component.as_os_str().to_str().unwrap_or_default();
-        parts.push(match component {
-            Component::Normal(_) if text == "**" => Part::Folders,
+        segments.push(match component {
+            Component::Normal(_) if text == "**" => Segment::Folders,
             Component::Normal(_) if is_pattern(text) => {
                 let bad = |bad: glob::PatternError| Error::new(pattern, Reason::Pattern(bad.msg));
-                Part::Names(Pattern::new(text).map_err(bad)?)
+                Segment::Names(Pattern::new(text).map_err(bad)?)
             }
-            _ => Part::Literal(component.as_os_str().into()),
+            _ => Segment::Literal(component.as_os_str().into()),
         });
     }
-    Ok(parts)
+    Ok(segments)
 }
 
-/// Appends what matches the parts that are left, seen from a folder.
-fn walk(folder: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(), Error> {
-    let Some((part, rest)) = parts.split_first() else {
+/// Appends to `found` everything below `folder` that matches the remaining segments.
+fn walk(folder: PathBuf, segments: &[Segment], found: &mut Vec<PathBuf>) -> Result<(), Error> {
+    let Some((segment, rest)) = segments.split_first() else {
         found.push(folder);
         return Ok(());
     };
-    match part {
-        Part::Literal(name) => {
+    match segment {
+        Segment::Literal(name) => {
             let path = folder.join(name);
             let is_there = if rest.is_empty() {
                 path.symlink_metadata().is_ok()
@@ -74,7 +74,7 @@ fn walk(folder: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(),
                 walk(path, rest, found)?;
             }
         }
-        Part::Names(pattern) => {
+        Segment::Names(pattern) => {
             for name in names(&folder)? {
                 if pattern.matches_with(&name.to_string_lossy(), AS_IN_SHELLS) {
                     let path = folder.join(name);
@@ -84,15 +84,15 @@ fn walk(folder: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(),
                 }
             }
         }
-        Part::Folders => {
-            // Without this part, and with one folder more before it.
+        Segment::Folders => {
+            // Without this segment, and with one folder more before it.
             walk(folder.clone(), rest, found)?;
             for name in names(&folder)? {
                 let path = folder.join(&name);
                 let is_hidden = name.to_string_lossy().starts_with('.');
                 let is_folder = path.symlink_metadata().is_ok_and(|its| its.is_dir());
                 if is_folder && !is_hidden {
-                    walk(path, parts, found)?;
+                    walk(path, segments, found)?;
                 }
             }
         }
@@ -100,7 +100,7 @@ fn walk(folder: PathBuf, parts: &[Part], found: &mut Vec<PathBuf>) -> Result<(),
     Ok(())
 }
 
-/// The names in a folder; of the folder without a name those in the one where the program runs.
+/// Names in a folder; the empty path is the current folder.
 fn names(folder: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
     let here = if folder.as_os_str() == OsStr::new("") {
         Path::new(".")
@@ -119,7 +119,8 @@ fn names(folder: &Path) -> Result<Vec<std::ffi::OsString>, Error> {
 mod tests {
     use super::*;
 
-    /// A folder with these files, and what patterns name in it, in order.
+    /// Creates these files in a new folder; returns the names that the pattern matches there,
+    /// sorted.
     fn found(files: &[&str], pattern: &str) -> Vec<String> {
         let folder = tempfile::tempdir().unwrap();
         for file in files {
@@ -165,7 +166,7 @@ mod tests {
         assert!(error.contains("a[.obj"), "{error}");
     }
 
-    /// Linux takes any bytes as a name; other systems refuse these.
+    /// Linux allows any bytes in a name; other systems refuse these.
     #[cfg(target_os = "linux")]
     #[test]
     fn names_that_are_no_text_are_names() {

@@ -1,9 +1,9 @@
-//! Polygons become triangles: recorded as fans in the first frame, compared in every later one.
+//! Connectivity of a body: polygons as triangle fans, recorded once and compared in later frames.
 //!
 //! A fan goes round the polygon's first corner: a b c d e gives (a b c) (a c d) (a d e). The
-//! triangles of a polygon lie side by side and tell it completely, so comparing later frames needs
-//! no other copy of the connectivity. Once all positions of the first frame are there, polygons of
-//! which a fan would be wrong get other triangles; their corners are kept.
+//! triangles of a polygon are adjacent and determine it, so the comparison needs no other copy of
+//! the corners. Once all positions of the first frame are known, polygons whose fan would be wrong
+//! get other triangles; their corners are then kept.
 
 use std::collections::BTreeMap;
 
@@ -13,35 +13,38 @@ use crate::note::Note;
 use crate::positions::Positions;
 use crate::triangulate::{self, Cut};
 
-/// The connectivity of a body as its files have it, before welding.
+/// Connectivity of a body as in its files, before welding.
 #[derive(Debug)]
 pub(crate) struct Polygons {
     triangles: Vec<[u32; 3]>,
-    /// Triangle to polygon; filled from the first polygon on that has more than three corners.
+    /// Polygon of each triangle; None until a polygon with more than three corners comes.
     faces: Option<Vec<u32>>,
-    /// The corners of polygons that are no fans.
+    /// Corners of the polygons that are no fans, by number.
     outlines: BTreeMap<u32, Vec<u32>>,
     count: u64,
     comparing: bool,
-    /// Polygons and triangles met in this frame.
+    /// Number of polygons and triangles in this frame so far.
     met: u64,
     met_triangles: usize,
     largest: Option<Largest>,
-    /// Reused: the corners of a large polygon.
+    /// Reused buffer: the corners of a large polygon, sorted.
     sorted: Vec<u32>,
-    /// How many polygons of the first frame have two corners, and the first of them.
+    /// Number of polygons of the first frame with two corners, and the first of them.
     segments: (usize, usize),
 }
 
-/// Up to so many corners a polygon may have whichever it likes.
+/// Polygons up to this many corners may repeat corners freely.
 const MOST_UNCOUNTED: usize = 64;
 
-/// A larger one may be at each of its corners so often, on average. A hole is tied to the rim around it by an edge there and back,
-/// which visits two corners twice; of holes that are triangles five corners are three different ones.
+/// Average visits per corner allowed in larger polygons.
+///
+/// A hole is tied to its rim by an edge there and back, which visits two corners twice. A
+/// triangular hole has five corners, three of them different.
 const MOST_VISITS: usize = 3;
 
-/// The largest index used in this frame, with a face that uses it: faces may come before vertices,
-/// so the range is known only at the end.
+/// The largest index of this frame, and a face that uses it.
+///
+/// Faces may come before vertices, so the valid range is known only at the end.
 #[derive(Debug)]
 struct Largest {
     index: u32,
@@ -65,7 +68,7 @@ impl Polygons {
         }
     }
 
-    /// From now on polygons are compared with those recorded.
+    /// Makes later polygons be compared with the recorded ones.
     pub(crate) fn compare_from_now_on(&mut self) {
         self.comparing = true;
         self.triangles.shrink_to_fit();
@@ -78,22 +81,22 @@ impl Polygons {
         self.largest = None;
     }
 
-    /// Takes the polygons recorded for those of this frame, as in files that hold one list of faces
-    /// for many frames.
+    /// Declares that this frame has the recorded polygons: files with one list of faces for many
+    /// frames.
     pub(crate) fn repeat(&mut self) {
         self.met = self.count;
     }
 
-    /// Takes the next polygon. `place` is where it is written.
+    /// Appends the next polygon, or compares it with the recorded one; false where they differ.
     ///
-    /// Returns false where it differs from the one recorded.
+    /// `place` is where it is written.
     pub(crate) fn push(
         &mut self,
         corners: &[u32],
         place: impl FnOnce() -> Place,
         account: &mut Account,
     ) -> Result<bool, Reason> {
-        // A segment is a triangle two of whose corners are one.
+        // A segment is a triangle with two corners in one vertex.
         let segment;
         let corners = if let &[a, b] = corners {
             if !self.comparing {
@@ -136,8 +139,10 @@ impl Polygons {
         Ok(equal)
     }
 
-    /// Refuses a large polygon that goes to and fro between few corners. No surface has one, and all triangles of its fan share
-    /// vertices with each other: to find that none of them is an answer takes time by the square.
+    /// Refuses a large polygon that runs to and fro between few corners.
+    ///
+    /// No surface has one. All triangles of its fan share vertices, so the intersection test would
+    /// take quadratic time to find that no pair counts.
     fn check_corners(&mut self, corners: &[u32]) -> Result<(), Reason> {
         let sorted = &mut self.sorted;
         sorted.clear();
@@ -214,7 +219,7 @@ impl Polygons {
             .eq(fan)
     }
 
-    /// Gives polygons the triangles that they are in the positions of the first frame, and notes what is doubtful.
+    /// Triangulates polygons by their positions in the first frame; notes doubtful ones.
     pub(crate) fn shape(
         &mut self,
         positions: Positions<'_>,
@@ -249,7 +254,7 @@ impl Polygons {
                     for (triangle, other) in triangles.iter_mut().zip(others) {
                         *triangle = other.map(|corner| corners[corner]);
                     }
-                    // As a map holds it, roughly.
+                    // A rough size of the map entry.
                     account.enter((64 + size_of_val(&corners[..])) as u64)?;
                     self.outlines.insert(same[0], corners.clone());
                 }
@@ -267,13 +272,14 @@ impl Polygons {
         Ok(segments.into_iter().chain(bent).chain(crossed).collect())
     }
 
-    /// The corners of polygons that are no fans.
+    /// Corners of the polygons that are no fans.
     pub(crate) fn outlines(&self) -> &BTreeMap<u32, Vec<u32>> {
         &self.outlines
     }
 
-    /// Ends a frame of `vertices` vertices: every index must be below. Messages count vertices from
-    /// `first`, as the file does.
+    /// Checks that every index of this frame is below `vertices`.
+    ///
+    /// Messages count vertices from `first`, as the file does.
     pub(crate) fn check_range(&self, vertices: usize, first: i64) -> Result<(), Fault> {
         match &self.largest {
             Some(largest) if largest.index as usize >= vertices => {
@@ -289,12 +295,12 @@ impl Polygons {
         }
     }
 
-    /// How many polygons this frame had, and how many the body has.
+    /// Number of polygons of this frame so far, and of the body.
     pub(crate) fn counts(&self) -> (u64, u64) {
         (self.met, self.count)
     }
 
-    /// The number of the next polygon of this frame.
+    /// Number of the next polygon of this frame.
     pub(crate) fn next_face(&self) -> u64 {
         self.met
     }
@@ -370,9 +376,10 @@ mod tests {
         let mut polygons = recorded(&[&[0, 1, 2]]);
         for corners in [&[][..], &[1]] {
             let refused = polygons.push(corners, || Place::File, &mut account());
-            assert!(
-                matches!(refused, Err(Reason::FewCorners { face: 1, corners: n }) if n == corners.len())
-            );
+            assert!(matches!(
+                refused,
+                Err(Reason::FewCorners { face: 1, corners: n }) if n == corners.len()
+            ));
         }
     }
 
@@ -400,7 +407,7 @@ mod tests {
         };
         assert_eq!(
             push(&to_and_fro(80_000, 2)).unwrap_err(),
-            "face 0 has 80000 corners, of which only 2 are different"
+            "face 0 visits 2 vertices 80000 times in all, which no face of a surface does"
         );
         for (count, different, is_taken) in [
             (64, 2, true),
@@ -428,7 +435,7 @@ mod tests {
             compared(quads, &[&[0, 1, 2], &[0, 1, 3, 2], &[0, 1, 2]]),
             [true, false, true]
         );
-        // The same triangles, cut into polygons in another way.
+        // The same triangles, grouped into other polygons.
         assert_eq!(
             compared(quads, &[&[0, 1, 2], &[0, 1, 2], &[0, 2, 3]]),
             [true, false, false]

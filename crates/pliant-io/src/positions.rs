@@ -1,9 +1,9 @@
-//! The positions of one frame: f32 or f64, as the body began.
+//! Vertex positions of one frame, in the precision of the body: f32 or f64.
 
 use crate::error::Reason;
 use crate::memory::{Account, bytes_of};
 
-/// The type of a body's coordinates, fixed by its first frame.
+/// Floating-point type of a body's coordinates, fixed by its first frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Precision {
     /// 32-bit coordinates.
@@ -13,7 +13,7 @@ pub enum Precision {
 }
 
 impl Precision {
-    /// Of one position.
+    /// Size of one position in bytes.
     pub(crate) fn bytes(self) -> u64 {
         match self {
             Self::F32 => size_of::<[f32; 3]>() as u64,
@@ -22,18 +22,19 @@ impl Precision {
     }
 }
 
-/// The positions of one frame, one per vertex of the file, in the file's unit; finite and at most
-/// `f32::MAX` in magnitude.
+/// Vertex positions of one frame, one per vertex of the file, in the file's unit.
+///
+/// Every coordinate is finite and at most `f32::MAX` in magnitude.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Positions<'a> {
     /// 32-bit coordinates, exactly as in the file.
     F32(&'a [[f32; 3]]),
-    /// 64-bit coordinates; those of 32-bit frames in a 64-bit body are widened exactly.
+    /// 64-bit coordinates. Frames of 32 bits in a 64-bit body are widened exactly.
     F64(&'a [[f64; 3]]),
 }
 
 impl Positions<'_> {
-    /// How many vertices.
+    /// Number of vertices.
     pub fn len(&self) -> usize {
         match self {
             Positions::F32(positions) => positions.len(),
@@ -41,12 +42,12 @@ impl Positions<'_> {
         }
     }
 
-    /// Whether there are no vertices; never so for a body that could be opened.
+    /// Whether there are no vertices; never true for a body that could be opened.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The position of `vertex`, widened where it is 32-bit.
+    /// Position of `vertex`, widened to f64.
     ///
     /// # Panics
     ///
@@ -59,13 +60,14 @@ impl Positions<'_> {
     }
 }
 
-/// The buffer that readers fill, reused from frame to frame.
+/// Vertex buffer that readers fill, reused from frame to frame.
 #[derive(Debug)]
 pub(crate) struct Vertices {
     stored: Stored,
     announced: usize,
 }
 
+/// Positions in the precision of the body.
 #[derive(Debug)]
 enum Stored {
     F32(Vec<[f32; 3]>),
@@ -80,7 +82,7 @@ impl Vertices {
         }
     }
 
-    /// Makes the buffer one of `precision`: that of the body's first frame.
+    /// Empties the buffer and sets its precision: the precision of the body's first frame.
     pub(crate) fn set_precision(&mut self, precision: Precision) {
         self.stored = match precision {
             Precision::F32 => Stored::F32(Vec::new()),
@@ -88,7 +90,7 @@ impl Vertices {
         };
     }
 
-    /// Empties the buffer for a frame that announces `count` vertices, or 0 if it does not say.
+    /// Empties the buffer for a frame that announces `count` vertices, or 0 if it announces none.
     pub(crate) fn clear(&mut self, count: u64, account: &mut Account) {
         account.take_off(self.bytes());
         self.announced = usize::try_from(count).unwrap_or(usize::MAX);
@@ -105,12 +107,11 @@ impl Vertices {
         }
     }
 
-    /// Appends one vertex, checked. In a buffer of 32-bit coordinates, `position` is one that 32
-    /// bits hold exactly.
+    /// Checks and appends one vertex. In a buffer of f32, `position` must be exact in f32.
     pub(crate) fn push(&mut self, position: [f64; 3], account: &mut Account) -> Result<(), Reason> {
         let vertex = self.len() as u64;
         for (axis, value) in ['x', 'y', 'z'].into_iter().zip(position) {
-            // Written so that NaN fails.
+            // Negated comparison, so that NaN fails.
             let in_range = value.abs() <= f64::from(f32::MAX);
             if !in_range {
                 return Err(Reason::Coordinate {
@@ -179,9 +180,11 @@ mod tests {
                 let mut position = [0.0; 3];
                 position[at % 3] = bad;
                 let refused = vertices.push(position, &mut account);
-                assert!(
-                    matches!(refused, Err(Reason::Coordinate { vertex: 1, axis, .. }) if axis == ['x', 'y', 'z'][at % 3])
-                );
+                assert!(matches!(
+                    refused,
+                    Err(Reason::Coordinate { vertex: 1, axis, .. })
+                        if axis == ['x', 'y', 'z'][at % 3]
+                ));
             }
             assert_eq!(vertices.len(), 1);
         }

@@ -1,5 +1,6 @@
-//! A pattern that the shell expanded: `check cloth_*.obj` without quotes arrives as many arguments,
-//! each then a body of its own.
+//! Detection of an unquoted pattern: the shell expands `check cloth_*.obj` into many arguments.
+//!
+//! Each of them would be a body of its own, instead of a frame.
 
 use std::path::Path;
 
@@ -7,11 +8,11 @@ use glob::Pattern;
 
 use crate::format::Format;
 
-/// The pattern to quote, where `arguments` look like one numbered series: at least two, all
-/// different, equal but for one run of digits.
+/// Returns the pattern to quote, if `arguments` look like one numbered series.
 ///
-/// Digits and not-digits of the rest are taken literally (characters with a meaning in patterns are
-/// escaped). The files are not looked at.
+/// They do if there are at least two, all different, and equal except for one sequence of digits.
+/// All other characters are taken literally: characters with a meaning in patterns are escaped. The
+/// files are not looked at.
 ///
 /// ```
 /// let arguments = ["cloth_9.obj", "cloth_10.obj"].map(String::from);
@@ -59,13 +60,13 @@ pub fn looks_like_a_series(arguments: &[String]) -> Option<String> {
     })
 }
 
-/// Whether an argument that begins so has named a file, and now names a part of it: `scene.glb#arm`.
+/// Whether a file ends before `beginning` does, so that a part of it follows: `scene.glb#arm`.
 fn is_behind_a_file(beginning: &str) -> bool {
     let mut cuts = beginning.match_indices('#');
     cuts.any(|(at, _)| Format::of(Path::new(&beginning[..at])).is_ok())
 }
 
-/// Cuts `text` where digits begin or end.
+/// Splits `text` wherever digits begin or end.
 fn runs(text: &str) -> Vec<&str> {
     text.as_bytes()
         .chunk_by(|a, b| a.is_ascii_digit() == b.is_ascii_digit())

@@ -1,22 +1,23 @@
-//! Names as people are shown them: one function for every name in every message, line and page.
+//! Names as people see them: one escaping function for every name in messages, lines and pages.
 //!
-//! A file name may hold a line break, what a terminal or a CI runner takes for a command, or a mark that turns the reading
-//! direction of all that follows; a name inside a file may be as long as the file. So what is shown is one line of visible
-//! characters, the rest written as Rust writes them (`\n`, `\u{202e}`), and of a long name its beginning and its end. What programs
-//! read, such as JSON, has escapes of its own and the true names.
+//! A file name may hold a line break, a command to a terminal or a CI runner, or a mark that
+//! reverses the reading direction. A name inside a file may be as long as the file. So a shown name
+//! is one line of visible characters; others are escaped as in Rust (`\n`, `\u{202e}`). A long name
+//! keeps its beginning and its end. Output for programs, such as JSON, has escapes of its own and
+//! the true names.
 
 use std::ffi::OsStr;
 
-/// A name in a message has no more characters than this.
+/// Most characters of a name in a message.
 const LONGEST: usize = 300;
 
-/// A name for people: one line, nothing invisible, no command to who prints it, not too long.
+/// Escapes a name for people: one line, nothing invisible, no command, at most 300 characters.
 ///
 /// ```
 /// use pliant_io::shown;
 /// assert_eq!(shown("arm.obj"), "arm.obj");
 /// assert_eq!(shown("a\u{1b}[2J\nb\u{202e}.obj"), r"a\u{1b}[2J\nb\u{202e}.obj");
-/// // Where it stands first in a line, GitHub's runner would obey it.
+/// // At the beginning of a line, GitHub's runner would obey it.
 /// assert_eq!(shown("::error::b.obj"), r"\u{3a}:error::b.obj");
 /// assert_eq!(shown("x".repeat(100_000)).chars().count(), 300);
 /// ```
@@ -24,7 +25,10 @@ pub fn shown(name: impl AsRef<OsStr>) -> String {
     shown_within(name, LONGEST)
 }
 
-/// As [`shown`], in no more than so many characters: of a longer name two thirds from its beginning and one from its end.
+/// Escapes a name like [`shown`], in at most `most` characters.
+///
+/// A longer name keeps its beginning, two thirds, and its end, one third. In 0 characters nothing
+/// of it is left.
 ///
 /// ```
 /// assert_eq!(pliant_io::shown_within("a_very_long_name.obj", 12), "a_very_….obj");
@@ -32,7 +36,7 @@ pub fn shown(name: impl AsRef<OsStr>) -> String {
 pub fn shown_within(name: impl AsRef<OsStr>, most: usize) -> String {
     let name = name.as_ref().to_string_lossy();
     let (whole, is_whole) = fitting(pieces(&name), most);
-    if is_whole {
+    if is_whole || most == 0 {
         return whole.concat();
     }
     let end = most / 3;
@@ -42,7 +46,7 @@ pub fn shown_within(name: impl AsRef<OsStr>, most: usize) -> String {
     format!("{}…{}", head.concat(), tail.concat())
 }
 
-/// The characters of a name, each as it is or as its escape.
+/// Characters of a name, each as it is or as its escape.
 fn pieces(name: &str) -> impl DoubleEndedIterator<Item = String> {
     // `::error::` begins a line, perhaps behind spaces.
     let line = name.trim_start();
@@ -58,14 +62,16 @@ fn pieces(name: &str) -> impl DoubleEndedIterator<Item = String> {
     })
 }
 
-/// Whether a bracket behind this begins a command: `##[`, `##vso[`, anywhere in a line.
+/// Whether a `[` behind this text begins a CI command, anywhere in a line: `##[`, `##vso[`.
 fn is_marked(before: &str) -> bool {
     let word = |c: char| c.is_ascii_alphanumeric();
     before.trim_end_matches(word).ends_with("##")
 }
 
-/// Whether a character can be shown as it is. Rust's tables say which are none that people see: controls, marks of direction,
-/// separators, spaces that look like others. They are asked behind a letter, where accents that stand alone in Unicode are no harm.
+/// Whether a character can be shown as it is.
+///
+/// Rust's tables decide which are invisible: controls, direction marks, separators, unusual spaces.
+/// The character is tested behind a letter, where combining accents are harmless.
 fn is_visible(c: char) -> bool {
     let mut word = [b'x', 0, 0, 0, 0];
     let length = 1 + c.encode_utf8(&mut word[1..]).len();
@@ -73,7 +79,7 @@ fn is_visible(c: char) -> bool {
     matches!(c, '\'' | '"' | '\\') || std::str::from_utf8(&word[..length]).is_ok_and(is_itself)
 }
 
-/// As many pieces as fit into so many characters, and whether these are all.
+/// As many pieces as fit into `most` characters, and whether these are all.
 fn fitting(pieces: impl Iterator<Item = String>, most: usize) -> (Vec<String>, bool) {
     let (mut fitting, mut length) = (Vec::new(), 0_usize);
     for piece in pieces {
@@ -92,7 +98,7 @@ mod tests {
 
     #[test]
     fn what_steers_is_escaped_and_what_is_written_is_not() {
-        // An accent of its own, as macOS writes it; quotes and backslashes; another script.
+        // A combining accent, as macOS writes it; quotes and backslashes; another script.
         for name in [
             "e\u{301}té",
             r#"C:\a"b'.obj"#,
@@ -132,9 +138,10 @@ mod tests {
     #[test]
     fn long_names_keep_both_ends_and_no_escape_is_cut() {
         let name = format!("{}{}", "\u{1b}".repeat(1000), "é".repeat(1000));
-        for most in 0..60 {
+        assert_eq!(shown_within(&name, 0), "");
+        for most in 1..60 {
             let shown = shown_within(&name, most);
-            assert!(shown.chars().count() <= most.max(1), "{shown}");
+            assert!(shown.chars().count() <= most, "{shown}");
             let (head, tail) = shown.split_once('…').unwrap();
             assert_eq!(head.replace(r"\u{1b}", ""), "");
             assert_eq!(tail, "é".repeat(most / 3));

@@ -1,8 +1,8 @@
-//! Numbers of bytes, as messages write them.
+//! Byte counts as messages write them.
 
 use std::fmt;
 
-/// A number of bytes for people: `95 bytes`, `4 GiB`, `1.5 GiB`. Rounded up to a tenth.
+/// A byte count for people: `95 bytes`, `4 GiB`, `1.5 GiB`. Rounded up to a tenth.
 pub(crate) struct Size(pub(crate) u64);
 
 impl fmt::Display for Size {

@@ -1,4 +1,4 @@
-//! What a reader of a file that is a sequence does: hand out frame after frame.
+//! The trait of readers: a source returns the frames of one file in order.
 
 use std::sync::Arc;
 
@@ -8,45 +8,52 @@ use crate::note::Note;
 
 /// The frames of one file, in order.
 pub(crate) trait FrameSource: Send {
-    /// How many there are.
+    /// Number of frames in the file.
     fn frame_count(&self) -> usize;
 
-    /// Reads the next one into `frame`, from a file that did not change meanwhile; not called after the last, nor after an
-    /// error.
+    /// Reads the next frame into `frame`; an error if the file changed meanwhile.
+    ///
+    /// Not called after the last frame, nor after an error.
     fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault>;
 
-    /// Passes over so many; at least one is left. Not called before the body has its faces, be they of this source or of another
-    /// one.
+    /// Skips `frames` frames; at least one is left afterwards.
+    ///
+    /// Called only when the body already has its faces, from this source or from another.
     fn skip(&mut self, frames: usize) -> Result<(), Fault>;
 
-    /// Begins again without opening its file again: the next is the first. False where it cannot.
+    /// Returns to the first frame without opening the file again. False where that is not possible.
     fn rewind(&mut self) -> Result<bool, Fault> {
         Ok(false)
     }
 
-    /// The bytes that it holds beside the frame.
+    /// Bytes held by the source, beside the frame.
     fn held(&self) -> u64 {
         0
     }
 
-    /// A number for each vertex of the frame read first: vertices may be welded only if theirs are equal. None where equal
-    /// positions are enough.
+    /// Weld key of each vertex of the first frame: only vertices with equal keys may be welded.
+    ///
+    /// None where equal positions are enough.
     fn alike(&self) -> Option<Vec<u64>> {
         None
     }
 
-    /// Whether two vertices that are [`alike`](Self::alike) are at one place in every frame, to the bit. If not, they are one vertex all
-    /// the same, and how far rounding parts them is no reason to refuse a frame.
+    /// Whether two vertices with equal weld keys coincide bit for bit in every frame.
+    ///
+    /// See [`alike`](Self::alike). If not, they are welded nevertheless: rounding that parts them
+    /// is no reason to refuse a frame.
     fn moves_alike(&self, _: u32, _: u32) -> bool {
         true
     }
 
-    /// What is to be said about the body, once its first frame is read. Of a file of several bodies the first says what is about all.
+    /// Notes about the body, once its first frame is read.
+    ///
+    /// In a file of several bodies, the first body has the notes about the file.
     fn notes(&self) -> Vec<Note> {
         Vec::new()
     }
 
-    /// The name of the animation that moves it.
+    /// Name of the animation that moves the body.
     fn clip(&self) -> Option<&Arc<str>> {
         None
     }

@@ -1,12 +1,15 @@
-//! STL: triangles without shared vertices, as text or as 50 bytes each.
+//! STL reader: triangles without shared vertices, as text or as 50 bytes each.
 //!
-//! Own reader: stl_io looks at the first word to tell text from bytes, and many programs begin binary files with "solid". Here
-//! the length decides: a binary file has exactly 84 bytes and 50 a triangle, and text of that length whose bytes 80 to 83 say
-//! so does not happen. What follows the triangles of a binary file is passed over, as colours of some programs, unless it has the
-//! length of triangles: then their number is wrong.
+//! The crate has its own reader because stl_io tells text from binary by the first word, and many
+//! programs begin binary files with "solid". Here the length decides: a binary file has exactly 84
+//! bytes and 50 per triangle. Every corner is a vertex of its own, in file order, and every edge is
+//! a seam that welding closes.
 //!
-//! Every corner is a vertex of its own, numbered in file order; seams are welded as everywhere, and here every edge is one.
-//! Normals are passed over: the corners say them. f32 in both: as declared in bytes, the nearest to what is written in text.
+//! - Text of exactly that length, whose bytes 80 to 83 give the matching count, does not occur.
+//! - Bytes behind the triangles of a binary file are passed over, as some programs put colours
+//!   there. A length of whole triangles is an error: the count is wrong.
+//! - Normals are passed over: the corners determine them.
+//! - Coordinates are f32: as stored, or nearest to the text.
 
 use std::io::{self, BufRead, Read as _};
 
@@ -18,12 +21,12 @@ use crate::obj::name;
 use crate::positions::Precision;
 use crate::text::{Lines, expected, number, two_coordinates, words};
 
-/// Before the triangles: a comment of 80 bytes and their number.
+/// Bytes before the triangles: a comment of 80 bytes and their number.
 const HEAD: usize = 84;
-/// A normal, three corners, two bytes of other meaning.
+/// Bytes of a triangle: a normal, three corners, and two bytes of other meaning.
 const TRIANGLE: usize = 50;
 
-/// Reads one file of `length` bytes, one frame.
+/// Reads one file of `length` bytes, which is one frame.
 pub(crate) fn read(
     mut input: impl BufRead,
     length: u64,
@@ -47,7 +50,7 @@ pub(crate) fn read(
     if is_text(&head) {
         return read_text((&head[..]).chain(input), frame);
     }
-    // Before and in their number of triangles binary files have other bytes too.
+    // Binary files have other bytes too, before their triangles and in the number of these.
     if head.is_ascii() && !has_controls(&head) {
         let word = words(&head).next().unwrap_or_default();
         return Err(expected("\"solid\"", Some(word)).at(Place::Line(1)));
@@ -67,15 +70,15 @@ pub(crate) fn read(
             needed(count)
         )),
         Some(count) => Reason::Malformed(format!(
-            "{count} triangles need {} bytes, the file has {length}, as {} have",
-            needed(count),
+            "the header counts {count} triangles, but {} bytes follow it, enough for {}",
+            length - HEAD as u64,
             (length - HEAD as u64) / TRIANGLE as u64
         )),
     }
     .at(Place::Byte(80)))
 }
 
-/// Whether a file that begins so is text.
+/// Whether a file that begins with these bytes is text.
 fn is_text(head: &[u8]) -> bool {
     let first = words(head).next().unwrap_or_default();
     first.eq_ignore_ascii_case(b"solid") && !has_controls(head)
@@ -100,7 +103,7 @@ fn read_binary(mut input: impl BufRead, count: u32, frame: &mut Frame) -> Result
         input.read_exact(&mut bytes).map_err(|error| {
             let reason = match error.kind() {
                 io::ErrorKind::UnexpectedEof => {
-                    Reason::Truncated(format!("the file announces {count} triangles"))
+                    Reason::Truncated(format!("the header counts {count} triangles"))
                 }
                 _ => error.into(),
             };
@@ -119,12 +122,15 @@ fn read_binary(mut input: impl BufRead, count: u32, frame: &mut Frame) -> Result
     frame.complete(0)
 }
 
-/// `facet`, `outer loop`, three times `vertex x y z`, `endloop`, `endfacet`; between `solid` and `endsolid`, whose names are
-/// free. Several solids are one body. The last may end with `end solid`, or not at all, which is noted.
+/// Reads the text format: several solids are one body.
+///
+/// A triangle is `facet`, `outer loop`, three times `vertex x y z`, `endloop`, `endfacet`, between
+/// `solid` and `endsolid`, whose names are free. The last solid may end with `end solid`, or not at
+/// all; this is noted.
 fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> {
     frame.begin(Precision::F32, Announced::default())?;
     let mut lines = Lines::new(input);
-    // The words that end what is open, and how many corners the open triangle has.
+    // Keywords that end the open blocks, and the number of corners of the open triangle.
     let (mut open, mut corners): (Vec<&[u8]>, u32) = (Vec::new(), 0);
     let mut is_noted = false;
     while lines.advance()? {
@@ -161,7 +167,7 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
                     .next()
                     .is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) =>
             {
-                let end = "with \"end solid\", in place of \"endsolid\"";
+                let end = "with \"end solid\" in place of \"endsolid\"";
                 if !is_noted {
                     frame.note(Note::NoEnd { end });
                 }
@@ -196,7 +202,7 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
     if let [b"endsolid"] = open[..]
         && frame.next_face() > 0
     {
-        let end = "behind a triangle, without \"endsolid\"";
+        let end = "without \"endsolid\"";
         frame.note(Note::NoEnd { end });
         open.clear();
     }
@@ -207,8 +213,10 @@ fn read_text(input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> 
     frame.complete(0)
 }
 
-/// Reads the names of solids, of a file that was read before; those of a binary file, which names none, and of one that names one
-/// without a name, are none. A solid without a name, or with that of an earlier one, is called by its number, from 1.
+/// Reads the names of solids, from a file that was read before.
+///
+/// A binary file names none. A solid without a name, or with an earlier one's, is called by its
+/// number, from 1.
 pub(crate) fn name_faces(
     mut input: impl BufRead,
     length: u64,
@@ -243,8 +251,9 @@ pub(crate) fn name_faces(
     Ok(())
 }
 
+/// Appends a triangle whose corners are the last three vertices.
 fn triangle_of_the_last_three(frame: &mut Frame, place: impl Fn() -> Place) -> Result<(), Fault> {
-    // Vertices are counted in u32.
+    // A frame has fewer than 2^32 vertices.
     let last = frame.vertex_count() as u32;
     let corners = [
         last.saturating_sub(3),
@@ -268,8 +277,10 @@ mod tests {
         }
     }
 
-    const TEXT: &str = "solid two words\n facet normal 0 0 1\n  OUTER loop\n   vertex 0 0 0\n   vertex 1e0 0 0\r\n\
-        vertex\t0 0.1 0\n endloop\nendfacet\nendsolid two words\n\nsolid\nfacet\nouter loop\nvertex 1 1 1\nvertex 2 2 2\n\
+    const TEXT: &str = "solid two words\n facet normal 0 0 1\n  OUTER loop\n   \
+        vertex 0 0 0\n   vertex 1e0 0 0\r\n\
+        vertex\t0 0.1 0\n endloop\nendfacet\nendsolid two words\n\n\
+        solid\nfacet\nouter loop\nvertex 1 1 1\nvertex 2 2 2\n\
         vertex -3 3 3\nendloop\nendfacet\nendsolid\n";
 
     fn binary(head: &str, corners: &[[[f32; 3]; 3]]) -> Vec<u8> {
@@ -291,7 +302,7 @@ mod tests {
 
     #[test]
     fn text_and_bytes_say_the_same() {
-        // Binary files that begin like text, and text that is as short as can be.
+        // Binary files that begin like text, and a text as short as possible.
         let files = [
             TEXT.as_bytes().to_vec(),
             binary("", &TWO),
@@ -398,7 +409,7 @@ mod tests {
         let nan = read_bytes(&binary("solid", &corners)).unwrap_err();
         assert!(nan.starts_with(", byte 170: y of vertex 5 is NaN"), "{nan}");
         let whole = binary("solid", &TWO);
-        // The zeros of the count say that it is no text.
+        // The zeros of the count show that it is no text.
         for end in [84, 85, 183] {
             assert_eq!(
                 read_bytes(&whole[..end]).unwrap_err(),
@@ -407,7 +418,8 @@ mod tests {
                 )
             );
         }
-        // What follows is passed over, whatever the file begins with; not what may be triangles that were not counted.
+        // Further bytes are passed over, whatever the beginning of the file. Whole triangles are an
+        // error: the count may be wrong.
         for start in ["solid", "COLOR="] {
             for more in [1, 49, 51, 1000 - 1] {
                 let longer = [binary(start, &TWO), vec![7; more]].concat();
@@ -418,7 +430,12 @@ mod tests {
         for more in [1, 3] {
             let longer = [&whole[..], &vec![0; 50 * more]].concat();
             let said = read_bytes(&longer).unwrap_err();
-            assert!(said.ends_with(&format!("as {} have", 2 + more)), "{said}");
+            let words = format!(
+                "the header counts 2 triangles, but {} bytes follow it, enough for {}",
+                100 + 50 * more,
+                2 + more
+            );
+            assert!(said.ends_with(&words), "{said}");
         }
         assert!(
             read_bytes(&[0; 30])
@@ -430,7 +447,7 @@ mod tests {
             ": holds no vertices"
         );
         assert_eq!(read_bytes(b"").unwrap_err(), ": is empty");
-        // Announced and there at the beginning, but gone later.
+        // Announced and present at first, but gone later.
         let mut frame = Frame::new(1 << 20, true);
         let fault = read(&whole[..140], 184, &mut frame).unwrap_err();
         assert_eq!(fault.place, Place::Byte(134));

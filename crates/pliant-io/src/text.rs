@@ -6,12 +6,14 @@ use std::str::FromStr;
 use crate::error::{Fault, Place, Reason};
 use crate::shown::shown_within;
 
-/// The longest line, in bytes: a polygon of a million corners fits, a file without line breaks is
-/// not swallowed whole.
+/// Longest allowed line in bytes: 16 MiB.
+///
+/// A polygon of a million corners fits, but a file without line breaks is not read whole.
 pub(crate) const LONGEST_LINE: u64 = 16 << 20;
 
-/// The lines of a text, without their ends (`\n` or `\r\n`), counted from 1. Where the first line ends with `\r` alone, as those of
-/// old Macs do, so may the others.
+/// Line reader: lines without their ends (`\n` or `\r\n`), counted from 1.
+///
+/// If the first line ends with `\r` alone, as on old Macs, any line may.
 #[derive(Debug)]
 pub(crate) struct Lines<R> {
     input: R,
@@ -47,7 +49,8 @@ impl<R: BufRead> Lines<R> {
             return Ok(false);
         }
         if self.line.len() as u64 > LONGEST_LINE {
-            let reason = "a line of more than 16 MiB; is this a binary file?";
+            let reason =
+                "the line has more than 16 MiB, the most that is read; is this a binary file?";
             return Err(Reason::Malformed(reason.into()).at(self.place()));
         }
         if self.line.last() == Some(&b'\n') {
@@ -59,7 +62,7 @@ impl<R: BufRead> Lines<R> {
         Ok(true)
     }
 
-    /// Reads the first line, and finds out how lines end.
+    /// Reads the first line and detects how lines end.
     fn read_first(&mut self) -> io::Result<usize> {
         if self.read_until_any()? == Some(b'\r') {
             if self.input.fill_buf()?.first() == Some(&b'\n') {
@@ -72,7 +75,9 @@ impl<R: BufRead> Lines<R> {
         Ok(self.line.len())
     }
 
-    /// Reads up to and with the next `\n` or `\r`, and says which it is; none at the end and behind the longest line.
+    /// Reads up to and including the next `\n` or `\r`, and returns it.
+    ///
+    /// None at the end of the text, and beyond the longest allowed line.
     fn read_until_any(&mut self) -> io::Result<Option<u8>> {
         while self.line.len() as u64 <= LONGEST_LINE {
             let some = match self.input.fill_buf() {
@@ -93,7 +98,7 @@ impl<R: BufRead> Lines<R> {
         Ok(None)
     }
 
-    /// The line moved to; empty at the end of the text.
+    /// The current line; empty at the end of the text.
     pub(crate) fn line(&self) -> &[u8] {
         &self.line
     }
@@ -103,19 +108,20 @@ impl<R: BufRead> Lines<R> {
     }
 }
 
-/// The words of a line, cut at white space.
+/// Splits a line into words at white space.
 pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     line.split(u8::is_ascii_whitespace)
         .filter(|word| !word.is_empty())
 }
 
-/// The number a word writes; for floats the nearest one.
+/// Parses a word as a number; floats are rounded to nearest.
 pub(crate) fn number<T: FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// "expected a number, found "abc"": `wanted` is the number, `found` the word in its place, if
-/// there is one.
+/// The error `expected a number, found "abc"`.
+///
+/// `wanted` names what was expected; `found` is the word in its place, if there is one.
 pub(crate) fn expected(wanted: &str, found: Option<&[u8]>) -> Reason {
     Reason::Malformed(match found {
         Some(word) => format!("expected {wanted}, found {}", quoted(word)),
@@ -123,12 +129,12 @@ pub(crate) fn expected(wanted: &str, found: Option<&[u8]>) -> Reason {
     })
 }
 
-/// Of a vertex that ends behind its second coordinate.
+/// The error for a vertex that ends behind its second coordinate.
 pub(crate) fn two_coordinates() -> Reason {
     Reason::Malformed("a vertex has two coordinates; pliant needs three".into())
 }
 
-/// A word of a file in quotes, shortened where it is long.
+/// A word of a file in quotes, shortened to 40 characters.
 pub(crate) fn quoted(word: impl AsRef<[u8]>) -> String {
     let text = String::from_utf8_lossy(word.as_ref());
     format!("\"{}\"", shown_within(&*text, 40))
@@ -161,11 +167,11 @@ mod tests {
             ),
             (b"\rtwo\nthree\r", &[b"", b"two", b"three"]),
             (b"one\r", &[b"one"]),
-            // Where the first line does not end so, it is no end.
+            // The first line does not end with `\r` alone, so it ends no line.
             (b"one\ntw\ro\r\n", &[b"one", b"tw\ro"]),
             (b"one\r\ntw\ro\r\n", &[b"one", b"tw\ro"]),
         ] {
-            // Whatever is read at once.
+            // Whatever the buffer reads at once.
             for capacity in [1, 2, 64] {
                 let input = io::BufReader::with_capacity(capacity, text);
                 let mut read = Lines::new(input);

@@ -1,31 +1,37 @@
-//! Which triangles a polygon is: a fan where that is right, as it is of every convex polygon, otherwise others.
+//! Triangulation of polygons: a fan where it is right, otherwise other triangles.
 //!
-//! A fan round the first corner goes outside a polygon that bends inward elsewhere, and folds over itself; its triangles then meet
-//! what the polygon does not. So the polygon is seen along the axis to which it is most nearly square, where its corners keep two of
-//! their coordinates as they are. If all triangles of the fan go round the same way there, the fan stays. A polygon of four corners
-//! has one other way to be cut. Of any other a constrained Delaunay triangulation between its own corners is made (the crate `spade`,
-//! whose predicates are exact); inside is what an odd number of edges parts from the outside, so holes that are tied to the rim by an
-//! edge there and back stay open. No corner is lost, also where several lie on a line, for neighbours have them too.
+//! A fan round the first corner is right for every convex polygon; on a concave one it may leave
+//! the polygon and fold over itself. The polygon is projected along the axis nearest to its normal,
+//! which keeps two coordinates exact. If all triangles of the fan have the same orientation there,
+//! it stays. Any other polygon is cut so that no corner is lost, even on straight edges: neighbours
+//! have it too.
 //!
-//! A polygon that crosses itself, or has two corners in one place, has no such triangles; it stays a fan.
+//! - Four corners: the polygon has one other diagonal.
+//! - More corners: a constrained Delaunay triangulation of its corners, with the exact predicates
+//!   of the crate `spade`. A triangle is inside if an odd number of edges separates it from the
+//!   outside. So holes that are tied to the rim by an edge there and back stay open.
+//! - A polygon that crosses itself, or has two vertices in one place, has no triangulation; it
+//!   stays a fan.
 
 use spade::{ConstrainedDelaunayTriangulation as Triangulation, Point2, Triangulation as _};
 
-/// How a polygon is cut.
+/// Result of triangulating a polygon.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Cut {
-    /// Round the first corner.
+    /// The fan round the first corner.
     Fan,
-    /// Into these triangles, as many as a fan has, by numbers of corners.
+    /// Other triangles, as many as a fan has, by numbers of corners.
     Other(Vec<[usize; 3]>),
-    /// A fan would be wrong, and so would anything else.
+    /// No triangulation exists: the polygon crosses itself, and a fan is wrong too.
     Crossed,
 }
 
 type Point = [f64; 3];
 type Flat = [f64; 2];
 
-/// Cuts a polygon of at least four corners. `same(i, j)`: whether two corners are the same vertex.
+/// Triangulates a polygon of at least four corners.
+///
+/// `same(i, j)`: whether two corners are the same vertex.
 pub(crate) fn cut(corners: &[Point], same: impl Fn(usize, usize) -> bool) -> Cut {
     let flat = flattened(&near_one(corners));
     let turns = |i: usize, j: usize, k: usize| area(flat[i], flat[j], flat[k]);
@@ -43,7 +49,7 @@ pub(crate) fn cut(corners: &[Point], same: impl Fn(usize, usize) -> bool) -> Cut
     delaunay(&flat, same).map_or(Cut::Crossed, Cut::Other)
 }
 
-/// Whether any corner lies further from the mean plane than a tenth of the diagonal of the polygon's box.
+/// Whether any corner is further from the mean plane than a tenth of the bounding box's diagonal.
 pub(crate) fn is_bent(corners: &[Point]) -> bool {
     let corners = &near_one(corners)[..];
     let normal = normal(corners);
@@ -60,18 +66,20 @@ pub(crate) fn is_bent(corners: &[Point]) -> bool {
         let parts = (0..3).map(|axis| (normal[axis] / length) * (point[axis] - mean[axis]));
         parts.sum::<f64>().abs()
     };
-    // Where there is no normal, nothing is said: the comparison is false of what is no number.
+    // Without a normal the height is NaN, and the comparison false.
     corners.iter().any(|point| height(point) > 0.1 * diagonal)
 }
 
-/// The corners times a power of two, so that the largest coordinate is about one: no product of theirs is lost for being small.
+/// Corners scaled by a power of two so that the largest coordinate is about 1.
+///
+/// Products of small coordinates then do not underflow.
 fn near_one(corners: &[Point]) -> Vec<Point> {
     let largest = corners
         .as_flattened()
         .iter()
         .fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let exponent = (largest.to_bits() >> 52) as i32 - 1023;
-    // A subnormal number has the smallest exponent, and is brought as far as one power goes.
+    // A subnormal number has the smallest exponent, and is scaled as far as one power goes.
     let power = 2.0_f64.powi((-exponent).clamp(-1000, 1000));
     corners
         .iter()
@@ -79,7 +87,9 @@ fn near_one(corners: &[Point]) -> Vec<Point> {
         .collect()
 }
 
-/// The sum of the areas of the fan, as a vector: Newell's normal, without what is far from the first corner cancelling out.
+/// Newell's normal: the sum of the areas of the fan's triangles, as a vector.
+///
+/// Computed relative to the first corner, so that a distant origin causes no cancellation.
 fn normal(corners: &[Point]) -> Point {
     let from_first =
         |point: &Point| -> Point { std::array::from_fn(|axis| point[axis] - corners[0][axis]) };
@@ -94,7 +104,7 @@ fn normal(corners: &[Point]) -> Point {
     sum
 }
 
-/// The corners along the axis nearest to the normal, so that the polygon as a whole goes round counterclockwise.
+/// Corners projected along the axis nearest to the normal, in counterclockwise order.
 fn flattened(corners: &[Point]) -> Vec<Flat> {
     let normal = normal(corners);
     let larger = |a: usize, b: usize| {
@@ -112,14 +122,16 @@ fn flattened(corners: &[Point]) -> Vec<Flat> {
     corners.iter().map(|point| [point[i], point[j]]).collect()
 }
 
-/// Twice the area of a triangle that goes round counterclockwise.
+/// Twice the signed area of a triangle, positive if counterclockwise.
 fn area(a: Flat, b: Flat, c: Flat) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// The triangles inside, by numbers of corners, sorted; none unless they are as many as those of a fan.
+/// Triangles of a constrained Delaunay triangulation inside the polygon, sorted.
+///
+/// They are triples of corner numbers. None unless there are as many as in a fan. Takes O(n log n).
 fn delaunay(flat: &[Flat], same: impl Fn(usize, usize) -> bool) -> Option<Vec<[usize; 3]>> {
-    // Corners by place: the first of those at one place stands for all of them, which are one vertex.
+    // Corners by place. The first of several at one place represents them; they must be one vertex.
     let mut order: Vec<usize> = (0..flat.len()).collect();
     let by_place = |&i: &usize, &j: &usize| {
         let [a, b] = [flat[i], flat[j]];
@@ -182,7 +194,8 @@ fn delaunay(flat: &[Flat], same: impl Fn(usize, usize) -> bool) -> Option<Vec<[u
     Some(triangles)
 }
 
-/// The faces inside, counterclockwise: an odd number of constraint edges parts them from the outside.
+/// The faces inside, counterclockwise: an odd number of constraint edges separates them from
+/// outside.
 fn inner_faces(made: &Triangulation<Point2<f64>>) -> impl Iterator<Item = [usize; 3]> + '_ {
     let mut is_inside: Vec<Option<bool>> = vec![None; made.num_all_faces()];
     let outside = made.outer_face().fix().index();
@@ -191,7 +204,7 @@ fn inner_faces(made: &Triangulation<Point2<f64>>) -> impl Iterator<Item = [usize
     for hull in made.convex_hull() {
         open.extend([hull.fix(), hull.rev().fix()]);
     }
-    // Every directed edge here has a face that is known, or its opposite has.
+    // Each directed edge on the stack has a known face on one of its sides.
     while let Some(edge) = open.pop() {
         let edge = made.directed_edge(edge);
         let [here, there] = [edge.face(), edge.rev().face()].map(|face| face.fix().index());
@@ -212,7 +225,7 @@ fn inner_faces(made: &Triangulation<Point2<f64>>) -> impl Iterator<Item = [usize
 mod tests {
     use super::*;
 
-    /// A polygon in the plane, and the same turned and moved in space.
+    /// Triangulates a polygon in the plane, and the same one turned and moved in space.
     fn cuts(flat: &[Flat]) -> Cut {
         let never = |_, _| false;
         let upright: Vec<Point> = flat.iter().map(|&[x, y]| [x, y, 0.0]).collect();
@@ -233,7 +246,7 @@ mod tests {
         made
     }
 
-    /// Triangles go round as the polygon does, and cover as much.
+    /// Triangles have the polygon's orientation and its total area.
     fn check(flat: &[Flat], made: &Cut) {
         let Cut::Other(triangles) = made else {
             return;
@@ -275,7 +288,7 @@ mod tests {
                 .into()
         };
         assert_eq!(cuts(&(0..9).map(round).collect::<Vec<Flat>>()), Cut::Fan);
-        // Corners on a line, and an L that its fan fits.
+        // Corners on a line, and an L whose fan is right.
         assert_eq!(
             cuts(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]),
             Cut::Fan
@@ -305,7 +318,7 @@ mod tests {
             );
             l.rotate_left(1);
         }
-        // A comb, with corners on lines.
+        // A comb, with corners on straight edges.
         let mut comb: Vec<Flat> = vec![[0.0, -1.0], [20.0, -1.0], [40.0, -1.0]];
         for tooth in (0..20).rev() {
             let x = 2.0 * f64::from(tooth);
@@ -334,7 +347,7 @@ mod tests {
             .map(|&[i, j, k]| area(flat[i], flat[j], flat[k]))
             .sum();
         assert_eq!((triangles.len(), sum), (8, 2.0 * 12.0));
-        // Corners at one place that are two vertices could be mistaken for each other.
+        // Two vertices at one place could be mistaken for each other.
         assert_eq!(cut(&points, |_, _| false), Cut::Crossed);
     }
 
@@ -353,7 +366,7 @@ mod tests {
         assert_ne!(cuts(&star), Cut::Fan);
     }
 
-    /// Random stars round a point are cut, at any magnitude that a file can have.
+    /// Random star-shaped polygons are triangulated at any magnitude that a file can have.
     #[test]
     fn random_polygons_are_covered() {
         let mut state = 1_u64;

@@ -1,8 +1,9 @@
 //! Welding: vertices that a file split along a seam become one again.
 //!
-//! Files hold a vertex once for every texture coordinate or normal it has, so a closed surface
-//! arrives cut open along its seams, and every seam would be a hit: its two sides touch. What tells
-//! a seam from a contact is that whole *boundary edges* (edges of exactly one triangle) coincide:
+//! Files split a vertex for each of its texture coordinates or normals. A closed surface arrives
+//! cut open, and the two sides of each seam would intersect. A seam is told from a contact by whole
+//! *boundary edges* (edges of exactly one triangle) that coincide. Single points never weld: two
+//! bodies that touch in a point are two bodies.
 //!
 //! ```text
 //! edges of exactly one triangle, as pairs of places   a place: the vertices at one position
@@ -11,13 +12,11 @@
 //! rewrite the triangles to the leading vertices       positions stay, each side keeps its own
 //! ```
 //!
-//! Coincidence of single points never welds: two bodies that touch in a point are two bodies. An
-//! edge whose two ends are at one place is a point in this sense.
-//!
-//! Every frame has the seams that hold in it, as if it were alone. Which those are depends on nothing but which ends of boundary
-//! edges are at one place. So a later frame is searched only if that is not as it was in the first: [`Seams::hold`].
-//! Where a format moves vertices by a rule, the rule decides, in all frames alike. All triangles use the vertex that leads, so how
-//! far rounding parts the others is nowhere seen.
+//! - An edge whose two ends are at one place is a point in this sense.
+//! - Every frame has its own seams, as if it were alone. They depend only on which ends of boundary
+//!   edges are at one place; a later frame is searched only if this has changed ([`Seams::hold`]).
+//! - Where a format moves vertices by a rule, the rule decides for all frames alike. All triangles
+//!   use the leading vertex, so rounding that parts the others is never seen.
 
 use crate::boundary::{Edge, boundary_edges};
 use crate::classes::Classes;
@@ -25,59 +24,64 @@ use crate::memory::bytes_of;
 use crate::near::{self, NearSeams};
 use crate::positions::Positions;
 
-/// What boundary edges of a frame say.
+/// Seams of one frame.
 #[derive(Debug, Default)]
 pub(crate) struct Seams {
-    /// None where nothing is welded.
+    /// Welded triangles; None where nothing is welded.
     pub(crate) welding: Option<Welding>,
-    /// The boundary edges that welding left, by the vertices that stand for their ends, ascending; None where there are very many.
+    /// Boundary edges left after welding, by the leading vertices of their ends, ascending.
+    ///
+    /// None where there are more than [`MOST_OPEN`].
     pub(crate) open: Option<Vec<Edge>>,
-    /// For each end of a boundary edge one vertex that stands for all at its place, and [`UNUSED`] for other vertices. Empty where no
-    /// frame decides what is welded, and where there is no boundary.
+    /// For each end of a boundary edge a representative vertex at its place, else [`UNUSED`].
+    ///
+    /// Empty where no frame decides on welding, and where there is no boundary.
     places: Vec<u32>,
 }
 
-/// The triangles after welding, and what was welded.
+/// Triangles after welding, and the welded vertices.
 #[derive(Debug)]
 pub(crate) struct Welding {
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Each vertex welded away, with the smaller vertex that takes its place; ascending.
+    /// Each vertex welded away, with the smaller vertex that replaces it; ascending.
     pub(crate) welded: Vec<(u32, u32)>,
-    /// What was joined besides, where that was asked for.
+    /// Vertices joined with a tolerance, where one was given.
     pub(crate) near: Option<NearSeams>,
 }
 
 /// Vertices that are one in the first frame of a mesh, and apart in a later one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartedSeams {
-    /// How many vertices more there are than if they were one still.
+    /// Number of vertices gained in the later frame.
     pub count: usize,
-    /// The two that are furthest apart; the first stands for the second in the first frame.
+    /// The two vertices furthest apart; the first represents the second in the first frame.
     pub vertices: [u32; 2],
-    /// Where these are.
+    /// Their positions in the later frame.
     pub positions: [[f64; 3]; 2],
-    /// How far apart they are, in diagonals of the body's box.
+    /// Their distance, in diagonals of the body's bounding box.
     pub farthest: f64,
 }
 
-/// The number of no vertex.
+/// Marks a vertex that is no end of a boundary edge.
 const UNUSED: u32 = u32::MAX;
 
-/// The most bytes that [`weld`] takes, beside its arguments, and that its result takes: three edges a triangle, two numbers a
-/// vertex.
+/// Upper bound of the bytes that [`weld`] takes, its result included.
+///
+/// Three edges per triangle, and two numbers per vertex.
 pub(crate) fn memory(triangles: u64, vertices: u64) -> u64 {
     let edges = triangles.saturating_mul(3 * size_of::<Edge>() as u64);
     edges.saturating_add(vertices.saturating_mul(2 * size_of::<u32>() as u64))
 }
 
-/// Boundary edges that coincide with no other are kept to be looked at later, but no more than so many: 512 KB of them.
+/// Most open boundary edges that are kept for a later search: 512 KiB of them.
 const MOST_OPEN: usize = 1 << 16;
 
-/// Welds `triangles`. `same(v)` is what must be equal for `v`
-/// to be welded to another vertex: its position, and whatever else moves it in a format that moves
-/// vertices by rule. Every index must be below `vertices`.
+/// Welds `triangles` along boundary edges that coincide, in O(n log n).
 ///
-/// Lists are cut down and sorted where they are, and freed as soon as they are done with: [`memory`] is the limit.
+/// `same(v)` is the weld key of vertex `v`: only vertices of equal keys are welded. The key is the
+/// position, and whatever else moves the vertex in a format that moves vertices by rule. Every
+/// index must be below `vertices`. Lists are shrunk and sorted in place and freed early, to stay
+/// within [`memory`].
 pub(crate) fn weld<K: Ord>(
     triangles: &[[u32; 3]],
     vertices: usize,
@@ -154,7 +158,7 @@ pub(crate) fn weld<K: Ord>(
     }
 }
 
-/// For each end of an edge one vertex that stands for all at its place, no matter which.
+/// For each end of an edge an arbitrary representative of the vertices at its place.
 fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> Vec<u32> {
     let mut place = vec![UNUSED; vertices];
     let mut count = 0;
@@ -177,12 +181,12 @@ fn places<K: Ord>(edges: &[Edge], vertices: usize, same: impl Fn(u32) -> K) -> V
     place
 }
 
-/// The position of `vertex` as bits that are equal where the numbers are: -0 counts as 0.
+/// Position of `vertex` as bits, equal where the numbers are: -0 counts as 0.
 pub(crate) fn position_bits(positions: Positions<'_>, vertex: u32) -> [u64; 3] {
     positions.get(vertex).map(|value| (value + 0.0).to_bits())
 }
 
-/// A position as one number; two may have the same, which costs a search and changes nothing.
+/// Hash of a position. A collision costs a search and changes no result.
 fn hash(bits: [u64; 3]) -> u64 {
     bits.into_iter().fold(0, |hash: u64, bits| {
         let mixed = (hash ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -191,8 +195,10 @@ fn hash(bits: [u64; 3]) -> u64 {
 }
 
 impl Seams {
-    /// Whether ends of boundary edges are at one place in another frame where they are in this, and nowhere else: then bit for bit
-    /// the same is welded. Takes eight bytes a vertex for a while.
+    /// Whether ends of boundary edges coincide in another frame exactly where they do in this one.
+    ///
+    /// Then its seams are the same, bit for bit. Takes O(n log n), and eight bytes per vertex
+    /// meanwhile.
     pub(crate) fn hold(&self, positions: Positions<'_>) -> bool {
         let mut different = Vec::new();
         for (&place, vertex) in self.places.iter().zip(0..) {
@@ -207,17 +213,17 @@ impl Seams {
         different.is_sorted_by(|a, b| a < b)
     }
 
-    /// From now on no frame decides: the same is welded in all.
+    /// Makes the seams hold in all frames: positions no longer decide.
     pub(crate) fn are_a_rule(&mut self) {
         self.places = Vec::new();
     }
 
-    /// The triangles; `all` are those of the file.
+    /// Triangles after welding; `all`: triangles of the file.
     pub(crate) fn triangles<'a>(&'a self, all: &'a [[u32; 3]]) -> &'a [[u32; 3]] {
         self.welding.as_ref().map_or(all, |it| &it.triangles)
     }
 
-    /// The same, if nothing were joined besides what coincides; `all` are the triangles of the file.
+    /// The seams without near ones, as exact welding left them; `all`: triangles of the file.
     pub(crate) fn exactly(&self, all: &[[u32; 3]]) -> Self {
         let welding = self.welding.as_ref().map(|it| Welding {
             triangles: rewritten(all, |vertex| leader(&it.welded, vertex)),
@@ -233,7 +239,7 @@ impl Seams {
         }
     }
 
-    /// Joins what is near besides; `all` are the triangles of the file.
+    /// Adds near seams; `all`: triangles of the file.
     pub(crate) fn join(&mut self, near: NearSeams, all: &[[u32; 3]]) {
         let welding = self.welding.get_or_insert_with(|| Welding {
             triangles: all.to_vec(),
@@ -245,19 +251,21 @@ impl Seams {
         welding.near = Some(near);
     }
 
-    /// What it takes.
+    /// Bytes held.
     pub(crate) fn bytes(&self) -> u64 {
         let welding = self.welding.as_ref().map_or(0, Welding::bytes);
         welding + self.open.as_deref().map_or(0, bytes_of) + bytes_of(&self.places)
     }
 
-    /// The vertex that stands for this one.
+    /// The vertex that represents `vertex` after welding.
     pub(crate) fn leader(&self, vertex: u32) -> u32 {
         let welding = self.welding.as_ref();
         welding.map_or(vertex, |it| it.leader(vertex))
     }
 
-    /// Which vertices are one here and apart in a later frame, whose seams are `now`; `all` are the triangles of the file.
+    /// Vertices that are one here and apart in a later frame.
+    ///
+    /// `now`: seams of the later frame; `all`: triangles of the file.
     pub(crate) fn parted(
         &self,
         now: &Self,
@@ -296,12 +304,13 @@ impl Seams {
     }
 }
 
+/// Triangles with each corner replaced by its leader.
 fn rewritten(triangles: &[[u32; 3]], mut leader: impl FnMut(u32) -> u32) -> Vec<[u32; 3]> {
     let triangles = triangles.iter();
     triangles.map(|corners| corners.map(&mut leader)).collect()
 }
 
-/// The vertex that stands for this one, if these were welded away.
+/// The vertex that replaces `vertex` in the sorted list `welded`, or `vertex` itself.
 fn leader(welded: &[(u32, u32)], vertex: u32) -> u32 {
     let at = welded.binary_search_by_key(&vertex, |&(its, _)| its);
     at.map_or(vertex, |at| welded[at].1)
@@ -313,7 +322,7 @@ impl Welding {
         bytes_of(&self.triangles) + bytes_of(&self.welded) + near
     }
 
-    /// How many vertices do not move with their leaders to the bit.
+    /// Number of welded vertices that do not move with their leaders to the bit.
     pub(crate) fn loose(&self, moves_alike: impl Fn(u32, u32) -> bool) -> usize {
         let alike = |&&(vertex, leader): &&(u32, u32)| !moves_alike(vertex, leader);
         self.welded.iter().filter(alike).count()
@@ -326,7 +335,7 @@ impl Welding {
             .map_or(vertex, |near| near.leader(vertex))
     }
 
-    /// How many vertices were welded away.
+    /// Number of vertices welded away.
     pub(crate) fn count(&self) -> usize {
         self.welded.len() + self.near.as_ref().map_or(0, NearSeams::count)
     }
@@ -344,7 +353,8 @@ mod tests {
 
     fn welded(triangles: &[[u32; 3]], positions: &[[f64; 3]]) -> Option<Welding> {
         let Seams { welding, open, .. } = seams(triangles, positions);
-        // What is left open is boundary of what was welded; edges of triangles that became needles are, too, but coincided.
+        // Open edges are boundary edges of the welded triangles. Not conversely: edges of triangles
+        // that became needles are boundary too, but did coincide.
         let triangles = welding.as_ref().map_or(triangles, |it| &it.triangles);
         let boundary = boundary_edges(triangles);
         assert!(open.unwrap().iter().all(|edge| boundary.contains(edge)));
@@ -416,7 +426,7 @@ mod tests {
         ];
         let mut triangles = TETRAHEDRON.to_vec();
         triangles.extend(TETRAHEDRON.map(|t| t.map(|corner| corner + 4)));
-        // In a point, and then, closed as they are, along an edge.
+        // In a point; then, closed as they are, along an edge.
         for mirrored in [[true, true, true], [true, true, false]] {
             let mut positions = corners.to_vec();
             positions.extend(corners.map(|p: [f64; 3]| {
@@ -455,7 +465,7 @@ mod tests {
             [0.0, 1.0, 0.0],
         ];
         let welding = welded(&[[0, 1, 2], [3, 4, 5]], &positions);
-        // The two long sides of each needle coincide, which closes it; but the needles stay apart.
+        // The two long sides of each needle coincide, which closes it; the needles stay apart.
         assert_eq!(welding.unwrap().welded, [(1, 0), (4, 3)]);
     }
 
@@ -479,7 +489,8 @@ mod tests {
 
     #[test]
     fn edges_inside_a_surface_do_not_weld() {
-        // Two folded sheets (pairs of triangles) whose inner edges coincide and nothing else does.
+        // Two folded sheets, of two triangles each, whose inner edges coincide and nothing else
+        // does.
         let positions = [
             [0.0; 3],
             [1.0, 0.0, 0.0],

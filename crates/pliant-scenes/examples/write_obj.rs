@@ -1,6 +1,7 @@
-//! Writes the bodies of a scene at a step as OBJ files, `NAME-0.obj` and so on: `write_obj NAME TRIANGLES STEP FOLDER`.
+//! Writes the bodies of a scene at a step as OBJ files: `write_obj NAME TRIANGLES STEP FOLDER`.
 //!
-//! Coordinates are written so that a reader of 64-bit numbers gets exactly the scene's 32-bit ones.
+//! The files are `NAME-0.obj` and so on. A reader of 64-bit numbers gets exactly the scene's 32-bit
+//! coordinates.
 
 use pliant_scenes::Scene;
 use std::error::Error;

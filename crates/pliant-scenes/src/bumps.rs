@@ -1,33 +1,34 @@
 //! Bumps that wander over a sphere: a sum of plane waves that travel through it.
 //!
-//! The height at the unit vector `v` is Σ a sin(k d·v + phase + speed · step), with a random
-//! direction `d`, wave number `k` and speed for each wave. The bumps stay smooth and of one size
-//! everywhere (a wave in longitude and latitude would crowd at the poles), never repeat, and are
+//! The height at the unit vector `v` is Σ a sin(k d·v + phase + speed · step). Each wave has a
+//! random direction `d` and wave number `k`. The bumps stay smooth and of one size everywhere,
+//! whereas a wave in longitude and latitude would crowd at the poles. They never repeat, and are
 //! the same for every size of mesh.
 
 use crate::rng::Rng;
 use crate::trig::sin;
 use crate::vector::{Vec3, dot, scale};
 
-/// How many points are raised at once, so that the compiler can do the sines in lanes.
+/// Points raised at once, so that the compiler can compute the sines in SIMD lanes.
 pub(crate) const LANES: usize = 8;
 
 /// Waves of one body: enough that no single one is seen.
 const WAVES: usize = 24;
 
-/// Radians per unit of length: bumps about half a radius wide.
+/// Range of wave numbers, in radians per unit of length: bumps about half a radius wide.
 const WAVE_NUMBER: (f64, f64) = (9.0, 15.0);
 
-/// Radians a step, either way: a bump rises and falls in 125 to 630 steps.
+/// Range of speeds, in radians per step, either way: a bump rises and falls in 125 to 630 steps.
 const SPEED: (f64, f64) = (0.01, 0.05);
 
-/// A height field on the unit sphere that changes with the step.
+/// Height field on the unit sphere that changes with the step.
 #[derive(Debug)]
 pub(crate) struct Bumps {
     waves: [Wave; WAVES],
     amplitude: f64,
 }
 
+/// A plane wave.
 #[derive(Debug)]
 struct Wave {
     /// Direction times wave number.
@@ -37,23 +38,23 @@ struct Wave {
 }
 
 impl Bumps {
-    /// Bumps of the given height, as the root of its mean square.
+    /// Draws random bumps; `height` is their root mean square.
     pub(crate) fn new(rng: &mut Rng, height: f64) -> Self {
         let waves = std::array::from_fn(|_| Wave {
             vector: scale(rng.direction(), rng.between(WAVE_NUMBER.0, WAVE_NUMBER.1)),
             phase: rng.angle(),
             speed: rng.either_sign(SPEED.0, SPEED.1),
         });
-        // The mean square of a sine is a half.
+        // The mean square of a sine is 1/2.
         Self {
             waves,
             amplitude: height * (2.0 / WAVES as f64).sqrt(),
         }
     }
 
-    /// The heights over up to [`LANES`] unit vectors; the lanes beyond them mean nothing.
+    /// Heights over up to [`LANES`] unit vectors; lanes beyond them are meaningless.
     ///
-    /// A lane adds its waves in order, so what it gets does not depend on the other lanes.
+    /// Each lane adds the waves in order, so its result does not depend on other lanes.
     pub(crate) fn heights(&self, step: f64, points: &[Vec3]) -> [f64; LANES] {
         let mut block = [[0.0; 3]; LANES];
         block[..points.len()].copy_from_slice(points);

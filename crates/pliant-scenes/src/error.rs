@@ -1,10 +1,10 @@
-//! What can be wrong with a scene that was asked for.
+//! The error type of the crate.
 
 use std::fmt;
 
 use crate::limits;
 
-/// Why a scene could not be made.
+/// Reason why a scene could not be made.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SceneError {

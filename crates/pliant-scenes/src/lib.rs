@@ -1,20 +1,20 @@
 //! Deforming scenes to test and measure collision detection with.
 //!
-//! A [`Scene`] is a pure function of its name, size, seed and step: it reads no clock, no file and
-//! no platform mathematics, and its positions are the same bits on every machine. The first four
-//! follow the experiments of Larsson and Akenine-Möller, *Collision Detection for Continuously
-//! Deforming Bodies* (2001).
+//! A [`Scene`] is a pure function of its name, size, step and seed. It reads no clock, no file and
+//! no platform mathematics: its positions are the same bits on every machine. The first four follow
+//! the experiments of Larsson and Akenine-Möller, *Collision Detection for Continuously Deforming
+//! Bodies* (2001).
 //!
 //! | name | bodies | triangles each | steps | what happens |
 //! |---|---|---|---|---|
 //! | `spheres` | 2 | 20,480 | 200 | two bumpy spheres move into each other; contact from step 60 |
 //! | `crowd` | 27 | 5,120 | 200 | bumpy spheres jostle each other at every step |
-//! | `arms` | 27 | 5,120 | 200 | bodies with seven waving arms reach into each other at every step |
-//! | `gather` | 64 | 1,280 | 200 | bumpy spheres move from far starts to one goal; contact from step 135 |
+//! | `arms` | 27 | 5,120 | 200 | bodies reach into each other with seven arms, at every step |
+//! | `gather` | 64 | 1,280 | 200 | bumpy spheres move to one goal; contact from step 135 |
 //! | `cloth` | 1 | 79,202 | 50 | a sheet folds onto itself; contact from step 26 |
 //!
 //! Size and number are defaults: [`Scene::new`] takes the triangles of a body, [`Scene::gather`]
-//! any number of bodies. All bodies of a scene share one connectivity, and it never changes; in a
+//! any number of bodies. All bodies of a scene share one connectivity, which never changes. In a
 //! [`ChangingScene`] it does: `cut`, `tear`, `fuse`, `shuffle`, `remesh`.
 //!
 //! ```
@@ -30,7 +30,7 @@
 //! # Ok::<(), pliant_scenes::SceneError>(())
 //! ```
 
-// From what a caller sees down to the arithmetic.
+// From the public interface down to the arithmetic.
 mod changing;
 mod error;
 mod limits;

@@ -1,7 +1,7 @@
-//! What can be asked for, where messages say it.
+//! Names and limits that messages quote.
 
-/// The names of the scenes.
+/// Names of the scenes.
 pub(crate) const NAMES: [&str; 5] = ["spheres", "crowd", "arms", "gather", "cloth"];
 
-/// The most bodies that gather.
+/// Most bodies of the scene `gather`.
 pub(crate) const MAX_BODIES: usize = 10_000;

@@ -1,20 +1,20 @@
-//! How a body as a whole moves: where its centre is, and how far it has turned.
+//! Rigid motion of a body: the path of its centre, and its rotation.
 
 use crate::rng::Rng;
 use crate::trig::{cos, sin};
 use crate::vector::{Vec3, add, between, dot};
 
-/// A point in time.
+/// A point in time of a scene.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moment {
-    /// The number of the step, from 1.
+    /// Number of the step, from 1.
     pub(crate) step: f64,
-    /// 0 at the first step, 1 at the last.
+    /// Progress of the motion: 0 at the first step, 1 at the last.
     pub(crate) progress: f64,
 }
 
 impl Moment {
-    /// A step of so many; before the first it is the first, after the last the last.
+    /// The moment of a step in a motion of `steps` steps; clamped to the first and the last.
     pub(crate) fn of(step: u32, steps: u32) -> Self {
         let step = f64::from(step.clamp(1, steps));
         Self {
@@ -24,12 +24,12 @@ impl Moment {
     }
 }
 
-/// Where the centre of a body goes.
+/// Path of the centre of a body.
 #[derive(Debug)]
 pub(crate) enum Path {
-    /// From one point at the first step to another at the last, evenly.
+    /// A straight line between two points, from the first step to the last, at constant speed.
     Straight { from: Vec3, to: Vec3 },
-    /// To and fro round a point, along each axis in its own time.
+    /// An oscillation round a point, along each axis at its own rate.
     Sway {
         home: Vec3,
         reach: f64,
@@ -39,7 +39,7 @@ pub(crate) enum Path {
 }
 
 impl Path {
-    /// A sway of `reach` along each axis, one way and back in `steps` (shortest, longest) steps.
+    /// Draws a sway of `reach` along each axis, with a period within `steps` (shortest, longest).
     pub(crate) fn sway(rng: &mut Rng, home: Vec3, reach: f64, steps: (f64, f64)) -> Self {
         let phases = std::array::from_fn(|_| rng.angle());
         let rate = std::f64::consts::TAU;
@@ -67,25 +67,26 @@ impl Path {
     }
 }
 
-/// A steady turn about a fixed axis.
+/// A rotation about a fixed axis at constant speed.
 #[derive(Debug)]
 pub(crate) struct Spin {
     axis: Vec3,
-    /// Radians at step 0.
+    /// Angle at step 0, in radians.
     angle: f64,
-    /// Radians a step.
+    /// Radians per step.
     rate: f64,
 }
 
 impl Spin {
-    /// Not turned at all.
+    /// No rotation.
     pub(crate) const NONE: Self = Self {
         axis: [0.0, 0.0, 1.0],
         angle: 0.0,
         rate: 0.0,
     };
 
-    /// A random axis and angle; `slowest` to `fastest` radians a step, either way.
+    /// Draws a random axis and angle, and a speed of `slowest` to `fastest` radians per step,
+    /// either way.
     pub(crate) fn new(rng: &mut Rng, slowest: f64, fastest: f64) -> Self {
         Self {
             axis: rng.direction(),
@@ -94,7 +95,7 @@ impl Spin {
         }
     }
 
-    /// The rotation matrix of axis and angle (Rodrigues), by rows.
+    /// Rows of the rotation matrix of axis and angle (Rodrigues).
     fn rows(&self, now: Moment) -> [Vec3; 3] {
         let angle = self.angle + self.rate * now.step;
         let (s, c) = (sin(angle), cos(angle));
@@ -108,18 +109,19 @@ impl Spin {
     }
 }
 
-/// The rigid motion of a body at one moment: where its own frame is in the world.
+/// Rigid motion of a body at one moment: a map from the body's own frame to the world.
 ///
-/// A scene computes in f64 and rounds once. For a vertex whose position in the body's own frame is `l` as
-/// [`local_positions`](crate::Scene::local_positions) gives it, and in the world `w` as
-/// [`positions`](crate::Scene::positions) does, `rotation · l + translation` is off `w` by the two roundings to f32, and by f64
-/// arithmetic, which is nothing beside them: on every axis by at most 2⁻²⁴ (|l| + |w|), where |l| is the length of `l` and |w| the
-/// size of that coordinate of `w`, and a millionth of that.
+/// A scene computes in f64 and rounds once. Let `l` be a vertex's position in the body's own frame,
+/// from [`local_positions`](crate::Scene::local_positions), and `w` its position in the world, from
+/// [`positions`](crate::Scene::positions). Then `rotation · l + translation` differs from `w` by
+/// two roundings to f32, and by f64 arithmetic, which is negligible. On every axis the difference
+/// is at most 2⁻²⁴ (|l| + |w|), and a millionth of that. Here |l| is the length of `l`, and |w| the
+/// magnitude of that coordinate of `w`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// Rows of the rotation matrix; orthonormal to 1e-14.
     pub rotation: [[f64; 3]; 3],
-    /// Where the origin of the body's own frame is.
+    /// Origin of the body's own frame in the world.
     pub translation: [f64; 3],
 }
 
@@ -131,14 +133,14 @@ impl Pose {
         }
     }
 
-    /// The point `p` of the body, in the world, rounded once to the precision of a scene.
+    /// Maps the point `p` of the body to the world, and rounds once to f32.
     #[inline]
     pub(crate) fn place(&self, p: Vec3) -> [f32; 3] {
         rounded(add(self.rotation.map(|row| dot(row, p)), self.translation))
     }
 }
 
-/// To the precision of a scene.
+/// Rounds to f32, the precision of a scene.
 #[inline]
 pub(crate) fn rounded(p: Vec3) -> [f32; 3] {
     p.map(|x| x as f32)

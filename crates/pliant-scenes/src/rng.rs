@@ -1,10 +1,11 @@
-//! The random numbers a scene is drawn from: splitmix64 (Steele, Lea and Flood 2014).
+//! Random number generator of the scenes: splitmix64 (Steele, Lea and Flood 2014).
 //!
-//! Small, without state to warm up, and the same everywhere. Every body draws from a stream of its
-//! own, so body 5 is the same body in a scene of ten and in a scene of a thousand.
+//! It is small, needs no warm-up, and is the same everywhere. Every body draws from its own stream:
+//! body 5 is the same in scenes of ten and of a thousand bodies.
 
 use crate::vector::{Vec3, dot, scale};
 
+/// The increment of splitmix64: 2⁶⁴ divided by the golden ratio.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// A stream of random numbers.
@@ -14,7 +15,7 @@ pub(crate) struct Rng {
 }
 
 impl Rng {
-    /// The stream numbered `stream` of a scene whose own number is `scene`.
+    /// The stream numbered `stream` of the scene numbered `scene`.
     pub(crate) fn new(seed: u64, scene: u64, stream: u64) -> Self {
         let state = [scene, stream]
             .into_iter()
@@ -24,30 +25,30 @@ impl Rng {
         Self { state }
     }
 
-    /// Any of the 2⁶⁴ values.
+    /// Uniform over all 2⁶⁴ values.
     pub(crate) fn next(&mut self) -> u64 {
         self.state = self.state.wrapping_add(GOLDEN);
         mix(self.state)
     }
 
-    /// Evenly from `low` up to, not including, `high`.
+    /// Uniform in [`low`, `high`).
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64);
         low + (high - low) * unit
     }
 
-    /// Evenly from `low` up to `high`, with either sign.
+    /// Uniform in [`low`, `high`), with a random sign.
     pub(crate) fn either_sign(&mut self, low: f64, high: f64) -> f64 {
         let size = self.between(low, high);
         if self.next() >> 63 == 0 { size } else { -size }
     }
 
-    /// An angle of the full turn, in radians.
+    /// Uniform angle in a full turn, in radians.
     pub(crate) fn angle(&mut self) -> f64 {
         self.between(0.0, std::f64::consts::TAU)
     }
 
-    /// A unit vector, evenly over the sphere: a point of the ball, pushed to the surface.
+    /// Uniform unit vector: a random point of the ball, pushed to the surface.
     pub(crate) fn direction(&mut self) -> Vec3 {
         loop {
             let point: Vec3 = std::array::from_fn(|_| self.between(-1.0, 1.0));
@@ -59,7 +60,7 @@ impl Rng {
     }
 }
 
-/// The output function of splitmix64: a bijection in which every bit depends on every bit.
+/// Output function of splitmix64: a bijection in which every bit depends on every bit.
 fn mix(z: u64) -> u64 {
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

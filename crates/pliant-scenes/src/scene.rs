@@ -1,8 +1,8 @@
-//! [`Scene`]: what every scene has in common.
+//! [`Scene`]: the interface of all scenes with constant meshes.
 //!
-//! A scene is one surface, shared by all its bodies, and for each body the rule that deforms and
-//! moves it. The rules are drawn from the seed when the scene is made; after that nothing changes,
-//! so positions can be asked for in any order and from any number of threads.
+//! A scene is one surface, shared by all its bodies, and a rule for each body that deforms and
+//! moves it. The rules are drawn from the seed when the scene is made, and do not change
+//! afterwards. So positions can be asked for in any order and from any number of threads.
 
 use std::fmt;
 
@@ -14,21 +14,21 @@ use crate::vector::Vec3;
 
 /// A rule that deforms and moves one body.
 pub(crate) trait Body: Send + Sync {
-    /// The vertices of the surface `rest` as they are `now`; both slices have the same length.
+    /// Writes the world positions of the vertices of `rest`; both slices have the same length.
     fn place(&self, now: Moment, rest: &[Vec3], out: &mut [[f32; 3]]);
 
-    /// Where the frame is in which the body deforms; none if the world is that frame.
+    /// Pose of the frame in which the body deforms; None if it deforms in the world.
     fn pose(&self, _now: Moment) -> Option<Pose> {
         None
     }
 
-    /// As [`place`](Self::place), but in that frame.
+    /// Like [`place`](Self::place), but in the body's own frame.
     fn place_in_own_frame(&self, now: Moment, rest: &[Vec3], out: &mut [[f32; 3]]) {
         self.place(now, rest, out);
     }
 }
 
-/// What does not depend on size and seed.
+/// Properties of a scene that do not depend on size and seed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct About {
     pub(crate) name: &'static str,
@@ -37,7 +37,7 @@ pub(crate) struct About {
 }
 
 impl About {
-    /// A surface of so many triangles, if there is one.
+    /// Makes a surface of `triangles` triangles, if one exists.
     pub(crate) fn surface(
         self,
         triangles: usize,
@@ -52,12 +52,12 @@ impl About {
     }
 }
 
-/// What a scene is about: the intersections that make it interesting.
+/// Kind of intersections that a scene is made for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Asks {
-    /// Which triangles of different bodies intersect.
+    /// Triangles of different bodies that intersect.
     BetweenBodies,
-    /// Which triangles of one body intersect each other.
+    /// Triangles of one body that intersect each other.
     Itself,
 }
 
@@ -83,42 +83,43 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The names that [`new`](Self::new) knows.
+    /// Names that [`new`](Self::new) knows.
     pub const NAMES: [&'static str; 5] = limits::NAMES;
 
-    /// The seed that the scenes are calibrated for: the figures in their descriptions hold for it.
-    /// With most others `spheres` first touches at steps 53 to 73.
+    /// Seed for which the scenes are calibrated: the figures in their descriptions hold for it.
+    ///
+    /// With most other seeds `spheres` first touches at steps 53 to 73.
     pub const DEFAULT_SEED: u64 = 751;
 
-    /// No body has more triangles: an icosahedron divided ten times.
+    /// Most triangles of a body: an icosahedron divided ten times.
     pub const MAX_TRIANGLES: usize = MAX_TRIANGLES;
 
-    /// No scene has more bodies.
+    /// Most bodies of a scene.
     pub const MAX_BODIES: usize = limits::MAX_BODIES;
 
-    /// The scene's name, one of [`NAMES`](Self::NAMES).
+    /// Name of the scene, one of [`NAMES`](Self::NAMES).
     pub fn name(&self) -> &'static str {
         self.about.name
     }
 
-    /// The number of steps: the motion runs from step 1 to this one, both included.
+    /// Number of steps: the motion runs from step 1 to this one, both included.
     pub fn steps(&self) -> u32 {
         self.about.steps
     }
 
-    /// What the scene is about.
+    /// Kind of intersections that the scene is made for.
     pub fn asks(&self) -> Asks {
         self.about.asks
     }
 
-    /// The number of bodies, numbered from 0.
+    /// Number of bodies, which are numbered from 0.
     pub fn body_count(&self) -> usize {
         self.bodies.len()
     }
 
-    /// The triangles of a body, as indices of its vertices; they never change.
+    /// Triangles of a body, as indices of its vertices; they never change.
     ///
-    /// Spheres and their kin are closed and turn counter-clockwise seen from outside.
+    /// Surfaces made from spheres are closed, and counter-clockwise seen from outside.
     ///
     /// # Panics
     ///
@@ -128,7 +129,7 @@ impl Scene {
         &self.surface.triangles
     }
 
-    /// The number of vertices of a body.
+    /// Number of vertices of a body.
     ///
     /// # Panics
     ///
@@ -138,10 +139,10 @@ impl Scene {
         self.surface.rest.len()
     }
 
-    /// The positions of a body's vertices at a step; `out` then holds these and nothing else.
+    /// Writes the positions of a body's vertices at a step to `out`, in place of its contents.
     ///
-    /// Nothing is allocated if `out` has room for them. Before step 1 a body is as at step 1,
-    /// after the last step as at the last.
+    /// Allocates nothing if `out` has the capacity. Steps before 1 are like step 1, and steps after
+    /// the last like the last. Takes O(vertices).
     ///
     /// # Panics
     ///
@@ -151,7 +152,8 @@ impl Scene {
         self.write_positions(body, step, out);
     }
 
-    /// [`positions`](Self::positions) into a buffer that is there already.
+    /// Writes the positions of a body's vertices at a step to a slice: see
+    /// [`positions`](Self::positions).
     ///
     /// # Panics
     ///
@@ -162,8 +164,10 @@ impl Scene {
         self.bodies[body].place(self.moment(step), &self.surface.rest, out);
     }
 
-    /// Where a body as a whole is at a step: the frame in which it deforms, for methods that want rigid motion and
-    /// deformation apart. None for a body that deforms in the world itself, as the cloth does.
+    /// Pose of a body at a step, for methods that treat rigid motion and deformation separately.
+    ///
+    /// It is the pose of the frame in which the body deforms. None for a body that deforms in the
+    /// world, as the cloth does.
     ///
     /// # Panics
     ///
@@ -192,8 +196,10 @@ impl Scene {
         self.bodies[body].pose(self.moment(step))
     }
 
-    /// As [`positions`](Self::positions), but in the body's own frame: [`Pose`] says how these become those. For a body
-    /// without a [`pose`](Self::pose) they are the same.
+    /// Writes the positions of a body's vertices at a step in its own frame.
+    ///
+    /// [`Pose`] maps them to the world. Without a [`pose`](Self::pose) they equal
+    /// [`positions`](Self::positions).
     ///
     /// # Panics
     ///
@@ -203,7 +209,7 @@ impl Scene {
         self.bodies[body].place_in_own_frame(self.moment(step), &self.surface.rest, out);
     }
 
-    /// A scene of its parts: the surface of `triangles` triangles, if there is one, and the bodies.
+    /// Builds a scene from its bodies and a surface of `triangles` triangles, if one exists.
     pub(crate) fn assemble<B: Body + 'static>(
         about: About,
         triangles: usize,

@@ -1,37 +1,40 @@
 //! Sine and cosine that give the same bits on every machine.
 //!
-//! The platform's `sin` differs in its last bits from one C library to the next, and with it every
-//! position of a scene. Here a value is made of `+`, `-` and `*` on `f64` alone, which IEEE 754
-//! rounds exactly one way; Rust never fuses a product and a sum unasked.
+//! The platform's `sin` differs in its last bits between C libraries, and with it every position of
+//! a scene. Here a value is made by `+`, `-` and `*` on `f64` alone. IEEE 754 rounds these in
+//! exactly one way, and Rust never fuses a product and a sum unasked. With `x = n π + r` and `|r| ≤
+//! π/2`, `sin x = (-1)ⁿ sin r`, and `sin r` is its Taylor polynomial up to `r²¹` (the rest is below
+//! 2e-18). There is no branch, so a loop over several angles runs in SIMD lanes.
 //!
-//! `x = n π + r` with `|r| ≤ π/2`, then `sin x = (-1)ⁿ sin r`, and `sin r` is its Taylor polynomial
-//! up to `r²¹` (the rest is below 2e-18). There is no branch, so a loop over several angles runs in
-//! lanes. Good to 1e-15 for angles up to a million; the scenes stay below a hundred.
+//! - The error is below 1e-15 for angles up to a million; the scenes stay below a hundred.
 
-/// π cut in three. The first two parts have 31 bits, so their products with `n < 2²²` are exact.
+/// π in three parts: the highest. It and the next have 31 bits: products with `n < 2²²` are exact.
 const PI_HIGH: f64 = f64::from_bits(0x4009_21fb_5440_0000);
+/// π in three parts: the middle.
 const PI_MIDDLE: f64 = f64::from_bits(0x3de0_b461_1a40_0000);
+/// π in three parts: the lowest.
 const PI_LOW: f64 = f64::from_bits(0x3bf1_3198_a2e0_3707);
 
-/// Adding 1.5 · 2⁵² leaves no bits for a fraction: the sum is rounded to the nearest integer, whose
-/// parity is the lowest bit. (`f64::round` is a function call on machines without SSE 4.1.)
+/// 1.5 · 2⁵²: adding it rounds to the nearest integer, whose parity is then the lowest bit.
+///
+/// The sum has no bits for a fraction. (`f64::round` is a function call without SSE 4.1.)
 const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
-/// The sine of `x` radians.
+/// Sine of `x` radians.
 #[inline]
 pub(crate) fn sin(x: f64) -> f64 {
     let shifted = x * std::f64::consts::FRAC_1_PI + TO_INTEGER;
     reduced(x, shifted - TO_INTEGER, shifted)
 }
 
-/// The cosine of `x` radians: `sin(x + π/2)` with the quarter turn taken off exactly.
+/// Cosine of `x` radians: `sin(x + π/2)` with the quarter turn subtracted exactly.
 #[inline]
 pub(crate) fn cos(x: f64) -> f64 {
     let shifted = (x * std::f64::consts::FRAC_1_PI + 0.5) + TO_INTEGER;
     reduced(x, (shifted - TO_INTEGER) - 0.5, shifted)
 }
 
-/// `sin(x - half_turns · π)`, its sign turned when the integer kept in `shifted` is odd.
+/// `sin(x - half_turns · π)`, negated if the integer in `shifted` is odd.
 #[inline]
 fn reduced(x: f64, half_turns: f64, shifted: f64) -> f64 {
     let r = ((x - half_turns * PI_HIGH) - half_turns * PI_MIDDLE) - half_turns * PI_LOW;

@@ -1,4 +1,4 @@
-//! The few operations on points and directions that the scenes need.
+//! Vector operations that the scenes need.
 
 /// A point or a direction: x, y, z.
 pub(crate) type Vec3 = [f64; 3];
@@ -26,19 +26,19 @@ pub(crate) fn cross(a: Vec3, b: Vec3) -> Vec3 {
     ]
 }
 
-/// The unit vector along `a`, which must not be zero.
+/// Unit vector along `a`, which must not be zero.
 pub(crate) fn normalised(a: Vec3) -> Vec3 {
     scale(a, 1.0 / dot(a, a).sqrt())
 }
 
-/// From `a` (0) to `b` (1).
+/// Linear interpolation from `a` (part = 0) to `b` (part = 1).
 pub(crate) fn between(a: Vec3, b: Vec3, part: f64) -> Vec3 {
     std::array::from_fn(|axis| a[axis] + (b[axis] - a[axis]) * part)
 }
 
-/// Two unit vectors that stand upright on the unit vector `axis` and on each other.
+/// Two unit vectors orthogonal to the unit vector `axis` and to each other.
 pub(crate) fn upright(axis: Vec3) -> (Vec3, Vec3) {
-    // The coordinate axis least along `axis`, so that the product is far from zero.
+    // The coordinate axis least along `axis`, so that the cross product is far from zero.
     let least = (0..3)
         .min_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs()))
         .unwrap_or(0);

@@ -66,7 +66,8 @@ macro_rules! held {
 }
 pub(crate) use held;
 
-/// Implements `Default` for a type by that of every field, whatever its parameters are: a derive would ask it of these, too.
+/// Implements `Default` for a type by that of every field, whatever its parameters are: a derive
+/// would ask it of these, too.
 macro_rules! empty {
     ($name:ident<$parameter:ident $(: $bound:ident)?>: $($field:ident),+) => {
         impl<$parameter $(: $bound)?> Default for $name<$parameter> {

@@ -1,49 +1,50 @@
-//! Accessors: numbers in groups of one, three, four or sixteen, with gaps between them or replaced here and there (sparse).
+//! glTF accessors: rows of 1, 3, 4 or 16 numbers, with strides, or with sparse replacements.
 //!
-//! Own reader. The library at hand, gltf 1.4.1, was read and could not be used on files from strangers: it holds the file and its
-//! JSON whole, subtracts from the length of a GLB header without looking, and unwraps where a sparse accessor has fewer values
-//! than indices.
-//!
-//! Every count is held against the bytes that it needs before anything is read, and rows are handed out some thousand at a time.
+//! The crate has its own reader because gltf 1.4.1 fails on files from strangers. It holds the file
+//! and its JSON as a whole and subtracts from the length of a GLB header unchecked. It unwraps
+//! where a sparse accessor has fewer values than indices. Here every count is compared with the
+//! bytes that it needs before anything is read, and rows are returned some thousands at a time.
 
 use super::buffers::Buffers;
 use super::document::{Accessor, Document, Sparse};
 use crate::error::{Fault, Place, Reason};
 use crate::memory::{Account, bytes_of};
+use crate::text::quoted;
 
-/// Rows read at a time.
+/// Rows read at a time, into a buffer of at most 1 MiB (at the largest stride).
 const ROWS: u64 = 4096;
 
-/// The largest gap from row to row that the format allows.
+/// Largest stride that the format allows, in bytes.
 const WIDEST: u64 = 252;
 
-/// A file while its bodies are made.
+/// State of a file while its bodies are made.
 pub(super) struct Reader {
     pub(super) document: Document,
     pub(super) buffers: Buffers,
-    /// All that is held for the bodies.
+    /// Memory held for all bodies.
     pub(super) account: Account,
-    /// How often a morph target said that a vertex stays where it is.
+    /// Number of zero displacements in morph targets so far.
     pub(super) stay: u64,
 }
 
-/// What an accessor must be to be what it is used as.
+/// Requirements on an accessor for one use.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
     pub(super) what: &'static str,
     shape: &'static str,
     width: usize,
     components: &'static [Component],
-    /// Whole numbers are fractions of their largest.
+    /// Integers are fractions of their largest value.
     normalised: bool,
-    /// Whole numbers are such fractions if the accessor says so, and else themselves.
+    /// Integers are fractions if the accessor says so, and otherwise themselves.
     quantised: bool,
-    /// May be all zero with no data behind, but for sparse values.
+    /// The accessor may have no data, and is then zero apart from sparse values.
     optional_data: bool,
-    /// The least that is held of a row, in bytes.
+    /// Least bytes that are held for each row.
     held: u64,
 }
 
+/// Type of a number in an accessor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Component {
     I8,
@@ -71,12 +72,13 @@ impl Wanted {
             normalised: false,
             quantised: false,
             optional_data: false,
-            // As numbers of 32 bits.
+            // Held as 32-bit numbers.
             held: 4 * width as u64,
         }
     }
 
-    /// `KHR_mesh_quantization` allows whole numbers; the place of the node, or of the joints, makes up for it.
+    /// `KHR_mesh_quantization` allows integers; the transform of the node, or of the joints,
+    /// compensates.
     pub(super) const POSITIONS: Self = Self {
         quantised: true,
         ..Self::new("positions", "VEC3", 3, &[F32, I8, U8, I16, U16])
@@ -84,7 +86,7 @@ impl Wanted {
     pub(super) const DELTAS: Self = Self {
         quantised: true,
         optional_data: true,
-        // What is zero is not.
+        // Zero displacements are not held.
         held: 0,
         ..Self::new(
             "positions of a morph target",
@@ -97,7 +99,7 @@ impl Wanted {
     pub(super) const JOINTS: Self = Self::new("joints", "VEC4", 4, &[U8, U16]);
     pub(super) const WEIGHTS: Self = Self {
         normalised: true,
-        // They join their joints.
+        // They are held with their joints.
         held: 0,
         ..Self::new("weights", "VEC4", 4, &[F32, U8, U16])
     };
@@ -119,6 +121,21 @@ impl Wanted {
     };
 }
 
+impl Wanted {
+    /// Message for an accessor of another type.
+    fn refusal(&self, entry: &Accessor) -> String {
+        let numbers = self.components.iter().map(|it| it.number().to_string());
+        format!(
+            "has type {} and componentType {}; {} need \"{}\" and one of: {}",
+            quoted(&entry.shape),
+            entry.component_type,
+            self.what,
+            self.shape,
+            numbers.collect::<Vec<_>>().join(", ")
+        )
+    }
+}
+
 impl Component {
     fn of(number: u32) -> Option<Self> {
         Some(match number {
@@ -132,6 +149,18 @@ impl Component {
         })
     }
 
+    /// Its `componentType` in the JSON.
+    fn number(self) -> u32 {
+        match self {
+            I8 => 5120,
+            U8 => 5121,
+            I16 => 5122,
+            U16 => 5123,
+            U32 => 5125,
+            F32 => 5126,
+        }
+    }
+
     fn size(self) -> usize {
         match self {
             I8 | U8 => 1,
@@ -140,7 +169,7 @@ impl Component {
         }
     }
 
-    /// The number that these bytes write, exactly; a fraction of the largest where it is `normalised`.
+    /// Converts bytes to a number, exactly; a fraction of the largest value if `normalised`.
     fn value(self, bytes: &[u8], normalised: bool) -> f64 {
         let [a, b, c, d] = std::array::from_fn(|at| bytes.get(at).copied().unwrap_or(0));
         let (value, largest) = match self {
@@ -152,7 +181,7 @@ impl Component {
             F32 => (f32::from_le_bytes([a, b, c, d]).into(), 1.0),
         };
         if normalised && largest > 1.0 {
-            // The lowest of the signed ones is one below minus the largest.
+            // The lowest signed integer is one below minus the largest.
             f64::max(value / largest, -1.0)
         } else {
             value
@@ -160,7 +189,7 @@ impl Component {
     }
 }
 
-/// Rows of numbers in a view.
+/// Rows of numbers in a buffer view.
 #[derive(Clone, Copy)]
 struct Rows {
     view: usize,
@@ -169,14 +198,14 @@ struct Rows {
     width: usize,
     count: u64,
     normalised: bool,
-    /// Whether the view may have gaps.
+    /// Whether the stride of the view applies.
     gaps: bool,
-    /// The least that is held of a row, in bytes.
+    /// Least bytes that are held for each row.
     held: u64,
 }
 
 impl Reader {
-    /// The number of rows of an accessor.
+    /// Number of rows of an accessor.
     pub(super) fn count(&self, accessor: usize) -> Result<u64, Fault> {
         self.accessor(accessor).map(|accessor| accessor.count)
     }
@@ -186,7 +215,7 @@ impl Reader {
         entry.ok_or_else(|| wrong(accessor, "there is no such accessor"))
     }
 
-    /// Hands out the rows of an accessor, with their numbers.
+    /// Passes each row of an accessor, with its number, to `each`.
     pub(super) fn each_row(
         &mut self,
         accessor: usize,
@@ -198,10 +227,7 @@ impl Reader {
         let component = Component::of(entry.component_type)
             .filter(|component| wanted.components.contains(component));
         let (Some(component), true) = (component, entry.shape == wanted.shape) else {
-            return Err(wrong(
-                accessor,
-                format!("its type is not one that {} can have", wanted.what),
-            ));
+            return Err(wrong(accessor, wanted.refusal(entry)));
         };
         if component != F32 && wanted.normalised && !entry.normalized {
             return Err(wrong(
@@ -242,14 +268,14 @@ impl Reader {
                     _ => each(account, number, row),
                 })
                 .map_err(at),
-            // What is zero is as it was: it is not handed out.
+            // Rows of zeros change nothing, and are not passed on.
             None if wanted.optional_data => {
                 let mut rows = replaced.iter();
                 rows.try_for_each(|(number, values)| {
                     each(&mut self.account, *number, &values[..wanted.width]).map_err(at)
                 })
             }
-            // The rows that are not replaced are zero.
+            // Rows that are not replaced are zero.
             None if is_sparse => {
                 let announced = self.account.check(count.saturating_mul(wanted.held));
                 announced.map_err(|excess| at(Reason::from(excess).into()))?;
@@ -274,7 +300,7 @@ impl Reader {
         read
     }
 
-    /// Where the places and the values of a sparse accessor are, which is of such `rows`.
+    /// Rows of the indices and values of a sparse accessor, which itself has `rows`.
     fn places(accessor: usize, sparse: &Sparse, rows: Rows) -> Result<[Rows; 2], Fault> {
         let component = Component::of(sparse.indices.component_type)
             .filter(|component| [U8, U16, U32].contains(component))
@@ -303,8 +329,9 @@ impl Reader {
         ])
     }
 
-    /// The rows that a sparse accessor of `count` replaces, and by what; their numbers rise. They stay entered: until the accessor was
-    /// read they are held.
+    /// Reads the replaced rows of a sparse accessor of `count` rows, by ascending number.
+    ///
+    /// The account still counts them afterwards; they are held until the accessor was read.
     fn replaced(
         &mut self,
         [places, values]: [Rows; 2],
@@ -319,9 +346,14 @@ impl Reader {
         let mut replaced: Vec<(u64, [f64; 4])> = Vec::new();
         self.rows(places, |account, _, row| {
             let place = whole(row[0]);
-            let rises = replaced.last().is_none_or(|(last, _)| *last < place);
-            if !rises || place >= count {
-                let reason = format!("sparse index {place} does not rise, or is not below {count}");
+            if let Some((last, _)) = replaced.last()
+                && *last >= place
+            {
+                let reason = format!("sparse index {place} is not larger than {last} before it");
+                return Err(Reason::Malformed(reason).into());
+            }
+            if place >= count {
+                let reason = format!("sparse index {place} is not below the {count} rows");
                 return Err(Reason::Malformed(reason).into());
             }
             Ok(account.push(&mut replaced, (place, [0.0; 4]), 0)?)
@@ -335,7 +367,7 @@ impl Reader {
         Ok(replaced)
     }
 
-    /// Hands out rows.
+    /// Passes each of `rows` to `each`.
     fn rows(
         &mut self,
         rows: Rows,
@@ -367,8 +399,12 @@ impl Reader {
         let size = rows.component.size();
         let row = (size * rows.width) as u64;
         let stride = view.byte_stride.filter(|_| rows.gaps).unwrap_or(row);
-        if stride < row || stride > WIDEST.max(row) {
-            let reason = format!("rows of {row} bytes cannot be {stride} bytes apart");
+        if stride < row {
+            let reason = format!("byteStride {stride} is too small for rows of {row} bytes");
+            return Err(Reason::Malformed(reason).into());
+        }
+        if stride > WIDEST.max(row) {
+            let reason = format!("byteStride {stride} is above {WIDEST}, the largest in glTF");
             return Err(Reason::Malformed(reason).into());
         }
         if rows.count == 0 {
@@ -384,7 +420,7 @@ impl Reader {
             ))
             .into());
         }
-        // Bytes that are there may be those of a hole, which takes no place on any disk, as large as it likes.
+        // Bytes that exist may belong to a sparse file of any size, which takes no room on disk.
         account.check(rows.count.saturating_mul(rows.held))?;
         let mut bytes = Vec::new();
         let mut done = 0;
@@ -407,7 +443,7 @@ impl Reader {
     }
 }
 
-/// A number that was read from an unsigned one.
+/// Converts a number that was read from an unsigned integer.
 #[expect(clippy::cast_sign_loss, reason = "none is negative")]
 pub(super) fn whole(number: f64) -> u64 {
     number as u64

@@ -1,13 +1,13 @@
-//! Translations, rotations, scales, and what they are together: a matrix of three rows.
+//! Affine maps: translation, rotation, scale, and their product as a matrix of three rows.
 
-/// A map x to A x + b: the columns of A, then b.
+/// An affine map x to A x + b: the columns of A, then b.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Affine(pub(super) [[f64; 3]; 4]);
 
-/// x, y, z, w.
+/// A quaternion: x, y, z, w.
 pub(super) type Quaternion = [f64; 4];
 
-/// First the scale, then the rotation, then the translation.
+/// A scale, then a rotation, then a translation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Trs {
     pub(super) translation: [f64; 3],
@@ -23,7 +23,7 @@ impl Affine {
         [0.0, 0.0, 0.0],
     ]);
 
-    /// Sixteen numbers, column by column, as files have them; the fourth row is that of every such map, and not looked at.
+    /// Converts a column-major 4 x 4 matrix, as in files; the fourth row is ignored.
     pub(super) fn from_columns(m: &[f64; 16]) -> Self {
         Self([0, 4, 8, 12].map(|at| [m[at], m[at + 1], m[at + 2]]))
     }
@@ -39,7 +39,7 @@ impl Affine {
         sum
     }
 
-    /// First `first`, then this.
+    /// Composition: first `first`, then `self`.
     pub(super) fn after(&self, first: &Self) -> Self {
         let [x, y, z, offset] = first.0;
         let turn = |v: [f64; 3]| {
@@ -57,7 +57,7 @@ impl Trs {
         scale: [1.0; 3],
     };
 
-    /// The rotation is normalised: files have it in 32 bits or fewer.
+    /// The matrix of the map. Normalises the rotation, which files have in at most 32 bits.
     pub(super) fn matrix(&self) -> Affine {
         let [x, y, z, w] = normalised(self.rotation);
         let [sx, sy, sz] = self.scale;
@@ -85,10 +85,10 @@ impl Trs {
     }
 }
 
-/// Of length 1; of no number where it has no direction.
+/// The quaternion at length 1; NaN where it has no direction.
 pub(super) fn normalised(q: Quaternion) -> Quaternion {
     let largest = q.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    // The squares of others are beyond all numbers, or nothing.
+    // Squares of other numbers overflow or underflow.
     let q = if (1e-100..1e100).contains(&largest) {
         q
     } else {
@@ -98,7 +98,7 @@ pub(super) fn normalised(q: Quaternion) -> Quaternion {
     q.map(|x| x / length)
 }
 
-/// From `a` (0) to `b` (1) with constant speed, the short way.
+/// Spherical linear interpolation from `a` (t = 0) to `b` (t = 1), the short way.
 pub(super) fn slerp(a: Quaternion, b: Quaternion, t: f64) -> Quaternion {
     let (a, mut b) = (normalised(a), normalised(b));
     let dot: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
@@ -109,10 +109,11 @@ pub(super) fn slerp(a: Quaternion, b: Quaternion, t: f64) -> Quaternion {
         let squares = a.iter().zip(b).map(|(&a, b)| each(a, b) * each(a, b));
         squares.sum::<f64>().sqrt()
     };
-    // Half the sides of a triangle on the circle: exact for the smallest angles, where the arc of the cosine is not.
+    // Half the sides of a triangle on the circle. Exact for the smallest angles, unlike the arc
+    // cosine.
     let half = libm::atan2(length(|a, b| a - b), length(|a, b| a + b));
     let whole = libm::sin(2.0 * half);
-    // Where sines are no longer told from their angles, the chord is the arc.
+    // Where sines no longer differ from their angles, the chord is the arc.
     let [of_a, of_b] = if half < 1e-8 {
         [1.0 - t, t]
     } else {
@@ -141,7 +142,7 @@ mod tests {
         let quarter = std::f64::consts::FRAC_PI_4;
         let trs = Trs {
             translation: [1.0, 2.0, 3.0],
-            // A quarter round z, twice as long as it should be.
+            // A quarter turn round z, at twice unit length.
             rotation: [0.0, 0.0, 2.0 * quarter.sin(), 2.0 * quarter.cos()],
             scale: [-2.0, 3.0, 0.5],
         };

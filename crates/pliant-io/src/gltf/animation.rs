@@ -1,10 +1,10 @@
-//! An animation: what each of its channels is at a time.
+//! glTF animations: the value of each channel at a time.
 //!
-//! Before the first key a channel has the value of the first, behind the last that of the last. Between two keys: the earlier one
-//! (STEP), the straight line or for rotations the arc (LINEAR), or Hermite's cubic through both with their tangents (CUBICSPLINE).
-//!
-//! A channel names a node, or by `KHR_animation_pointer` a place in the JSON: of a node, or the weights of a mesh, which are those of
-//! all its nodes that have none of their own. What is not evaluated, and what moves no body, is noted and no error.
+//! Before the first key a channel has the first key's value, behind the last key the last one's.
+//! Between two keys it has the earlier value (STEP), the linear interpolation (LINEAR), or
+//! Hermite's cubic with the tangents at both (CUBICSPLINE). Rotations are interpolated along the
+//! arc. A channel names a node, or by `KHR_animation_pointer` a place in the JSON: of a node, or
+//! the weights of a mesh. Channels that are not evaluated, or move no body, are noted and no error.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -20,18 +20,18 @@ use crate::text::quoted;
 /// The animation that moves the nodes.
 pub(super) struct Clip {
     pub(super) name: Arc<str>,
-    /// When its last key is, in seconds.
+    /// Time of its last key, in seconds.
     pub(super) end: f64,
     pub(super) channels: Vec<Channel>,
     samplers: Vec<Sampler>,
     still: Still,
 }
 
-/// The channels that move nothing here.
+/// Channels that move nothing here.
 #[derive(Default)]
 struct Still {
     count: usize,
-    /// The number of the first among the channels of the file, and what it would move.
+    /// Number in the file and target of the first of them.
     first: Option<(usize, String)>,
 }
 
@@ -44,29 +44,34 @@ impl Still {
     }
 }
 
+/// A channel: the node and property that it moves, and its sampler.
 pub(super) struct Channel {
     pub(super) node: usize,
     pub(super) path: Path,
     sampler: usize,
-    /// Among the channels of the file.
+    /// Number among the channels of the file.
     number: u32,
-    /// Where it names the mesh of the node; one that names the node goes before.
+    /// The mesh, where the channel names a mesh instead of its node.
+    ///
+    /// A channel that names the node takes precedence.
     mesh: Option<u32>,
 }
 
+/// The property of a node that a channel moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Path {
     Translation,
     Rotation,
     Scale,
-    /// Of so many morph targets.
+    /// The weights of this many morph targets.
     Weights(usize),
 }
 
+/// Keys of a channel: times and values.
 struct Sampler {
     path: Path,
     times: Vec<f32>,
-    /// One group a key; with cubic splines three: the tangent before, the value, the tangent behind.
+    /// One value for each key; in cubic splines three: in-tangent, value, out-tangent.
     values: Vec<f32>,
     interpolation: Interpolation,
 }
@@ -79,7 +84,7 @@ enum Interpolation {
 }
 
 impl Path {
-    /// Numbers of a value.
+    /// Numbers per value.
     pub(super) fn width(self) -> usize {
         match self {
             Self::Translation | Self::Scale => 3,
@@ -88,7 +93,7 @@ impl Path {
         }
     }
 
-    /// None of what is not evaluated.
+    /// Parses the name of a property; None if it is not evaluated.
     fn named(path: &str, targets: impl FnOnce() -> usize) -> Option<Self> {
         Some(match path {
             "translation" => Self::Translation,
@@ -99,7 +104,7 @@ impl Path {
         })
     }
 
-    /// As targets and pointers name it.
+    /// Name of the property in targets and pointers.
     fn name(self) -> &'static str {
         match self {
             Self::Translation => "translation",
@@ -110,10 +115,10 @@ impl Path {
     }
 }
 
-/// What a channel names.
+/// Target of a channel.
 enum Moved<'a> {
     Node(usize, &'a str),
-    /// The weights of one.
+    /// The weights of a mesh, for all its nodes that have none of their own.
     Mesh(usize),
     Nothing,
 }
@@ -123,12 +128,12 @@ impl<'a> Moved<'a> {
         match (target.pointer(), target.node) {
             (Some(pointer), _) => Self::at(pointer).unwrap_or(Self::Nothing),
             (None, Some(node)) => Self::Node(node, &target.path),
-            // Another extension names it.
+            // Named by another extension.
             (None, None) => Self::Nothing,
         }
     }
 
-    /// What a pointer such as `/nodes/3/rotation` names.
+    /// Parses a JSON pointer such as `/nodes/3/rotation`.
     fn at(pointer: &'a str) -> Option<Self> {
         let (kind, rest) = pointer.strip_prefix('/')?.split_once('/')?;
         let (number, path) = rest.split_once('/')?;
@@ -141,7 +146,7 @@ impl<'a> Moved<'a> {
     }
 }
 
-/// What a channel would move, as a pointer names it.
+/// Target of a channel as a JSON pointer.
 fn said(target: &Target) -> String {
     match (target.pointer(), target.node) {
         (Some(pointer), _) => pointer.to_owned(),
@@ -151,7 +156,7 @@ fn said(target: &Target) -> String {
 }
 
 impl Clip {
-    /// Reads an animation. `targets` says how many morph targets a node has.
+    /// Reads an animation. `targets`: number of morph targets of a node.
     pub(super) fn read(
         reader: &mut Reader,
         animation: usize,
@@ -166,7 +171,7 @@ impl Clip {
             samplers: Vec::new(),
             still: Still::default(),
         };
-        // Ours of each of the file, and the meshes whose weights were met.
+        // Our sampler for each sampler of the file, and the meshes whose weights have been met.
         let (mut known, mut meshes) = (BTreeMap::new(), BTreeSet::new());
         let mut of_meshes = None;
         let channels = std::mem::take(&mut reader.document.animations[animation].channels);
@@ -200,7 +205,7 @@ impl Clip {
             for &node in nodes {
                 let node = node as usize;
                 let path = Path::named(path, || targets(reader, node));
-                // Not evaluated, or weights of nothing.
+                // Not evaluated, or weights of no morph target.
                 let Some(path) = path.filter(|path| path.width() > 0) else {
                     continue;
                 };
@@ -233,7 +238,7 @@ impl Clip {
             }
         }
         if !meshes.is_empty() {
-            // Of two that move the same, the later counts.
+            // Of two channels that move the same, the later counts.
             let channels = &mut clip.channels;
             channels.sort_unstable_by_key(|it| (it.mesh.is_none(), it.number, it.node));
         }
@@ -244,7 +249,7 @@ impl Clip {
         Ok(clip)
     }
 
-    /// Notes the channels that move nothing, as `moves` says of each part of one.
+    /// Notes channels none of whose parts moves anything, according to `moves`.
     pub(super) fn note_still(&mut self, moves: impl Fn(&Channel) -> bool) {
         let Self {
             channels, still, ..
@@ -261,7 +266,7 @@ impl Clip {
         }
     }
 
-    /// What of it moves nothing here.
+    /// A note about the channels that move nothing.
     pub(super) fn note(&self) -> Option<Note> {
         let Still { count, first } = &self.still;
         first.as_ref().map(|(_, first)| Note::StillTargets {
@@ -270,7 +275,7 @@ impl Clip {
         })
     }
 
-    /// Brings what a channel moves, one of the three parts of a node's place, to a time.
+    /// Sets the translation, rotation or scale that a channel moves to its value at `time`.
     pub(super) fn place(&self, channel: &Channel, time: f64, local: &mut Trs) {
         let sampler = &self.samplers[channel.sampler];
         match channel.path {
@@ -281,14 +286,14 @@ impl Clip {
         }
     }
 
-    /// Brings the weights that a channel moves to a time.
+    /// Sets the morph weights that a channel moves to their values at `time`.
     pub(super) fn weights(&self, channel: &Channel, time: f64, weights: &mut Vec<f64>) {
         weights.resize(channel.path.width(), 0.0);
         self.samplers[channel.sampler].sample(time, weights);
     }
 }
 
-/// The nodes of each mesh that have no weights of their own. They stay entered.
+/// For each mesh its nodes without weights of their own. The account still counts them afterwards.
 fn nodes_of_meshes(reader: &mut Reader) -> Result<BTreeMap<usize, Vec<u32>>, Reason> {
     let Reader {
         document, account, ..
@@ -312,7 +317,8 @@ impl Sampler {
         let malformed =
             |why: String| Fault::from(Reason::Malformed(format!("sampler {number}: {why}")));
         let Some(entry) = reader.document.animations[animation].samplers.get(number) else {
-            return Err(malformed("does not exist".into()));
+            let reason = format!("a channel names sampler {number}, which does not exist");
+            return Err(Reason::Malformed(reason).into());
         };
         let (input, output) = (entry.input, entry.output);
         let interpolation = match &entry.interpolation[..] {
@@ -321,7 +327,7 @@ impl Sampler {
             "CUBICSPLINE" => Interpolation::CubicSpline,
             other => {
                 return Err(malformed(format!(
-                    "interpolation {} is none of the format",
+                    "interpolation {} is unknown; it must be STEP, LINEAR or CUBICSPLINE",
                     quoted(other)
                 )));
             }
@@ -335,9 +341,15 @@ impl Sampler {
         let times = &mut sampler.times;
         reader.each_row(input, Wanted::TIMES, |account, key, row| {
             let time = row[0] as f32;
-            let rises = times.last().is_none_or(|last| *last < time);
-            if !rises || !time.is_finite() {
-                return Err(malformed(format!("the time of key {key} does not rise")));
+            if !time.is_finite() {
+                return Err(malformed(format!("the time of key {key} is not finite")));
+            }
+            if let Some(last) = times.last()
+                && *last >= time
+            {
+                return Err(malformed(format!(
+                    "the time of key {key}, {time:?}, is not later than {last:?} before it"
+                )));
             }
             Ok(account.push(times, time, 0)?)
         })?;
@@ -372,14 +384,14 @@ impl Sampler {
         Ok(sampler)
     }
 
-    /// Group `group` of the values.
+    /// Value number `group` in the list of values.
     fn group(&self, group: usize) -> impl Iterator<Item = f64> + '_ {
         let width = self.path.width();
         let values = &self.values[group * width..][..width];
         values.iter().map(|&value| value.into())
     }
 
-    /// The value of a key.
+    /// Value of a key.
     fn key(&self, key: usize) -> impl Iterator<Item = f64> + '_ {
         self.group(match self.interpolation {
             Interpolation::CubicSpline => 3 * key + 1,
@@ -387,7 +399,7 @@ impl Sampler {
         })
     }
 
-    /// The value at a time; `value` has the width of the path.
+    /// Writes the value at `time` to `value`, which has the width of the path. Takes O(log keys).
     fn sample(&self, time: f64, value: &mut [f64]) {
         // The first key that is later.
         let next = self.times.partition_point(|&key| f64::from(key) <= time);
@@ -417,7 +429,7 @@ impl Sampler {
             return put(value, &mut between.map(|(a, b)| a + (b - a) * t));
         }
         let (t2, t3) = (t * t, t * t * t);
-        // Of the earlier value, its tangent behind, the later value, its tangent before.
+        // Hermite weights: earlier value, its out-tangent, later value, its in-tangent.
         let [of_a, of_out, of_b, of_in] = [
             2.0 * t3 - 3.0 * t2 + 1.0,
             (t3 - 2.0 * t2 + t) * step,
@@ -479,7 +491,7 @@ mod tests {
 
     #[test]
     fn a_cubic_spline_is_the_cubic_it_was_made_of() {
-        // x^3 - 2x at 1 and 3, with its slopes; the outer tangents are not used.
+        // The cubic x^3 - 2x at 1 and 3, with its slopes; the outer tangents are not used.
         let cubic = |x: f64| x * x * x - 2.0 * x;
         let slope = |x: f64| 3.0 * x * x - 2.0;
         let values = [99.0, cubic(1.0), slope(1.0), slope(3.0), cubic(3.0), 99.0];

@@ -1,9 +1,9 @@
-//! Where the bytes of a glTF file are: behind its JSON (GLB), in files beside it, or in the JSON itself; and those of views, which may
-//! be compressed.
+//! Bytes of glTF buffers and views: in the GLB behind the JSON, in files beside it, or in the JSON.
 //!
-//! Bytes in files stay there and are read where an accessor asks; those in the JSON are decoded once. No other place is ever
-//! looked at: no network, no folder above, and none where a link leads. A view that is compressed is decoded once, and only where its
-//! buffer has no bytes: those are the same ones.
+//! Bytes in files stay there and are read when an accessor needs them; data URIs are decoded once.
+//! No other place is ever read: no network, no folder above, no target of a link outside the
+//! folder. A compressed view is decoded once, and only if its buffer has no uncompressed bytes,
+//! which are equal.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -19,33 +19,37 @@ use crate::file::{Found, Opened};
 use crate::memory::{Account, bytes_of};
 use crate::text::quoted;
 
-/// An open file and what buffers it has.
+/// An open file and its buffers.
 pub(super) struct Buffers {
     main: Opened,
     folder: PathBuf,
-    /// Behind the JSON: where it begins, and its length.
+    /// Offset and length of the binary chunk behind the JSON.
     behind: Option<(u64, u64)>,
     opened: Vec<Option<Bytes>>,
-    /// Of each view that was compressed, what it is; entered.
+    /// Decoded bytes of compressed views, by number; counted in the account.
     decoded: BTreeMap<usize, Vec<u8>>,
 }
 
-/// The bytes of a buffer.
+/// Location of the bytes of a buffer.
 enum Bytes {
     Behind,
     Beside(PathBuf, Opened),
     Within(Vec<u8>),
 }
 
+/// First bytes of a GLB file.
 const GLB: &[u8; 4] = b"glTF";
-/// The mark, version and length of a GLB file; the length and kind of a chunk.
+/// Size in bytes of the GLB header: magic, version and length.
 const HEAD: u64 = 12;
+/// Size in bytes of a chunk's header: length and kind.
 const CHUNK: u64 = 8;
+/// A chunk's header, for messages.
+const CHUNK_HEADER: &str = "the header of a chunk";
 
-/// Compressed bytes that are read at a time.
+/// Compressed bytes read at a time: memory grows with data that exists, not with its claim.
 const AT_A_TIME: u64 = 1 << 16;
 
-/// Opens a file and reads its JSON, if it and what is in it may be held.
+/// Opens a file and parses its JSON, if the account allows both the text and the parsed document.
 pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Buffers), Fault> {
     let mut main = found.open()?;
     let length = main.length();
@@ -77,7 +81,7 @@ pub(super) fn open(found: &Found, account: &mut Account) -> Result<(Document, Bu
     Ok((document, buffers))
 }
 
-/// Where the two chunks of a GLB file begin, and how long they are.
+/// Offset and length of the two chunks of a GLB file: JSON, and binary if there is one.
 fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u64)>), Fault> {
     let mut number = |what: &str, at: u64| -> Result<u64, Fault> {
         let mut bytes = [0; 4];
@@ -86,13 +90,13 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
             .map_err(|_| Reason::Truncated(format!("{what} is missing")).at(Place::Byte(at)))?;
         Ok(u32::from_le_bytes(bytes).into())
     };
-    let version = number("the version", 4)?;
+    let version = number("the version in the GLB header", 4)?;
     if version != 2 {
         let reason =
             format!("is GLB of version {version}; only version 2 can be read, so convert it");
         return Err(Reason::Unsupported(reason).into());
     }
-    let announced = number("the length", 8)?;
+    let announced = number("the length in the GLB header", 8)?;
     if announced > length {
         let reason = format!("the file announces {announced} bytes, and has {length}");
         return Err(Reason::Truncated(reason).at(Place::Byte(8)));
@@ -101,7 +105,7 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
         if at + CHUNK > announced {
             return Ok(None);
         }
-        let (size, found) = (number("a chunk", at)?, number("a chunk", at + 4)?);
+        let (size, found) = (number(CHUNK_HEADER, at)?, number(CHUNK_HEADER, at + 4)?);
         if found != u64::from(u32::from_le_bytes(*kind)) {
             return Ok(None);
         }
@@ -114,7 +118,7 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
     let json = chunk(HEAD, b"JSON")?.ok_or_else(|| {
         Reason::Malformed("the first chunk is not JSON".into()).at(Place::Byte(HEAD))
     })?;
-    // Chunks begin at multiples of four; those of some writers right behind each other.
+    // Chunks begin at multiples of four, but some writers put them right behind each other.
     let end = json.0 + json.1;
     let behind = match chunk(end, b"BIN\0")? {
         None if !end.is_multiple_of(4) => chunk(end.next_multiple_of(4), b"BIN\0")?,
@@ -124,7 +128,7 @@ fn chunks(main: &mut Opened, length: u64) -> Result<((u64, u64), Option<(u64, u6
 }
 
 impl Buffers {
-    /// Fills `bytes` with those of a view from `offset` on.
+    /// Fills `bytes` from a view, from `offset` on.
     pub(super) fn read_view(
         &mut self,
         document: &Document,
@@ -158,15 +162,17 @@ impl Buffers {
             .and_then(|rest| rest.get(..bytes.len()));
         let there = there.ok_or_else(|| {
             let has = decoded.len();
+            let needed = bytes.len();
             Reason::Truncated(format!(
-                "byte {offset} and more are asked for, it has {has}"
+                "{needed} bytes from byte {offset} on are needed of buffer view {number}, \
+                 but it has {has}"
             ))
         })?;
         bytes.copy_from_slice(there);
         Ok(())
     }
 
-    /// The bytes of a view of so many that is compressed.
+    /// Decodes a compressed view, which must have `length` bytes.
     fn decode(
         &mut self,
         document: &Document,
@@ -180,7 +186,7 @@ impl Buffers {
                 format!("its compression has {count} rows of {width} bytes, it has {length} bytes");
             return Err(Reason::Malformed(reason).into());
         }
-        // What is announced may not be there.
+        // The announced bytes may not exist.
         let mut stream = Vec::new();
         while (stream.len() as u64) < compressed.byte_length {
             let done = stream.len();
@@ -201,14 +207,14 @@ impl Buffers {
         Ok(decoded)
     }
 
-    /// Takes what was decoded off the account of who is done with reading.
+    /// Drops decoded views once reading is done, and takes them off the account.
     pub(super) fn forget_decoded(&mut self, account: &mut Account) {
         for (_, decoded) in std::mem::take(&mut self.decoded) {
             account.take_off(bytes_of(&decoded));
         }
     }
 
-    /// Fills `bytes` with those of a buffer from `offset` on.
+    /// Fills `bytes` from a buffer, from `offset` on.
     pub(super) fn read(
         &mut self,
         document: &Document,
@@ -221,10 +227,11 @@ impl Buffers {
         let Some(entry) = document.buffers.get(buffer) else {
             return Err(at(Reason::Malformed("there is no such buffer".into())));
         };
-        let end = offset.saturating_add(bytes.len() as u64);
+        let needed = bytes.len() as u64;
+        let end = offset.saturating_add(needed);
         let beyond = |has: u64| {
             at(Reason::Truncated(format!(
-                "bytes {offset} to {end} are asked for, it has {has}"
+                "{needed} bytes from byte {offset} on are needed, but it has {has}"
             )))
         };
         if end > entry.byte_length {
@@ -261,7 +268,7 @@ impl Buffers {
         Ok(())
     }
 
-    /// Where the bytes of a buffer are.
+    /// Locates and opens the bytes of a buffer.
     fn find(
         &self,
         uri: Option<&str>,
@@ -278,18 +285,19 @@ impl Buffers {
         };
         if let Some(data) = uri.strip_prefix("data:") {
             let Some((kind, text)) = data.split_once(',') else {
-                return Err(Reason::Malformed("a data URI without a comma".into()).into());
+                return Err(Reason::Malformed("its data URI has no comma".into()).into());
             };
             if !kind.ends_with(";base64") {
                 return Err(Reason::Unsupported(
-                    "a data URI that is not base64; export the file as .glb".into(),
+                    "its data URI is not base64; export the file as .glb".into(),
                 )
                 .into());
             }
             account.enter(text.len() as u64)?;
             let bytes = STANDARD.decode(text).map_err(|error| {
                 let error = error.to_string();
-                Reason::Malformed(format!("a data URI: {}", error.trim_end_matches('.')))
+                let why = error.trim_end_matches('.');
+                Reason::Malformed(format!("its data URI is not valid base64: {why}"))
             })?;
             return Ok(Bytes::Within(bytes));
         }
@@ -298,7 +306,8 @@ impl Buffers {
         let plain = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
         if name.is_empty() || name.contains([':', '\\', '\0']) || !path.components().all(plain) {
             return Err(Reason::Unsupported(format!(
-                "its bytes are at {}; only files beside this one, and data URIs, are read: export it as .glb",
+                "its bytes are at {}; \
+                 only files beside this one, and data URIs, are read: export it as .glb",
                 quoted(uri)
             ))
             .into());
@@ -312,8 +321,9 @@ impl Buffers {
         Ok(Bytes::Beside(path, opened))
     }
 
-    /// Where a file in the folder is when links are followed: in the folder still. A folder from strangers may hold links, and what
-    /// they lead to is nobody's shape.
+    /// Resolves the links in `path`; an error if it leaves the folder.
+    ///
+    /// A folder from strangers may hold links to files that are no part of any shape.
     fn without_leaving(&self, path: &Path) -> Result<PathBuf, Reason> {
         let folder = if self.folder.as_os_str().is_empty() {
             Path::new(".")
@@ -330,12 +340,13 @@ impl Buffers {
             return Ok(real);
         }
         Err(Reason::Unsupported(
-            "a link leads out of the folder of the glTF file, and is not followed; copy the file there, or export all as .glb"
+            "a link leads out of the folder of the glTF file, and is not followed; \
+             copy the file there, or export all as .glb"
                 .into(),
         ))
     }
 
-    /// All bytes that there are, of the files opened and the views decoded so far.
+    /// Total size in bytes of the files opened and the views decoded so far.
     pub(super) fn bytes(&self) -> u64 {
         let of_buffer = |bytes: &Bytes| match bytes {
             Bytes::Behind => 0, // in the file itself
@@ -348,7 +359,7 @@ impl Buffers {
         all.fold(self.main.length(), u64::saturating_add)
     }
 
-    /// Refuses files that are not as they were found.
+    /// Returns an error if any file has changed since it was found.
     pub(super) fn unchanged(&self) -> Result<(), Fault> {
         self.main.unchanged()?;
         for bytes in self.opened.iter().flatten() {
@@ -361,12 +372,13 @@ impl Buffers {
     }
 }
 
+/// Fills `bytes` from a file, from `offset` on.
 fn fill(file: &mut Opened, offset: u64, bytes: &mut [u8]) -> Result<(), Reason> {
     file.seek(SeekFrom::Start(offset))?;
     Ok(file.read_exact(bytes)?)
 }
 
-/// `%20` and the like as the characters that they stand for.
+/// Decodes percent escapes such as `%20`.
 fn unescaped(uri: &str) -> String {
     let mut bytes = Vec::with_capacity(uri.len());
     let mut rest = uri.as_bytes();

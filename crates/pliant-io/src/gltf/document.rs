@@ -1,5 +1,6 @@
-//! The JSON of a glTF file: what says where triangles are and how they move. All else (materials, cameras, ...) is passed over
-//! unread, so that what is wrong there is no reason to refuse a shape.
+//! The JSON of a glTF file, as far as it describes triangles and their motion.
+//!
+//! All else (materials, cameras, ...) is passed over unread, so that faults there do not matter.
 
 use std::collections::BTreeMap;
 
@@ -46,7 +47,7 @@ impl Asset {
     }
 }
 
-/// All that documents of different versions have in common.
+/// The part of a document that all versions have in common.
 #[derive(Deserialize)]
 struct OfAnyVersion {
     asset: Asset,
@@ -146,7 +147,7 @@ struct Pointer {
 }
 
 impl Target {
-    /// What `KHR_animation_pointer` names: a place in the JSON.
+    /// JSON pointer that `KHR_animation_pointer` names.
     pub(super) fn pointer(&self) -> Option<&str> {
         let pointer = self.extensions.pointer.as_ref()?;
         (self.path == "pointer").then_some(&pointer.pointer)
@@ -225,7 +226,7 @@ struct ViewExtensions {
     khr_meshopt: Option<Box<Compressed>>,
 }
 
-/// Where the compressed bytes of a view are, and what they are.
+/// Location and encoding of the compressed bytes of a view.
 #[derive(Deserialize, Debug)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Compressed {
@@ -240,7 +241,7 @@ pub(super) struct Compressed {
 }
 
 impl View {
-    /// What else its bytes can be made of, or must where its buffer has none.
+    /// The compressed form of its bytes: the only one if its buffer has no bytes.
     pub(super) fn compressed(&self) -> Option<&Compressed> {
         let ViewExtensions {
             meshopt,
@@ -257,10 +258,10 @@ pub(super) struct Buffer {
     pub(super) byte_length: u64,
 }
 
-/// The most bytes that a value of a document takes for each of the marks that stand before values.
+/// Upper bound of the bytes that a parsed value takes, per `,`, `[` or `{` in the text.
 const VALUE: u64 = 256;
 
-/// The most memory that the document in `text` takes, text included.
+/// Upper bound of the memory that the document in `text` takes, text included. Takes O(length).
 pub(super) fn memory(text: &[u8]) -> u64 {
     let begins = |byte: &&u8| matches!(byte, b',' | b'[' | b'{');
     let values = text.iter().filter(begins).count() as u64;
@@ -271,13 +272,13 @@ impl Document {
     pub(super) fn parse(text: &[u8]) -> Result<Self, Reason> {
         let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
         let document: Self = serde_json::from_slice(text).map_err(|error| {
-            // Version 1 has objects where there are arrays now.
+            // Version 1 has objects where version 2 has arrays.
             if let Ok(OfAnyVersion { asset }) = serde_json::from_slice(text)
                 && let Err(reason) = asset.check_version()
             {
                 return reason;
             }
-            // The message may quote a string of the file, however long.
+            // The message may quote a string of the file, of any length.
             let mut message = shown_within(error.to_string(), 200);
             if error.is_eof() {
                 message = format!(
@@ -287,14 +288,14 @@ impl Document {
                 );
                 return Reason::Truncated(message);
             }
-            Reason::Malformed(format!("the JSON is not that of a glTF file: {message}"))
+            Reason::Malformed(format!("the JSON does not describe a glTF file: {message}"))
         })?;
         document.asset.check_version()?;
         document.refuse_extensions()?;
         Ok(document)
     }
 
-    /// Refuses what would change shapes if it were evaluated.
+    /// Refuses extensions that would change shapes if they were evaluated.
     fn refuse_extensions(&self) -> Result<(), Reason> {
         let unsupported = |why: String| Err(Reason::Unsupported(why));
         for name in &self.extensions_required {
@@ -313,7 +314,7 @@ impl Document {
                 }
             }
         }
-        // Named, but not required: what stands in for the data, or nothing.
+        // Draco need not be required: the file may have uncompressed data too, or none.
         let has_no_data = |primitive: &Primitive| {
             let attributes = primitive.attributes.iter();
             let shapes = attributes.filter(|(name, _)| {
@@ -337,13 +338,15 @@ impl Document {
             .any(|name| name == "EXT_mesh_gpu_instancing")
         {
             return unsupported(
-                "uses EXT_mesh_gpu_instancing, which is not evaluated; export every instance as a node".to_owned(),
+                "uses EXT_mesh_gpu_instancing, which is not evaluated; \
+                 export every instance as a node"
+                    .to_owned(),
             );
         }
         Ok(())
     }
 
-    /// The name of an animation, or its number.
+    /// Name of an animation, or its number if it has none.
     pub(super) fn clip_name(&self, animation: usize) -> String {
         let name = self
             .animations
@@ -357,7 +360,7 @@ const DRACO: &str = "KHR_draco_mesh_compression";
 const DRACO_REFUSED: &str =
     "is compressed by Draco, which is not evaluated; export it without compression";
 
-/// Whether an extension is about how surfaces look, not where they are.
+/// Whether an extension affects only the look of surfaces.
 fn is_of_looks(name: &str) -> bool {
     [
         "KHR_materials_",

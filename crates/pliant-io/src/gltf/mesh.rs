@@ -1,8 +1,8 @@
-//! A mesh at rest: positions, triangles, which joints hold each vertex, where morph targets move it.
+//! glTF mesh at rest: positions, triangles, joint weights and morph targets.
 //!
-//! The primitives of a mesh are one body, their vertices one after another. Triangles, strips and fans are evaluated; points and
-//! lines have no surface and are passed over. Morph targets keep only the vertices that they move, so that memory grows with the
-//! data of the file.
+//! The primitives of a mesh form one body, with their vertices one after another. Triangles, strips
+//! and fans are evaluated; points and lines have no surface and are passed over. Morph targets keep
+//! only the vertices that they move, so that memory grows with the data of the file.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,53 +12,65 @@ use super::accessor::{Reader, Wanted, whole};
 use crate::error::{Fault, Place, Reason};
 use crate::memory::{Account, bytes_of};
 
+/// A mesh at rest, without its triangles.
 pub(super) struct Mesh {
     pub(super) rest: Vec<[f32; 3]>,
-    /// Each in the order of vertices.
+    /// Displacements of each morph target, in the order of vertices.
     pub(super) targets: Vec<Vec<Delta>>,
-    /// Of the morph targets, where neither a node nor an animation says.
+    /// Default weights of the morph targets, where neither a node nor an animation has any.
     pub(super) weights: Arc<[f64]>,
-    /// The joints of vertex v are from `starts[v]` up to `starts[v + 1]`; empty where a primitive has none.
+    /// Prefix sum over `influences`: those from `starts[v]` to `starts[v + 1]` belong to vertex v.
+    ///
+    /// Empty if a primitive has no joints.
     starts: Vec<u32>,
     influences: Vec<Influence>,
 }
 
-/// How often morph targets may say that a vertex stays where it is, in a file of so many bytes: sixteen times what it has room for,
-/// since primitives may share rows, and in no file more than seconds of work.
+/// Most zero displacements in the morph targets of a file of `bytes` bytes.
+///
+/// Sixteen times as many as the file has room for, since primitives may share rows; and in no file
+/// more than seconds of work.
 fn most_that_stay(bytes: u64) -> u64 {
     let rows = bytes / size_of::<[f32; 3]>() as u64;
     rows.saturating_mul(16).saturating_add(1 << 24).min(1 << 28)
 }
 
-/// A vertex that a morph target moves, and by how much.
+/// A displacement: a vertex that a morph target moves, and by how much.
 pub(super) type Delta = (u32, [f32; 3]);
 
-/// A joint that holds a vertex, and how much.
+/// A joint that moves a vertex, and its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Influence {
     pub(super) joint: u16,
     pub(super) weight: f32,
 }
 
-/// Parts of a whole that differ by no more are taken for the same: some roundings of 32 bits, or of the four digits behind the point
-/// that some programs show.
+/// Shares of a joint that differ by at most this much count as equal.
+///
+/// Covers some roundings of 32 bits, and of the four decimals that some programs show.
 const NEARLY: f64 = 1e-5;
 
-/// At one place there are a few vertices. Where there are very many, they are compared with so many of them, the smallest.
+/// Representatives at one place with which a vertex is compared: the smallest ones.
+///
+/// There are usually a few vertices at one place; this limits the work where there are very many.
 const MOST_COMPARED: usize = 64;
 
-/// Primitive modes.
+/// Primitive mode: triangles.
 const TRIANGLES: u32 = 4;
+/// Primitive mode: triangle strip.
 const STRIP: u32 = 5;
+/// Primitive mode: triangle fan.
 const FAN: u32 = 6;
 
-/// Sets of joints: four each.
+/// Attributes for joints: up to four sets of four.
 const JOINTS: [&str; 4] = ["JOINTS_0", "JOINTS_1", "JOINTS_2", "JOINTS_3"];
+/// Attributes for joint weights, one for each set.
 const WEIGHTS: [&str; 4] = ["WEIGHTS_0", "WEIGHTS_1", "WEIGHTS_2", "WEIGHTS_3"];
 
 impl Mesh {
-    /// Reads a mesh and its triangles, which are needed no longer than until every body of it has its first frame; None where
-    /// it has none.
+    /// Reads a mesh and its triangles; None if it has no primitive with triangles.
+    ///
+    /// The triangles are needed only until every body of the mesh has its first frame.
     pub(super) fn read(
         reader: &mut Reader,
         number: usize,
@@ -76,10 +88,11 @@ impl Mesh {
                 .iter()
                 .filter(|primitive| (TRIANGLES..=FAN).contains(&primitive.mode))
         };
-        if primitives.iter().any(|primitive| primitive.mode > FAN) {
-            return Err(malformed(
-                "a primitive has a mode that the format does not have",
-            ));
+        if let Some(primitive) = primitives.iter().find(|primitive| primitive.mode > FAN) {
+            let mode = primitive.mode;
+            return Err(malformed(&format!(
+                "a primitive has mode {mode}; glTF has modes 0 to {FAN}"
+            )));
         }
         let mut mesh = Self {
             rest: Vec::new(),
@@ -96,14 +109,14 @@ impl Mesh {
                 "its primitives have different numbers of morph targets",
             ));
         }
-        let held = surfaces().all(|primitive| primitive.attributes.contains_key(JOINTS[0]));
+        let has_joints = surfaces().all(|primitive| primitive.attributes.contains_key(JOINTS[0]));
         mesh.targets.resize_with(targets, Vec::new);
         let mut triangles = Vec::new();
         for primitive in surfaces() {
-            mesh.read_primitive(reader, primitive, held, &mut triangles)
+            mesh.read_primitive(reader, primitive, has_joints, &mut triangles)
                 .map_err(at)?;
         }
-        if held && !mesh.rest.is_empty() {
+        if has_joints && !mesh.rest.is_empty() {
             let end = mesh.influences.len() as u32;
             reader.account.push(&mut mesh.starts, end, 0)?;
         }
@@ -114,7 +127,7 @@ impl Mesh {
         &mut self,
         reader: &mut Reader,
         primitive: &super::document::Primitive,
-        held: bool,
+        has_joints: bool,
         triangles: &mut Vec<[u32; 3]>,
     ) -> Result<(), Fault> {
         let begin = self.rest.len();
@@ -130,16 +143,17 @@ impl Mesh {
             Ok(account.push(rest, [row[0], row[1], row[2]].map(|x| x as f32), 0)?)
         })?;
         self.read_targets(reader, primitive, begin as u64, count)?;
-        if held {
+        if has_joints {
             self.read_influences(reader, &primitive.attributes, count)?;
         }
         read_triangles(reader, primitive, begin as u32, count, triangles)
     }
 
-    /// Where morph targets move the `count` vertices of a primitive, the first of which is `begin`.
+    /// Reads the displacements of morph targets for `count` vertices, numbered from `begin`.
     ///
-    /// What moves nothing takes no memory, but time: an accessor is read once for all targets that name it, and there is a limit to
-    /// how often a file may say that a vertex stays, else a small one could say it for hours.
+    /// Zero displacements take no memory, but time. So an accessor is read once for all targets
+    /// that name it. Their number in a file is limited: a small file could otherwise keep a reader
+    /// busy for hours.
     fn read_targets(
         &mut self,
         reader: &mut Reader,
@@ -147,7 +161,7 @@ impl Mesh {
         begin: u64,
         count: u64,
     ) -> Result<(), Fault> {
-        // Of each accessor the target that was read from it, and where there.
+        // For each accessor read: the target that it was read into, and the range there.
         let mut known: BTreeMap<usize, (usize, Range<usize>)> = BTreeMap::new();
         for (number, attributes) in primitive.targets.iter().enumerate() {
             let Some(&deltas) = attributes.get("POSITION") else {
@@ -177,7 +191,8 @@ impl Mesh {
             let most = most_that_stay(reader.buffers.bytes());
             if reader.stay > most {
                 return Err(Reason::Malformed(format!(
-                    "its morph targets say more than {most} times that a vertex stays where it is"
+                    "its morph targets hold more than {most} zero displacements, the most that \
+                     are read; sparse accessors leave them out"
                 ))
                 .into());
             }
@@ -185,8 +200,10 @@ impl Mesh {
         Ok(())
     }
 
-    /// Which joints hold the vertices of a primitive: those of all sets that weigh something, in the order of joints, so that equal
-    /// vertices are equal whatever the order in the file.
+    /// Reads the joints of the vertices of a primitive.
+    ///
+    /// Joints of all sets with a weight are kept, in ascending order: equal vertices are then equal
+    /// whatever the order in the file.
     fn read_influences(
         &mut self,
         reader: &mut Reader,
@@ -248,7 +265,8 @@ impl Mesh {
                 }
             }
             if some == 0 {
-                // What weighs nothing must be somewhere: with its first joint, as three.js has it.
+                // A vertex without weights must be somewhere: it follows its first joint, as in
+                // three.js.
                 all[0] = Influence {
                     joint: of_vertices.get(vertex).map_or(0, |four| four[0].joint),
                     weight: 1.0,
@@ -269,7 +287,7 @@ impl Mesh {
         Ok(())
     }
 
-    /// The joints that hold a vertex; none in a mesh that no joint holds.
+    /// Joints and weights of a vertex; none in a mesh without joints.
     pub(super) fn influences(&self, vertex: usize) -> &[Influence] {
         match self.starts.get(vertex..vertex + 2) {
             Some(&[start, end]) => &self.influences[start as usize..end as usize],
@@ -277,7 +295,7 @@ impl Mesh {
         }
     }
 
-    /// Refuses joints that a skin of so many does not have, and a mesh that no joint holds.
+    /// Checks that the mesh has joints, all of them among the `joints` of a skin.
     pub(super) fn check_joints(&self, joints: usize) -> Result<(), Reason> {
         if self.starts.is_empty() {
             return Err(Reason::Malformed(
@@ -291,7 +309,7 @@ impl Mesh {
                 .find(|it| usize::from(it.joint) >= joints)
             {
                 return Err(Reason::Malformed(format!(
-                    "vertex {vertex} is held by joint {}, the skin has {joints}",
+                    "vertex {vertex} names joint {}, but the skin has {joints} joints",
                     bad.joint
                 )));
             }
@@ -299,17 +317,19 @@ impl Mesh {
         Ok(())
     }
 
-    /// Whether joints hold two vertices alike but for [`NEARLY`]: the part that each joint has of the whole, none where it is not named.
+    /// Whether joints have the same shares of two vertices, within [`NEARLY`].
+    ///
+    /// A share is a weight divided by the sum of weights; a joint that is not named has none.
     fn weigh_nearly_alike(&self, a: u32, b: u32) -> bool {
         let [a, b] = [a, b].map(|vertex| self.influences(vertex as usize));
         let whole = |all: &[Influence]| all.iter().map(|it| f64::from(it.weight)).sum::<f64>();
         let (whole_a, whole_b) = (whole(a), whole(b));
         let (mut a, mut b) = (a, b);
-        // Both are in the order of joints.
+        // Both lists are in the order of joints.
         let next = |all: &[Influence]| all.first().map(|it| it.joint);
         while let Some(joint) = next(a).into_iter().chain(next(b)).min() {
             let part = taken(&mut a, joint) / whole_a - taken(&mut b, joint) / whole_b;
-            // Not a number where the weights cancel each other.
+            // NaN where the weights cancel each other.
             if part.is_nan() || part.abs() > NEARLY {
                 return false;
             }
@@ -317,26 +337,29 @@ impl Mesh {
         true
     }
 
-    /// Whether joints hold two vertices alike to the bit.
+    /// Whether two vertices have equal joints and weights, to the bit.
     pub(super) fn weigh_alike(&self, a: u32, b: u32) -> bool {
         let [a, b] = [a, b].map(|vertex| self.influences(vertex as usize));
         a == b
     }
 
-    /// The most bytes that [`alike`](Self::alike) takes.
+    /// Upper bound of the bytes that [`alike`](Self::alike) takes.
     pub(super) fn memory_of_alike(&self, skinned: bool) -> u64 {
         let vertices = self.rest.len() as u64;
         let moved = self.targets.iter().map(Vec::len).max().unwrap_or(0) as u64;
         let runs = if skinned {
-            vertices * size_of::<Run>() as u64
+            vertices * size_of::<EqualWeights>() as u64
         } else {
             0
         };
         12 * vertices + runs.max(32 * moved)
     }
 
-    /// A number for each vertex, the same where they are at one place at rest and everything moves them alike: morph targets to the
-    /// bit; joints but for [`NEARLY`], as exporters that divide weights by their sum leave them on two sides of a seam.
+    /// Weld key of each vertex: equal where vertices coincide at rest and move alike.
+    ///
+    /// Morph targets must move them alike to the bit, joints within [`NEARLY`]. Exporters that
+    /// divide weights by their sum leave such differences on two sides of a seam. Takes O(n log n)
+    /// per target.
     pub(super) fn alike(&self, skinned: bool) -> Vec<u64> {
         let mut class = self.moved_alike();
         if skinned && !self.starts.is_empty() {
@@ -345,7 +368,7 @@ impl Mesh {
         class
     }
 
-    /// The same as [`alike`](Self::alike), whatever joints do.
+    /// Weld keys as in [`alike`](Self::alike), but without joints.
     fn moved_alike(&self) -> Vec<u64> {
         let bits = |place: [f32; 3]| place.map(|x| (x + 0.0).to_bits());
         let place = |vertex: u32| bits(self.rest[vertex as usize]);
@@ -360,7 +383,7 @@ impl Mesh {
             next += 1;
         }
         drop(vertices);
-        // Those of a class that a target moves alike leave it together.
+        // Vertices of a class that a target moves alike leave it together.
         for target in &self.targets {
             let mut moved: Vec<(u64, [u32; 3], u32)> = target
                 .iter()
@@ -377,15 +400,16 @@ impl Mesh {
         class
     }
 
-    /// Parts the vertices of each class that joints do not hold nearly alike.
+    /// Splits each class by joint weights that are not nearly equal.
     ///
-    /// To be near is not transitive, so it is a rule: vertices that joints hold alike to the bit stay together, as their smallest.
-    /// In the order of numbers each of these joins the first leader that it is near to, or leads itself. So all of a class are within
-    /// [`NEARLY`] of its leader, and within twice that of each other.
+    /// Nearness is not transitive, so a rule decides. Vertices of bitwise equal weights stay
+    /// together; the smallest represents them. In ascending order, each representative joins the
+    /// first leader that it is near, or becomes a leader. So all vertices of a class are within
+    /// [`NEARLY`] of their leader, and within twice that of each other.
     fn part_by_weights(&self, class: &mut [u64]) {
         let bits = |vertex: u32| {
-            let held = self.influences(vertex as usize).iter();
-            held.map(|it| (it.joint, it.weight.to_bits()))
+            let influences = self.influences(vertex as usize).iter();
+            influences.map(|it| (it.joint, it.weight.to_bits()))
         };
         let mut vertices: Vec<u32> = (0..class.len() as u32).collect();
         vertices.sort_unstable_by(|&a, &b| {
@@ -394,7 +418,7 @@ impl Mesh {
                 .then(a.cmp(&b))
         });
         let mut next = class.iter().max().map_or(0, |last| last + 1);
-        let mut runs: Vec<Run> = Vec::with_capacity(vertices.len());
+        let mut runs: Vec<EqualWeights> = Vec::with_capacity(vertices.len());
         let mut leaders: Vec<(u32, u64)> = Vec::with_capacity(MOST_COMPARED);
         let mut rest = &vertices[..];
         while let Some(&first) = rest.first() {
@@ -430,10 +454,10 @@ impl Mesh {
     }
 }
 
-/// Vertices that joints hold alike to the bit: the smallest, and from where to where they are.
-type Run = (u32, u32, u32);
+/// Vertices of bitwise equal weights: the smallest, and their range.
+type EqualWeights = (u32, u32, u32);
 
-/// Takes a joint from the front of a list that is in the order of joints; returns how much it weighs.
+/// Removes a joint from the front of a sorted list; returns its total weight.
 fn taken(all: &mut &[Influence], joint: u16) -> f64 {
     let mut weight = 0.0;
     while let [first, rest @ ..] = all
@@ -456,7 +480,7 @@ impl Reader {
     }
 }
 
-/// Appends the triangles of a primitive, whose `count` vertices begin at `begin`.
+/// Appends the triangles of a primitive, whose `count` vertices are numbered from `begin`.
 fn read_triangles(
     reader: &mut Reader,
     primitive: &super::document::Primitive,
@@ -465,7 +489,7 @@ fn read_triangles(
     triangles: &mut Vec<[u32; 3]>,
 ) -> Result<(), Fault> {
     let mode = primitive.mode;
-    // The corners that the next one makes a triangle with, and how many there were.
+    // The two corners with which the next one makes a triangle, and the number of corners so far.
     let (mut first, mut last, mut met) = (0, 0, 0_u64);
     let mut corner = |account: &mut Account, index: f64| -> Result<(), Fault> {
         if index >= count as f64 {
@@ -486,7 +510,7 @@ fn read_triangles(
             (TRIANGLES, _) if met % 3 == 1 => last = corner,
             (_, 1) => last = corner,
             _ => {
-                // Every other triangle of a strip is the other way round.
+                // Every other triangle of a strip is reversed.
                 let turned = mode == STRIP && met % 2 == 1;
                 let triangle = if turned {
                     [first, corner, last]
@@ -516,13 +540,14 @@ fn read_triangles(
             }
         }
     }
-    let whole = if mode == TRIANGLES {
-        met % 3 == 0
+    let wrong = if mode == TRIANGLES {
+        (met % 3 != 0).then_some("which is no multiple of 3")
     } else {
-        met != 1 && met != 2
+        (met == 1 || met == 2).then_some("but its first triangle needs 3")
     };
-    if !whole {
-        return Err(Reason::Malformed(format!("{met} corners do not make whole triangles")).into());
+    if let Some(wrong) = wrong {
+        let reason = format!("a primitive of mode {mode} has {met} corners, {wrong}");
+        return Err(Reason::Malformed(reason).into());
     }
     if triangles.len() > u32::MAX as usize {
         return Err(Reason::TooMany { what: "triangles" }.into());

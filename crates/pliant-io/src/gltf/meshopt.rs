@@ -1,41 +1,42 @@
-//! Views of a buffer that meshoptimizer compressed: `EXT_meshopt_compression` and `KHR_meshopt_compression`, which has one more way to
-//! write attributes.
+//! Decoder of buffer views that meshoptimizer compressed:
 //!
 //! ```text
-//! ATTRIBUTES   rows of bytes: blocks of rows, in them byte after byte of a row, in them groups of 16 differences to the row before
-//! TRIANGLES    three numbers a triangle: mostly an edge that was there a moment ago, and the next number or a recent one
+//! ATTRIBUTES   rows of bytes: blocks of rows, in them byte after byte of a row,
+//!              in them groups of 16 differences to the row before
+//! TRIANGLES    three numbers each: mostly a recent edge, and the next number or a recent one
 //! INDICES      numbers: differences to one of two numbers before
 //! ```
 //!
-//! Rows may then pass through a filter, which makes numbers of fewer bits into those that the accessor names.
-//!
-//! Every byte is taken through [`Stream`], which ends where the bytes end, and all arithmetic wraps as the format says: what is no such
-//! stream is refused, or gives numbers that are looked at as those of any view. What is decoded is entered before it is made, and grows
-//! with the stream.
-//!
-//! Source: the specifications of both extensions, appendices A and B. Which way differing bits are rotated is as meshoptimizer's own
-//! decoders have it. Two crates were looked at, meshopt-rs 0.1 and meshoptimizer-rs 0.2: both have unsafe code.
+//! Rows may then pass through a filter, which expands numbers to the type of the accessor. Every
+//! byte is taken through [`Stream`], and all arithmetic wraps as specified. A malformed stream is
+//! refused, or gives numbers that are checked like any view's. Source: appendices A and B of the
+//! specifications of `EXT_meshopt_compression` and `KHR_meshopt_compression`, which has one more
+//! way to write attributes. The crates meshopt-rs 0.1 and meshoptimizer-rs 0.2 have unsafe code.
 
 use super::document::Compressed;
 use crate::error::Reason;
 use crate::memory::Account;
+use crate::text::quoted;
 
-/// Rows of attributes are at most so wide.
+/// Widest row of attributes, in bytes.
 const WIDEST: usize = 256;
-/// The most bytes of a block of attributes, and the most rows.
+/// Most bytes of a block of attributes.
 const BLOCK: usize = 8192;
+/// Most rows of a block of attributes.
 const MOST_ROWS: usize = 256;
-/// Rows are taken in groups.
+/// Rows in a group.
 const GROUP: usize = 16;
 
-/// What is wrong with a stream.
+/// Fault of a stream, as the end of a message.
 type Wrong = &'static str;
 
 const CUT_SHORT: Wrong = "are cut short";
-const NOT_SUCH: Wrong = "do not begin as the mode says";
+const NOT_SUCH: Wrong = "begin with another byte than their mode needs";
 const TOO_MANY: Wrong = "are more than its rows need";
 
-/// The bytes of a compressed view; as many as `compressed` says, all counted.
+/// Decodes a compressed view to exactly the bytes that `compressed` announces.
+///
+/// They are counted in the account before they are made, and grow with the stream. Takes O(size).
 pub(super) fn decode(
     stream: &[u8],
     compressed: &Compressed,
@@ -48,34 +49,50 @@ pub(super) fn decode(
     let (count, width) = (count as usize, width as usize);
     let filter = Filter::of(compressed.filter.as_deref().unwrap_or("NONE"), width);
     let filter = filter.map_err(|why| match why {
-        Some(why) => malformed(why),
-        None => Reason::Unsupported(
-            "is compressed by meshopt with a filter that is not evaluated; export it without compression".into(),
-        ),
+        Some(why) => malformed(&format!("{why}: {width}")),
+        None => Reason::Unsupported(format!(
+            "is compressed by meshopt with filter {}, which is not evaluated; \
+             export it without compression",
+            quoted(compressed.filter.as_deref().unwrap_or_default())
+        )),
     })?;
     let is_plain = matches!(filter, Filter::None);
     let mut rows = Vec::new();
     let decoded = match &compressed.mode[..] {
         "ATTRIBUTES" if width == 0 || width > WIDEST || !width.is_multiple_of(4) => {
-            return Err(malformed("has rows of a width that attributes cannot have"));
+            return Err(malformed(&format!(
+                "has byteStride {width}; ATTRIBUTES need a multiple of 4, from 4 to {WIDEST}"
+            )));
         }
         "ATTRIBUTES" => attributes(stream, count, width, &mut rows),
-        "TRIANGLES" | "INDICES" if !is_plain || ![2, 4].contains(&width) => {
-            return Err(malformed("has numbers that are neither of 2 nor 4 bytes"));
+        mode @ ("TRIANGLES" | "INDICES") if !is_plain => {
+            return Err(malformed(&format!("has a filter; {mode} have none")));
+        }
+        mode @ ("TRIANGLES" | "INDICES") if ![2, 4].contains(&width) => {
+            return Err(malformed(&format!(
+                "has byteStride {width}; {mode} need 2 or 4"
+            )));
         }
         "TRIANGLES" if !count.is_multiple_of(3) => {
-            return Err(malformed("has triangles that are not whole"));
+            return Err(malformed(&format!(
+                "has {count} corners of triangles, which is no multiple of 3"
+            )));
         }
         "TRIANGLES" => triangles(stream, count / 3, width, &mut rows),
         "INDICES" => indices(stream, count, width, &mut rows),
-        _ => return Err(malformed("has a mode that the format does not have")),
+        mode => {
+            return Err(malformed(&format!(
+                "has mode {}; there are ATTRIBUTES, TRIANGLES and INDICES",
+                quoted(mode)
+            )));
+        }
     };
     decoded.map_err(|why| Reason::Malformed(format!("its compressed bytes {why}")))?;
     filter.apply(&mut rows);
     Ok(rows)
 }
 
-/// Bytes that are taken from the front.
+/// Stream of bytes that are taken from the front; an error beyond its end.
 struct Stream<'a>(&'a [u8]);
 
 impl<'a> Stream<'a> {
@@ -99,7 +116,8 @@ impl<'a> Stream<'a> {
         Ok(tail)
     }
 
-    /// A number in sevens of bits, the lowest first; each byte but the last has the highest bit.
+    /// Takes a variable-length integer: 7 bits a byte, the lowest first, the top bit if more
+    /// follow.
     fn number(&mut self) -> Result<u32, Wrong> {
         let mut number = 0;
         for shift in (0..35).step_by(7) {
@@ -121,17 +139,19 @@ impl<'a> Stream<'a> {
     }
 }
 
-/// The difference that an unsigned number stands for: 0, -1, 1, -2, ...
+/// Decodes a zigzag difference: 0, -1, 1, -2, ...
 fn difference(number: u32) -> u32 {
     (number >> 1) ^ (number & 1).wrapping_neg()
 }
 
-/// How four bytes of a row follow from those of the row before.
+/// Encoding of four bytes of a row relative to the row before.
 #[derive(Clone, Copy)]
 enum Channel {
     Bytes,
     Pairs,
-    /// Bits that differ; where they are written they were moved up by so many.
+    /// Differing bits (xor), which were rotated up by this much.
+    ///
+    /// The direction of the rotation is as in meshoptimizer's own decoders.
     Bits(u32),
 }
 
@@ -141,7 +161,7 @@ impl Channel {
             (0, 0) => Ok(Self::Bytes),
             (1, 0) => Ok(Self::Pairs),
             (2, by) => Ok(Self::Bits(by.into())),
-            _ => Err("have a channel of no known mode"),
+            _ => Err("name an unknown channel mode"),
         }
     }
 
@@ -166,6 +186,7 @@ impl Channel {
     }
 }
 
+/// Decodes rows of attributes.
 fn attributes(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> Result<(), Wrong> {
     let mut stream = Stream(stream);
     let (channels, least_tail) = match stream.byte()? {
@@ -182,7 +203,7 @@ fn attributes(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> 
         *channel = Channel::of(mode)?;
     }
     let most = (BLOCK / width / GROUP * GROUP).min(MOST_ROWS);
-    // Byte after byte of a row, each for all rows of a block.
+    // One byte of a row after another, each for all rows of a block.
     let mut stored = vec![0_u8; most * width];
     let mut done = 0;
     while done < count {
@@ -225,7 +246,8 @@ fn attributes(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> 
     stream.end()
 }
 
-/// Reads a group of 16 in so many bits each; where all are set, the number is a byte behind them.
+/// Reads a group of 16 numbers of `bits` bits each; a number with all bits set is a byte behind
+/// them.
 fn read_group(stream: &mut Stream<'_>, bits: u32, group: &mut [u8]) -> Result<(), Wrong> {
     match bits {
         0 => group.fill(0),
@@ -249,7 +271,7 @@ fn read_group(stream: &mut Stream<'_>, bits: u32, group: &mut [u8]) -> Result<()
     Ok(())
 }
 
-/// The last 16 of something, the latest first.
+/// Ring buffer of the last 16 items.
 #[derive(Default)]
 struct Recent<T> {
     items: [T; 16],
@@ -262,13 +284,15 @@ impl<T: Copy> Recent<T> {
         self.count += 1;
     }
 
+    /// The item `back` pushes before the latest.
     fn get(&self, back: u8) -> Result<T, Wrong> {
         let before = self.count.checked_sub(1 + usize::from(back));
-        let before = before.ok_or("name what was not there yet")?;
+        let before = before.ok_or("refer to an entry before the first")?;
         Ok(self.items[before % 16])
     }
 }
 
+/// Decodes triangles.
 fn triangles(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> Result<(), Wrong> {
     let mut stream = Stream(stream);
     if stream.byte()? != 0xe1 {
@@ -277,7 +301,7 @@ fn triangles(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> R
     let table = stream.tail(16)?;
     let is_whole = |both: &u8| both >> 4 != 15 && both & 15 != 15;
     if table[14..] != [0; 2] || !table.iter().all(is_whole) {
-        return Err("end in no table of triangles");
+        return Err("end in an invalid table of triangles");
     }
     let codes = stream.take(count)?;
     let mut numbers = Numbers {
@@ -342,12 +366,12 @@ fn triangles(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> R
     numbers.stream.end()
 }
 
-/// What vertices are that were not there a moment ago.
+/// Source of vertices that were not used recently.
 struct Numbers<'a> {
     stream: Stream<'a>,
-    /// The number that comes after all so far, mostly.
+    /// The next number that is new, as a rule.
     next: u32,
-    /// The last that was not such.
+    /// The last number that was given explicitly.
     last: u32,
 }
 
@@ -369,6 +393,7 @@ impl Numbers<'_> {
     }
 }
 
+/// Decodes a sequence of numbers.
 fn indices(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> Result<(), Wrong> {
     let mut stream = Stream(stream);
     if stream.byte()? != 0xd1 {
@@ -389,26 +414,28 @@ fn indices(stream: &[u8], count: usize, width: usize, rows: &mut Vec<u8>) -> Res
 fn put(rows: &mut Vec<u8>, width: usize, numbers: &[u32]) -> Result<(), Wrong> {
     for number in numbers {
         if width == 2 && *number > u16::MAX.into() {
-            return Err("have a number of more than the 16 bits that it has");
+            return Err("have a number above 65535 for a row of 2 bytes");
         }
         rows.extend_from_slice(&number.to_le_bytes()[..width]);
     }
     Ok(())
 }
 
-/// What numbers of fewer bits become.
+/// A filter that expands numbers after decoding.
 enum Filter {
     None,
-    /// Directions as points of an octahedron, of 8 bits or 16.
+    /// Octahedral directions, of 8 or 16 bits.
     Octahedral(usize),
-    /// Rotations without their largest part.
+    /// Rotations without their largest component.
     Quaternion,
-    /// Whole numbers with an exponent.
+    /// Integers with an exponent.
     Exponential,
 }
 
 impl Filter {
-    /// The filter of this name over rows of `width` bytes; what is wrong with it, or None where it is not known.
+    /// Returns the filter of this name for rows of `width` bytes.
+    ///
+    /// The error says what is wrong with the width, or is None for an unknown name.
     fn of(name: &str, width: usize) -> Result<Self, Option<Wrong>> {
         let (filter, is_width) = match name {
             "NONE" => (Self::None, true),
@@ -420,7 +447,7 @@ impl Filter {
         if is_width {
             Ok(filter)
         } else {
-            Err(Some("has rows of a width that its filter cannot have"))
+            Err(Some("has a byteStride that its filter cannot have"))
         }
     }
 
@@ -462,7 +489,7 @@ fn each_of_four_shorts(rows: &mut [u8], each: impl Fn([i16; 4]) -> [i16; 4]) {
     }
 }
 
-/// A direction of length `most`, from a point of the octahedron whose corners are `one` away.
+/// Decodes a direction to length `most`, from a point of an octahedron with corners at `one`.
 fn direction([x, y, one]: [f64; 3], most: f64) -> [f64; 3] {
     let (mut x, mut y) = (x / one, y / one);
     let z = 1.0 - x.abs() - y.abs();
@@ -474,7 +501,9 @@ fn direction([x, y, one]: [f64; 3], most: f64) -> [f64; 3] {
     [x, y, z].map(|part| (part / length * most).round())
 }
 
-/// A rotation, from three of its parts by the square root of two, and which is left out: the largest, which is positive.
+/// Decodes a rotation from three components, divided by the square root of two.
+///
+/// The fourth, the largest, is positive; `which` says which one it is.
 fn rotation([x, y, z, which]: [i16; 4]) -> [i16; 4] {
     let one = f64::from(which | 3);
     let [x, y, z] = [x, y, z].map(|part| f64::from(part) / one * std::f64::consts::FRAC_1_SQRT_2);
@@ -492,7 +521,8 @@ mod tests {
 
     use super::*;
 
-    /// What a stream is, and what meshoptimizer's own decoder makes of it; `tests/three/compress.mjs` makes them.
+    /// Streams with what meshoptimizer's own decoder makes of them, from
+    /// `tests/three/compress.mjs`.
     fn recorded() -> Vec<(String, Vec<u8>, Compressed, Vec<u8>)> {
         let file = include_str!("../../tests/fixtures/meshopt.json");
         let cases: Vec<Value> = serde_json::from_str(file).unwrap();
@@ -518,7 +548,7 @@ mod tests {
         for (what, stream, compressed, rows) in cases {
             let ours = decoded(&stream, &compressed).unwrap();
             assert_eq!(ours.len(), rows.len(), "{what}");
-            // What filters round may be one beside it, as their specification says.
+            // Rounding in filters may differ by one, as their specification says.
             let is_same = match (compressed.filter.as_deref(), compressed.byte_stride) {
                 (Some("OCTAHEDRAL"), 4) => {
                     let mut pairs = ours.iter().zip(&rows);
@@ -593,29 +623,47 @@ mod tests {
             decoded(stream, &compressed).unwrap_err().to_string()
         };
         for (mode, filter, count, width, words) in [
-            ("ATTRIBUTES", "NONE", 1, 0, "a width that attributes"),
-            ("ATTRIBUTES", "NONE", 1, 6, "a width that attributes"),
-            ("ATTRIBUTES", "NONE", 1, 260, "a width that attributes"),
-            ("ATTRIBUTES", "QUATERNION", 1, 12, "a width that its filter"),
+            ("ATTRIBUTES", "NONE", 1, 0, "byteStride 0; ATTRIBUTES need"),
+            ("ATTRIBUTES", "NONE", 1, 6, "byteStride 6; ATTRIBUTES need"),
+            ("ATTRIBUTES", "NONE", 1, 260, "byteStride 260; ATTRIBUTES"),
+            ("ATTRIBUTES", "QUATERNION", 1, 12, "filter cannot have: 12"),
             (
                 "ATTRIBUTES",
                 "COLOR",
                 1,
                 4,
-                "with a filter that is not evaluated",
+                "with filter \"COLOR\", which is not evaluated",
             ),
-            ("ATTRIBUTES", "NONE", 1, 4, "do not begin as the mode says"),
-            ("TRIANGLES", "NONE", 3, 8, "neither of 2 nor 4 bytes"),
-            ("TRIANGLES", "EXPONENTIAL", 3, 4, "neither of 2 nor 4 bytes"),
-            ("TRIANGLES", "NONE", 4, 4, "not whole"),
-            ("TRIANGLES", "NONE", 3, 4, "do not begin as the mode says"),
-            ("INDICES", "NONE", 3, 2, "do not begin as the mode says"),
+            ("ATTRIBUTES", "NONE", 1, 4, "begin with another byte"),
+            (
+                "TRIANGLES",
+                "NONE",
+                3,
+                8,
+                "byteStride 8; TRIANGLES need 2 or 4",
+            ),
+            (
+                "TRIANGLES",
+                "EXPONENTIAL",
+                3,
+                4,
+                "a filter; TRIANGLES have none",
+            ),
+            (
+                "TRIANGLES",
+                "NONE",
+                4,
+                4,
+                "4 corners of triangles, which is no",
+            ),
+            ("TRIANGLES", "NONE", 3, 4, "begin with another byte"),
+            ("INDICES", "NONE", 3, 2, "begin with another byte"),
             (
                 "POINTS",
                 "NONE",
                 3,
                 2,
-                "a mode that the format does not have",
+                "has mode \"POINTS\"; there are ATTRIBUTES",
             ),
             ("ATTRIBUTES", "NONE", 1 << 40, 256, "of memory"),
             ("ATTRIBUTES", "NONE", u64::MAX, 256, "of memory"),
@@ -623,9 +671,9 @@ mod tests {
             let said = said(mode, filter, count, width, &[7; 100]);
             assert!(said.contains(words), "{words}: {said}");
         }
-        // A triangle of an edge before the first, and a number that does not end.
+        // A triangle on an edge before the first, and a number that does not end.
         let first = [&[0xe1, 0x00][..], &[0; 16]].concat();
-        assert!(said("TRIANGLES", "NONE", 3, 4, &first).contains("not there yet"));
+        assert!(said("TRIANGLES", "NONE", 3, 4, &first).contains("before the first"));
         let endless = [&[0xd1][..], &[0xff; 9], &[0; 4]].concat();
         assert!(said("INDICES", "NONE", 1, 4, &endless).contains("more than 32 bits"));
     }

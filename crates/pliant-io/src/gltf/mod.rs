@@ -1,18 +1,21 @@
-//! glTF 2 and GLB: the default scene, each node with a mesh a body, moved by one clip: evaluated frame by frame.
+//! glTF 2 and GLB reader: each node with a mesh in the default scene is a body, moved by one clip.
 //!
 //! ```text
 //! nodes        each in its parent; moved by the clip: STEP, LINEAR, CUBICSPLINE
 //! morph        rest + sum over targets of weight x delta
-//! skin         sum over joints of weight x (joint in the world) x (inverse bind matrix), weights brought to a sum of 1
+//! skin         sum over joints of weight x (joint in the world) x (inverse bind matrix),
+//!              weights brought to a sum of 1
 //! no skin      the node in the world
 //! ```
 //!
-//! What is read from the file is held: triangles until every body has its first frame, the rest where there are more frames. A
-//! frame is evaluated in double precision when it is asked for, and handed on in single, as files have it. Frames are at 0,
-//! 1/fps, 2/fps, ... and the clip's end. A body that the clip does not move, and every body where there is no clip, has one
-//! frame. The place of a node with a skin does not matter, as the format says.
+//! A frame is evaluated on demand, in f64, and rounded to f32 as in files. Source: the glTF 2.0
+//! specification, 3.5, 3.7 and Appendix C. Sines come from `libm`: the same bits on every machine.
 //!
-//! Source: the glTF 2.0 specification, 3.5, 3.7 and Appendix C. Sines are those of `libm`: the same bits on every machine.
+//! - Data of the file are held: triangles until every body has its first frame, the rest only if
+//!   there are more frames.
+//! - Frames are at 0, 1/fps, 2/fps, ... and the clip's end. A body that no clip moves has one
+//!   frame.
+//! - The transform of a node with a skin is ignored, as specified.
 
 mod accessor;
 mod affine;
@@ -42,34 +45,35 @@ use animation::Clip;
 use mesh::{Delta, Mesh};
 use scene::{Pose, Scene};
 
-/// Vertices that are moved at a time.
+/// Vertices moved at a time: morph targets need a buffer of 96 KiB for them.
 const AT_A_TIME: usize = 4096;
 
 /// The bodies of a file, with their names.
 pub(crate) struct Bodies {
     pub(crate) bodies: Vec<(String, GltfBody)>,
-    /// The bytes that they share.
+    /// Bytes that they share.
     pub(crate) held: u64,
 }
 
-/// The frames of one body.
+/// Source of the frames of one body.
 pub(crate) struct GltfBody {
     scene: Arc<Scene>,
     mesh: Arc<Mesh>,
-    /// Until the first frame; freed with the last body of the mesh that has one.
+    /// Triangles until the first frame; freed with the last body of the mesh that holds them.
     triangles: Option<Arc<Vec<[u32; 3]>>>,
     node: usize,
     skin: Option<usize>,
-    /// Of the morph targets, where the clip does not say: the node's, or those that all bodies of the mesh share.
+    /// Weights of morph targets unless the clip has some: the node's own, or the mesh's, which are
+    /// shared.
     weights: Arc<[f64]>,
     moves: bool,
     next: usize,
     notes: Vec<Note>,
-    /// What [`Bodies::held`] says of a body that is alone.
+    /// [`Bodies::held`] of a file with a single body.
     held: u64,
 }
 
-/// Opens the one body of a file.
+/// Opens the one body of a file; an error if it has several.
 pub(crate) fn open_one(found: &Found, options: &OpenOptions) -> Result<GltfBody, Fault> {
     let Bodies { mut bodies, held } = open(found, None, options)?;
     match bodies.pop() {
@@ -88,7 +92,7 @@ pub(crate) fn open_one(found: &Found, options: &OpenOptions) -> Result<GltfBody,
     }
 }
 
-/// Opens a file: all its bodies, or the one that is called `name`.
+/// Opens a file: all its bodies, or the one called `name`.
 pub(crate) fn open(
     found: &Found,
     name: Option<&str>,
@@ -108,7 +112,7 @@ pub(crate) fn open(
         stay: 0,
     };
     let bodies = read(&mut reader, name, options);
-    // First: what looks wrong may be half of a change.
+    // Before the reader's own error: a change while reading is the likelier cause of it.
     reader.buffers.unchanged()?;
     let bodies = bodies?;
     reader.account.take_off(parsed);
@@ -200,13 +204,13 @@ fn read(
     Ok(bodies)
 }
 
-/// The animation of this name; without a name the first. None in a file that has none at all.
+/// Reads the animation of this name, or the first; None in a file without animations.
 fn read_clip(reader: &mut Reader, name: Option<&str>) -> Result<Option<Clip>, Fault> {
     let document = &reader.document;
     let count = document.animations.len();
     let clip = match name {
         None => 0,
-        // Stands still, as a body of another format beside one that moves.
+        // The body stands still, like a body of another format beside one that moves.
         Some(_) if count == 0 => return Ok(None),
         Some(name) => {
             let known = (0..count).position(|clip| document.clip_name(clip) == name);
@@ -231,7 +235,7 @@ fn read_clip(reader: &mut Reader, name: Option<&str>) -> Result<Option<Clip>, Fa
     .map(Some)
 }
 
-/// Of each node whether it is in the default scene; of a file without scenes all are, which hang on those that are no children.
+/// Whether each node is in the default scene; all are if the file has no scene.
 fn shown(reader: &Reader) -> Result<Vec<bool>, Fault> {
     let document = &reader.document;
     if has_no_scene(reader) {
@@ -242,7 +246,7 @@ fn shown(reader: &Reader) -> Result<Vec<bool>, Fault> {
         let reason = format!("scene {number} does not exist");
         return Err(Reason::Malformed(reason).into());
     };
-    // A tree, as `Scene::read` has made sure; a root that is listed twice is one.
+    // A tree, as `Scene::read` has checked; a root that is listed twice counts once.
     let mut shown = vec![false; document.nodes.len()];
     let mut open = scene.nodes.clone();
     while let Some(node) = open.pop() {
@@ -261,7 +265,7 @@ fn has_no_scene(reader: &Reader) -> bool {
     reader.document.scenes.is_empty() && reader.document.scene.is_none()
 }
 
-/// The nodes shown that have meshes, in the order of nodes, with their meshes.
+/// Shown nodes with their meshes, in the order of nodes.
 fn nodes_with_meshes(reader: &Reader, shown: &[bool]) -> Vec<(usize, usize)> {
     let nodes = reader.document.nodes.iter().enumerate().zip(shown);
     let with_meshes = nodes.filter(|&(_, shown)| *shown);
@@ -270,8 +274,10 @@ fn nodes_with_meshes(reader: &Reader, shown: &[bool]) -> Vec<(usize, usize)> {
         .collect()
 }
 
-/// A name for each body, all different: of its node, or else of its mesh; behind it the number of the node, where several would have
-/// the same. Names of a mesh are copied for each of its nodes, so they are counted before they are.
+/// A unique name for each body: the node's, or else the mesh's.
+///
+/// The number of the node follows where several have the same. A mesh's name is copied for each of
+/// its nodes, so names are counted before they are made.
 fn names(reader: &mut Reader, nodes: &[(usize, usize)]) -> Result<Vec<String>, Fault> {
     let Reader {
         document, account, ..
@@ -291,7 +297,8 @@ fn names(reader: &mut Reader, nodes: &[(usize, usize)]) -> Result<Vec<String>, F
     for (name, (node, _)) in all.iter().zip(nodes) {
         let mut different = name.clone().into_owned();
         if times[&name[..]] > 1 {
-            // Again where a node is called so: what ends in another number is another name.
+            // Again while a node has this very name. Names that end in another number are
+            // different.
             while times.contains_key(&different[..]) {
                 let _ = write!(different, " (node {node})");
             }
@@ -302,12 +309,12 @@ fn names(reader: &mut Reader, nodes: &[(usize, usize)]) -> Result<Vec<String>, F
     Ok(names)
 }
 
-/// The bytes of names.
+/// Bytes of names.
 fn memory_of(names: &[String]) -> u64 {
     names.iter().map(|name| name.len() as u64).sum()
 }
 
-/// Why a file of several bodies is not one.
+/// The error for a file of several bodies that is opened as one.
 pub(crate) fn many_bodies(names: &[String], argument: &str) -> Reason {
     let first = names.first().map_or("", |name| &name[..]);
     Reason::ManyBodies {
@@ -349,12 +356,12 @@ impl GltfBody {
         frame.complete(0).map_err(|fault| fault.or_at(place))
     }
 
-    /// The positions of a pose: some at a time, so that what morph targets make of them takes no memory to speak of.
+    /// Appends the positions of a pose, some at a time to limit the memory for morph targets.
     fn place(&self, pose: &Pose, frame: &mut Frame) -> Result<(), Reason> {
         let Self { mesh, .. } = self;
         let moved = pose.weights.get(&self.node);
         let weights = moved.map_or(&*self.weights, |weights| weights);
-        // Of each morph target that moves anything, its weight and what is left of it: it is in the order of vertices.
+        // For each active morph target: its weight, and its remaining displacements by vertex.
         let mut targets: Vec<(f64, &[Delta])> = mesh
             .targets
             .iter()
@@ -385,7 +392,7 @@ impl GltfBody {
         Ok(())
     }
 
-    /// Where a vertex is that has this place at rest, morph targets included.
+    /// Position of a vertex in a pose; `shape`: its position at rest with morph targets applied.
     fn position(&self, pose: &Pose, vertex: usize, shape: [f64; 3]) -> [f64; 3] {
         let Some(joints) = self.skin.and_then(|skin| pose.skins.get(skin)) else {
             return pose.nodes[self.node].apply(shape);

@@ -1,7 +1,8 @@
-//! The nodes of a file and where they are in a frame.
+//! glTF nodes, skins and clip, and their pose in a frame.
 //!
-//! Every node is placed in its parent; parents come first in [`Scene::order`], so no tree is too deep. All bodies of a file share
-//! one pose, which is made when the first of them asks for its frame.
+//! Each node's transform is relative to its parent. Parents come first in [`Scene::order`], so
+//! trees of any depth are evaluated without recursion. All bodies of a file share one pose, made
+//! when the first of them asks for its frame.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -13,56 +14,57 @@ use super::document::Node;
 use crate::error::{Fault, Place, Reason};
 use crate::memory::{Account, bytes_of};
 
+/// Nodes and skins of a file, and the clip that moves them.
 pub(super) struct Scene {
     parents: Vec<Option<u32>>,
     rest: Vec<Local>,
     order: Vec<u32>,
     skins: Vec<Skin>,
     pub(super) clip: Option<Clip>,
-    /// Frames a second, and how many steps of that length the clip takes, the last perhaps shorter.
+    /// Frames per second, and number of steps of the clip; the last step may be shorter.
     fps: f64,
     pub(super) steps: usize,
     pose: Mutex<Pose>,
 }
 
-/// The place of a node in its parent.
+/// Transform of a node relative to its parent.
 #[derive(Clone, Copy)]
 enum Local {
     Trs(Trs),
     Matrix(Affine),
 }
 
-/// Joints, and what brings a vertex to each of them.
+/// Joints of a skin, and the inverse bind matrix of each.
 struct Skin {
     joints: Vec<u32>,
     inverse_bind: Vec<Affine>,
 }
 
-/// Where everything is in a frame.
+/// Transforms of all nodes and skins in a frame.
 #[derive(Default)]
 pub(super) struct Pose {
     frame: Option<usize>,
     local: Vec<Trs>,
-    /// Of every node, in the world.
+    /// World transform of every node.
     pub(super) nodes: Vec<Affine>,
-    /// Of every skin, the map from rest to the world for each of its joints.
+    /// For every skin, the map from rest to the world for each of its joints.
     pub(super) skins: Vec<Vec<Affine>>,
-    /// The weights that the clip gives to the morph targets of a node.
+    /// Weights that the clip gives to the morph targets of a node.
     pub(super) weights: BTreeMap<usize, Vec<f64>>,
 }
 
-/// What a clip moves: looked up once, not for each body among all channels and joints.
+/// Nodes and skins that a clip moves: found once, not for each body.
 pub(super) struct Moves {
-    /// By themselves or with a parent.
+    /// Nodes that move by themselves or with a parent.
     nodes: Vec<bool>,
-    /// Those with any joint that moves.
+    /// Skins with a joint that moves.
     skins: Vec<bool>,
-    /// The nodes whose morph targets it moves.
+    /// Nodes whose morph targets the clip moves.
     weights: Vec<bool>,
 }
 
 impl Moves {
-    /// Whether it moves the body of a node.
+    /// Whether the clip moves the body of a node.
     pub(super) fn body(&self, node: usize, skin: Option<usize>) -> bool {
         let places = match skin {
             Some(skin) => self.skins.get(skin),
@@ -72,11 +74,11 @@ impl Moves {
     }
 }
 
-/// The most frames of a clip: six days at thirty a second.
+/// Most frames of a clip: six days at 30 per second.
 const MOST_STEPS: u32 = 1 << 24;
 
 impl Scene {
-    /// Reads nodes and skins; `clip` is to move them, so many frames a second.
+    /// Reads nodes and skins; `clip` moves them at `fps` frames per second.
     pub(super) fn read(reader: &mut Reader, clip: Option<Clip>, fps: f64) -> Result<Self, Fault> {
         let nodes = &reader.document.nodes;
         let (parents, order) = tree(nodes)?;
@@ -91,7 +93,8 @@ impl Scene {
         }
         for channel in clip.iter().flat_map(|clip| &clip.channels) {
             if channel.path.places() && matches!(rest[channel.node], Local::Matrix(_)) {
-                let reason = "is placed by a matrix, and animated; only a place of translation, rotation and scale can be";
+                let reason = "has a matrix and is animated; \
+                    only translation, rotation and scale can be";
                 return Err(Reason::Malformed(reason.into()).at(Place::Part("node", channel.node)));
             }
         }
@@ -136,7 +139,7 @@ impl Scene {
             })?;
             if inverse_bind.len() < joints.len() {
                 let reason = format!(
-                    "{} matrices for {} joints",
+                    "has {} inverse bind matrices for {} joints",
                     inverse_bind.len(),
                     joints.len()
                 );
@@ -149,7 +152,9 @@ impl Scene {
         })
     }
 
-    /// Enters what a pose takes: also the weights of morph targets, of which many nodes may have the many of one mesh.
+    /// Counts the memory of a pose.
+    ///
+    /// Morph weights are included: many nodes may share a mesh with many targets.
     fn enter_pose(&self, account: &mut Account) -> Result<(), Reason> {
         let channels = self.clip.iter().flat_map(|clip| &clip.channels);
         let widths: BTreeMap<usize, usize> = channels
@@ -167,7 +172,7 @@ impl Scene {
         self.skins.get(skin).map(|skin| skin.joints.len())
     }
 
-    /// What the clip moves.
+    /// Nodes, skins and morph targets that the clip moves.
     pub(super) fn moves(&self) -> Moves {
         let mut nodes = vec![false; self.parents.len()];
         let mut weights = nodes.clone();
@@ -192,7 +197,9 @@ impl Scene {
         }
     }
 
-    /// Notes what of the clip moves no body: neither a node that is `shown`, nor a joint, nor what one of them is in.
+    /// Notes channels of the clip that move no body.
+    ///
+    /// A channel counts if it moves a node that is `shown`, a joint, or an ancestor of one.
     pub(super) fn note_still(&mut self, shown: &[bool]) {
         let Self {
             parents,
@@ -220,7 +227,7 @@ impl Scene {
         });
     }
 
-    /// When a frame is.
+    /// Time of a frame in seconds.
     fn time(&self, frame: usize) -> f64 {
         match &self.clip {
             Some(clip) if frame >= self.steps => clip.end,
@@ -282,13 +289,13 @@ impl Scene {
 }
 
 impl Path {
-    /// Whether it is part of the place of a node.
+    /// Whether it is part of the transform of a node.
     fn places(self) -> bool {
         !matches!(self, Self::Weights(_))
     }
 }
 
-/// The parent of every node, and the nodes in an order in which parents come first.
+/// Parent of every node, and an order of the nodes in which parents come first. Takes O(n).
 fn tree(nodes: &[Node]) -> Result<(Vec<Option<u32>>, Vec<u32>), Fault> {
     let at = |node: usize, why: String| Reason::Malformed(why).at(Place::Part("node", node));
     let mut parents = vec![None; nodes.len()];
@@ -320,11 +327,15 @@ fn tree(nodes: &[Node]) -> Result<(Vec<Option<u32>>, Vec<u32>), Fault> {
         let mut reached = vec![false; nodes.len()];
         order.iter().for_each(|&node| reached[node as usize] = true);
         let lost = reached.iter().position(|reached| !reached).unwrap_or(0);
-        return Err(at(lost, "is, over others, its own child".into()));
+        return Err(at(
+            lost,
+            "its ancestors form a cycle; the nodes of a scene form trees".into(),
+        ));
     }
     Ok((parents, order))
 }
 
+/// Transform of a node at rest.
 fn local(node: &Node) -> Result<Local, Reason> {
     if let Some(matrix) = &node.matrix {
         return Ok(Local::Matrix(Affine::from_columns(matrix)));
@@ -341,14 +352,15 @@ fn local(node: &Node) -> Result<Local, Reason> {
     }
     if trs.rotation == [0.0; 4] {
         return Err(Reason::Malformed(
-            "its rotation is zero, which is none".into(),
+            "its rotation is the zero quaternion; the identity is [0, 0, 0, 1]".into(),
         ));
     }
     Ok(Local::Trs(trs))
 }
 
-/// How many steps of 1 / `fps` there are in a clip, the last perhaps shorter. What is less than a thousandth of a step is no step:
-/// times are of 32 bits.
+/// Number of steps of length 1 / `fps` in a clip; the last may be shorter.
+///
+/// A rest of less than a thousandth of a step does not count: times have 32 bits.
 fn steps(end: f64, fps: f64) -> Result<usize, Reason> {
     let steps = (end.max(0.0) * fps - 1e-3).ceil().max(0.0);
     if steps > f64::from(MOST_STEPS) {
@@ -372,7 +384,7 @@ mod tests {
             (1.0, 30.0, 30),
             (1.01, 30.0, 31),
             (0.99, 30.0, 30),
-            // Seventeen frames of a 24th, in 32 bits.
+            // Seventeen frames of 1/24 s, in 32 bits.
             (f64::from(17.0_f32 / 24.0), 24.0, 17),
             (f64::from(1.158_333_3_f32), 30.0, 35),
             (1e-9, 30.0, 0),

@@ -1,15 +1,16 @@
-//! The directory of a zip archive: where the data of an entry begins, how long it is, how it is compressed.
+//! Central directory of a zip archive: offset, length and compression of each entry.
 //!
 //! ```text
 //! entries, each with a local header    PK\3\4 ...
 //! directory, one record an entry       PK\1\2 ...
-//! for counts beyond 16 or 32 bits      PK\6\6 end of the directory, PK\6\7 where that is
-//! end                                  PK\5\6 how many records, where they begin, comment
+//! for counts beyond 16 or 32 bits      PK\6\6 end of the directory, PK\6\7 its offset
+//! end                                  PK\5\6 number and offset of the records, comment
 //! ```
 //!
-//! Own reader. The library at hand, zip 9.4.1, keeps every record and makes room for as many as the end claims, bounded by the
-//! length of the file alone: 8 kB on disk (a file of 8 GiB that is a hole but for its ends) asked for 26 GB and ended the
-//! program. Here the records are passed over one by one, and nothing is kept but the one looked for.
+//! The crate has its own reader because zip 9.4.1 keeps every record. It reserves as many as the
+//! end claims, limited only by the length of the file. A sparse file of 8 GiB, 8 kB on disk, made
+//! it ask for 26 GB and ended the program. Here records are passed over one by one, and only the
+//! wanted one is kept.
 
 use std::collections::BTreeMap;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -17,34 +18,39 @@ use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use crate::error::Reason;
 use crate::text::quoted;
 
-/// At most so many names are listed where an array is missing.
+/// Most names listed where an array is missing.
 const NAMES_LISTED: usize = 8;
 
-/// The end without its comment, and the longest comment.
+/// Size in bytes of the end record without its comment.
 const END: u64 = 22;
+/// Size in bytes of the longest comment.
 const LONGEST_COMMENT: u64 = u16::MAX as u64;
 
+/// Bit of a record's flags that marks an encrypted entry.
 const ENCRYPTED: u16 = 1;
 
-/// Where an entry is and how it is written. The numbers are claims.
+/// Location and encoding of an entry's data. All numbers are claims.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Record {
-    /// Where its data begins.
+    /// Offset of the data in the archive, in bytes.
     pub(super) start: u64,
-    /// In bytes, as written and unpacked.
+    /// Compressed and uncompressed size, in bytes.
     pub(super) compressed: u64,
     pub(super) size: u64,
     pub(super) checksum: u32,
     pub(super) method: Method,
 }
 
+/// Compression method of an entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Method {
     Stored,
     Deflated,
 }
 
-/// Finds the array of the first of these names in an archive, or the one that has another of them.
+/// Finds the array with the first of the names `wanted`, or the only one with another of them.
+///
+/// Takes O(number of entries) time and O(1) memory.
 pub(super) fn find<R: Read + Seek>(
     archive: &mut BufReader<R>,
     wanted: &[&'static str],
@@ -57,7 +63,7 @@ pub(super) fn find<R: Read + Seek>(
     for _ in 0..records {
         let fixed: [u8; 46] = bytes(archive)?;
         if !fixed.starts_with(b"PK\x01\x02") {
-            return Err(damaged("a record of its directory is none"));
+            return Err(damaged("a record of its directory has a wrong signature"));
         }
         let [name_length, extra_length, comment] =
             [28, 30, 32].map(|at| usize::from(short(&fixed, at)));
@@ -85,14 +91,14 @@ pub(super) fn find<R: Read + Seek>(
     Ok((wanted[place], record))
 }
 
-/// How many records there are and where they begin.
+/// Reads the end record: number of records, and offset of the first.
 fn end<R: Read + Seek>(archive: &mut BufReader<R>) -> Result<(u64, u64), Reason> {
     let length = archive.seek(SeekFrom::End(0))?;
     let from = length.saturating_sub(END + LONGEST_COMMENT);
     archive.seek(SeekFrom::Start(from))?;
     let mut tail = Vec::new();
     archive.take(length - from).read_to_end(&mut tail)?;
-    // The last that has room for what it says.
+    // The last signature with room for the comment that it claims.
     let places = 0..(tail.len() + 1).saturating_sub(END as usize);
     let at = places.rev().find(|&at| {
         let fixed = &tail[at..];
@@ -121,7 +127,7 @@ fn end<R: Read + Seek>(archive: &mut BufReader<R>) -> Result<(u64, u64), Reason>
     Ok((longest(&fixed, 32), longest(&fixed, 48)))
 }
 
-/// Reads a record of the directory, and the local header for where the data begins.
+/// Parses a record of the directory, and reads the local header to find the data.
 fn record<R: Read + Seek>(
     archive: &mut BufReader<R>,
     name: &str,
@@ -138,11 +144,12 @@ fn record<R: Read + Seek>(
         8 => Method::Deflated,
         other => {
             return Err(Reason::Unsupported(format!(
-                "`{name}` is compressed by method {other}; save it with numpy.savez or numpy.savez_compressed"
+                "`{name}` is compressed by method {other}; \
+                 save it with numpy.savez or numpy.savez_compressed"
             )));
         }
     };
-    // What does not fit into 32 bits follows, in this order, in the extra field of kind 1.
+    // Numbers beyond 32 bits follow, in this order, in the extra field of kind 1.
     let mut wide = wide_numbers(extra).chunks_exact(8);
     let [size, compressed, header] = [24, 20, 42].map(|at| match long(fixed, at) {
         u32::MAX => wide
@@ -165,7 +172,7 @@ fn record<R: Read + Seek>(
     })
 }
 
-/// The extra field of kind 1; empty where there is none.
+/// Contents of the extra field of kind 1 (zip64); empty where there is none.
 fn wide_numbers(mut extra: &[u8]) -> &[u8] {
     while extra.len() >= 4 {
         let (kind, length) = (short(extra, 0), usize::from(short(extra, 2)));
@@ -199,19 +206,22 @@ fn damaged(why: &str) -> Reason {
 fn missing(name: &str, names: &[String]) -> Reason {
     let names = names.join(", ");
     Reason::Malformed(format!(
-        "has no array `{name}`; save it as numpy.savez(file, vertices=..., faces=...); it holds: {names}"
+        "has no array `{name}`; save it as numpy.savez(file, vertices=..., faces=...); \
+         it holds: {names}"
     ))
 }
 
-/// The number of 16, 32 or 64 bits `at` a place of `bytes`, least significant first.
+/// Reads the little-endian 16-bit integer at offset `at`.
 fn short(bytes: &[u8], at: usize) -> u16 {
     u16::from_le_bytes([bytes[at], bytes[at + 1]])
 }
 
+/// Reads the little-endian 32-bit integer at offset `at`.
 fn long(bytes: &[u8], at: usize) -> u32 {
     u32::from(short(bytes, at)) | u32::from(short(bytes, at + 2)) << 16
 }
 
+/// Reads the little-endian 64-bit integer at offset `at`.
 fn longest(bytes: &[u8], at: usize) -> u64 {
     u64::from(long(bytes, at)) | u64::from(long(bytes, at + 4)) << 32
 }
@@ -229,7 +239,7 @@ mod tests {
         find(&mut BufReader::new(Cursor::new(archive)), &[name]).map(|(_, record)| record)
     }
 
-    /// `large`: as numpy writes it, with numbers of 64 bits.
+    /// An archive of these arrays; `large`: with 64-bit numbers, as numpy writes it.
     fn archive(method: CompressionMethod, large: bool, names: &[&str]) -> Vec<u8> {
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         archive
@@ -269,13 +279,14 @@ mod tests {
         );
     }
 
-    /// An archive whose numbers are all in 64 bits, with `records` and a place of the directory that are claimed.
+    /// An archive with all numbers in 64 bits, which claims `records` and an offset of the
+    /// directory.
     fn wide(records: u64, claimed: impl Fn(u64) -> u64) -> Vec<u8> {
         let narrow = archive(CompressionMethod::Stored, false, &["one"]);
         let directory = narrow.windows(4).rposition(|w| w == b"PK\x01\x02").unwrap();
         let name = 46 + "one.npy".len();
         let mut file = narrow[..directory + name].to_vec();
-        // Sizes and place move to an extra field, which follows another.
+        // Sizes and offset move to an extra field, behind another one.
         let extra = [
             &[9, 9, 2, 0, 7, 7, 1, 0, 24, 0][..],
             &(DATA.len() as u64).to_le_bytes(),

@@ -1,7 +1,7 @@
-//! One array as a stream: of an archive, with its checksum, or a file of its own.
+//! Stream of one array: an entry of an archive, with its checksum, or an NPY file.
 //!
-//! A reader keeps its place from frame to frame. The sizes in the directory are claims like any other: what is read ends where
-//! the data ends.
+//! The stream keeps its position from frame to frame. The sizes in the directory are only claims:
+//! reading stops where the data ends.
 
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Take};
 
@@ -12,15 +12,15 @@ use super::directory::{self, Method};
 use crate::error::Reason;
 use crate::file::{Found, Opened};
 
-/// The data of one array, `Read` up to its announced size.
+/// Data of one array, with `Read` up to its announced size.
 pub(super) struct Entry {
     pub(super) name: &'static str,
     data: Data,
-    /// Bytes that the directory still announces.
+    /// Bytes still to come, as the directory announces.
     left: u64,
     checksum: u32,
     read: Crc,
-    /// Some of the data was passed over, and its checksum cannot be known.
+    /// Whether data was skipped, or there is no checksum to compare.
     skipped: bool,
 }
 
@@ -29,16 +29,17 @@ enum Data {
     Deflated(DeflateDecoder<Take<BufReader<Opened>>>),
 }
 
-/// As many bytes does one of a deflated stream stand for, at most.
+/// Most bytes that one byte of a deflated stream can stand for.
 const MOST_DEFLATED: u64 = 1032;
 
 impl Entry {
-    /// Opens the array of the first of these names of the archive `file`, or the one that has another of them.
+    /// Opens the array with the first of these names in the archive `file`, or with another of
+    /// them.
     pub(super) fn open(file: &Found, names: &[&'static str]) -> Result<Self, Reason> {
         let mut input = BufReader::new(file.open()?);
         let (name, record) = directory::find(&mut input, names)?;
         let length = input.get_ref().length();
-        // What cannot be there is not looked for to the end.
+        // A size that the file cannot hold is refused before reading to its end.
         let end = record.start.saturating_add(record.compressed);
         let most = match record.method {
             Method::Stored => record.compressed,
@@ -66,7 +67,7 @@ impl Entry {
         })
     }
 
-    /// Opens a file that is one array.
+    /// Opens an NPY file as one array.
     pub(super) fn whole(file: &Found, name: &'static str) -> Result<Self, Reason> {
         let input = BufReader::with_capacity(1 << 16, file.open()?);
         let left = input.get_ref().length();
@@ -76,12 +77,12 @@ impl Entry {
             left,
             checksum: 0,
             read: Crc::new(),
-            // It has no checksum.
+            // An NPY file has no checksum.
             skipped: true,
         })
     }
 
-    /// Refuses a file that is not as it was found.
+    /// Returns an error if the file has changed since it was found.
     pub(super) fn unchanged(&self) -> Result<(), Reason> {
         let input = match &self.data {
             Data::Stored(input) => input,
@@ -90,12 +91,12 @@ impl Entry {
         input.get_ref().get_ref().unchanged()
     }
 
-    /// Bytes that, by the directory, are still to come.
+    /// Bytes still to come, as the directory announces.
     pub(super) fn left(&self) -> u64 {
         self.left
     }
 
-    /// Reads until `buffer` is full or the data ends; returns how much.
+    /// Reads until `buffer` is full or the data ends; returns the number of bytes read.
     pub(super) fn fill(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let mut filled = 0;
         while filled < buffer.len() {
@@ -109,7 +110,7 @@ impl Entry {
         Ok(filled)
     }
 
-    /// Passes over so many bytes: without reading them, unless they are deflated.
+    /// Skips `bytes` bytes: by seeking, or by inflating where they are deflated.
     pub(super) fn skip(&mut self, bytes: u64) -> Result<(), Reason> {
         let ends = || Reason::Truncated("the data ends before the frame asked for".into());
         if bytes > self.left {
@@ -117,7 +118,7 @@ impl Entry {
         }
         match &mut self.data {
             Data::Stored(input) => {
-                // Both below: no file is longer than i64::MAX.
+                // Neither fails for a real file, which is at most i64::MAX bytes long.
                 let limit = input.limit().checked_sub(bytes).ok_or_else(ends)?;
                 let forward = i64::try_from(bytes).map_err(|_| ends())?;
                 input.get_mut().seek_relative(forward)?;
@@ -134,7 +135,7 @@ impl Entry {
         Ok(())
     }
 
-    /// Makes sure that the data ends here and is what was written.
+    /// Checks that the data ends here and matches its checksum.
     pub(super) fn finish(&mut self) -> Result<(), Reason> {
         let array = self.name;
         let more = match &mut self.data {

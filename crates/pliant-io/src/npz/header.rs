@@ -1,9 +1,9 @@
-//! The header of an array: type, order and shape.
+//! NPY header: type, order and shape of an array.
 //!
-//! Own reader. The library at hand, npyz 0.9.1, was read and could not be used on files from
-//! strangers: it allocates the header's claimed length (up to 4 GiB), multiplies the shape with an
-//! overflow that panics in debug builds, and parses nested Python values by recursion without a
-//! limit. The header of an array that can be read here is a dictionary of three flat entries:
+//! The crate has its own parser because npyz 0.9.1 fails on hostile files. It allocates the claimed
+//! length of the header, up to 4 GiB. It multiplies the shape with an overflow that panics in debug
+//! builds, and it parses nested Python values by unlimited recursion. Readable arrays have a
+//! dictionary of three flat entries:
 //!
 //! ```text
 //! \x93NUMPY, major, minor, length of the rest (u16; from major 2 on u32)
@@ -15,31 +15,33 @@ use std::io::{self, Read};
 use crate::error::Reason;
 use crate::text::quoted;
 
-/// The longest header, in bytes; numpy writes about 128 and by default refuses more than 10,000.
+/// Longest header in bytes: numpy writes about 128, and by default refuses more than 10,000.
 const LONGEST: usize = 10_000;
 
+/// A parsed NPY header.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Header {
-    /// Byte order, kind, size: `<f4`.
+    /// Byte order, kind and size, such as `<f4`.
     pub(super) dtype: Dtype,
     pub(super) fortran_order: bool,
     pub(super) shape: Vec<u64>,
-    /// In bytes, where the data begins.
+    /// Offset of the data, in bytes.
     pub(super) length: u64,
 }
 
+/// Element type of an array.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Dtype {
     pub(super) big_endian: bool,
-    /// `f`, `i`, `u`, ... as numpy abbreviates kinds.
+    /// Kind as numpy abbreviates it: `f`, `i`, `u`, ...
     pub(super) kind: char,
-    /// In bytes; 0 for kinds whose size is not a number of bytes.
+    /// Size in bytes; 0 for kinds whose size is not a number of bytes.
     pub(super) size: usize,
     pub(super) written: String,
 }
 
 impl Header {
-    /// Reads the header and leaves `input` where the data begins.
+    /// Reads the header and leaves `input` at the first byte of the data.
     pub(super) fn read(input: &mut impl Read) -> Result<Self, Reason> {
         let ends_early = |error: io::Error| match error.kind() {
             io::ErrorKind::UnexpectedEof => {
@@ -61,7 +63,7 @@ impl Header {
         let length = u32::from_le_bytes(length) as usize;
         if length > LONGEST {
             return Err(Reason::Malformed(format!(
-                "a header of {length} bytes, more than {LONGEST}"
+                "the header of the array has {length} bytes; at most {LONGEST} are read"
             )));
         }
         let mut text = vec![0; length];
@@ -71,7 +73,7 @@ impl Header {
     }
 }
 
-/// Reads the three entries; anything nested is refused, so nothing recurs.
+/// Parser of the dictionary; refuses nested values, so it needs no recursion.
 struct Parser<'a> {
     rest: &'a [u8],
 }
@@ -148,7 +150,8 @@ impl<'a> Parser<'a> {
                 .unwrap_or(self.rest.len());
             let (digits, rest) = self.rest.split_at(end);
             shape.push(crate::text::number(digits).ok_or_else(|| self.malformed())?);
-            self.rest = rest.strip_prefix(b"L").unwrap_or(rest); // Python 2 wrote long integers so
+            // Python 2 marks long integers with an L.
+            self.rest = rest.strip_prefix(b"L").unwrap_or(rest);
             if !self.take(b',') && self.peek() != Some(b')') {
                 return Err(self.malformed());
             }
@@ -162,6 +165,7 @@ impl<'a> Parser<'a> {
         self.rest.first().copied()
     }
 
+    /// Consumes the next character if it is `wanted`.
     fn take(&mut self, wanted: u8) -> bool {
         let there = self.peek() == Some(wanted);
         if there {
@@ -188,8 +192,12 @@ impl<'a> Parser<'a> {
 
 impl Dtype {
     fn parse(text: &[u8]) -> Result<Self, Reason> {
-        let malformed =
-            || Reason::Malformed(format!("{} is not the type of an array", quoted(text)));
+        let malformed = || {
+            Reason::Malformed(format!(
+                "type {} cannot be read; a type is byte order, kind and size, such as \"<f4\"",
+                quoted(text)
+            ))
+        };
         let written = std::str::from_utf8(text).map_err(|_| malformed())?;
         let mut letters = written.chars();
         let (order, kind) = (

@@ -1,12 +1,13 @@
-//! NPZ: `vertices` (T, n, 3) or (n, 3), `faces` (m, 3): a whole sequence in one file, or, by
-//! pattern, several files whose frames follow one another. NPY: `vertices` alone, beside a mesh.
+//! NPZ and NPY reader: arrays of numpy, a whole sequence in one file.
 //!
-//! What is not as it is mostly is read where its meaning is clear, and noted: other names, Fortran order (of which all is held in
-//! memory), half precision, whole numbers.
+//! An archive has `vertices` (T, n, 3) or (n, 3), and `faces` (m, 3); a pattern joins several into
+//! one body. An NPY file is `vertices` alone, beside a mesh. Frames are read one by one from the
+//! compressed stream, in either byte order; at most one is unpacked at a time.
 //!
-//! Frame by frame from the compressed stream; never more than one frame unpacked. Little and big
-//! endian alike. The end of the data and its checksum are verified before the last frame is handed
-//! out: whoever stops earlier, or passes over frames of an array that is not deflated, has read unverified data.
+//! - Unusual arrays are read where their meaning is clear, and noted: other names, Fortran order
+//!   (held in memory as a whole), half precision, integers.
+//! - The end of the data and its checksum are verified before the last frame is returned. Data are
+//!   unverified if a caller stops earlier, or skips frames of an array that is not deflated.
 
 mod directory;
 mod entry;
@@ -25,22 +26,23 @@ use entry::Entry;
 use header::{Dtype, Header};
 use std::io::Read as _;
 
-/// What the arrays are called, the first mostly.
+/// Accepted names of the array of positions; the first is the usual one.
 const VERTICES: [&str; 3] = ["vertices", "verts", "v"];
+/// Accepted names of the array of triangles; the first is the usual one.
 const FACES: [&str; 2] = ["faces", "f"];
 
-/// A reader of one NPZ file, or of positions in an NPY file beside a mesh.
+/// Reader of an NPZ file, or of an NPY file of positions beside a mesh.
 pub(crate) struct Npz {
     file: Found,
     vertices: Entry,
     dtype: Dtype,
     frames: u64,
-    /// Vertices of a frame.
+    /// Number of vertices of a frame.
     count: u64,
     next: u64,
-    /// Reused: some rows of an array, as they are in the file.
+    /// Reused buffer: rows of an array as the file has them.
     chunk: Vec<u8>,
-    /// Of an array that is written column by column, all of it, once it was read.
+    /// All bytes of an array in Fortran order (column by column), once it was read.
     columns: Option<Vec<u8>>,
     is_by_columns: bool,
     /// The mesh that an NPY file moves, until it is read.
@@ -49,11 +51,11 @@ pub(crate) struct Npz {
     notes: Vec<Note>,
 }
 
-/// Rows read at a time.
+/// Rows read at a time: few calls, with a buffer of at most 96 KiB (f64).
 const ROWS: u64 = 4096;
 
 impl Npz {
-    /// Opens an archive; an array that must be held whole may take as much memory as is said.
+    /// Opens an archive. `max_memory`: limit in bytes for an array that must be held as a whole.
     pub(crate) fn open(file: &Found, max_memory: u64) -> Result<Self, Fault> {
         let in_array = |reason: Reason| reason.at(Place::Array("vertices"));
         let mut vertices = Entry::open(file, &VERTICES).map_err(|reason| match reason {
@@ -65,7 +67,7 @@ impl Npz {
         begun.map_err(|fault| fault.or_at(Place::Array("vertices")))
     }
 
-    /// Opens the positions of a mesh, which is one frame.
+    /// Opens an NPY file of positions that move `mesh`, which is one frame.
     pub(crate) fn beside(mesh: MovedMesh, file: &Found, max_memory: u64) -> Result<Self, Fault> {
         let mut vertices = Entry::whole(file, VERTICES[0])?;
         let header = Header::read(&mut vertices)?;
@@ -115,7 +117,10 @@ impl Npz {
             }
         }
         if vertices.name != VERTICES[0] {
-            note(format!("is the one called `{}`", vertices.name));
+            note(format!(
+                "is called `{}`, not `{}`",
+                vertices.name, VERTICES[0]
+            ));
         }
         if frames == 0 {
             return Err(Reason::NoFrames.into());
@@ -162,7 +167,7 @@ impl Npz {
                 Some(all) => all,
                 None => self.columns.insert(whole(vertices)?),
             };
-            // The first index varies fastest.
+            // In Fortran order the first index varies fastest.
             let (frames, count) = (self.frames as usize, *count as usize);
             let number = |at: usize| real(&all[at * dtype.size..][..dtype.size], dtype);
             for vertex in 0..count {
@@ -180,7 +185,7 @@ impl Npz {
         .map_err(|reason| reason.at(place))
     }
 
-    /// Begins the first frame, once it is known how large it is, and reads its faces.
+    /// Begins the first frame, whose size the array of faces completes, and reads its faces.
     fn begin_with_faces(&mut self, frame: &mut Frame) -> Result<(), Fault> {
         let in_array = |reason: Reason| reason.at(Place::Array("faces"));
         let mut faces = Entry::open(&self.file, &FACES).map_err(in_array)?;
@@ -200,7 +205,7 @@ impl Npz {
             self.notes.push(Note::Array { holds, is });
         };
         if faces.name != FACES[0] {
-            note(format!("is the one called `{}`", faces.name));
+            note(format!("is called `{}`, not `{}`", faces.name, FACES[0]));
         }
         if header.fortran_order {
             note("is in Fortran order".to_owned());
@@ -252,7 +257,7 @@ impl Npz {
         }
     }
 
-    /// Begins the next frame; `faces` is how many the first announces.
+    /// Begins the next frame; `faces`: number of faces that the first frame announces.
     fn begin(&self, frame: &mut Frame, faces: u64) -> Result<(), Fault> {
         let announced = Announced {
             vertices: self.count,
@@ -289,7 +294,7 @@ impl FrameSource for Npz {
 
     fn read(&mut self, frame: &mut Frame) -> Result<Complete, Fault> {
         let read = self.read_frame(frame);
-        // First: what looks wrong may be half of a change.
+        // Before the reader's own error: a change while reading is the likelier cause of it.
         self.vertices.unchanged()?;
         read
     }
@@ -302,7 +307,7 @@ impl FrameSource for Npz {
         }
         let bytes = frames.saturating_mul(self.count.saturating_mul(3 * self.dtype.size as u64));
         let skipped = self.vertices.skip(bytes);
-        // First: what looks wrong may be half of a change.
+        // Before the reader's own error: a change while reading is the likelier cause of it.
         self.vertices.unchanged()?;
         skipped.map_err(|reason| reason.at(Place::Frame(self.next)))?;
         self.next += frames;
@@ -316,7 +321,7 @@ impl FrameSource for Npz {
             return Ok(true);
         }
         if self.is_npy {
-            // Its faces are not read again.
+            // The faces are not read again.
             self.vertices = Entry::whole(&self.file, VERTICES[0])?;
             Header::read(&mut self.vertices)?;
             self.next = 0;
@@ -337,7 +342,7 @@ impl FrameSource for Npz {
     }
 }
 
-/// All that an array still holds, which grows as it comes.
+/// Reads the rest of an array into memory, which grows as data arrives.
 fn whole(entry: &mut Entry) -> Result<Vec<u8>, Reason> {
     let announced = entry.left();
     let mut all = Vec::new();
@@ -351,7 +356,7 @@ fn whole(entry: &mut Entry) -> Result<Vec<u8>, Reason> {
     Ok(all)
 }
 
-/// Holds the shape of faces that are in memory as a whole against their size.
+/// Compares the shape of faces that are held as a whole with their size.
 fn checked_faces(count: u64, size: usize, held: u64) -> Result<(), Reason> {
     let needed = u128::from(count) * 3 * size as u128;
     if needed != u128::from(held) {
@@ -362,21 +367,23 @@ fn checked_faces(count: u64, size: usize, held: u64) -> Result<(), Reason> {
     Ok(())
 }
 
-/// Takes a vertex, whose numbers were whole where the type says so.
+/// Appends a vertex; refuses integers that f64 may have rounded.
 fn take(frame: &mut Frame, position: [f64; 3], dtype: &Dtype) -> Result<(), Reason> {
-    // Those that are larger were rounded.
+    // Larger integers were rounded.
     let most = 9_007_199_254_740_992.0;
     if dtype.kind != 'f' && position.iter().any(|x| x.abs() >= most) {
         let vertex = frame.vertex_count();
         return Err(Reason::Unsupported(format!(
-            "a coordinate of vertex {vertex} is 2^53 or more, and float64 does not hold all such numbers; save vertices.astype(np.float64)"
+            "a coordinate of vertex {vertex} is 2^53 or more, and float64 does not hold \
+             all such numbers; save vertices.astype(np.float64)"
         )));
     }
     frame.vertex(position)
 }
 
-/// Holds the shape against the size in the directory, so that a file cut short is refused before
-/// its first frame, not after its last.
+/// Compares the shape with the size in the directory.
+///
+/// So a file cut short is refused before its first frame, not after its last.
 fn check_size(frames: u64, count: u64, size: u64, announced: u64) -> Result<(), Fault> {
     let frame = count.checked_mul(3 * size);
     let all = frame.and_then(|frame| frame.checked_mul(frames));
@@ -392,7 +399,7 @@ fn check_size(frames: u64, count: u64, size: u64, announced: u64) -> Result<(), 
     Ok(())
 }
 
-/// Reads `count` rows of three numbers of `size` bytes and hands them out one by one.
+/// Reads `count` rows of three numbers of `size` bytes, and passes each to `each`.
 fn rows(
     entry: &mut Entry,
     chunk: &mut Vec<u8>,
@@ -419,7 +426,7 @@ fn rows(
     Ok(())
 }
 
-/// The number that the bytes write.
+/// Converts bytes to a number.
 fn real(bytes: &[u8], dtype: &Dtype) -> f64 {
     if dtype.kind != 'f' {
         return integer(bytes, dtype) as f64;
@@ -431,11 +438,11 @@ fn real(bytes: &[u8], dtype: &Dtype) -> f64 {
         (&[a, b, c, d], true) => f32::from_be_bytes([a, b, c, d]).into(),
         (&[a, b, c, d, e, f, g, h], false) => f64::from_le_bytes([a, b, c, d, e, f, g, h]),
         (&[a, b, c, d, e, f, g, h], true) => f64::from_be_bytes([a, b, c, d, e, f, g, h]),
-        _ => f64::NAN, // no float has another size; refused like any other number that is none
+        _ => f64::NAN, // no float has another size; refused like any other NaN
     }
 }
 
-/// The number of a sign, five bits of exponent and ten of fraction.
+/// Converts half precision: a sign, five bits of exponent and ten of fraction.
 fn half(bits: u16) -> f64 {
     let (exponent, fraction) = (i32::from(bits >> 10 & 31), f64::from(bits & 1023));
     let size = match exponent {
@@ -447,8 +454,9 @@ fn half(bits: u16) -> f64 {
     if bits >> 15 == 1 { -size } else { size }
 }
 
-/// The whole number that up to 8 bytes write; unsigned ones beyond `i64::MAX` become `i64::MAX`,
-/// out of range all the same.
+/// Converts up to 8 bytes to an integer. Unsigned ones beyond `i64::MAX` become `i64::MAX`.
+///
+/// That is out of range all the same.
 fn integer(bytes: &[u8], dtype: &Dtype) -> i64 {
     let negative = |most_significant: u8| dtype.kind == 'i' && most_significant >= 0x80;
     let most_significant = if dtype.big_endian {
@@ -484,6 +492,7 @@ fn wrong_shape(shape: &[u64], wanted: &str) -> Reason {
 fn column_by_column(array: &str, needed: u64, limit: u64) -> Reason {
     let [needed, limit] = [needed, limit].map(Size);
     Reason::Unsupported(format!(
-        "is in Fortran order, so that {needed} would be held in memory, {limit} are allowed; save np.ascontiguousarray({array})"
+        "is in Fortran order, so that {needed} would be held in memory, {limit} are allowed; \
+         save np.ascontiguousarray({array})"
     ))
 }

@@ -1,4 +1,4 @@
-//! The header: text in all encodings.
+//! PLY header: text in all encodings.
 //!
 //! ```text
 //! ply
@@ -7,7 +7,7 @@
 //! element vertex 8                                  name and count, a claim
 //! property double x                                 one number
 //! element face 12
-//! property list uchar int vertex_indices            a count, then so many numbers
+//! property list uchar int vertex_indices            a count, then as many numbers
 //! end_header
 //! ```
 
@@ -16,15 +16,17 @@ use std::io::BufRead;
 use crate::error::{Fault, Reason};
 use crate::text::{Lines, expected, number, quoted, words};
 
-/// More lines than any header has; what a hostile one may make us keep.
+/// Most lines of a header: limits the memory that a hostile file can take.
 const MOST_LINES: usize = 10_000;
 
+/// A parsed header: encoding, and elements in the order of the file.
 #[derive(Debug)]
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
 }
 
+/// Encoding of the values behind the header.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
     Ascii,
@@ -32,26 +34,30 @@ pub(super) enum Encoding {
     BigEndian,
 }
 
+/// A kind of row: its name, how often it is repeated, and its columns.
 #[derive(Debug)]
 pub(super) struct Element {
     pub(super) name: Vec<u8>,
-    /// A claim: so many rows are looked for, none is allocated for.
+    /// Number of rows; a claim, for which no memory is allocated.
     pub(super) count: u64,
     pub(super) properties: Vec<Property>,
 }
 
+/// A column of an element.
 #[derive(Debug)]
 pub(super) struct Property {
     pub(super) name: Vec<u8>,
     pub(super) kind: Kind,
 }
 
+/// Type of a property.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Kind {
     One(Scalar),
     List { count: Scalar, item: Scalar },
 }
 
+/// Type of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Scalar {
     I8,
@@ -83,7 +89,7 @@ impl Scalar {
         !matches!(self, Self::F32 | Self::F64)
     }
 
-    /// In bytes.
+    /// Size in bytes.
     pub(super) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
@@ -95,7 +101,7 @@ impl Scalar {
 }
 
 impl Header {
-    /// Reads up to and with the line `end_header`.
+    /// Reads up to and including the line `end_header`.
     pub(super) fn read(lines: &mut Lines<impl BufRead>) -> Result<Self, Fault> {
         if !lines.advance()? {
             return Err(Reason::Malformed("is empty".into()).into());
@@ -146,10 +152,10 @@ impl Header {
             };
             declared.map_err(|reason| reason.at(lines.place()))?;
         }
-        Err(
-            Reason::Malformed(format!("a header of more than {MOST_LINES} lines"))
-                .at(lines.place()),
-        )
+        Err(Reason::Malformed(format!(
+            "the header has more than {MOST_LINES} lines, the most that are read"
+        ))
+        .at(lines.place()))
     }
 
     pub(super) fn element(&self, name: &str) -> Option<&Element> {
@@ -191,7 +197,7 @@ fn element(name: &[u8], count: &[u8], before: &[Element]) -> Result<Element, Rea
     })
 }
 
-/// `words`: what follows `property`.
+/// Parses a declaration; `words` follow the keyword `property`.
 fn property(words: &[&[u8]]) -> Result<Property, Reason> {
     let scalar =
         |word: &[u8]| Scalar::named(word).ok_or_else(|| expected("a type of number", Some(word)));
@@ -200,7 +206,7 @@ fn property(words: &[&[u8]]) -> Result<Property, Reason> {
             let (count, item) = (scalar(count)?, scalar(item)?);
             if !count.is_integer() {
                 return Err(Reason::Malformed(format!(
-                    "list {} is counted in a type of fractions",
+                    "list {} has a float type for its count; it must be an integer type",
                     quoted(name)
                 )));
             }
@@ -209,7 +215,8 @@ fn property(words: &[&[u8]]) -> Result<Property, Reason> {
         [one, name] => (name, Kind::One(scalar(one)?)),
         _ => {
             return Err(Reason::Malformed(
-                "a property is declared by its type and name".into(),
+                "a property line is `property TYPE NAME`, or `property list COUNT ITEM NAME`"
+                    .into(),
             ));
         }
     };

@@ -1,17 +1,23 @@
-//! PLY: a header that declares elements and their properties, then their values: ASCII, binary
-//! little or big endian.
+//! PLY reader: a header that declares elements and properties, then values in ASCII or binary.
 //!
-//! Own reader (`header.rs`, `values.rs`). The library at hand, ply-rs-bw 4.0.1, was read and could
-//! not be used: it loops as often as the header claims even where an element has no properties and
-//! so no data; it reads a header line of any length; its ASCII grammar refuses `1.` and `.5`; it
-//! returns rows as maps of names.
+//! The crate has its own reader (`header.rs`, `values.rs`), because ply-rs-bw 4.0.1 failed on
+//! strange files:
 //!
-//! Positions are `x`, `y`, `z` of `vertex`, f32 where all three are exact in f32 (`float` and small
-//! integers), otherwise f64. Polygons are the list `vertex_indices`, or `vertex_index`, of `face`.
-//! Where there are no such, `tristrips` are: lists of vertices of which each, but for two at the beginning and two behind each -1, makes a
-//! triangle with the two before it, every other one turned round. A triangle with twice the same corner is only the way to the next.
-//! All other elements and properties are passed over; what follows the later of the two is not
-//! read.
+//! - it loops as often as the header claims, even where an element has no properties and so no
+//!   data;
+//! - it reads a header line of any length;
+//! - its ASCII grammar refuses `1.` and `.5`;
+//! - it returns rows as maps of names.
+//!
+//! What is read:
+//!
+//! - Positions are `x`, `y`, `z` of `vertex`: f32 where all three types are exact in f32 (`float`
+//!   and small integers), otherwise f64.
+//! - Polygons are the list `vertex_indices`, or `vertex_index`, of `face`.
+//! - Without polygons, `tristrips` are read. Each vertex of a strip makes a triangle with the two
+//!   before it, with every other triangle reversed. A new strip follows -1. Triangles with a
+//!   repeated corner only lead to the next one.
+//! - Other elements and properties are passed over. Elements behind the last needed are not read.
 
 mod header;
 mod values;
@@ -25,10 +31,10 @@ use crate::text::{Lines, two_coordinates};
 use header::{Element, Encoding, Header, Kind, Scalar};
 use values::{Ascii, BigEndian, Binary, LittleEndian, Values};
 
-/// The most corners of a polygon: more than an ASCII line of the greatest length could hold.
+/// Most corners of a polygon: more than the longest ASCII line can hold.
 const MOST_CORNERS: usize = 16 << 20;
 
-/// Reads one file, one frame.
+/// Reads one file, which is one frame.
 pub(crate) fn read(mut input: impl BufRead, frame: &mut Frame) -> Result<Complete, Fault> {
     let mut lines = Lines::new(&mut input);
     let header = Header::read(&mut lines)?;
@@ -56,7 +62,7 @@ fn read_elements(
     let corners = corners_of(face)?;
     let announced = Announced {
         vertices: vertex.count,
-        // A strip says how long it is where it is.
+        // A strip tells its length only where it is stored.
         faces: if is_strips { 0 } else { face.count },
     };
     frame.begin(precision(vertex, axes), announced)?;
@@ -101,7 +107,7 @@ fn read_elements(
     frame.complete(0)
 }
 
-/// The properties that are x, y and z.
+/// Columns of x, y and z.
 fn axes(vertex: &Element) -> Result<[usize; 3], Reason> {
     let mut axes = [0; 3];
     for (axis, name) in axes.iter_mut().zip(["x", "y", "z"]) {
@@ -134,7 +140,7 @@ fn precision(vertex: &Element, axes: [usize; 3]) -> Precision {
     }
 }
 
-/// The property that lists the corners.
+/// Column of the list of corners.
 fn corners_of(face: &Element) -> Result<usize, Reason> {
     let listed = |name: &[u8]| {
         face.properties
@@ -142,13 +148,18 @@ fn corners_of(face: &Element) -> Result<usize, Reason> {
             .position(|property| property.name == name)
     };
     let property = listed(b"vertex_indices").or_else(|| listed(b"vertex_index"));
-    let property = property
-        .ok_or_else(|| Reason::Malformed("element face has no property vertex_indices".into()))?;
+    let element = String::from_utf8_lossy(&face.name);
+    let property = property.ok_or_else(|| {
+        Reason::Malformed(format!(
+            "element {element} has no list vertex_indices or vertex_index"
+        ))
+    })?;
     match face.properties[property].kind {
         Kind::List { item, .. } if item.is_integer() => Ok(property),
-        _ => Err(Reason::Malformed(
-            "property vertex_indices of element face is not a list of whole numbers".into(),
-        )),
+        _ => Err(Reason::Malformed(format!(
+            "property {} of element {element} is not a list of integers",
+            String::from_utf8_lossy(&face.properties[property].name)
+        ))),
     }
 }
 
@@ -269,8 +280,9 @@ fn skip(kind: Kind, values: &mut impl Values) -> Result<(), Fault> {
 
 fn list_length(count: Scalar, values: &mut impl Values) -> Result<u64, Fault> {
     let length = values.integer(count)?;
-    u64::try_from(length)
-        .map_err(|_| Reason::Malformed(format!("a list of {length} values")).at(values.place()))
+    u64::try_from(length).map_err(|_| {
+        Reason::Malformed(format!("a list has the length {length}")).at(values.place())
+    })
 }
 
 #[cfg(test)]

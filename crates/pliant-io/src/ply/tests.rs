@@ -1,4 +1,4 @@
-//! Every encoding, every type; errors name a line, or in binary an element.
+//! Tests of the PLY reader: every encoding and type; errors name a line, or in binary an element.
 
 use super::*;
 use crate::error::Place;
@@ -18,9 +18,9 @@ fn message(bytes: impl AsRef<[u8]>) -> String {
 /// A header of three vertices and one face, with `real` coordinates.
 fn header(encoding: &str, real: &str) -> String {
     format!(
-        "ply\nformat {encoding} 1.0\ncomment made by hand\nelement vertex 3\nproperty {real} x\n\
-         property {real} y\nproperty {real} z\nelement face 1\n\
-         property list uchar int vertex_indices\nend_header\n"
+        "ply\nformat {encoding} 1.0\ncomment made by hand\n\
+         element vertex 3\nproperty {real} x\nproperty {real} y\nproperty {real} z\n\
+         element face 1\nproperty list uchar int vertex_indices\nend_header\n"
     )
 }
 
@@ -77,13 +77,16 @@ fn binary_of_either_endian_returns_every_bit() {
 
 #[test]
 fn what_is_not_asked_for_is_skipped() {
-    let declarations = "obj_info anything at all, even property\nelement camera 2\nproperty float view\n\
-        property list uchar double lens\nelement nothing 18446744073709551615\nelement face 2\n\
-        property list ushort uchar colours\nproperty list uint8 uint16 vertex_index\nproperty char flag\n\
+    let declarations = "obj_info anything at all, even property\n\
+        element camera 2\nproperty float view\nproperty list uchar double lens\n\
+        element nothing 18446744073709551615\n\
+        element face 2\nproperty list ushort uchar colours\n\
+        property list uint8 uint16 vertex_index\nproperty char flag\n\
         element vertex 3\nproperty list int short tags\nproperty uchar x\nproperty short z\n\
         property float y\nproperty int q\nelement tail 7\nproperty int t\nend_header\n";
     let ascii = format!(
-        "ply\r\nformat ascii 1.0\r\n{declarations}\n1 0\n2 2 0.5 1e9\n0 3 2 1 0 -1\n2 7 8 4 0 1 2 0 5\n\
+        "ply\r\nformat ascii 1.0\r\n{declarations}\n\
+         1 0\n2 2 0.5 1e9\n0 3 2 1 0 -1\n2 7 8 4 0 1 2 0 5\n\
          0 1 -2 3.5 9\n2 1 1 4 5 6 9\n1 3 7 8 9 9\nand then whatever comes"
     );
     let mut little = format!("ply\nformat binary_little_endian 1.0\n{declarations}").into_bytes();
@@ -180,18 +183,18 @@ fn ascii_errors_name_the_line() {
         with("3 0 1 2", "1 0"),
         ", line 14: face 0 has 1 corners; a face needs at least 3"
     );
-    assert_eq!(with("3 0 1 2", "-1"), ", line 14: a list of -1 values");
+    assert_eq!(with("3 0 1 2", "-1"), ", line 14: a list has the length -1");
     assert_eq!(
         with("3 0 1 2", "3 0 1 3"),
         ", line 14: face 0 uses vertex 3, but the vertices are numbered 0 to 2 here"
     );
     assert_eq!(
         with("3 0 1 2", "3 0 1 -1"),
-        ", line 14: face 0 uses vertex -1, but no vertex can have that number"
+        ", line 14: face 0 uses vertex -1, but vertices are numbered from 0 to 4294967294 at most"
     );
     assert_eq!(
         with("3 0 1 2\n", "\n"),
-        ", line 15: ends too early: face 0 is missing; the header announces 1 of them"
+        ", line 15: ends too early: element face has 0 rows; the header announces 1"
     );
 }
 
@@ -210,15 +213,15 @@ fn binary_errors_name_the_element() {
     let announced = "ends too early: the header announces";
     assert_eq!(
         message(&file[..end - 1]),
-        format!(", face 0: {announced} 1 of them")
+        format!(", face 0: {announced} 1 of this element")
     );
     assert_eq!(
         message(&file[..end - 14]),
-        format!(", vertex 2: {announced} 3 of them")
+        format!(", vertex 2: {announced} 3 of this element")
     );
     assert_eq!(
         message(&file[..end - 13 - 36]),
-        format!(", vertex 0: {announced} 3 of them")
+        format!(", vertex 0: {announced} 3 of this element")
     );
     let mut infinite = file.clone();
     infinite[end - 13 - 8..end - 13 - 4].copy_from_slice(&f32::INFINITY.to_le_bytes());
@@ -291,8 +294,10 @@ fn headers_are_held_to_the_format() {
 
 #[test]
 fn strips_are_triangles() {
-    let header = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
-        element tristrips 2\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n";
+    let header = "ply\nformat ascii 1.0\n\
+        element vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
+        element tristrips 2\nproperty list int int vertex_indices\nend_header\n\
+        0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n";
     let frame = read_bytes(format!("{header}10 0 1 2 3 4 -1 4 3 2 0\n5 0 1 1 2 3\n")).unwrap();
     assert_eq!(
         frame.polygons().triangles(),
@@ -309,7 +314,7 @@ fn strips_are_triangles() {
         let fault = read_bytes(format!("{header}{bad}")).unwrap_err();
         assert!(matches!(fault.reason, Reason::VertexIndex { .. }));
     }
-    // Polygons come first, where there are any.
+    // Polygons take precedence over strips.
     let both = header.replace(
         "element tristrips",
         "element face 1\nproperty list uchar int vertex_indices\nelement tristrips",

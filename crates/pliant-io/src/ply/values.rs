@@ -1,8 +1,8 @@
-//! The values after the header, row by row: one row for each time an element is repeated.
+//! PLY values behind the header, row by row: one row for each repetition of an element.
 //!
-//! In ASCII a row is a line. Its values must be as many as the header declares: a line with one
-//! value more was written by a program that meant another header, and reading on would take the
-//! surplus for something else.
+//! In ASCII a row is a line with exactly as many values as the header declares. A line with more
+//! was written by a program that meant another header. Reading on would mistake the surplus for
+//! something else.
 
 use std::io::{self, BufRead, Read as _};
 use std::marker::PhantomData;
@@ -11,32 +11,34 @@ use super::header::{Element, Scalar};
 use crate::error::{Fault, Place, Reason};
 use crate::text::{Lines, expected, number, quoted, words};
 
-/// Values in the order of the file. Between [`begin_row`](Self::begin_row) and
-/// [`end_row`](Self::end_row), each property of the element is read or skipped.
+/// Stream of values in the order of the file.
+///
+/// Between [`begin_row`](Self::begin_row) and [`end_row`](Self::end_row), each property of the
+/// element is read or skipped.
 pub(super) trait Values {
     fn begin_row(&mut self, element: &Element, row: u64) -> Result<(), Fault>;
     fn end_row(&mut self) -> Result<(), Fault>;
-    /// The next number, of type `scalar`, exactly.
+    /// Reads the next number, of type `scalar`, exactly.
     fn real(&mut self, scalar: Scalar) -> Result<f64, Fault>;
-    /// The next whole number, of an integer type `scalar`.
+    /// Reads the next integer, of an integer type `scalar`.
     fn integer(&mut self, scalar: Scalar) -> Result<i64, Fault>;
     fn skip(&mut self, scalar: Scalar, count: u64) -> Result<(), Fault>;
-    /// Where the row is.
+    /// Place of the current row.
     fn place(&self) -> Place;
 }
 
 fn truncated(element: &Element, row: u64) -> Reason {
     let name = String::from_utf8_lossy(&element.name);
     Reason::Truncated(format!(
-        "{name} {row} is missing; the header announces {} of them",
+        "element {name} has {row} rows; the header announces {}",
         element.count
     ))
 }
 
-/// Values as words.
+/// ASCII values: words of lines.
 pub(super) struct Ascii<R> {
     lines: Lines<R>,
-    /// How far the line has been read.
+    /// Bytes of the line read so far.
     read: usize,
 }
 
@@ -114,9 +116,9 @@ impl<R: BufRead> Values for Ascii<R> {
     }
 }
 
-/// How bytes make a number.
+/// Byte order of binary values.
 pub(super) trait Endian {
-    /// The first `size` of `bytes`, least significant first.
+    /// Returns `bytes` with the first `size` of them reordered, least significant first.
     fn little(bytes: [u8; 8], size: usize) -> [u8; 8];
 }
 
@@ -136,7 +138,7 @@ impl Endian for BigEndian {
     }
 }
 
-/// Values as bytes.
+/// Binary values.
 pub(super) struct Binary<R, E> {
     input: R,
     element: String,
@@ -156,7 +158,7 @@ impl<R: BufRead, E: Endian> Binary<R, E> {
         }
     }
 
-    /// The bytes of the next value, least significant first.
+    /// Bytes of the next value, least significant first.
     fn next(&mut self, scalar: Scalar) -> Result<[u8; 8], Fault> {
         let mut bytes = [0; 8];
         let size = scalar.size();
@@ -168,7 +170,10 @@ impl<R: BufRead, E: Endian> Binary<R, E> {
 
     fn fault(&self, error: io::Error) -> Fault {
         let reason = if error.kind() == io::ErrorKind::UnexpectedEof {
-            Reason::Truncated(format!("the header announces {} of them", self.announced))
+            Reason::Truncated(format!(
+                "the header announces {} of this element",
+                self.announced
+            ))
         } else {
             error.into()
         };
@@ -208,7 +213,7 @@ impl<R: BufRead, E: Endian> Values for Binary<R, E> {
             Scalar::I16 => i16::from_le_bytes([a, b]).into(),
             Scalar::U16 => u16::from_le_bytes([a, b]).into(),
             Scalar::I32 => i32::from_le_bytes([a, b, c, d]).into(),
-            // Types of fractions are refused in the header wherever whole numbers are read.
+            // The header was refused if an integer was to be read from a float type.
             Scalar::U32 | Scalar::F32 | Scalar::F64 => u32::from_le_bytes([a, b, c, d]).into(),
         })
     }

@@ -1,4 +1,4 @@
-//! PC2 and MDD: the positions of all frames in 32 bits, one after another.
+//! PC2 and MDD writer: the positions of all frames in 32 bits, one after another.
 
 use std::io::Write;
 use std::path::Path;
@@ -10,15 +10,16 @@ use crate::cache::PC2;
 use crate::error::{Error, Reason};
 use crate::positions::Positions;
 
+/// A point cache being written.
 pub(super) struct Cache {
     staged: StagedFile,
     big_endian: bool,
-    /// Reused: a frame as it is in the file.
+    /// Reused buffer: a frame as the file has it.
     bytes: Vec<u8>,
 }
 
 impl Cache {
-    /// Begins a file; MDD says when each frame is, PC2 how many frames it has.
+    /// Begins a file. MDD stores the time of each frame, PC2 only their number.
     pub(super) fn create(
         path: &Path,
         big_endian: bool,
@@ -27,8 +28,13 @@ impl Cache {
     ) -> Result<Self, Error> {
         let counts = [shape.frame_count, shape.vertex_count].map(i32::try_from);
         let [Ok(frames), Ok(vertices)] = counts else {
-            let what = "frames or vertices for this format";
-            return Err(Error::new(path, Reason::TooMany { what }));
+            let reason = format!(
+                "has {} frames of {} vertices; this format holds at most {} of each, so write .npz",
+                shape.frame_count,
+                shape.vertex_count,
+                i32::MAX
+            );
+            return Err(Error::new(path, Reason::Unsupported(reason)));
         };
         let mut bytes = Vec::new();
         if big_endian {

@@ -1,8 +1,8 @@
-//! Coordinates in the precision of the file.
+//! Conversion of coordinates to the precision of the file.
 
 use crate::positions::Positions;
 
-/// A position in 32 bits; sets `rounded` where it was none.
+/// Rounds a position to f32; sets `rounded` if that changes a coordinate.
 pub(super) fn narrowed(position: [f64; 3], rounded: &mut bool) -> [f32; 3] {
     position.map(|x| {
         let narrow = x as f32;
@@ -11,7 +11,7 @@ pub(super) fn narrowed(position: [f64; 3], rounded: &mut bool) -> [f32; 3] {
     })
 }
 
-/// The positions one by one, widened.
+/// Positions one by one, widened to f64.
 pub(super) fn widened(positions: Positions<'_>) -> impl Iterator<Item = [f64; 3]> + '_ {
     (0..positions.len() as u32).map(move |vertex| positions.get(vertex))
 }

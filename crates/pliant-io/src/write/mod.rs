@@ -1,8 +1,9 @@
-//! Writing: a mesh, or a sequence, as OBJ, PLY, STL, NPZ, or PC2 or MDD beside a mesh.
+//! Writers: a mesh or a sequence as OBJ, PLY, STL, NPZ, or as PC2 or MDD beside a mesh.
 //!
-//! What is written reads back as the same triangles and the same positions: bit for bit, but where 64-bit coordinates go into a
-//! format that has 32 ([`Writer::rounded`] says so). Polygons stay polygons where the format has them. Frames are written as they
-//! come; a file appears under its name when it is whole, and never over another that is not to be lost.
+//! Files read back as the same triangles and the same positions, bit for bit. The exceptions are
+//! 64-bit coordinates in a format of 32 bits, which [`Writer::rounded`] reports. Polygons stay
+//! polygons where the format has them. Frames are written as they come. A file appears under its
+//! name once it is complete, and never replaces another without permission.
 
 mod cache;
 mod coordinates;
@@ -22,12 +23,12 @@ use crate::positions::Positions;
 pub use shape::Shape;
 pub use staged::{StagedFile, remove_staged_files};
 
-/// How to write.
+/// Options for writing a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WriteOptions {
-    /// Write over files that are there. Default: false.
+    /// Whether to overwrite existing files. Default: false.
     pub force: bool,
-    /// Frames a second, for formats that say when a frame is (MDD). Default: 30.
+    /// Frames per second, for formats that store the time of a frame (MDD). Default: 30.
     pub fps: f64,
 }
 
@@ -40,7 +41,7 @@ impl Default for WriteOptions {
     }
 }
 
-/// A body being written, frame by frame.
+/// Writer of a body, frame by frame.
 ///
 /// ```
 /// # let folder = std::env::temp_dir().join(format!("pliant-io-writer-{}", std::process::id()));
@@ -75,15 +76,15 @@ pub struct Writer {
     written: Vec<PathBuf>,
 }
 
-/// Where frames go.
+/// Destination of the frames.
 enum To {
-    /// A file each, if there is more than one.
+    /// One file for each frame, or a single file.
     Meshes(Format, Vec<PathBuf>),
     Npz(Box<npz::Npz>),
     Cache(Box<Pair>),
 }
 
-/// A mesh, which is written with the first frame, and positions.
+/// A mesh, which is written with the first frame, and a cache of positions.
 struct Pair {
     format: Format,
     mesh: PathBuf,
@@ -91,17 +92,21 @@ struct Pair {
     cache: cache::Cache,
 }
 
-/// For messages.
-const WRITABLE: &str = "a mesh: .obj, .ply, .stl; a sequence: .npz, 'mesh.obj+positions.pc2' or .mdd, or a file a frame: 'name_%04d.obj'";
+/// Formats that can be written, as the end of a message.
+const WRITABLE: &str = "a mesh (.obj, .ply, .stl); a sequence \
+    (.npz, 'mesh.obj+positions.pc2' or .mdd, or one file per frame: 'name_%04d.obj')";
 
 impl Writer {
-    /// Prepares to write what `argument` names: a file, files with the number of the frame in place of `%04d`, or a mesh and its
-    /// positions (`mesh.obj+positions.pc2`).
+    /// Prepares to write the body that `argument` names.
+    ///
+    /// The argument is a file, a name with `%04d` in place of the frame's number, or a mesh and a
+    /// cache of its positions (`mesh.obj+positions.pc2`).
     ///
     /// # Errors
     ///
-    /// The format cannot be written or cannot hold so many frames, a file is there already, or its folder is not; a shape whose
-    /// parts do not agree.
+    /// - The format cannot be written, or cannot hold this many frames.
+    /// - A file exists already, or its folder does not.
+    /// - The parts of `shape` do not agree.
     pub fn create(argument: &str, shape: Shape, options: WriteOptions) -> Result<Self, Error> {
         let error = |reason: Reason| Error::new(argument, reason);
         shape.check().map_err(error)?;
@@ -118,7 +123,8 @@ impl Writer {
             }
             let as_positions = Format::of(&positions).map_err(error)?;
             if as_positions == Format::Npy {
-                let reason = "positions are read from .npy, and not written; write .npz, or positions as .pc2 or .mdd";
+                let reason = "positions are read from .npy, and not written; \
+                    write .npz, or positions as .pc2 or .mdd";
                 return Err(error(Reason::Unsupported(reason.into())));
             }
             let big_endian = as_positions == Format::Mdd;
@@ -142,7 +148,7 @@ impl Writer {
         })
     }
 
-    /// What an argument without a mesh names.
+    /// Destination for an argument that names no mesh beside a cache.
     fn single(argument: &str, shape: &Shape, options: &WriteOptions) -> Result<To, Error> {
         let path = Path::new(argument);
         let unsupported = |reason: String| Error::new(path, Reason::Unsupported(reason));
@@ -168,13 +174,14 @@ impl Writer {
                 Ok(To::Npz(Box::new(npz::Npz::create(path, shape)?)))
             }
             Ok(Format::Pc2 | Format::Mdd | Format::Npy) => Err(unsupported(format!(
-                "holds positions but no faces; name a mesh to write beside it: 'mesh.obj+{argument}'"
+                "holds positions but no faces; \
+                 name a mesh to write beside it: 'mesh.obj+{argument}'"
             ))),
             Ok(Format::Gltf) => Err(unsupported(format!(
-                "glTF can be read but not written; what can: {WRITABLE}"
+                "glTF can be read but not written; these can: {WRITABLE}"
             ))),
             Err(_) | Ok(Format::Evaluated) => Err(unsupported(format!(
-                "this kind of file cannot be written; what can: {WRITABLE}"
+                "this kind of file cannot be written; these can: {WRITABLE}"
             ))),
         }
     }
@@ -183,7 +190,7 @@ impl Writer {
     ///
     /// # Errors
     ///
-    /// The disk is full, a file has come into being meanwhile, or the frame does not have the shape announced.
+    /// The disk is full, a file has been created meanwhile, or the frame does not match the shape.
     pub fn frame(&mut self, positions: Positions<'_>) -> Result<(), Error> {
         let Self { shape, options, .. } = self;
         if positions.len() != shape.vertex_count || self.done == shape.frame_count {
@@ -217,12 +224,12 @@ impl Writer {
         Ok(())
     }
 
-    /// Whether any coordinate so far was not one of 32 bits and went into a format that has no others.
+    /// Whether a 64-bit coordinate was rounded so far, because its format has only 32 bits.
     pub fn rounded(&self) -> bool {
         self.rounded
     }
 
-    /// Ends the writing: now every file is under its name. Returns them.
+    /// Ends the writing and returns the files, which now all have their names.
     ///
     /// # Errors
     ///
@@ -254,7 +261,7 @@ impl Writer {
     }
 }
 
-/// Writes one frame beside its place.
+/// Writes one frame to a staged file.
 fn write_mesh(
     format: Format,
     path: &Path,
@@ -276,7 +283,7 @@ fn write_mesh(
     }
 }
 
-/// The names of files with `%d` or `%04d` in place of a number; None where there is none.
+/// Function that replaces `%d` or `%04d` in `argument` by a frame's number; None without one.
 fn numbered(argument: &str) -> Option<impl Fn(usize) -> String + '_> {
     let (before, rest) = argument.split_once('%')?;
     let (width, after) = rest.split_once('d')?;

@@ -1,4 +1,6 @@
-//! NPZ: `vertices` (T, n, 3) as they come, then `faces` (m, 3). Not deflated, so that frames can be passed over when it is read.
+//! NPZ writer: `vertices` (T, n, 3) as frames come, then `faces` (m, 3).
+//!
+//! Arrays are not deflated, so that a reader can skip frames.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -12,11 +14,12 @@ use super::staged::StagedFile;
 use crate::error::{Error, Reason};
 use crate::positions::{Positions, Precision};
 
+/// An archive being written.
 pub(super) struct Npz {
     archive: ZipWriter<StagedFile>,
     path: std::path::PathBuf,
     precision: Precision,
-    /// Reused: a frame as it is in the file.
+    /// Reused buffer: a frame as the file has it.
     bytes: Vec<u8>,
 }
 
@@ -39,9 +42,9 @@ impl Npz {
         Ok(npz)
     }
 
-    /// Begins an array of so many bytes.
+    /// Begins an array of `size` bytes.
     fn begin(&mut self, name: &str, dtype: &str, shape: &str, size: u64) -> Result<(), Error> {
-        // Where 32 bits are too few for the size, with some to spare for the header.
+        // Sizes beyond 32 bits need the large format; 4096 bytes are allowed for the header.
         let large = size > u64::from(u32::MAX) - 4096;
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Stored)
@@ -50,7 +53,7 @@ impl Npz {
         self.written(begun.map_err(io::Error::from))?;
         let mut header =
             format!("{{'descr': '{dtype}', 'fortran_order': False, 'shape': ({shape}), }}");
-        // With what stands before it a multiple of 64, the line break included.
+        // Pads the header to a multiple of 64 bytes, its preamble and the line break included.
         let padding = 63 - (header.len() + 10) % 64;
         header.extend(std::iter::repeat_n(' ', padding));
         header.push('\n');

@@ -1,4 +1,4 @@
-//! OBJ as text: the shortest decimals that read back as the same 64-bit number.
+//! OBJ writer: the shortest decimals that read back as the same f64.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -26,7 +26,7 @@ pub(super) fn write(
     Ok(false)
 }
 
-/// With an exponent where there would be many zeros.
+/// A number in decimal, with an exponent where it would have many zeros.
 struct Decimal(f64);
 
 impl fmt::Display for Decimal {

@@ -1,4 +1,4 @@
-//! PLY, binary, least significant byte first: `float` or `double`, as the body has it.
+//! PLY writer: binary little-endian, `float` or `double` as the body has it.
 
 use std::io::{self, Write};
 
@@ -22,7 +22,7 @@ pub(super) fn write(
         Precision::F32 => "float",
         Precision::F64 => "double",
     };
-    // Few readers know more than `uchar` and `int`.
+    // Few readers know other types than `uchar` and `int`.
     let few = u8::try_from(most).is_ok();
     let length = if few { "uchar" } else { "uint" };
     let index = if i32::try_from(shape.vertex_count).is_ok() {
@@ -32,7 +32,8 @@ pub(super) fn write(
     };
     write!(
         out,
-        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty {number} x\nproperty {number} y\nproperty {number} z\n\
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\n\
+         property {number} x\nproperty {number} y\nproperty {number} z\n\
          element face {polygons}\nproperty list {length} {index} vertex_indices\nend_header\n",
         shape.vertex_count
     )?;

@@ -1,40 +1,47 @@
-//! What is written: a mesh, and how many frames of it.
+//! Shape of the data to write: a mesh, and the number of its frames.
 
 use std::collections::BTreeMap;
 
 use crate::error::Reason;
 use crate::positions::Precision;
 
-/// What holds for all frames that are written.
+/// The mesh, number of frames and precision of a body to write.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
-    /// Every index is below [`vertex_count`](Self::vertex_count).
+    /// Triangles; every index is below [`vertex_count`](Self::vertex_count).
     pub triangles: Vec<[u32; 3]>,
-    /// For every triangle the polygon that it is part of; None where every polygon is a triangle.
+    /// Polygon of each triangle; None where every polygon is a triangle.
     pub faces: Option<Vec<u32>>,
-    /// Of polygons whose triangles are no fan round their first corner, by their number in [`faces`](Self::faces), the corners.
+    /// Corners of the polygons that are no fans, by their number in [`faces`](Self::faces).
+    ///
+    /// A fan's triangles all contain the first corner.
     pub outlines: BTreeMap<u32, Vec<u32>>,
-    /// Vertices of a frame.
+    /// Number of vertices of a frame.
     pub vertex_count: usize,
-    /// How many frames will be written.
+    /// Number of frames that will be written.
     pub frame_count: usize,
-    /// The type of the coordinates.
+    /// Type of the coordinates.
     pub precision: Precision,
 }
 
 impl Shape {
-    /// Refuses parts that do not agree.
+    /// Returns an error if the parts do not agree.
     pub(super) fn check(&self) -> Result<(), Reason> {
-        let malformed = |why: &str| Err(Reason::Malformed(why.into()));
+        let malformed = |why: String| Err(Reason::Malformed(why));
+        let vertices = self.vertex_count;
+        let is_beyond = |corner: &&u32| **corner as usize >= vertices;
         if self.frame_count == 0 {
             return Err(Reason::NoFrames);
         }
         if self.triangles.is_empty() {
             return Err(Reason::NoFaces);
         }
-        let mut corners = self.triangles.as_flattened().iter();
-        if corners.any(|&corner| corner as usize >= self.vertex_count) {
-            return malformed("a triangle to be written has a vertex that does not exist");
+        for (number, triangle) in self.triangles.iter().enumerate() {
+            if let Some(vertex) = triangle.iter().find(is_beyond) {
+                return malformed(format!(
+                    "triangle {number} uses vertex {vertex}; the shape has {vertices} vertices"
+                ));
+            }
         }
         if u32::try_from(self.vertex_count).is_err() || u32::try_from(self.triangles.len()).is_err()
         {
@@ -42,18 +49,26 @@ impl Shape {
                 what: "vertices or triangles",
             });
         }
-        let mut corners = self.outlines.values().flatten();
-        if corners.any(|&corner| corner as usize >= self.vertex_count) {
-            return malformed("a polygon to be written has a vertex that does not exist");
+        for (number, outline) in &self.outlines {
+            if let Some(vertex) = outline.iter().find(is_beyond) {
+                return malformed(format!(
+                    "polygon {number} uses vertex {vertex}; the shape has {vertices} vertices"
+                ));
+            }
         }
-        let faces = self.faces.as_ref();
-        if faces.is_some_and(|faces| faces.len() != self.triangles.len()) {
-            return malformed("to be written are not as many faces as triangles");
+        let triangles = self.triangles.len();
+        if let Some(faces) = &self.faces
+            && faces.len() != triangles
+        {
+            return malformed(format!(
+                "`faces` has {} entries for {triangles} triangles; it needs one for each",
+                faces.len()
+            ));
         }
         Ok(())
     }
 
-    /// Calls `each` with the corners of every polygon: those of its fan, or as they are given.
+    /// Calls `each` with the corners of every polygon: from its fan, or from its outline.
     pub(super) fn each_polygon<E>(
         &self,
         mut each: impl FnMut(&[u32]) -> Result<(), E>,

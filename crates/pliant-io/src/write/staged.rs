@@ -1,8 +1,9 @@
-//! A file beside its place, until it is whole.
+//! Staged files: a new file gets its name only when it is complete.
 //!
-//! It has a name that nobody waits for, in the same folder, so that renaming it is one step of the file system. Without leave to
-//! write over a file, renaming fails if one has come into being meanwhile. What is not renamed goes away, also if a signal ends the
-//! program: all such files are on one list, which [`remove_staged_files`] goes through.
+//! Until then it has a temporary name in the same folder, so that renaming is one atomic step of
+//! the file system. Unless overwriting is allowed, renaming fails if the name has been taken
+//! meanwhile. A file that is not renamed is removed, even if a signal ends the program. For that,
+//! all staged files are on one list, which [`remove_staged_files`] goes through.
 
 use std::fs;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -14,7 +15,7 @@ use tempfile::NamedTempFile;
 
 use crate::error::{Error, Reason};
 
-/// A new file, which has no name of its own until it is whole.
+/// A new file, with a temporary name until it is complete.
 ///
 /// ```
 /// # use std::io::Write;
@@ -33,25 +34,26 @@ use crate::error::{Error, Reason};
 pub struct StagedFile {
     path: PathBuf,
     file: BufWriter<NamedTempFile>,
-    /// Dropped after the file.
+    /// Entry in the list; declared behind the file, so that it is dropped after it.
     listed: Listed,
-    /// Whether a coordinate in it was rounded.
+    /// Whether a coordinate in the file was rounded.
     pub(super) rounded: bool,
-    /// A write has failed, and its error was handed on: the file will never have a name. What is written after that is passed over,
-    /// so that whoever writes once more when it is dropped has nothing to complain of.
+    /// Whether a write has failed and its error was returned: the file will never get its name.
+    ///
+    /// Later writes are ignored, so that a wrapper that writes once more when dropped cannot fail.
     has_failed: bool,
-    /// Where the next byte goes, or would go.
+    /// Offset of the next byte, kept up even after a failure.
     position: u64,
 }
 
-/// Where the files are that are not whole yet.
+/// Paths of all files that are not complete yet.
 static STAGED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn staged() -> MutexGuard<'static, Vec<PathBuf>> {
     STAGED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file on that list, for as long as this lives.
+/// Entry of a file in that list; removed when dropped.
 #[derive(Debug)]
 struct Listed(PathBuf);
 
@@ -61,20 +63,22 @@ impl Drop for Listed {
     }
 }
 
-/// Removes every [`StagedFile`] of this process that has no name of its own yet, and lets no other come into being: who makes one
-/// or lets one go from now on waits for ever. For a program that is about to end without unwinding, as a signal ends it.
+/// Removes all [`StagedFile`]s of this process that have no name yet, and prevents new ones.
 ///
-/// It waits for locks and so is for a thread that handles signals, not for a signal handler.
+/// For a program that a signal ends without unwinding. Afterwards a thread that creates or drops a
+/// staged file waits for ever. The function waits for locks: call it from a thread that handles
+/// signals, not from a signal handler.
 pub fn remove_staged_files() {
     let staged = staged();
     for path in &*staged {
-        // One that is gone, or has its name by now, needs nothing; for any other there is nothing left to do.
+        // A file that is gone, or has its name by now, needs nothing. For any other nothing is left
+        // to do.
         let _ = fs::remove_file(path);
     }
     mem::forget(staged);
 }
 
-/// Refuses a file that is there, without leave to write over it, and one whose folder is not there.
+/// Refuses an existing file unless `force`, and a file whose folder does not exist.
 pub(super) fn check(path: &Path, force: bool) -> Result<(), Error> {
     let error = |reason: Reason| Err(Error::new(path, reason));
     match path.symlink_metadata() {
@@ -97,7 +101,8 @@ fn folder(path: &Path) -> &Path {
 }
 
 impl StagedFile {
-    /// A file beside its place. Dropped before it is [committed](Self::commit), it goes away.
+    /// Creates a file beside its final place; removed if dropped before it is
+    /// [committed](Self::commit).
     ///
     /// # Errors
     ///
@@ -105,13 +110,13 @@ impl StagedFile {
     pub fn create(path: &Path) -> Result<Self, Error> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".pliant-");
-        // As any other new file; those of this crate are otherwise for their owner alone.
+        // The usual permissions of a new file; the crate tempfile would allow only the owner.
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
-        // The list is held meanwhile, so that no file is ever there without being on it.
+        // The list stays locked, so that no file ever exists without being listed.
         let mut staged = staged();
         let file = builder.tempfile_in(folder(path));
         let file = file.map_err(|error| Error::new(path, Reason::Write(error)))?;
@@ -127,17 +132,19 @@ impl StagedFile {
         })
     }
 
-    /// The name that it will have.
+    /// The name that the file will get.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Gives the file its name, with `force` in place of a file that has it: a link is replaced, not what it leads to. Returns whether
-    /// a coordinate in it was rounded.
+    /// Gives the file its name; returns whether a coordinate in it was rounded.
+    ///
+    /// With `force` it replaces a file of that name. A symbolic link is replaced, not its target.
     ///
     /// # Errors
     ///
-    /// [`Reason::Exists`] if there is such a file and no `force`; [`Reason::Write`] if what is left could not be written.
+    /// - [`Reason::Exists`] if the name is taken, without `force`.
+    /// - [`Reason::Write`] if the rest could not be written.
     pub fn commit(self, force: bool) -> Result<bool, Error> {
         let Self {
             path,
@@ -148,7 +155,7 @@ impl StagedFile {
             position: _,
         } = self;
         if has_failed {
-            let error = io::Error::other("an earlier part of it could not be written");
+            let error = io::Error::other("an earlier write to it failed");
             return Err(Error::new(path, Reason::Write(error)));
         }
         let error = |error: io::Error| Error::new(&path, Reason::Write(error));
@@ -171,7 +178,7 @@ impl StagedFile {
 }
 
 impl StagedFile {
-    /// Does something with the file, unless that failed before.
+    /// Works on the file, unless that failed before; then returns `instead`.
     fn unless_failed<T>(
         &mut self,
         instead: T,

@@ -1,4 +1,4 @@
-//! STL in bytes: f32, each triangle with corners of its own and its normal.
+//! Binary STL writer: f32, each triangle with its own corners and its normal.
 
 use std::io::{self, Write};
 
@@ -13,7 +13,7 @@ pub(super) fn write(
     positions: Positions<'_>,
 ) -> io::Result<bool> {
     let mut rounded = false;
-    // Some readers take what begins with "solid" for text.
+    // Some readers take a file that begins with "solid" for text.
     out.write_all(&[b' '; 80])?;
     out.write_all(&(shape.triangles.len() as u32).to_le_bytes())?;
     for corners in &shape.triangles {
@@ -28,7 +28,7 @@ pub(super) fn write(
     Ok(rounded)
 }
 
-/// Of length 1, or 0 where the triangle has no direction.
+/// Unit normal of a triangle; 0 where it has no direction.
 fn normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
     let [u, v] = [b, c].map(|corner| [0, 1, 2].map(|axis| corner[axis] - a[axis]));
     let cross = [

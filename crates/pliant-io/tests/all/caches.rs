@@ -1,10 +1,10 @@
-//! PC2 and MDD beside a mesh; frames that are passed over.
+//! Point caches (PC2 and MDD) beside a mesh, and skipping of frames.
 
 use crate::common::{Folder, all_frames, bytes, npy, npz, tetrahedron};
 use pliant_io::{OpenOptions, Positions, Precision, Reason};
 use zip::CompressionMethod;
 
-/// Positions of a tetrahedron whose top rises, so many frames.
+/// Positions of a tetrahedron whose top rises, for `frames` frames.
 fn positions(frames: u32) -> Vec<f32> {
     let frame = |frame| {
         [
@@ -53,7 +53,7 @@ fn tops(folder: &Folder, name: &str) -> Vec<f64> {
         .collect()
 }
 
-/// Both parts in the folder; `Folder` puts it before the first.
+/// An argument with both files in the folder; `Folder` only completes the first.
 fn argument(folder: &Folder, name: &str) -> String {
     name.replacen('+', &format!("+{}/", folder.path().display()), 1)
 }
@@ -70,7 +70,7 @@ fn positions_move_a_mesh() {
         .write("s.pc2", pc2(4, 5, &positions(5)))
         .write("s.MDD", mdd(4, 5, &positions(5)));
     for name in ["m.obj+s.pc2", "m.obj+s.MDD", "a+b.obj+s.MDD"] {
-        // The last is cut at the last plus.
+        // The last name is split at its last plus.
         let name = if name.starts_with("a+b") {
             let folder = folder.path().display();
             format!("a+b.obj+{folder}/s.MDD")
@@ -91,7 +91,7 @@ fn positions_move_a_mesh() {
         );
         assert_eq!(frames[4][1], [1.0, 0.0, 0.0]);
     }
-    // A file of that name wins.
+    // An existing file of that name wins.
     folder.write("m.obj+s.pc2", "not read");
     assert!(
         folder
@@ -142,7 +142,8 @@ fn what_does_not_agree_is_refused() {
     for (name, message) in [
         (
             "s.pc2",
-            "s.pc2: holds positions but no faces; name the mesh that they move too: 'mesh.obj+s.pc2'",
+            "s.pc2: holds positions but no faces; name the mesh that they move too: \
+             'mesh.obj+s.pc2'",
         ),
         (
             "m.obj+cut.pc2",
@@ -154,7 +155,7 @@ fn what_does_not_agree_is_refused() {
         ),
         (
             "m.obj+head.pc2",
-            "head.pc2: ends too early: the header is longer than 20 bytes",
+            "head.pc2: ends too early: the header needs 32 bytes, the file has 20",
         ),
         (
             "m.obj+cut.mdd",
@@ -162,7 +163,8 @@ fn what_does_not_agree_is_refused() {
         ),
         (
             "m.obj+claim.pc2",
-            "claim.pc2: ends too early: 4294967295 frames of 4294967295 vertices need 221360928781435404332 bytes, the file has 128",
+            "claim.pc2: ends too early: 4294967295 frames of 4294967295 vertices need \
+             221360928781435404332 bytes, the file has 128",
         ),
         (
             "m.obj+claim.mdd",
@@ -170,11 +172,11 @@ fn what_does_not_agree_is_refused() {
         ),
         (
             "m.obj+other.pc2",
-            "other.pc2, byte 0: does not begin as a PC2 file of version 1 does",
+            "other.pc2, byte 0: is not a PC2 file of version 1",
         ),
         (
             "m.obj+old.pc2",
-            "old.pc2, byte 0: does not begin as a PC2 file of version 1 does",
+            "old.pc2, byte 0: is not a PC2 file of version 1",
         ),
         ("m.obj+empty.pc2", "empty.pc2: ends too early"),
         ("m.obj+none.pc2", "none.pc2: holds no frames"),
@@ -215,7 +217,7 @@ fn what_does_not_agree_is_refused() {
     );
 }
 
-/// Reads the frames `wanted`, which rise, and passes over all others.
+/// Reads the frames `wanted`, in ascending order, and skips all others.
 fn some(folder: &Folder, name: &str, wanted: &[usize]) -> Vec<f64> {
     let mut body = folder.open(&argument(folder, name)).unwrap();
     let mut next = 0;
@@ -309,7 +311,7 @@ fn passing_over_frames_is_reading_the_others() {
     assert_eq!(all_frames(&mut body).unwrap(), all[20..]);
 }
 
-/// Where the format allows it, what is passed over is not read: it may be damaged, or not a mesh at all.
+/// Where the format allows it, skipped data are not read: they may be damaged, or no mesh at all.
 #[test]
 fn what_is_passed_over_is_not_read() {
     let folder = Folder::new();
@@ -332,7 +334,7 @@ fn what_is_passed_over_is_not_read() {
         let whole = folder.error(&argument(&folder, name));
         assert!(!whole.is_empty(), "{name}");
     }
-    // After an error nothing follows, passed over or not.
+    // After an error no frame follows, skipped or not.
     let mut body = folder.open("t*.obj").unwrap();
     body.skip(2);
     assert!(body.next_frame().is_err());

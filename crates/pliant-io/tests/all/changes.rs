@@ -1,4 +1,4 @@
-//! Files that change: while they are read, between frames, between being found and being opened.
+//! Files that change: while being read, between frames, or between being found and being opened.
 
 use std::fs::{self, File};
 use std::time::{Duration, SystemTime};
@@ -7,7 +7,7 @@ use crate::common::{Folder, all_frames, bytes, npy, npz, tetrahedron};
 use pliant_io::{Body, Error, Reason};
 use zip::CompressionMethod;
 
-/// Sets the time of change, as a write would that comes a little later.
+/// Sets the modification time, as a slightly later write would.
 fn touch(folder: &Folder, name: &str) {
     let file = File::options()
         .append(true)
@@ -45,7 +45,7 @@ fn a_frame_that_grows_shrinks_or_is_written_anew_is_refused() {
         touch(&folder, "t2.obj");
         assert!(changed(all_frames(&mut body)));
     }
-    // What was read before stands.
+    // Frames that were read before stay valid.
     let mut body = sequence(&folder);
     folder.write("t1.obj", "no mesh any more");
     assert_eq!(all_frames(&mut body).unwrap().len(), 3);
@@ -57,7 +57,7 @@ fn a_frame_that_another_file_takes_the_place_of_is_refused() {
     let folder = Folder::new();
     let mut body = sequence(&folder);
     let old = folder.path().join("t2.obj");
-    // Same length, same time: another file all the same.
+    // Same length and same time, but another file.
     let time = fs::metadata(&old).unwrap().modified().unwrap();
     folder.write("new", tetrahedron(8.0));
     let new = folder.path().join("new");
@@ -81,7 +81,7 @@ fn a_pipe_that_takes_the_place_of_a_frame_is_not_waited_for() {
         return;
     }
     assert!(changed(all_frames(&mut body)));
-    // Found as a pipe, it is not opened at all.
+    // A pipe that is found as one is not opened at all.
     assert!(folder.error("t2.obj").contains("not a regular file"));
     assert!(folder.error("t*.obj").contains("not a regular file"));
 }
@@ -134,7 +134,7 @@ fn between_looking_into_a_file_and_reading_it() {
     let file = long_npz(CompressionMethod::Stored);
     folder.write("a1.npz", &file).write("a2.npz", &file);
     let mut body = folder.open("a*.npz").unwrap();
-    // As many frames, as many bytes.
+    // Equal numbers of frames and bytes.
     touch(&folder, "a2.npz");
     for _ in 0..3 {
         assert!(body.next_frame().unwrap().is_some());

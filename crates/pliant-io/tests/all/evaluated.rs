@@ -1,9 +1,9 @@
-//! Bodies that a program evaluates by itself are held to what files are held to.
+//! Bodies that the calling program evaluates are checked like bodies from files.
 
 use pliant_io::{Evaluated, OpenOptions, Positions, evaluated};
 use std::path::Path;
 
-/// A square that rises, or what a test makes of it.
+/// A square that rises, or a spoilt one.
 struct Square {
     counts: Vec<u32>,
     corners: Vec<u32>,
@@ -43,7 +43,7 @@ impl Evaluated for Square {
     }
 }
 
-/// Any file that is there.
+/// An arbitrary existing file.
 fn file() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"))
 }
@@ -87,8 +87,14 @@ fn what_is_wrong_is_said() {
     let changes: [(fn(&mut Square), &str); 8] = [
         (|square| square.frames.clear(), "no frames"),
         (|square| square.corners[3] = 4, "4"),
-        (|square| square.counts[0] = 5, "fewer corners"),
-        (|square| square.counts[0] = 3, "more corners"),
+        (
+            |square| square.counts[0] = 5,
+            "lists 4 corners, but its polygons need 5",
+        ),
+        (
+            |square| square.counts[0] = 3,
+            "lists 4 corners, but its polygons need 3",
+        ),
         (|square| square.counts[0] = 1, "1 corners"),
         (
             |square| square.frames[1] = Err("the sun is down".into()),

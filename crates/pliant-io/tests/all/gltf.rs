@@ -1,4 +1,4 @@
-//! glTF files evaluated, against what three.js makes of them; names, clips and frames; what is refused, and how.
+//! Evaluation of glTF files, compared with three.js; names, clips and frames; refusals.
 //!
 //! The files and the records in `fixtures/` are made by `three/` (its package.json says how).
 
@@ -25,13 +25,16 @@ fn options(clip: Option<&str>, fps: f64) -> OpenOptions {
     }
 }
 
-/// three.js computes in double precision but for what files and its records have in single or ten digits; ours are rounded to
-/// single precision. Against the size of the bodies that is 6e-8 a step, a few steps; 1e-5 is far from any mistake.
+/// Relative error allowed between three.js and our results.
+///
+/// three.js computes in double precision, except for data that files and its records have in single
+/// precision or in ten digits. Ours are rounded to single precision. Relative to the size of the
+/// bodies that is 6e-8 a step, for a few steps; 1e-5 is far from any mistake.
 const BOUND: f64 = 1e-5;
 
 type Frame = Vec<[f64; 3]>;
 
-/// Compares every clip and frame of a file with its record; returns how many positions.
+/// Compares every clip and frame of a file with its record; returns the number of positions.
 fn compare(file: &Path, record: &Path) -> usize {
     let record: Value = serde_json::from_str(&std::fs::read_to_string(record).unwrap()).unwrap();
     let fps = record["fps"].as_f64().unwrap();
@@ -78,7 +81,7 @@ fn compare(file: &Path, record: &Path) -> usize {
     compared
 }
 
-/// The largest coordinate of anything.
+/// The largest coordinate of any body.
 fn size_of(bodies: &[Vec<Frame>]) -> f64 {
     let all = bodies.iter().flatten().flatten().flatten();
     all.fold(0.0, |size: f64, x| size.max(x.abs()))
@@ -122,7 +125,7 @@ fn the_fox_runs_as_in_three_js() {
         (body.clip(), body.precision()),
         (Some("Survey"), Precision::F32)
     );
-    // 3.4166667 seconds at 30 a second, both ends.
+    // 3.4166667 seconds at 30 frames per second, both ends included.
     assert_eq!(body.frame_count(), 104);
     // The sides of every seam stay together: every frame is read.
     assert_eq!(all_frames(&mut body).unwrap().len(), 104);
@@ -130,7 +133,7 @@ fn the_fox_runs_as_in_three_js() {
     assert!(
         error
             .to_string()
-            .ends_with("there is no clip \"Fly\"; there is: Survey, Walk, Run"),
+            .ends_with("has no clip \"Fly\"; it has: Survey, Walk, Run"),
         "{error}"
     );
 }
@@ -165,13 +168,13 @@ fn bodies_are_the_nodes_with_meshes_in_the_default_scene() {
         .unwrap_err()
         .to_string();
     assert!(
-        error.contains("there is no body \"leg\"; there is: mirrored, "),
+        error.contains("has no body \"leg\"; it has: mirrored, "),
         "{error}"
     );
     let error = open(&part("elsewhere"), &OpenOptions::default())
         .unwrap_err()
         .to_string();
-    assert!(error.contains("there is no body"), "{error}");
+    assert!(error.contains("has no body \"elsewhere\""), "{error}");
 
     let file = fixture("kinds.glb");
     let bodies = open_all(file.to_str().unwrap(), &OpenOptions::default()).unwrap();
@@ -197,7 +200,7 @@ fn bodies_are_the_nodes_with_meshes_in_the_default_scene() {
     assert_eq!(triangles[3], [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]]);
 }
 
-/// Names that look like those that we make are other bodies' names.
+/// Names in a file that look like generated ones are names of other bodies.
 #[test]
 fn bodies_have_names_of_their_own_whatever_the_file_calls_them() {
     let folder = Folder::new();
@@ -239,7 +242,7 @@ fn bodies_have_names_of_their_own_whatever_the_file_calls_them() {
     }
 }
 
-/// The first `#` behind a file that is there begins the name of the body, and a `+` between two files parts them.
+/// The first `#` behind an existing file begins the name of the body; a `+` separates two files.
 #[test]
 fn folders_and_bodies_may_have_signs_in_their_names() {
     let folder = Folder::new();
@@ -272,7 +275,7 @@ fn folders_and_bodies_may_have_signs_in_their_names() {
             3
         );
     }
-    // Where there is no such file, the message is about the first that was meant.
+    // If no such file exists, the message is about the first that was meant.
     assert_eq!(folder.error("no.gltf#a.gltf#b"), "no.gltf: no such file");
     assert_eq!(folder.error("no.obj+no.pc2"), "no.obj: no such file");
 }
@@ -302,7 +305,10 @@ fn frames_are_at_the_rate_asked_for_and_at_the_end() {
     }
 }
 
-/// A file of one triangle, as JSON to spoil; bytes are those of nine floats, then of four times four bytes and floats.
+/// A valid file of one triangle, as JSON to spoil.
+///
+/// Its bytes are nine floats of positions, twelve bytes of joints, twelve floats of weights, two
+/// times and two translations.
 pub(crate) fn triangle() -> Value {
     let mut bytes: Vec<u8> = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0_f32]
         .iter()
@@ -325,17 +331,21 @@ pub(crate) fn triangle() -> Value {
         "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
         "nodes": [{"mesh": 0, "skin": 0, "name": "body"}, {"name": "bone", "children": [2]}, {}],
         "skins": [{"joints": [1, 2]}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}}]}],
-        "animations": [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}], "samplers": [{"input": 3, "output": 4}]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1,
+            "WEIGHTS_0": 2}}]}],
+        "animations": [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
+            "samplers": [{"input": 3, "output": 4}]}],
         "accessors": [
             {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
             {"bufferView": 0, "byteOffset": 36, "componentType": 5121, "count": 3, "type": "VEC4"},
             {"bufferView": 0, "byteOffset": 48, "componentType": 5126, "count": 3, "type": "VEC4"},
-            {"bufferView": 0, "byteOffset": 96, "componentType": 5126, "count": 2, "type": "SCALAR"},
+            {"bufferView": 0, "byteOffset": 96, "componentType": 5126, "count": 2,
+                "type": "SCALAR"},
             {"bufferView": 0, "byteOffset": 104, "componentType": 5126, "count": 2, "type": "VEC3"}
         ],
         "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
-        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+        "buffers": [{"byteLength": bytes.len(),
+            "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
     })
 }
 
@@ -394,7 +404,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/nodes/1/children/0",
             json!(1),
-            "node 1: is, over others, its own child",
+            "node 1: its ancestors form a cycle",
         ),
         (
             "/nodes/1/children/0",
@@ -411,12 +421,12 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/nodes/1/rotation",
             json!([0, 0, 0, 0]),
-            "node 1: its rotation is zero",
+            "node 1: its rotation is the zero quaternion",
         ),
         (
             "/nodes/1/matrix",
             json!([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]),
-            "node 1: is placed by a matrix, and animated",
+            "node 1: has a matrix and is animated",
         ),
         (
             "/nodes/1/scale",
@@ -426,7 +436,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/skins/0/joints",
             json!([1]),
-            "node 0: vertex 1 is held by joint 1, the skin has 1",
+            "node 0: vertex 1 names joint 1, but the skin has 1 joints",
         ),
         (
             "/skins/0/joints/0",
@@ -436,7 +446,8 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/skins/0/inverseBindMatrices",
             json!(0),
-            "accessor 0: its type is not one that inverse bind matrices can have",
+            "accessor 0: has type \"VEC3\" and componentType 5126; \
+             inverse bind matrices need \"MAT4\" and one of: 5126",
         ),
         (
             "/meshes/0/primitives/0/attributes",
@@ -461,13 +472,14 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/meshes/0/primitives/0/mode",
             json!(7),
-            "mode that the format does not have",
+            "mesh 0: a primitive has mode 7; glTF has modes 0 to 6",
         ),
         ("/meshes/0/primitives/0/mode", json!(1), "holds no faces"),
         (
             "/meshes/0/primitives/0/indices",
             json!(1),
-            "accessor 1: its type is not one that indices can have",
+            "accessor 1: has type \"VEC4\" and componentType 5123; \
+             indices need \"SCALAR\" and one of: 5121, 5123, 5125",
         ),
         (
             "/accessors/0/count",
@@ -477,14 +489,19 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/accessors/0/count",
             json!(1_000_000),
-            "accessor 0: ends too early: 1000000 rows from byte 0 on do not fit into buffer view 0 of 128 bytes",
+            "accessor 0: ends too early: 1000000 rows from byte 0 on do not fit into buffer view \
+             0 of 128 bytes",
         ),
         (
             "/accessors/0/count",
             json!(u64::MAX),
             "more than 4294967295 vertices",
         ),
-        ("/accessors/0/count", json!(-1), "not that of a glTF file"),
+        (
+            "/accessors/0/count",
+            json!(-1),
+            "does not describe a glTF file",
+        ),
         (
             "/accessors/0/byteOffset",
             json!(u64::MAX),
@@ -493,7 +510,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/accessors/0/componentType",
             json!(5125),
-            "its type is not one that positions can have",
+            "componentType 5125; positions need \"VEC3\" and one of: 5126, 5120, 5121, 5122, 5123",
         ),
         (
             "/accessors/0/bufferView",
@@ -513,12 +530,12 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/accessors/3/byteOffset",
             json!(100),
-            "the time of key 1 does not rise",
+            "the time of key 1, 0.0, is not later than",
         ),
         (
             "/animations/0/samplers/0/interpolation",
             json!("ROUND"),
-            "interpolation \"ROUND\" is none",
+            "sampler 0: interpolation \"ROUND\" is unknown",
         ),
         (
             "/animations/0/channels/0/target/node",
@@ -528,7 +545,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/animations/0/channels/0/sampler",
             json!(5),
-            "sampler 5: does not exist",
+            "a channel names sampler 5, which does not exist",
         ),
         (
             "/bufferViews/0/byteLength",
@@ -543,7 +560,7 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/bufferViews/0/byteStride",
             json!(4),
-            "rows of 12 bytes cannot be 4 bytes apart",
+            "byteStride 4 is too small for rows of 12 bytes",
         ),
         (
             "/bufferViews/0/buffer",
@@ -554,10 +571,14 @@ fn what_is_wrong_is_said_in_a_line() {
         (
             "/buffers/0/uri",
             json!("data:;base64,AAAA"),
-            "buffer 0: ends too early: bytes 96 to 104 are asked for, it has 3",
+            "buffer 0: ends too early: 8 bytes from byte 96 on are needed, but it has 3",
         ),
         ("/buffers/0/uri", Value::Null, "neither a URI nor bytes"),
-        ("/buffers/0/uri", json!("data:;base64,@@@@"), "a data URI: "),
+        (
+            "/buffers/0/uri",
+            json!("data:;base64,@@@@"),
+            "its data URI is not valid base64: ",
+        ),
         (
             "/buffers/0/uri",
             json!("data:text/plain,hello"),
@@ -610,7 +631,7 @@ fn what_is_wrong_is_said_in_a_line() {
         .unwrap_err()
         .to_string();
     assert!(
-        error.ends_with("there is no clip \"walk\"; there is: 0"),
+        error.ends_with("has no clip \"walk\"; it has: 0"),
         "{error}"
     );
     folder.write("deep.gltf", format!("{{\"a\":{}", "[".repeat(1 << 20)));
@@ -646,7 +667,7 @@ fn glb_is_refused_by_the_byte() {
 #[test]
 fn seams_are_welded_where_everything_moves_alike() {
     let folder = Folder::new();
-    // Two triangles with an edge in common: the corners 0 1 2, and 3 4 5 of which 3 and 4 are where 1 and 0 are.
+    // Two triangles with a common edge: corners 0 1 2 and 3 4 5; 3 and 4 coincide with 1 and 0.
     let corners: [f32; 18] = [
         0., 0., 0., 1., 0., 0., 0., 1., 0., 1., 0., 0., -0., 0., 0., 0., -1., 0.,
     ];
@@ -662,7 +683,8 @@ fn seams_are_welded_where_everything_moves_alike() {
         [0.25, 0.75, 0., 0.],
         [1., 0., 0., 0.],
         [1., 0., 0., 0.],
-        // The same as vertex 1, but for a joint that weighs nothing; as vertex 0, in the other order.
+        // Equal to vertex 1, except for a joint without weight; equal to vertex 0, in the other
+        // order.
         [0., 1., 0., 0.],
         [0.75, 0.25, 0., 0.],
         [1., 0., 0., 0.],
@@ -680,17 +702,24 @@ fn seams_are_welded_where_everything_moves_alike() {
                 .chain(&deltas)
                 .flat_map(|x| x.to_le_bytes()),
         );
-        let accessor = |offset: u32, kind: u32, shape: &str| json!({"bufferView": 0, "byteOffset": offset, "componentType": kind, "count": 6, "type": shape});
+        let accessor = |offset: u32, kind: u32, shape: &str| {
+            json!({"bufferView": 0, "byteOffset": offset, "componentType": kind,
+                "count": 6, "type": shape})
+        };
         json!({
             "scenes": [{"nodes": [0, 1]}],
             "nodes": [{"mesh": 0, "skin": 0}, {"children": [2]}, {"translation": [3, 4, 5]}],
             "skins": [{"joints": [1, 2]}],
             "meshes": [{"weights": [0.5], "primitives": [{
-                "attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}, "targets": [{"POSITION": 3}]}]}],
-            "accessors": [accessor(0, 5126, "VEC3"), accessor(72, 5121, "VEC4"), accessor(96, 5126, "VEC4"), accessor(192, 5126, "VEC3")],
+                "attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2},
+                    "targets": [{"POSITION": 3}]}]}],
+            "accessors": [accessor(0, 5126, "VEC3"), accessor(72, 5121, "VEC4"),
+                accessor(96, 5126, "VEC4"), accessor(192, 5126, "VEC3")],
             "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
-            "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
-        }).to_string()
+            "buffers": [{"byteLength": bytes.len(),
+                "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+        })
+        .to_string()
     };
     let welded = |text: String| {
         folder.write("seam.gltf", text);
@@ -706,7 +735,8 @@ fn seams_are_welded_where_everything_moves_alike() {
         )
     };
     assert_eq!(welded(file(weights, deltas)), (2, true, true));
-    // Weights that differ by a rounding or two are the same, and it is said; what a file multiplies by is no difference.
+    // Weights that differ by a rounding or two are equal, and noted. A common factor makes no
+    // difference.
     let mut nearly = weights;
     nearly[4] = [0.750_006, 0.249_994, 0.0, 0.0];
     assert_eq!(welded(file(nearly, deltas)).0, 2);
@@ -716,7 +746,7 @@ fn seams_are_welded_where_everything_moves_alike() {
     assert_eq!(welded(file(nearly, deltas)).0, 2);
     nearly[4] = [0.750_02, 0.249_98, 0.0, 0.0];
     assert_eq!(welded(file(nearly, deltas)).0, 0);
-    // What is not named weighs nothing, on whichever side: of vertex 3, and of vertex 1.
+    // A joint that is not named weighs nothing, on either side: at vertex 3, then at vertex 1.
     for (few, much) in [(3, 0.000_006), (1, 0.000_006)] {
         let mut named = weights;
         named[few] = if few == 3 {
@@ -730,7 +760,7 @@ fn seams_are_welded_where_everything_moves_alike() {
         named[few] = named[few].map(|weight| if weight < 0.5 { 4.0 * weight } else { weight });
         assert_eq!(welded(file(named, deltas)).0, 0);
     }
-    // Held by other joints, or moved otherwise by a morph target, at one end: the edge is not the same one.
+    // One end has other joints, or moves otherwise by a morph target: the edges are different.
     let mut other = weights;
     other[4] = [0.5, 0.5, 0.0, 0.0];
     assert_eq!(welded(file(other, deltas)), (0, false, true));
@@ -739,7 +769,7 @@ fn seams_are_welded_where_everything_moves_alike() {
     assert_eq!(welded(file(weights, other)), (0, true, false));
 }
 
-/// A file may not make the reader hold more than is allowed, however small it is.
+/// No file, however small, makes the reader hold more than is allowed.
 #[test]
 fn small_files_of_large_bodies_are_refused() {
     let folder = Folder::new();
@@ -752,7 +782,7 @@ fn small_files_of_large_bodies_are_refused() {
         };
         open_all(&folder.argument("many.gltf"), &options)
     };
-    // A thousand bodies of one mesh of a thousand triangles: the mesh is held once, 48 kB a body.
+    // A thousand bodies of one mesh of a thousand triangles: one mesh is held, and 48 kB per body.
     file["nodes"] = (0..1000).map(|_| json!({"mesh": 0})).collect();
     file["scenes"][0]["nodes"] = (0..1000).collect();
     file["skins"] = json!([]);
@@ -763,7 +793,11 @@ fn small_files_of_large_bodies_are_refused() {
     assert_eq!(limited(&text, 128).unwrap().len(), 1000);
     let refused = |text: &str, megabytes: u64| {
         let error = limited(text, megabytes).unwrap_err();
-        let is_too_large = matches!(error.reason(), Reason::TooLarge { limit, .. } | Reason::SeamsTooLarge { limit, .. } if *limit == megabytes << 20);
+        let is_too_large = matches!(
+            error.reason(),
+            Reason::TooLarge { limit, .. } | Reason::SeamsTooLarge { limit, .. }
+                if *limit == megabytes << 20
+        );
         let said = format!(", {megabytes} MiB are allowed");
         assert!(
             is_too_large && error.to_string().ends_with(&said),
@@ -771,13 +805,13 @@ fn small_files_of_large_bodies_are_refused() {
         );
     };
     refused(&text, 16);
-    // A mesh of as many primitives, all of the same bytes.
+    // A mesh of many primitives, all with the same bytes.
     let mut file = triangle();
     let primitive = json!({"attributes": {"POSITION": 0}});
     file["meshes"][0]["primitives"] = (0..100_000).map(|_| primitive.clone()).collect();
     file["nodes"][0] = json!({"mesh": 0});
     refused(&file.to_string(), 8);
-    // Morph targets that are zero take nothing.
+    // Zero displacements of morph targets take no memory.
     let mut file = triangle();
     file["accessors"]
         .as_array_mut()
@@ -786,7 +820,7 @@ fn small_files_of_large_bodies_are_refused() {
     file["meshes"][0]["primitives"][0]["targets"] =
         (0..1000).map(|_| json!({"POSITION": 5})).collect();
     assert!(limited(&file.to_string(), 4).is_ok());
-    // Nodes in nodes, deeper than any stack.
+    // Nested nodes, deeper than any stack.
     let mut file = triangle();
     file["nodes"] = (0..50_000)
         .map(|node| {
@@ -826,7 +860,7 @@ fn files_in_a_row_are_frames() {
     );
 }
 
-/// Vertices are moved some thousand at a time, and a target is passed over once.
+/// Vertices are moved some thousands at a time, and each target is traversed once.
 #[test]
 fn morph_targets_move_vertices_of_large_meshes_too() {
     const COUNT: usize = 10_000;
@@ -843,7 +877,10 @@ fn morph_targets_move_vertices_of_large_meshes_too() {
         floats(&|vertex| [0.0, 0.5 * push(vertex), push(vertex)]),
     ];
     let size = 12 * COUNT;
-    let accessor = |view: usize| json!({"bufferView": view, "componentType": 5126, "count": COUNT, "type": "VEC3"});
+    let accessor = |view: usize| {
+        json!({"bufferView": view, "componentType": 5126, "count": COUNT,
+        "type": "VEC3"})
+    };
     let view = |at: usize| json!({"buffer": 0, "byteOffset": at * size, "byteLength": size});
     let data = STANDARD.encode(bytes.concat());
     let file = json!({
@@ -869,7 +906,7 @@ fn morph_targets_move_vertices_of_large_meshes_too() {
     assert_eq!(frames, [expected.collect::<Vec<_>>()]);
 }
 
-/// The corners of the only frame, or of the first, of the only body.
+/// Positions of the first frame of the only body.
 fn corners(folder: &Folder, text: String) -> Vec<[f32; 3]> {
     folder.write("t.gltf", text);
     let mut body = folder.open("t.gltf").unwrap();
@@ -879,22 +916,25 @@ fn corners(folder: &Folder, text: String) -> Vec<[f32; 3]> {
     positions.to_vec()
 }
 
-/// How many were welded, and the corners.
+/// Number of welded vertices, and positions.
 fn corners_of(folder: &Folder, text: String) -> (usize, Vec<[f32; 3]>) {
     folder.write("t.gltf", &text);
     let welded = folder.open("t.gltf").unwrap().welded();
     (welded, corners(folder, text))
 }
 
-/// A triangle of these bytes as positions, and nothing else.
+/// A file of one triangle with these bytes as positions, and nothing else.
 fn quantised(component: u32, normalized: bool, stride: usize, bytes: &[u8]) -> String {
     json!({
         "asset": {"version": "2.0"}, "extensionsRequired": ["KHR_mesh_quantization"],
-        "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [2, 2, 2], "translation": [1, 0, 0]}],
+        "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0, "scale": [2, 2, 2], "translation": [1, 0, 0]}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "accessors": [{"bufferView": 0, "componentType": component, "normalized": normalized, "count": 3, "type": "VEC3"}],
+        "accessors": [{"bufferView": 0, "componentType": component, "normalized": normalized,
+            "count": 3, "type": "VEC3"}],
         "bufferViews": [{"buffer": 0, "byteLength": bytes.len(), "byteStride": stride}],
-        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(bytes))}]
+        "buffers": [{"byteLength": bytes.len(),
+            "uri": format!("data:;base64,{}", STANDARD.encode(bytes))}]
     })
     .to_string()
 }
@@ -916,7 +956,9 @@ fn quantised_positions_are_fractions_or_whole_numbers() {
     assert_eq!(said, expected);
 }
 
-/// Two triangles along an edge, in bytes, with a morph target in shorts: seams are those of the numbers that bytes stand for.
+/// Two triangles with a common edge in bytes, and a morph target in shorts.
+///
+/// Seams depend on the numbers that the bytes stand for.
 #[test]
 fn quantised_seams_and_morph_targets() {
     let folder = Folder::new();
@@ -942,12 +984,18 @@ fn quantised_seams_and_morph_targets() {
         );
         json!({
             "asset": {"version": "2.0"}, "extensionsRequired": ["KHR_mesh_quantization"],
-            "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [0.5, 0.5, 0.5], "weights": [4]}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]}]}],
-            "accessors": [{"bufferView": 0, "componentType": 5120, "normalized": true, "count": 6, "type": "VEC3"},
-                {"bufferView": 1, "componentType": 5122, "normalized": true, "count": 6, "type": "VEC3"}],
-            "bufferViews": [{"buffer": 0, "byteLength": 24, "byteStride": 4}, {"buffer": 0, "byteOffset": 24, "byteLength": 48, "byteStride": 8}],
-            "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+            "scenes": [{"nodes": [0]}],
+                "nodes": [{"mesh": 0, "scale": [0.5, 0.5, 0.5], "weights": [4]}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0},
+                "targets": [{"POSITION": 1}]}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5120, "normalized": true, "count": 6,
+                "type": "VEC3"},
+                {"bufferView": 1, "componentType": 5122, "normalized": true, "count": 6,
+                    "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 24, "byteStride": 4},
+                {"buffer": 0, "byteOffset": 24, "byteLength": 48, "byteStride": 8}],
+            "buffers": [{"byteLength": bytes.len(),
+                "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
         })
         .to_string()
     };
@@ -960,7 +1008,7 @@ fn quantised_seams_and_morph_targets() {
     ];
     assert_eq!(corners_of(&folder, file(0)).1[..5], expected);
     assert_eq!(corners_of(&folder, file(0)).0, 2);
-    // Both ends of the edge still go together.
+    // Both ends of the edge still move together.
     assert_eq!(corners_of(&folder, file(1000)).0, 2);
     let half = corners_of(&folder, file(0)).1[5];
     assert!((half[2] + 1.0).abs() < 1e-4, "{half:?}");
@@ -972,16 +1020,18 @@ fn a_sparse_accessor_needs_no_other_data() {
     let mut file = triangle();
     let values = [1.0, 0.0, 0.0, 0.0, 2.0, 0.0_f32].map(f32::to_le_bytes);
     let bytes = [&[1_u8, 2, 0, 0][..], values.as_flattened()].concat();
-    file["buffers"] = json!([file["buffers"][0], {"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]);
+    file["buffers"] = json!([file["buffers"][0],
+        {"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]);
     file["bufferViews"] = json!([file["bufferViews"][0], {"buffer": 1, "byteLength": bytes.len()}]);
     file["accessors"][0] = json!({"componentType": 5126, "count": 3, "type": "VEC3", "sparse": {
-        "count": 2, "indices": {"bufferView": 1, "componentType": 5121}, "values": {"bufferView": 1, "byteOffset": 4}}});
+        "count": 2, "indices": {"bufferView": 1, "componentType": 5121},
+            "values": {"bufferView": 1, "byteOffset": 4}}});
     file["animations"] = json!([]);
     file["skins"] = json!([]);
     file["nodes"][0] = json!({"mesh": 0});
     let expected = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
     assert_eq!(corners(&folder, file.to_string()), expected);
-    // As many rows as nobody may hold are refused before they are made.
+    // More rows than allowed are refused before they are made.
     file["accessors"][0]["count"] = json!(1_u64 << 30);
     file["accessors"][1]["count"] = json!(1_u64 << 30);
     folder.write("t.gltf", file.to_string());
@@ -1004,12 +1054,15 @@ fn animations_may_name_what_they_move_by_a_pointer() {
     };
     let (expected, notes) = frames(&plain);
     assert!(notes.is_empty() && expected.len() > 1);
-    let pointer = |pointer: &str| json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}});
+    let pointer = |pointer: &str| {
+        json!({"path": "pointer",
+        "extensions": {"KHR_animation_pointer": {"pointer": pointer}}})
+    };
     let mut file = plain.clone();
     file["extensionsRequired"] = json!(["KHR_animation_pointer"]);
     file["animations"][0]["channels"][0]["target"] = pointer("/nodes/1/translation");
     assert_eq!(frames(&file), (expected.clone(), vec![]));
-    // What is not evaluated is noted, once.
+    // Targets that are not evaluated are noted, once.
     for other in ["/materials/0/emissiveFactor", "/nodes/2/weights/0"] {
         let target = json!({"sampler": 0, "target": pointer(other)});
         file["animations"][0]["channels"]
@@ -1020,7 +1073,7 @@ fn animations_may_name_what_they_move_by_a_pointer() {
     let first = "/materials/0/emissiveFactor".to_owned();
     let notes = vec![Note::StillTargets { count: 2, first }];
     assert_eq!(frames(&file), (expected, notes));
-    // A pointer to a node that does not exist is as wrong as a number that does.
+    // A pointer to a missing node is as wrong as its number.
     file["animations"][0]["channels"][0]["target"] = pointer("/nodes/9/translation");
     folder.write("t.gltf", file.to_string());
     assert!(folder.error("t.gltf").contains("moves node 9, which"));
@@ -1037,7 +1090,8 @@ fn what_an_animation_moves_that_is_no_body_is_noted() {
     };
     let plain = triangle();
     let (expected, _) = frames(&plain);
-    // 3 and 4 are in no scene; 4 is in 3. The joint 2 is in 1 and moves nothing but the body.
+    // Nodes 3 and 4 are in no scene, and 4 is a child of 3. Joint 2 is a child of 1 and moves only
+    // the body.
     let mut file = plain.clone();
     let nodes = file["nodes"].as_array_mut().unwrap();
     nodes.extend([json!({"children": [4]}), json!({})]);
@@ -1054,7 +1108,7 @@ fn what_an_animation_moves_that_is_no_body_is_noted() {
         vec![Note::StillTargets { count, first }]
     };
     assert_eq!(frames(&file), (expected.clone(), note(5, &first)));
-    // What a joint is in moves the body, in whatever scene it is.
+    // An ancestor of a joint moves the body, in whatever scene it is.
     file["skins"][0]["joints"] = json!([1, 4]);
     let (moved, notes) = frames(&file);
     assert_ne!(moved, expected);
@@ -1064,7 +1118,8 @@ fn what_an_animation_moves_that_is_no_body_is_noted() {
 #[test]
 fn the_weights_of_a_mesh_are_those_of_its_nodes_without_their_own() {
     let folder = Folder::new();
-    // Three nodes of one mesh, which a target moves up: the second has its own weights, an animation gives the third its own.
+    // Three nodes of one mesh with a target upwards: the second has its own weights, and an
+    // animation gives the third its own.
     let mut bytes: Vec<u8> = Vec::new();
     for number in [
         0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, // positions
@@ -1075,20 +1130,30 @@ fn the_weights_of_a_mesh_are_those_of_its_nodes_without_their_own() {
     ] {
         bytes.extend(number.to_le_bytes());
     }
-    let accessor = |offset: u32, count: u32, shape: &str| json!({"bufferView": 0, "byteOffset": offset, "componentType": 5126, "count": count, "type": shape});
-    let pointer = |sampler: u32, pointer: &str| json!({"sampler": sampler, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}}});
+    let accessor = |offset: u32, count: u32, shape: &str| {
+        json!({"bufferView": 0, "byteOffset": offset, "componentType": 5126,
+            "count": count, "type": shape})
+    };
+    let pointer = |sampler: u32, pointer: &str| {
+        json!({"sampler": sampler,
+            "target": {"path": "pointer",
+                "extensions": {"KHR_animation_pointer": {"pointer": pointer}}}})
+    };
     let mut file = json!({
         "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1, 2]}],
         "nodes": [{"mesh": 0}, {"mesh": 0, "weights": [0.5]}, {"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "targets": [{"POSITION": 1}]}]}],
-        // The third node goes before its mesh, wherever it stands.
+        // The third node takes precedence over its mesh, in any order.
         "animations": [{
-            "channels": [{"sampler": 1, "target": {"node": 2, "path": "weights"}}, pointer(0, "/meshes/0/weights")],
+            "channels": [{"sampler": 1, "target": {"node": 2, "path": "weights"}},
+                pointer(0, "/meshes/0/weights")],
             "samplers": [{"input": 2, "output": 3}, {"input": 2, "output": 4}]
         }],
-        "accessors": [accessor(0, 3, "VEC3"), accessor(36, 3, "VEC3"), accessor(72, 2, "SCALAR"), accessor(80, 2, "SCALAR"), accessor(88, 2, "SCALAR")],
+        "accessors": [accessor(0, 3, "VEC3"), accessor(36, 3, "VEC3"), accessor(72, 2, "SCALAR"),
+            accessor(80, 2, "SCALAR"), accessor(88, 2, "SCALAR")],
         "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
-        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+        "buffers": [{"byteLength": bytes.len(),
+            "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
     });
     let heights = |file: &Value| {
         folder.write("m.gltf", file.to_string());
@@ -1103,7 +1168,8 @@ fn the_weights_of_a_mesh_are_those_of_its_nodes_without_their_own() {
     };
     let expected = [(2.0, 4.0, 0), (0.5, 0.5, 0), (8.0, 16.0, 0)];
     assert_eq!(heights(&file), expected);
-    // Twice the same is wrong; where every node has its own, or there is no such mesh, nothing moves.
+    // The same target twice is wrong. If every node has its own weights, or there is no such mesh,
+    // nothing moves.
     let channels = &mut file["animations"][0]["channels"];
     channels[0] = pointer(0, "/meshes/7/weights");
     let expected = [(2.0, 4.0, 1), (0.5, 0.5, 0), (2.0, 4.0, 0)];
@@ -1127,7 +1193,7 @@ fn what_is_compressed_or_older_is_refused_for_what_it_is() {
         &json!({"asset": {"version": "1.0"}, "meshes": {"a": {}}, "nodes": {}}),
         "is glTF \"1.0\"",
     );
-    // Named, and not required: with data it is read, without it is not.
+    // Draco that is named but not required: read if there is other data, refused if not.
     let mut file = triangle();
     file["extensionsUsed"] = json!(["KHR_draco_mesh_compression", "EXT_meshopt_compression"]);
     let primitive = &mut file["meshes"][0]["primitives"][0];
@@ -1141,8 +1207,10 @@ fn what_is_compressed_or_older_is_refused_for_what_it_is() {
         .unwrap()
         .remove("bufferView");
     refused(&without, "compressed by Draco");
-    // Sparse values replace what is compressed, not zeros; indices are compressed too, and what holds vertices.
-    without["accessors"][0]["sparse"] = json!({"count": 1, "indices": {"bufferView": 0, "byteOffset": 36, "componentType": 5121},
+    // Sparse values replace compressed ones, not zeros; indices and attributes may be compressed
+    // too.
+    without["accessors"][0]["sparse"] = json!({"count": 1,
+        "indices": {"bufferView": 0, "byteOffset": 36, "componentType": 5121},
         "values": {"bufferView": 0, "byteOffset": 12}});
     refused(&without, "compressed by Draco");
     let mut without = file.clone();
@@ -1181,7 +1249,7 @@ fn what_meshopt_compressed_is_what_it_was() {
     assert_eq!(ours, expected);
     assert!(names.len() > 1 && compare(&fixture("skin-meshopt.gltf"), &fixture("skin.json")) > 100);
 
-    // What stands in for the compressed bytes is read where it is there, and they are not.
+    // An uncompressed fallback is read where it exists and the compressed bytes do not.
     let folder = Folder::new();
     let mut other = compressed.clone();
     let first = other["buffers"][0]["byteLength"].as_u64().unwrap();
@@ -1200,7 +1268,8 @@ fn what_meshopt_compressed_is_what_it_was() {
         if view["buffer"] == 1 {
             view["byteOffset"] = was["byteOffset"].clone();
         } else {
-            *view = json!({"buffer": 1, "byteOffset": was["byteOffset"], "byteLength": was["byteLength"]});
+            *view = json!({"buffer": 1, "byteOffset": was["byteOffset"],
+                "byteLength": was["byteLength"]});
         }
     }
     other["buffers"][0]["uri"] = json!(format!(
@@ -1247,7 +1316,7 @@ fn what_is_wrong_with_compressed_views_is_said() {
         (
             "/byteOffset",
             json!(3),
-            "buffer view 1: its compressed bytes do not begin as the mode says",
+            "buffer view 1: its compressed bytes begin with another byte than their mode needs",
         ),
         (
             "/buffer",
@@ -1258,12 +1327,12 @@ fn what_is_wrong_with_compressed_views_is_said() {
         (
             "/mode",
             json!("POINTS"),
-            "a mode that the format does not have",
+            "has mode \"POINTS\"; there are ATTRIBUTES",
         ),
         (
             "/filter",
             json!("QUATERNION"),
-            "a width that its filter cannot have",
+            "a byteStride that its filter cannot have",
         ),
         (
             "/filter",
@@ -1279,7 +1348,7 @@ fn what_is_wrong_with_compressed_views_is_said() {
             "{words}: {said}"
         );
     }
-    // Rows as many as nobody may hold are refused before any is made.
+    // More rows than allowed are refused before any is made.
     let mut file = whole.clone();
     let rows = 1_u64 << 40;
     file["bufferViews"][1]["byteLength"] = json!(rows * 12);
@@ -1289,7 +1358,7 @@ fn what_is_wrong_with_compressed_views_is_said() {
     assert!(refused.contains("of memory"), "{refused}");
 }
 
-/// Chunks of GLB files begin at multiples of four; those of some programs do not.
+/// Chunks of GLB files begin at multiples of four, but not in files of some programs.
 #[test]
 fn chunks_of_glb_may_follow_each_other_at_once() {
     let folder = Folder::new();
@@ -1317,8 +1386,9 @@ fn chunks_of_glb_may_follow_each_other_at_once() {
     }
 }
 
-/// A fan of triangles of their own around one place, each of which begins where the one before ends. The second of two joints moves,
-/// and holds the vertices of triangle i by `weights[i]`.
+/// A fan of triangles round one place, each with its own vertices and next to the one before.
+///
+/// The second of two joints moves; `weights[i]` is its weight at the vertices of triangle i.
 fn fan(weights: &[f32]) -> String {
     let place = |at: usize| {
         let angle = at as f32 / weights.len() as f32 * 6.0;
@@ -1340,17 +1410,24 @@ fn fan(weights: &[f32]) -> String {
     let times = bytes.len();
     let moved = [0.0, 1.0, 0.0, 0.0, 0.0, 100.0, 200.0, 300.0_f32];
     bytes.extend(moved.iter().flat_map(|x| x.to_le_bytes()));
-    let accessor = |offset: usize, kind: u32, count: usize, shape: &str| json!({"bufferView": 0, "byteOffset": offset, "componentType": kind, "count": count, "type": shape});
+    let accessor = |offset: usize, kind: u32, count: usize, shape: &str| {
+        json!({"bufferView": 0, "byteOffset": offset, "componentType": kind,
+            "count": count, "type": shape})
+    };
     json!({
         "asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1, 2]}],
         "nodes": [{"mesh": 0, "skin": 0}, {}, {}],
         "skins": [{"joints": [1, 2]}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}}]}],
-        "animations": [{"channels": [{"sampler": 0, "target": {"node": 2, "path": "translation"}}], "samplers": [{"input": 3, "output": 4}]}],
-        "accessors": [accessor(0, 5126, count, "VEC3"), accessor(joints, 5121, count, "VEC4"), accessor(held, 5126, count, "VEC4"),
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1,
+            "WEIGHTS_0": 2}}]}],
+        "animations": [{"channels": [{"sampler": 0, "target": {"node": 2, "path": "translation"}}],
+            "samplers": [{"input": 3, "output": 4}]}],
+        "accessors": [accessor(0, 5126, count, "VEC3"), accessor(joints, 5121, count, "VEC4"),
+            accessor(held, 5126, count, "VEC4"),
             accessor(times, 5126, 2, "SCALAR"), accessor(times + 8, 5126, 2, "VEC3")],
         "bufferViews": [{"buffer": 0, "byteLength": bytes.len()}],
-        "buffers": [{"byteLength": bytes.len(), "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
+        "buffers": [{"byteLength": bytes.len(),
+            "uri": format!("data:;base64,{}", STANDARD.encode(&bytes))}]
     })
     .to_string()
 }
@@ -1370,7 +1447,8 @@ fn vertices_joined_by_nearly_equal_weights_are_one_in_every_frame() {
     assert_eq!((welded, &triangles[..]), (2, &[[0, 1, 2], [0, 2, 5]][..]));
     assert_eq!(notes, [Note::SeamsByWeights { count: 2 }]);
     assert_eq!(frames.len(), 31);
-    // Each is held to the smallest of its class, not to the next: 0.5 takes what is within 1e-5 of it, and the others are apart.
+    // Each vertex is compared with the smallest of its class, not with the next one. So 0.5 joins
+    // all that is within 1e-5 of it, and the others stay apart.
     let chain = [0.5, 0.500_008, 0.500_016, 0.500_024];
     let (welded, notes, triangles, _) = read(&chain);
     assert_eq!(welded, 4);
@@ -1380,7 +1458,7 @@ fn vertices_joined_by_nearly_equal_weights_are_one_in_every_frame() {
         [[0, 1, 2], [0, 2, 5], [6, 7, 8], [6, 8, 11]],
         "two and two"
     );
-    // What is equal to the bit is welded however much else is at that place.
+    // Bitwise equal vertices are welded however many others are at that place.
     let mut many: Vec<f32> = (0..200).map(|at| 0.1 + at as f32 * 1e-3).collect();
     many.extend([0.9, 0.9]);
     let (welded, notes, ..) = read(&many);

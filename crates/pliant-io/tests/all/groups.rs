@@ -5,10 +5,12 @@ use std::collections::BTreeMap;
 use crate::common::{Folder, all_frames};
 use pliant_io::{OpenOptions, Reason, open};
 
-/// Two squares side by side with vertices of their own along the edge between them, the right one a polygon that bends inward; and a
-/// triangle nobody names.
-const TEXT: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 2 0 0\nv 1.1 0.1 0\nv 1 1 0\nf 1 3 4\no left\nf 1 2 3\n\
-    o right\ng 1\nf 6 7 8 5\n";
+/// Two squares side by side, with vertices of their own along the common edge, and an unnamed
+/// triangle.
+///
+/// The right square is a concave polygon.
+const TEXT: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 2 0 0\nv 1.1 0.1 0\nv 1 1 0\n\
+    f 1 3 4\no left\nf 1 2 3\no right\ng 1\nf 6 7 8 5\n";
 
 #[test]
 fn a_group_is_a_body() {
@@ -42,7 +44,7 @@ fn a_group_is_a_body() {
 fn a_group_of_a_sequence_is_that_of_its_first_file() {
     let folder = Folder::new();
     for frame in 0..3 {
-        // Only the first names anything.
+        // Only the first file names anything.
         let text = if frame == 0 {
             TEXT.to_owned()
         } else {
@@ -54,7 +56,7 @@ fn a_group_of_a_sequence_is_that_of_its_first_file() {
     let mut left = open(&folder.argument("walk_*.obj#left"), &options).unwrap();
     assert_eq!((left.frame_count(), left.triangles().len()), (3, 1));
     assert_eq!(all_frames(&mut left).unwrap().len(), 3);
-    // The mesh of a group does not change, whoever allows it.
+    // The mesh of a group does not change, even if that is allowed.
     folder.write("walk_2.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
     let mut left = open(&folder.argument("walk_*.obj#left"), &options).unwrap();
     left.let_mesh_change();
@@ -70,8 +72,9 @@ fn other_files_have_none() {
     let folder = Folder::new();
     folder.write("plain.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
     folder.write("two.obj", TEXT);
-    // One solid, without a name.
-    let soup = "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n";
+    // A single solid without a name.
+    let soup = "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\n\
+        endloop\nendfacet\nendsolid\n";
     folder.write("a.stl", soup);
     let options = OpenOptions::default();
     for name in ["plain.obj", "a.stl"] {
@@ -84,7 +87,7 @@ fn other_files_have_none() {
     for (name, words) in [
         (
             "two.obj#",
-            "there is no body \"\"; there is: default, left, right/1",
+            "has no body \"\"; it has: default, left, right/1",
         ),
         ("gone.obj#left", "no such file"),
         ("gone_*.obj#left", "no file matches"),

@@ -1,4 +1,6 @@
-//! Whatever the bytes: frames or an error of one line; never a panic, and not much memory or time.
+//! Fuzzing of all readers: any bytes give frames or an error of one line.
+//!
+//! No input may panic, or take much memory or time.
 
 use std::sync::LazyLock;
 
@@ -45,7 +47,7 @@ fn survives(ending: &str, contents: &[u8]) {
                     let is_there = |&group: &u32| (group as usize) < count;
                     assert!(groups.of_triangles.iter().all(is_there));
                     let (frames, vertices) = (body.frame_count(), body.vertex_count());
-                    // Few bytes can hold a great many frames.
+                    // A few bytes can hold a great many frames.
                     if frames > 1000 {
                         return Ok(());
                     }
@@ -63,21 +65,21 @@ fn survives(ending: &str, contents: &[u8]) {
             });
         if let Err(error) = result {
             assert_eq!(error.to_string().lines().count(), 1, "{error}");
-            // Its own, or one that it says it needs, beside it.
+            // The file itself, or one beside it that it says it needs.
             let folder = FOLDER.path().to_str().unwrap();
             assert!(error.to_string().contains(folder), "{error}");
         }
     }
 }
 
-/// What is done to a valid file.
+/// A change to a valid file.
 #[derive(Debug, Clone)]
 enum Damage {
     Cut(usize),
     Flip(usize, u8),
     Put(usize, Vec<u8>),
     Remove(usize, usize),
-    /// Copies a stretch over another place.
+    /// Copies a range over another place.
     Copy(usize, usize, usize),
 }
 
@@ -152,8 +154,10 @@ fn damaged(mut file: Vec<u8>, damages: &[Damage]) -> Vec<u8> {
 
 fn valid_ply(encoding: &str) -> Vec<u8> {
     let mut file = format!(
-        "ply\nformat {encoding} 1.0\nelement vertex 4\nproperty float x\nproperty list uchar short tags\n\
-         property double y\nproperty int z\nelement face 2\nproperty list uchar uint vertex_indices\n\
+        "ply\nformat {encoding} 1.0\n\
+         element vertex 4\nproperty float x\nproperty list uchar short tags\n\
+         property double y\nproperty int z\n\
+         element face 2\nproperty list uchar uint vertex_indices\n\
          property char flag\nend_header\n"
     )
     .into_bytes();
@@ -231,7 +235,7 @@ fn valid_cache(pc2: bool) -> Vec<u8> {
     [&head[..], &bytes(&positions, f32::to_be_bytes)].concat()
 }
 
-/// Files of this crate's tests: of every kind of clip and mesh, as text and as GLB.
+/// Files of this crate's tests: every kind of clip and mesh, as text and as GLB.
 const GLTF: [&[u8]; 6] = [
     include_bytes!("../fixtures/hierarchy.gltf"),
     include_bytes!("../fixtures/skin.gltf"),
@@ -241,7 +245,7 @@ const GLTF: [&[u8]; 6] = [
     include_bytes!("../fixtures/morph.gltf"),
 ];
 
-/// The files that damage begins with are themselves read without an error.
+/// The undamaged files are read without an error.
 #[test]
 fn the_files_to_damage_are_valid() {
     let folder = Folder::new();
@@ -270,7 +274,7 @@ fn the_files_to_damage_are_valid() {
     }
 }
 
-// As many cases as PROPTEST_CASES says, 256 by default.
+// PROPTEST_CASES is the number of cases, 256 by default.
 proptest! {
     #[test]
     fn damaged_obj(damages in prop::collection::vec(damage(), 1..5)) {
@@ -293,7 +297,7 @@ proptest! {
 
     #[test]
     fn damaged_arrays(damages in prop::collection::vec(damage(), 1..3), second in any::<bool>()) {
-        // Damage inside an intact archive: past the checksums.
+        // Damage inside an intact archive, which no checksum catches.
         let vertices = npy("<f4", false, &[2, 4, 3], &bytes(&[0.5_f32; 24], f32::to_le_bytes));
         let faces = npy("<u2", false, &[2, 3], &bytes(&[0_u16, 1, 2, 3, 2, 1], u16::to_le_bytes));
         let arrays = if second {

@@ -1,13 +1,16 @@
-//! Files that are not as they should be, and are read where their meaning is clear; what that was is noted.
+//! Unusual files that are read where their meaning is clear, with a note about it.
 
 use crate::common::{Folder, all_frames, bytes, npy, npz};
 use pliant_io::{Body, OpenOptions, Positions, Precision, Reason};
 use zip::CompressionMethod;
 
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n";
-const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
-    element face 2\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n";
-const STL: &str = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n\
+const PLY: &str = "ply\nformat ascii 1.0\n\
+    element vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 2\nproperty list uchar int vertex_index\nend_header\n\
+    0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n";
+const STL: &str = "solid a\nfacet normal 0 0 1\n\
+    outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n\
     endsolid a\n";
 
 fn notes(body: &Body) -> String {
@@ -27,7 +30,7 @@ fn lines_of_old_macs_are_lines() {
             all_frames(&mut body).unwrap(),
             all_frames(&mut whole).unwrap()
         );
-        // A line that is wrong has its number.
+        // A malformed line is named by its number.
         let wrong = text.replacen("0 1 0", "0 one 0", 1);
         let lines = text.split_once("0 1 0").unwrap().0.matches('\n').count();
         let message = folder.write(name, wrong.replace('\n', "\r")).error(name);
@@ -37,8 +40,9 @@ fn lines_of_old_macs_are_lines() {
         );
     }
     // The data of a binary file begins where its header ends, whatever its first byte is.
-    let header = "ply\rformat binary_little_endian 1.0\relement vertex 3\rproperty float x\rproperty float y\r\
-        property float z\relement face 1\rproperty list uchar int vertex_index\rend_header\r";
+    let header = "ply\rformat binary_little_endian 1.0\r\
+        element vertex 3\rproperty float x\rproperty float y\rproperty float z\r\
+        element face 1\rproperty list uchar int vertex_index\rend_header\r";
     let first = f32::from_le_bytes([b'\n', b'\r', b'\n', 0x3f]);
     let corners = [first, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
     let mut file = header.as_bytes().to_vec();
@@ -72,11 +76,11 @@ fn an_stl_file_may_lack_its_end() {
         (STL.to_owned(), ""),
         (
             STL.replace("endsolid a", "end solid"),
-            "ends with \"end solid\", in place of \"endsolid\"; what stands before it is read",
+            "ends with \"end solid\" in place of \"endsolid\"; all its triangles were read",
         ),
         (
             STL.replace("endsolid a\n", ""),
-            "ends behind a triangle, without \"endsolid\"; what stands before it is read",
+            "ends without \"endsolid\"; all its triangles were read",
         ),
     ] {
         let body = folder.write("a.stl", text).open("a.stl").unwrap();
@@ -132,23 +136,27 @@ fn what_git_lfs_left_is_named_in_every_format() {
             assert!(message.contains("Git LFS pointer"), "{message}");
         }
     }
-    // A buffer beside a file, and no more than a beginning.
-    let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":132,"uri":"a.pc2"}],"bufferViews":[{"buffer":0,"byteLength":36}],
-        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
-        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]}"#;
+    // A buffer beside a file; and a pointer that is cut short.
+    let gltf = concat!(
+        r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":132,"uri":"a.pc2"}],"#,
+        r#""bufferViews":[{"buffer":0,"byteLength":36}],"#,
+        r#""accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"#,
+        r#""meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"#,
+        r#""scenes":[{"nodes":[0]}]}"#,
+    );
     let message = folder.write("b.gltf", gltf).error("b.gltf");
     assert!(message.contains("Git LFS pointer"), "{message}");
     let message = folder.write("a.obj", &pointer[..20]).error("a.obj");
     assert_eq!(message, "a.obj: holds no vertices");
 }
 
-/// Two frames of four vertices, as whole numbers that every type holds.
+/// Two frames of four vertices, as integers that every type holds.
 const NUMBERS: [u8; 24] = [
     0, 0, 0, 3, 0, 0, 0, 3, 0, 0, 0, 3, 1, 1, 1, 5, 1, 1, 1, 5, 1, 1, 1, 5,
 ];
 const FACES: [u8; 6] = [0, 1, 2, 0, 2, 3];
 
-/// The same numbers, the first index fastest.
+/// The numbers in Fortran order: the first index varies fastest.
 fn by_columns<T: Copy>(numbers: &[T], shape: &[usize]) -> Vec<T> {
     let mut columns = Vec::new();
     for at in 0..numbers.len() {
@@ -185,9 +193,9 @@ fn frames(body: &mut Body) -> Vec<Vec<[f64; 3]>> {
 
 type Written = (&'static str, Vec<u8>, Precision);
 
-/// The numbers in every type but the two that are usual.
+/// The numbers in every type except the two usual ones.
 fn types(numbers: &[u8]) -> Vec<Written> {
-    // Small whole numbers in half precision: 2^p (1 + f / 1024).
+    // Small integers in half precision: 2^p (1 + f / 1024).
     let half = |x: u8| match x {
         0 => 0_u16,
         x => {
@@ -265,7 +273,7 @@ fn arrays_of_every_type_name_and_order() {
             }
         }
     }
-    // Nothing is said of what is usual.
+    // Usual arrays are not noted.
     let data = bytes(&NUMBERS, |x| f32::from(x).to_le_bytes());
     let usual = [
         ("v", npy("|O", false, &[1], &[])),
@@ -274,7 +282,7 @@ fn arrays_of_every_type_name_and_order() {
     ];
     folder.write("a.npz", npz(CompressionMethod::DEFLATE, &usual));
     assert_eq!(notes(&folder.open("a.npz").unwrap()), "");
-    // Which is meant is not clear.
+    // Two candidates: it is not clear which is meant.
     let unclear = [
         ("v", usual[1].1.clone()),
         ("verts", usual[1].1.clone()),
@@ -282,7 +290,7 @@ fn arrays_of_every_type_name_and_order() {
     ];
     folder.write("a.npz", npz(CompressionMethod::DEFLATE, &unclear));
     assert!(folder.error("a.npz").ends_with("it holds: v, verts, faces"));
-    // What double precision does not hold is not rounded.
+    // Integers beyond double precision are not rounded.
     let large = bytes(&[1_i64, 1 << 53, 0, 0, 0, 0, 0, 0, 0], i64::to_le_bytes);
     let large = [
         ("v", npy("<i8", false, &[3, 3], &large)),

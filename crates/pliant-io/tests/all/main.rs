@@ -1,4 +1,5 @@
-//! The tests of the crate, one file a module, in one program: a program each is linked with the whole library each time.
+//! All integration tests of the crate in one program, since each program is linked separately.
+//!
 //! One file: `cargo test -p pliant-io --test all caches::`.
 
 mod caches;

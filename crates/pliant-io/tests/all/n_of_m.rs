@@ -1,5 +1,7 @@
-//! Small glTF files that say "n of m": n nodes, each with the m weights or the name of m letters of one mesh. What is held is shared or
-//! counted, so that the memory allocated keeps to the limit, or the file is refused with it; measured allocation by allocation.
+//! Small glTF files that say "n of m": n nodes that each repeat m weights or m letters of one mesh.
+//!
+//! Such data are shared or counted. So the allocated memory stays within the limit, or the file is
+//! refused by it; every allocation is measured.
 
 use crate::common::Folder;
 use allocation_counter::measure;
@@ -8,14 +10,16 @@ use base64::engine::general_purpose::STANDARD;
 use pliant_io::{Body, OpenOptions, Reason, open_all};
 use serde_json::{Value, json};
 
-/// A limit that all of the files, as they are in memory after parsing, stay well below.
+/// A limit in bytes that all the parsed files stay well below.
 const LIMIT: u64 = 64 << 20;
 
-/// Beside what is counted: the text of a file, what a parser keeps meanwhile, room for arrays that begin (a body has few, and a large
-/// one's room that is not used yet takes no memory, but is allocated).
+/// Allowance in bytes for memory that is not counted.
+///
+/// That is the text of a file, the state of the parser, and unused capacity. A few arrays of each
+/// body begin with some; of a large one the unused part is allocated, but takes no memory.
 const BESIDE: u64 = 48 << 20;
 
-/// `n` nodes with one mesh of one triangle.
+/// A file of `n` nodes with one mesh of one triangle.
 fn scene(n: usize) -> Value {
     let corners: [f32; 9] = [0., 0., 0., 1., 0., 0., 0., 1., 0.];
     let bytes = corners.map(f32::to_le_bytes).concat();
@@ -29,7 +33,9 @@ fn scene(n: usize) -> Value {
     })
 }
 
-/// Opens the bodies of a file within [`LIMIT`]; fails if more is allocated at once. Returns them and the bytes.
+/// Opens the bodies of a file within [`LIMIT`]; returns them and the bytes allocated.
+///
+/// Fails if more is allocated at once.
 fn opened(file: &Value) -> (Result<Vec<Body>, pliant_io::Error>, u64) {
     let folder = Folder::new();
     let text = file.to_string();
@@ -58,7 +64,7 @@ fn refused(file: &Value) {
     assert!(is_limit, "{error}");
 }
 
-/// 10,000 nodes that share the 10,000 weights of a mesh: each with its own they would be 800 MB.
+/// 10,000 nodes that share the 10,000 weights of a mesh: separately they would take 800 MB.
 #[test]
 fn weights_of_a_mesh_are_shared_by_its_nodes() {
     let mut file = scene(10_000);
@@ -73,7 +79,7 @@ fn names_of_a_mesh_are_counted_for_each_of_its_nodes() {
     let mut file = scene(2_000);
     file["meshes"][0]["name"] = "a".repeat(100_000).into();
     refused(&file);
-    // Within the limit they are as they are in the file.
+    // Within the limit, names are as in the file.
     let mut file = scene(20);
     file["meshes"][0]["name"] = "a".repeat(100_000).into();
     let bodies = opened(&file).0.unwrap();
@@ -81,7 +87,7 @@ fn names_of_a_mesh_are_counted_for_each_of_its_nodes() {
     assert!(bodies[19].name().ends_with(&ending));
 }
 
-/// 2,000 bodies that stand still in a clip of one moment, whose name is 100,000 letters long.
+/// 2,000 bodies that stand still in a clip of zero length, whose name is 100,000 letters long.
 #[test]
 fn the_name_of_a_clip_is_shared_by_its_bodies() {
     let mut file = scene(2_001);
@@ -102,7 +108,7 @@ fn the_name_of_a_clip_is_shared_by_its_bodies() {
     assert!(bodies.iter().all(|body| body.clip() == Some(&name)));
 }
 
-/// 4,000 nodes whose 4,000 morph targets a clip moves: the weights of a frame are 128 MB.
+/// 4,000 nodes whose 4,000 morph targets a clip moves: the weights of a frame take 128 MB.
 #[test]
 fn weights_that_a_clip_gives_to_morph_targets_are_counted() {
     let mut file = scene(4_000);
@@ -114,7 +120,10 @@ fn weights_that_a_clip_gives_to_morph_targets_are_counted() {
         json!({"byteLength": 16_000, "uri": format!("data:;base64,{zeros}")}),
     );
     more("bufferViews", json!({"buffer": 1, "byteLength": 16_000}));
-    let numbers = |count: u32| json!({"bufferView": 1, "componentType": 5126, "count": count, "type": "SCALAR"});
+    let numbers = |count: u32| {
+        json!({"bufferView": 1, "componentType": 5126, "count": count,
+        "type": "SCALAR"})
+    };
     let accessors = file["accessors"].as_array_mut().unwrap();
     accessors.extend([numbers(1), numbers(4_000)]);
     let channel = |node: usize| json!({"sampler": 0, "target": {"node": node, "path": "weights"}});
@@ -130,8 +139,10 @@ fn weights_that_a_clip_gives_to_morph_targets_are_counted() {
     assert_eq!(opened(&file).0.unwrap().len(), 4_000);
 }
 
-/// 50,000 morph targets that are the same 50,000 zeros are read once; 1,000 that are different zeros are refused: to look at all of
-/// them, and of larger files, would take minutes and hours.
+/// 50,000 morph targets that are the same 50,000 zeros are read once; 1,000 different ones are
+/// refused.
+///
+/// To read them all, and the ones of larger files, would take minutes and hours.
 #[test]
 fn morph_targets_that_move_nothing_take_no_time() {
     let folder = Folder::new();
@@ -148,7 +159,7 @@ fn morph_targets_that_move_nothing_take_no_time() {
     let targets = |file: &mut Value, accessors: &mut dyn Iterator<Item = usize>| {
         let target = |accessor: usize| json!({"POSITION": accessor});
         let primitive = &mut file["meshes"][0]["primitives"][0];
-        // Strips of one place: no time goes into triangles.
+        // Strips of one place: triangles take no time.
         primitive["indices"] = json!(0);
         primitive["targets"] = accessors.map(target).collect();
     };
@@ -157,7 +168,7 @@ fn morph_targets_that_move_nothing_take_no_time() {
     targets(&mut file, &mut std::iter::repeat_n(1, 50_000));
     file["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(1);
     let read = measure(|| assert_eq!(open(&file).unwrap().vertex_count(), rows));
-    // Each on its own would take 600 KB.
+    // Separate copies would take 600 KB each.
     let total = read.bytes_total;
     assert!(
         total < 1 << 30,
@@ -170,10 +181,12 @@ fn morph_targets_that_move_nothing_take_no_time() {
         .extend(vec![zeros; 1_000]);
     targets(&mut file, &mut (2..1_002));
     let error = open(&file).unwrap_err();
-    let said = "times that a vertex stays where it is";
+    let said = "zero displacements, the most that are read; sparse accessors leave them out";
     assert!(
         error.to_string().ends_with(said)
-            && error.to_string().contains("mesh 0: its morph targets say"),
+            && error
+                .to_string()
+                .contains("mesh 0: its morph targets hold more than"),
         "{error}"
     );
 }

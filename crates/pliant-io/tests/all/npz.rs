@@ -1,4 +1,4 @@
-//! NPZ: types, orders, compression, several frames in several files, and files that lie.
+//! NPZ files: types, orders, compression, frames in several files, and false claims.
 
 use crate::common::{Folder, all_frames, bytes, npy, npz};
 use pliant_io::{Body, Error, OpenOptions, Positions, Precision};
@@ -212,7 +212,7 @@ fn the_frames_of_several_files_follow_one_another() {
     assert!(
         folder
             .error("a*.npz")
-            .starts_with("a2.npz, array `faces`: face 0 is not that of a1.npz")
+            .starts_with("a2.npz, array `faces`: face 0 has other corners than in a1.npz")
     );
 
     let mut body = folder.open("a1*.npz").unwrap();
@@ -240,7 +240,8 @@ fn arrays_of_other_kinds_are_refused_with_advice() {
         assert_eq!(
             message,
             format!(
-                "a.npz, array `vertices`: type {dtype} cannot be read; save vertices.astype(np.float32), or float64"
+                "a.npz, array `vertices`: type {dtype} cannot be read; save \
+                 vertices.astype(np.float32), or float64"
             )
         );
     }
@@ -288,7 +289,8 @@ fn arrays_of_other_kinds_are_refused_with_advice() {
 fn missing_arrays_are_named() {
     assert_eq!(
         error(npz(STORED, &[("points", vertices(3)), ("faces", faces())])),
-        "a.npz: has no array `vertices`; save it as numpy.savez(file, vertices=..., faces=...); it holds: points, faces"
+        "a.npz: has no array `vertices`; save it as numpy.savez(file, vertices=..., faces=...); \
+         it holds: points, faces"
     );
     assert!(
         error(npz(STORED, &[("vertices", vertices(3))]))
@@ -346,7 +348,7 @@ fn data_that_does_not_fill_the_shape_names_the_frame() {
     );
 }
 
-/// Where `needle` lies in `file`, from the end.
+/// Position of the last `needle` in `file`.
 fn last(file: &[u8], needle: &[u8]) -> usize {
     file.windows(needle.len())
         .rposition(|window| window == needle)
@@ -377,8 +379,7 @@ fn damage_is_found_by_the_checksum() {
 
 #[test]
 fn a_directory_that_announces_too_much_is_found_out_in_the_stream() {
-    // The sizes of `vertices` in the directory, made to fit a shape of one frame more than there
-    // is.
+    // The sizes of `vertices` in the directory are set to a shape with one frame too many.
     let mut file = npz(
         DEFLATED,
         &[
@@ -395,7 +396,7 @@ fn a_directory_that_announces_too_much_is_found_out_in_the_stream() {
         message.contains("the shape needs 144 bytes, the file announces 192"),
         "{message}"
     );
-    // The same lie, and a shape that goes with it.
+    // The same false size, with a shape that matches it.
     let mut file = npz(
         DEFLATED,
         &[
@@ -417,7 +418,7 @@ fn a_directory_that_announces_too_much_is_found_out_in_the_stream() {
 
 #[test]
 fn data_beyond_what_the_directory_announces_is_found_out() {
-    // A size and a checksum that fit the first two of three frames.
+    // A size and a checksum that match the first two of three frames.
     let array = npy(
         "<f4",
         false,

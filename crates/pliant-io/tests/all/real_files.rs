@@ -1,5 +1,6 @@
-//! Real files that are not part of this repository; where they are absent the tests say so and
-//! pass.
+//! Real files that are not part of this repository.
+//!
+//! Where they are absent the tests say so and pass.
 
 use std::path::{Path, PathBuf};
 

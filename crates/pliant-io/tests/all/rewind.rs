@@ -1,11 +1,11 @@
-//! A body that is read twice: the same frames, and no file that is another one meanwhile.
+//! Bodies that are read twice: the same frames, and no file that has changed meanwhile.
 
 use crate::common::{Folder, all_frames, npy, npz, tetrahedron};
 use pliant_io::{Body, OpenOptions, Reason, Shape, WriteOptions, Writer};
 use std::path::Path;
 use zip::CompressionMethod;
 
-/// Three frames as files, and three as one file that is deflated and cannot be sought in.
+/// Three frames as files, and three in one deflated file, in which no reader can seek.
 fn folder() -> Folder {
     let folder = Folder::new();
     for frame in 0..3 {
@@ -42,7 +42,7 @@ fn folder() -> Folder {
     folder
 }
 
-/// Writes the body that is called `from` as `to`.
+/// Writes the body `from` as `to`.
 fn convert(folder: &Folder, from: &str, to: &str) {
     let mut body = folder.open(from).unwrap();
     let shape = Shape {
@@ -60,7 +60,7 @@ fn convert(folder: &Folder, from: &str, to: &str) {
     writer.finish().unwrap();
 }
 
-/// All kinds of bodies: the arguments that name them.
+/// Arguments that name bodies of all kinds.
 fn every_kind(folder: &Folder) -> Vec<String> {
     let path = folder.path().display();
     let caches = ["pc2", "mdd"].map(|ending| format!("{path}/m.obj+{path}/s.{ending}"));
@@ -107,7 +107,7 @@ fn frames_come_again_from_wherever_the_reading_was() {
                     }
                     body.rewind().unwrap();
                     body.rewind().unwrap();
-                    // From the beginning, and from somewhere else.
+                    // From the beginning, and from another frame.
                     let case = format!("{argument} {number} after {passed_over} and {read}");
                     body.skip(passed_over);
                     assert_eq!(all_frames(&mut body).unwrap(), all[passed_over..], "{case}");
@@ -147,7 +147,7 @@ fn a_file_that_changed_meanwhile_is_refused() {
     assert!(matches!(again.reason(), Reason::AfterError), "{again}");
     assert!(body.next_frame().is_err());
 
-    // A cache stays open, and a change in it is seen all the same.
+    // A cache stays open, and yet a change in it is noticed.
     let caches = every_kind(&folder).split_off(5);
     for cache in caches {
         let mut body = pliant_io::open(&cache, &OpenOptions::default()).unwrap();
@@ -161,7 +161,7 @@ fn a_file_that_changed_meanwhile_is_refused() {
     }
 }
 
-/// Each frame as its triangles, positions, and how many vertices were welded.
+/// Triangles, number of vertices and number of welded vertices of each frame.
 fn meshes(body: &mut Body) -> Vec<(Vec<[u32; 3]>, usize, usize)> {
     let mut meshes = Vec::new();
     while let Some(positions) = body.next_frame().unwrap() {
@@ -171,8 +171,9 @@ fn meshes(body: &mut Body) -> Vec<(Vec<[u32; 3]>, usize, usize)> {
     meshes
 }
 
-/// Of a body whose mesh changes a frame is the same whether those before it were read, passed over, or read twice; and its seams are
-/// its own.
+/// A frame of a changing mesh is the same whether earlier ones were read, skipped or read twice.
+///
+/// Its seams are its own.
 #[test]
 fn a_mesh_that_changes_is_that_of_its_file_whatever_was_read_before() {
     // Two triangles that share the places of an edge, or do not.
@@ -243,9 +244,11 @@ fn a_mesh_that_changes_is_that_of_its_file_whatever_was_read_before() {
         }
     }
 
-    // Whatever else is wrong is an error, and so is a precision that is higher.
-    let ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
-        element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    // Any other fault is an error, and so is a higher precision.
+    let ply = "ply\nformat ascii 1.0\n\
+        element vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 1\nproperty list uchar int vertex_index\nend_header\n\
+        0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     let four = ply
         .replace("vertex 3", "vertex 4")
         .replace("0 0 0", "0 0 0\n0 0 2");

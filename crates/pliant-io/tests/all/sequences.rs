@@ -1,4 +1,4 @@
-//! Arguments become bodies: files, patterns, order, and what all frames of a body must agree in.
+//! Arguments become bodies: files, patterns, order, and agreement between the frames of a body.
 
 use crate::common::{Folder, all_frames, tetrahedron};
 use pliant_io::{Error, OpenOptions, Place, Precision, Reason};
@@ -57,7 +57,8 @@ fn an_existing_file_wins_over_its_reading_as_a_pattern() {
 #[test]
 fn frames_may_be_files_of_different_kinds() {
     let folder = Folder::new();
-    let ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+    let ply = "ply\nformat ascii 1.0\n\
+        element vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
         element face 4\nproperty list uchar int vertex_index\nend_header\n\
         0 0 0\n1 0 0\n0 1 0\n0 0 .1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
     folder
@@ -67,7 +68,8 @@ fn frames_may_be_files_of_different_kinds() {
     folder.write("t0.ply", ply);
     assert_eq!(
         folder.error("t*"),
-        "t1.obj: holds 64-bit coordinates, but the body began with 32-bit ones in t0.ply; convert the frames to one type"
+        "t1.obj: holds 64-bit coordinates, but the body began with 32-bit ones in t0.ply; convert \
+         the frames to one type"
     );
 }
 
@@ -81,7 +83,9 @@ fn what_names_nothing_readable_is_an_error() {
         .write("t.npz", "")
         .write("cut.obj", "v 0 0");
     std::fs::create_dir(folder.path().join("d.obj")).unwrap();
-    let readable = "a frame a file: .obj, .ply, .stl; a sequence a file: .npz, .glb, .gltf, .vrm; positions beside a mesh: 'mesh.obj+positions.pc2', .mdd, .npy";
+    let readable = "one frame per file (.obj, .ply, .stl); \
+        a sequence per file (.npz, .glb, .gltf, .vrm); \
+        positions beside a mesh ('mesh.obj+positions.pc2', .mdd, .npy)";
     assert_eq!(folder.error("none.obj"), "none.obj: no such file");
     assert_eq!(
         folder.error("none_*.obj"),
@@ -99,11 +103,11 @@ fn what_names_nothing_readable_is_an_error() {
     );
     assert_eq!(
         folder.error("t.npt"),
-        format!("t.npt: this kind of file cannot be read; what can: {readable}")
+        format!("t.npt: this kind of file cannot be read; these can: {readable}")
     );
     assert_eq!(
         folder.error("t.npt*"),
-        format!("t.npt: this kind of file cannot be read; what can: {readable}")
+        format!("t.npt: this kind of file cannot be read; these can: {readable}")
     );
     assert_eq!(folder.error("t.obj"), "t.obj: holds no vertices");
     assert_eq!(folder.error("t.ply"), "t.ply: is empty");
@@ -148,9 +152,10 @@ fn faces_must_agree() {
     let error = body.next_frame().unwrap_err();
     assert_eq!(error.file(), folder.path().join("t2.obj"));
     assert_eq!(error.place(), &Place::Line(7));
-    assert!(
-        matches!(error.reason(), Reason::FacesDiffer { face: 2, than } if *than == folder.path().join("t1.obj"))
-    );
+    assert!(matches!(
+        error.reason(),
+        Reason::FacesDiffer { face: 2, than } if *than == folder.path().join("t1.obj")
+    ));
     let after: Error = body.next_frame().unwrap_err();
     assert!(
         matches!(after.reason(), Reason::AfterError),
@@ -208,7 +213,7 @@ fn polygons_carry_their_number() {
     assert!(
         folder
             .error("b*.obj")
-            .starts_with("b2.obj, line 10: face 1 is not that of b1.obj")
+            .starts_with("b2.obj, line 10: face 1 has other corners than in b1.obj")
     );
 }
 
@@ -229,11 +234,13 @@ fn a_file_that_goes_away_is_an_error() {
 #[test]
 fn memory_is_limited_by_what_is_held() {
     let folder = Folder::new();
-    // Four vertices of 24 bytes, four triangles of 12; in the second, one of 6 with what says which polygon it is of.
+    // Four vertices of 24 bytes, and four triangles of 12. The second file has six triangles of 16,
+    // with their polygons.
     folder
         .write("t.obj", tetrahedron(1.0))
         .write("q.obj", tetrahedron(1.0) + "f 1 2 3 4\n");
-    let ascii = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
+    let ascii = "ply\nformat ascii 1.0\n\
+        element vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
         element face 4\nproperty list uchar int vertex_index\nend_header\n\
         0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
     folder.write("t.ply", ascii);
@@ -270,7 +277,7 @@ fn memory_is_limited_by_what_is_held() {
     let polygons = frame + 2 * 12 + 6 * 4;
     assert!(open("q.obj", false, polygons).is_ok());
     assert!(open("q.obj", false, polygons - 1).is_err());
-    // Later frames take the place of the first, beside what was welded.
+    // Later frames replace the first; welding is held beside them.
     folder
         .write("t2.obj", tetrahedron(2.0))
         .write("t1.obj", tetrahedron(3.0));

@@ -1,4 +1,6 @@
-//! NPZ archives that lie: about where their arrays are, how long, how written and how called. Each ends in frames or in one line.
+//! NPZ archives with false claims about the place, length, encoding or names of their arrays.
+//!
+//! Each gives frames or an error of one line.
 
 use crate::common::{Folder, all_frames, bytes, npy, npz};
 use zip::CompressionMethod;
@@ -24,7 +26,7 @@ fn valid(method: CompressionMethod) -> Vec<u8> {
     )
 }
 
-/// Where the records of the directory, and its end, begin.
+/// Offsets of the records of the directory, and of its end.
 fn places(file: &[u8]) -> ([usize; 2], usize) {
     let all = |mark: &[u8]| -> Vec<usize> {
         let windows = file.windows(4).enumerate();
@@ -48,13 +50,14 @@ fn get(file: &[u8], at: usize) -> u32 {
     u32::from_le_bytes(file[at..at + 4].try_into().unwrap())
 }
 
-/// What is done to an archive: to the record of `vertices`, of `faces`, or to the end.
+/// A change to an archive, given the records of `vertices` and `faces`, and the end.
 type Lie = fn(&mut Vec<u8>, [usize; 2], usize);
 
 #[test]
 #[expect(clippy::too_many_lines, reason = "a table")]
 fn archives_that_lie() {
-    // In a record: flags at 8, method 10, checksum 16, compressed 20, unpacked 24, length of the name 28, place 42, name 46.
+    // In a record: flags at 8, method 10, checksum 16, compressed size 20, size 24, length of the
+    // name 28, offset 42, name 46.
     let lies: &[(&str, CompressionMethod, Lie, &str)] = &[
         (
             "both arrays are the same bytes",
@@ -191,7 +194,7 @@ fn archives_that_lie() {
             "a directory where the data is",
             STORED,
             |file, _, end| put(file, end + 16, 0),
-            "a record of its directory is none",
+            "a record of its directory has a wrong signature",
         ),
         (
             "a directory that is the end of itself",
@@ -243,7 +246,7 @@ fn archives_that_lie() {
             |file, [vertices, faces], _| {
                 file[faces + 46..faces + 55].copy_from_slice(b"faces.npy");
                 let record = file[faces..faces + 55].to_vec();
-                // In the place of both, one record twice.
+                // One record twice replaces both.
                 file.splice(vertices..faces + 55, [&record[..], &record].concat());
             },
             "has no array `vertices`",
@@ -262,7 +265,7 @@ fn archives_that_lie() {
             .open("a.npz")
             .and_then(|mut body| all_frames(&mut body));
         let said = match read {
-            // Where it makes no difference.
+            // The false claim makes no difference.
             Ok(frames) => {
                 let is_right = frames.len() == 2 && frames[1][3] == [21.0, 22.0, 23.0];
                 let right = if is_right && words.is_empty() {

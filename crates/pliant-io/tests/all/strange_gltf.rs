@@ -1,5 +1,7 @@
-//! glTF files from strangers: counts, offsets and strides that overflow or overlap, numbers that are not finite, nodes that go
-//! round, and buffers that are somewhere else or no files. Each ends in frames or in one line that names the file.
+//! Malformed and hostile glTF files: each gives frames or an error of one line that names the file.
+//!
+//! Among them are counts, offsets and strides that overflow or overlap, and numbers that are not
+//! finite. Nodes form cycles, and buffers are elsewhere or are no files.
 
 use crate::common::{Folder, all_frames};
 use crate::gltf::triangle;
@@ -9,7 +11,7 @@ use base64::engine::general_purpose::STANDARD;
 use pliant_io::{OpenOptions, Reason};
 use serde_json::{Value, json};
 
-/// What is done to the valid file.
+/// A change to the valid file.
 type Change = fn(&mut Value);
 
 fn changed(change: Change) -> String {
@@ -18,7 +20,7 @@ fn changed(change: Change) -> String {
     file.to_string()
 }
 
-/// The bytes that are in the JSON.
+/// The bytes in the JSON.
 fn data(file: &Value) -> Vec<u8> {
     let uri = file["buffers"][0]["uri"].as_str().unwrap();
     STANDARD.decode(uri.rsplit_once(',').unwrap().1).unwrap()
@@ -32,14 +34,14 @@ fn set_data(file: &mut Value, bytes: &[u8]) {
     });
 }
 
-/// Writes a number over the four bytes `at` a place.
+/// Overwrites the four bytes `at` an offset by a number.
 fn put(file: &mut Value, at: usize, number: f32) {
     let mut bytes = data(file);
     bytes[at..at + 4].copy_from_slice(&number.to_le_bytes());
     set_data(file, &bytes);
 }
 
-/// Appends numbers as rows of an accessor of their own; returns its number.
+/// Appends numbers as rows of a new accessor; returns its number.
 fn append(file: &mut Value, shape: &str, count: usize, numbers: &[f32]) -> usize {
     let mut bytes = data(file);
     let at = bytes.len();
@@ -47,12 +49,13 @@ fn append(file: &mut Value, shape: &str, count: usize, numbers: &[f32]) -> usize
     set_data(file, &bytes);
     let accessors = file["accessors"].as_array_mut().unwrap();
     accessors.push(
-        json!({"bufferView": 0, "byteOffset": at, "componentType": 5126, "count": count, "type": shape}),
+        json!({"bufferView": 0, "byteOffset": at, "componentType": 5126, "count": count,
+            "type": shape}),
     );
     accessors.len() - 1
 }
 
-/// The one animation moves this of node 1 instead, between two keys.
+/// Makes the only animation move this property of node 1, between two keys.
 fn animate(file: &mut Value, path: &str, shape: &str, interpolation: &str, numbers: &[f32]) {
     let width = if shape == "VEC4" { 4 } else { 3 };
     let output = append(file, shape, numbers.len() / width, numbers);
@@ -61,7 +64,7 @@ fn animate(file: &mut Value, path: &str, shape: &str, interpolation: &str, numbe
         json!({"input": 3, "output": output, "interpolation": interpolation});
 }
 
-/// Fails unless each is refused by one line that begins with the file and has these words.
+/// Checks that each file is refused by one line that begins with the file and has these words.
 fn assert_refused(table: &[(Change, &str)]) {
     let folder = Folder::new();
     let mut wrong = Vec::new();
@@ -91,7 +94,7 @@ fn sparse(file: &mut Value, sparse: Value) {
 fn counts_offsets_and_strides_that_overflow() {
     const MOST: u64 = u64::MAX;
     assert_refused(&[
-        // Behind other vertices, their number has no room in 64 bits.
+        // Behind other vertices, their number exceeds 64 bits.
         (
             |file| {
                 let many =
@@ -138,7 +141,7 @@ fn counts_offsets_and_strides_that_overflow() {
                 file["buffers"][0]["byteLength"] = json!(MOST);
                 file["accessors"][0]["byteOffset"] = json!(MOST - 40);
             },
-            "are asked for, it has 128",
+            "are needed, but it has 128",
         ),
         (
             |file| {
@@ -150,15 +153,15 @@ fn counts_offsets_and_strides_that_overflow() {
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(0),
-            "cannot be 0 bytes apart",
+            "byteStride 0 is too small for rows of 12 bytes",
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(253),
-            "cannot be 253 bytes apart",
+            "byteStride 253 is above 252",
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(MOST),
-            "cannot be 18446744073709551615 bytes apart",
+            "byteStride 18446744073709551615 is above 252",
         ),
         (
             |file| file["bufferViews"][0]["byteStride"] = json!(252),
@@ -168,7 +171,8 @@ fn counts_offsets_and_strides_that_overflow() {
             |file| {
                 sparse(
                     file,
-                    json!({"count": MOST, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}}),
+                    json!({"count": MOST, "indices": {"bufferView": 0, "componentType": 5121},
+                        "values": {"bufferView": 0}}),
                 );
             },
             "18446744073709551615 rows from byte 0 on do not fit",
@@ -177,43 +181,38 @@ fn counts_offsets_and_strides_that_overflow() {
             |file| {
                 sparse(
                     file,
-                    json!({"count": 20, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}}),
+                    json!({"count": 20, "indices": {"bufferView": 0, "componentType": 5121},
+                        "values": {"bufferView": 0}}),
                 );
             },
-            "sparse index 0 does not rise",
+            "sparse index 0 is not larger than",
         ),
         (
             |file| {
                 sparse(
                     file,
-                    json!({"count": 1, "indices": {"bufferView": 0, "byteOffset": 50, "componentType": 5121}, "values": {"bufferView": 0}}),
+                    json!({"count": 1, "indices": {"bufferView": 0, "byteOffset": 50,
+                        "componentType": 5121}, "values": {"bufferView": 0}}),
                 );
             },
-            "sparse index 128 does not rise, or is not below 3",
+            "sparse index 128 is not below the 3 rows",
         ),
         (
             |file| {
                 sparse(
                     file,
-                    json!({"count": 3, "indices": {"bufferView": 0, "byteOffset": 36, "componentType": 5121}, "values": {"bufferView": 0}}),
+                    json!({"count": 3, "indices": {"bufferView": 0, "byteOffset": 36,
+                        "componentType": 5121}, "values": {"bufferView": 0}}),
                 );
             },
-            "sparse index 0 does not rise",
+            "sparse index 0 is not larger than",
         ),
         (
             |file| {
                 sparse(
                     file,
-                    json!({"count": 1, "indices": {"bufferView": 0, "byteOffset": MOST, "componentType": 5125}, "values": {"bufferView": 0}}),
-                );
-            },
-            "1 rows from byte 18446744073709551615 on do not fit",
-        ),
-        (
-            |file| {
-                sparse(
-                    file,
-                    json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 0, "byteOffset": MOST}}),
+                    json!({"count": 1, "indices": {"bufferView": 0, "byteOffset": MOST,
+                        "componentType": 5125}, "values": {"bufferView": 0}}),
                 );
             },
             "1 rows from byte 18446744073709551615 on do not fit",
@@ -222,7 +221,18 @@ fn counts_offsets_and_strides_that_overflow() {
             |file| {
                 sparse(
                     file,
-                    json!({"count": 1, "indices": {"bufferView": 9, "componentType": 5125}, "values": {"bufferView": 0}}),
+                    json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5125},
+                        "values": {"bufferView": 0, "byteOffset": MOST}}),
+                );
+            },
+            "1 rows from byte 18446744073709551615 on do not fit",
+        ),
+        (
+            |file| {
+                sparse(
+                    file,
+                    json!({"count": 1, "indices": {"bufferView": 9, "componentType": 5125},
+                        "values": {"bufferView": 0}}),
                 );
             },
             "there is no buffer view 9",
@@ -231,7 +241,8 @@ fn counts_offsets_and_strides_that_overflow() {
             |file| {
                 sparse(
                     file,
-                    json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 9}}),
+                    json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5125},
+                        "values": {"bufferView": 9}}),
                 );
             },
             "there is no buffer view 9",
@@ -240,7 +251,8 @@ fn counts_offsets_and_strides_that_overflow() {
             |file| {
                 sparse(
                     file,
-                    json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5126}, "values": {"bufferView": 0}}),
+                    json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5126},
+                        "values": {"bufferView": 0}}),
                 );
             },
             "sparse indices must be whole numbers from 0",
@@ -249,15 +261,18 @@ fn counts_offsets_and_strides_that_overflow() {
             |file| {
                 sparse(
                     file,
-                    json!({"count": -1, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}}),
+                    json!({"count": -1, "indices": {"bufferView": 0, "componentType": 5121},
+                        "values": {"bufferView": 0}}),
                 );
             },
-            "not that of a glTF file",
+            "does not describe a glTF file",
         ),
         (
             |file| {
                 let matrices = append(file, "MAT4", 1, &[0.0; 16]);
-                file["accessors"][matrices]["sparse"] = json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}});
+                file["accessors"][matrices]["sparse"] = json!({"count": 1,
+                    "indices": {"bufferView": 0, "componentType": 5121},
+                        "values": {"bufferView": 0}});
                 file["skins"][0]["inverseBindMatrices"] = json!(matrices);
             },
             "matrices in a sparse accessor are not evaluated",
@@ -267,18 +282,26 @@ fn counts_offsets_and_strides_that_overflow() {
                 let matrices = append(file, "MAT4", 1, &[0.0; 16]);
                 file["skins"][0]["inverseBindMatrices"] = json!(matrices);
             },
-            "1 matrices for 2 joints",
+            "has 1 inverse bind matrices for 2 joints",
         ),
         (
             |file| {
-                file["accessors"].as_array_mut().unwrap().push(json!({"bufferView": 0, "byteOffset": 36, "componentType": 5121, "count": MOST, "type": "SCALAR"}));
+                file["accessors"]
+                    .as_array_mut()
+                    .unwrap()
+                    .push(json!({"bufferView": 0,
+                    "byteOffset": 36, "componentType": 5121, "count": MOST, "type": "SCALAR"}));
                 file["meshes"][0]["primitives"][0]["indices"] = json!(5);
             },
             "accessor 5: ends too early",
         ),
         (
             |file| {
-                file["accessors"].as_array_mut().unwrap().push(json!({"bufferView": 0, "byteOffset": 48, "componentType": 5125, "count": 3, "type": "SCALAR"}));
+                file["accessors"]
+                    .as_array_mut()
+                    .unwrap()
+                    .push(json!({"bufferView": 0,
+                    "byteOffset": 48, "componentType": 5125, "count": 3, "type": "SCALAR"}));
                 file["meshes"][0]["primitives"][0]["indices"] = json!(5);
             },
             "face 0 uses vertex 1065353216",
@@ -297,36 +320,37 @@ fn counts_offsets_and_strides_that_overflow() {
         ),
         (
             |file| file["accessors"][0]["count"] = json!(3.5),
-            "not that of a glTF file",
+            "does not describe a glTF file",
         ),
         (
             |file| file["accessors"][0]["count"] = json!(1e30),
-            "not that of a glTF file",
+            "does not describe a glTF file",
         ),
     ]);
 }
 
-/// What lies over other data is read as what it is said to be.
+/// Bytes that belong to several accessors are read as each accessor says.
 #[test]
 fn bytes_may_be_of_more_than_one_accessor() {
     let folder = Folder::new();
     let overlapping: [Change; 4] = [
-        // Joints in the positions: where they weigh nothing, they are nobody's.
+        // Joints overlap positions: where they have no weight, they do not matter.
         |file| file["accessors"][1]["byteOffset"] = json!(0),
-        // Positions that begin in the middle of others, in views that lie over each other.
+        // Positions begin in the middle of others, in overlapping views.
         |file| {
             let views = file["bufferViews"].as_array_mut().unwrap();
             views.push(json!({"buffer": 0, "byteOffset": 4, "byteLength": 36, "byteStride": 12}));
             file["accessors"][0]["bufferView"] = json!(1);
         },
-        // Positions are replaced by themselves.
+        // Positions replace themselves.
         |file| {
             sparse(
                 file,
-                json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5121}, "values": {"bufferView": 0}}),
+                json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5121},
+                    "values": {"bufferView": 0}}),
             );
         },
-        // Not at a multiple of their size, as the format wants it; read as they are.
+        // Unaligned, against the format; read nevertheless.
         |file| {
             let mut bytes = data(file);
             bytes.push(0);
@@ -346,10 +370,10 @@ fn bytes_may_be_of_more_than_one_accessor() {
 #[expect(clippy::too_many_lines, reason = "a table")]
 fn numbers_that_are_not_finite() {
     assert_refused(&[
-        // What is nothing times a number that is none is none: of x too, where only y is.
+        // Zero times NaN is NaN, so x is NaN too though only y was.
         (|file| put(file, 16, f32::NAN), "x of vertex 1 is NaN"),
         (|file| put(file, 20, f32::INFINITY), "x of vertex 1 is NaN"),
-        // Weights of joints; as many as make nothing, too.
+        // Weights of joints; also some that sum to zero.
         (|file| put(file, 48, f32::NAN), "x of vertex 0 is NaN"),
         (|file| put(file, 48, f32::INFINITY), "x of vertex 0 is NaN"),
         (
@@ -362,22 +386,22 @@ fn numbers_that_are_not_finite() {
         // Times of keys.
         (
             |file| put(file, 96, f32::NAN),
-            "the time of key 0 does not rise",
+            "the time of key 0 is not finite",
         ),
         (
             |file| put(file, 100, f32::NAN),
-            "the time of key 1 does not rise",
+            "the time of key 1 is not finite",
         ),
         (
             |file| put(file, 96, f32::NEG_INFINITY),
-            "the time of key 0 does not rise",
+            "the time of key 0 is not finite",
         ),
         (
             |file| put(file, 100, f32::INFINITY),
-            "the time of key 1 does not rise",
+            "the time of key 1 is not finite",
         ),
         (|file| put(file, 100, f32::MAX), "more than 16777216 frames"),
-        // What is animated, between keys and at the last.
+        // Animated values, between keys and at the last.
         (
             |file| put(file, 104, f32::NAN),
             "frame 0: x of vertex 0 is NaN",
@@ -412,7 +436,7 @@ fn numbers_that_are_not_finite() {
             "frame 0: x of vertex 0 is NaN",
         ),
         (
-            // A tangent alone: it is nothing at the keys, and everywhere between them.
+            // A single tangent: it counts between the keys, but not at them.
             |file| {
                 let mut numbers = [0.0; 18];
                 numbers[6] = f32::NAN;
@@ -430,7 +454,7 @@ fn numbers_that_are_not_finite() {
             },
             "x of vertex 0 is inf",
         ),
-        // Morph targets, and what they weigh.
+        // Displacements and weights of morph targets.
         (
             |file| {
                 let deltas = append(
@@ -485,16 +509,16 @@ fn numbers_that_are_not_finite() {
             "x of vertex 1 is inf",
         ),
     ]);
-    // JSON itself has neither; a number beyond the largest is none of it.
+    // JSON has neither NaN nor infinity; a number beyond the largest is malformed.
     let folder = Folder::new();
     for number in ["1e999", "-1e999", "NaN", "Infinity", "1e"] {
         let text = changed(|file| file["nodes"][1]["translation"] = json!([0.125, 0, 0]));
         folder.write("bad.gltf", text.replace("0.125", number));
         let error = folder.error("bad.gltf");
         assert_eq!(error.lines().count(), 1, "{error}");
-        assert!(error.contains("not that of a glTF file"), "{error}");
+        assert!(error.contains("does not describe a glTF file"), "{error}");
     }
-    // What moves nothing is nobody's: the bone that it turns holds no vertex.
+    // The bone that this turns has no vertex, so it does not matter.
     folder.write(
         "unused.gltf",
         changed(|file| {
@@ -505,7 +529,7 @@ fn numbers_that_are_not_finite() {
     assert!(all_frames(&mut folder.open("unused.gltf").unwrap()).is_ok());
 }
 
-/// Numbers whose squares are beyond the largest, or below the smallest, are directions like others.
+/// Rotations whose squares overflow or underflow are normalised like others.
 #[test]
 fn rotations_of_any_length() {
     let folder = Folder::new();
@@ -528,19 +552,19 @@ fn nodes_that_go_round_and_depths() {
     assert_refused(&[
         (
             |file| file["nodes"][2]["children"] = json!([1]),
-            "is, over others, its own child",
+            "its ancestors form a cycle",
         ),
         (
             |file| file["nodes"][0]["children"] = json!([0]),
-            "node 0: is, over others, its own child",
+            "node 0: its ancestors form a cycle",
         ),
         (
-            // Two rings that nothing of the scene leads to.
+            // Two cycles that the scene does not reach.
             |file| {
                 let nodes = file["nodes"].as_array_mut().unwrap();
                 nodes.extend([json!({"children": [4]}), json!({"children": [3]})]);
             },
-            "node 3: is, over others, its own child",
+            "node 3: its ancestors form a cycle",
         ),
         (
             |file| file["nodes"][0]["children"] = json!([2]),
@@ -548,7 +572,7 @@ fn nodes_that_go_round_and_depths() {
         ),
     ]);
     let folder = Folder::new();
-    // What is passed over may be as deep as it likes; what is read has a form, and no depth.
+    // Ignored values may have any depth; values that are read have a fixed type without depth.
     let [open, close] = ["[", "]"].map(|bracket| bracket.repeat(100_000));
     let whole = changed(|file| file["extras"] = json!("deep"));
     folder.write(
@@ -562,8 +586,8 @@ fn nodes_that_go_round_and_depths() {
         whole.replace("\"deep\"", &format!("{open}{close}")),
     );
     let error = folder.error("children.gltf");
-    assert!(error.contains("not that of a glTF file"), "{error}");
-    // A root that is another's child, or is listed again and again, is shown once.
+    assert!(error.contains("does not describe a glTF file"), "{error}");
+    // A root that is another node's child, or is listed repeatedly, is shown once.
     folder.write(
         "roots.gltf",
         changed(|file| file["scenes"][0]["nodes"] = (0..50_000).map(|at| at % 3).collect()),
@@ -573,7 +597,7 @@ fn nodes_that_go_round_and_depths() {
     assert_eq!(bodies.len(), 1);
 }
 
-/// A folder with a file in it, beside what is none of its business.
+/// A folder with a file in it, beside files that it must not reach.
 #[cfg(unix)]
 fn with_surroundings() -> Folder {
     use std::os::unix::fs::symlink;
@@ -623,7 +647,7 @@ fn buffers_that_leave_the_folder_or_are_no_files() {
         "./a%20b.bin",
         "sub/a.bin",
         "sub//a.bin",
-        // Links that stay.
+        // Links that stay in the folder.
         "inside",
         "round",
     ] {
@@ -647,12 +671,12 @@ fn buffers_that_leave_the_folder_or_are_no_files() {
         ("//localhost/a.bin", only_beside),
         ("C:a.bin", only_beside),
         ("a%20b.bin%00", only_beside),
-        // Links that leave.
+        // Links that leave the folder.
         ("out.bin", "a link leads out of the folder"),
         ("out/secret.bin", "a link leads out of the folder"),
         ("root/etc/passwd", "a link leads out of the folder"),
         ("zero", "a link leads out of the folder"),
-        // No files.
+        // No regular files.
         (".", "is a directory"),
         ("sub", "is a directory"),
         ("sub/", "is a directory"),
@@ -665,7 +689,7 @@ fn buffers_that_leave_the_folder_or_are_no_files() {
         ("%ff.bin", "no such file"),
         ("a%2", "no such file"),
         (&"x".repeat(100_000), "cannot be read"),
-        // The file itself is beside itself; its text is no buffer.
+        // The file itself is beside itself, but its text is no buffer.
         ("bad.gltf", "accessor 3: sampler 0: the time of key 1"),
     ] {
         let error = with_uri(uri).map_or_else(|error| error.to_string(), |_| "frames".to_owned());
@@ -678,7 +702,7 @@ fn buffers_that_leave_the_folder_or_are_no_files() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// How much this program has read from files, where the system counts that.
+/// Bytes that this program has read from files, where the system counts them.
 fn bytes_read() -> Option<u64> {
     let counted = std::fs::read_to_string("/proc/self/io").ok()?;
     let read = counted
@@ -687,7 +711,9 @@ fn bytes_read() -> Option<u64> {
     read?.trim().parse().ok()
 }
 
-/// What a count announces is held against the limit before it is read: a hole is a large buffer that takes no place on any disk.
+/// A count is compared with the limit before its data is read.
+///
+/// A sparse file is a large buffer that takes no room on disk.
 #[test]
 fn buffers_that_are_holes() {
     let folder = Folder::new();
@@ -702,7 +728,8 @@ fn buffers_that_are_holes() {
             file["accessors"][0]["count"] = json!(4_000_000_000_u64);
         }),
         ("triangles", |file| {
-            let indices = json!({"bufferView": 0, "componentType": 5125, "count": 3_000_000_000_u64, "type": "SCALAR"});
+            let indices = json!({"bufferView": 0, "componentType": 5125, "count": 3_000_000_000_u64,
+                "type": "SCALAR"});
             file["accessors"].as_array_mut().unwrap().push(indices);
             file["meshes"][0]["primitives"][0]["indices"] = json!(5);
         }),
@@ -714,7 +741,7 @@ fn buffers_that_are_holes() {
         let mut file = triangle();
         let own = [file["bufferViews"][0].clone(), file["buffers"][0].clone()];
         change(&mut file);
-        // The times of the keys are as they were.
+        // The times of the keys stay as they were.
         file["accessors"][3]["bufferView"] = json!(1);
         let [mut view, buffer] = own;
         view["buffer"] = json!(1);
@@ -723,7 +750,7 @@ fn buffers_that_are_holes() {
         folder.write("large.gltf", file.to_string());
         let before = bytes_read();
         let error = folder.open("large.gltf").unwrap_err();
-        // All that other tests read meanwhile is little beside it.
+        // Reading by concurrent tests is negligible in comparison.
         let read = bytes_read()
             .zip(before)
             .map(|(after, before)| after - before);
@@ -737,7 +764,7 @@ fn buffers_that_are_holes() {
     }
 }
 
-/// A hundred thousand morph targets that are the same zeros: they are read once.
+/// A hundred thousand morph targets that are the same zeros are read once.
 #[test]
 fn morph_targets_that_move_nothing_take_no_time() {
     const VERTICES: usize = 60_000;
@@ -757,6 +784,6 @@ fn morph_targets_that_move_nothing_take_no_time() {
         let frames = all_frames(&mut folder.open("zeros.gltf").unwrap()).unwrap();
         assert_eq!(frames[0].len(), VERTICES);
     });
-    // Each on its own would take 720 KB.
+    // Separate copies would take 720 KB each.
     assert!(read.bytes_total < 2 << 30, "{} bytes", read.bytes_total);
 }

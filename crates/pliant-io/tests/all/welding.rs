@@ -1,4 +1,4 @@
-//! Seams are those that are closed in a frame, whatever they are in others.
+//! Welding of sequences: each frame has its own seams, independent of other frames.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use crate::common::{Folder, all_frames, bytes, npy, npz};
 use pliant_io::{Body, OpenOptions};
 use zip::CompressionMethod;
 
-/// The six sides of a cube, four vertices each, `scale` long; vertex `moved` a little aside.
+/// The six sides of a cube of size `scale`, four vertices each; vertex `moved` is a little off.
 fn cube(scale: f64, moved: Option<usize>) -> String {
     let mut text = String::new();
     for axis in 0..3 {
@@ -70,7 +70,7 @@ fn without_welding_the_mesh_is_the_files() {
     assert_eq!(all_frames(&mut body).unwrap().len(), 2);
 }
 
-/// The triangles of each frame, how many vertices are welded in it, and how many apart that are one in the first.
+/// Triangles of each frame, and its numbers of welded and of parted vertices.
 fn seams(body: &mut Body) -> Vec<(Vec<[u32; 3]>, usize, usize)> {
     let mut all = Vec::new();
     while body.next_frame().unwrap().is_some() {
@@ -101,7 +101,7 @@ fn a_seam_that_opens_later_is_open_there() {
     let moved = positions.get(7);
     assert_eq!(body.triangles(), all[2].0);
     let parted = body.parted_seams().unwrap();
-    // It stands for others in the first frame.
+    // This vertex represents others in the first frame.
     assert!(parted.vertices[0] == 7 && parted.positions[0] == moved);
     assert!(
         parted.farthest > 1e-10 && parted.farthest < 1e-9,
@@ -110,7 +110,7 @@ fn a_seam_that_opens_later_is_open_there() {
     body.rewind().unwrap();
     body.next_frame().unwrap();
     assert_eq!(body.parted_seams(), None);
-    // The same triangles, before anything is welded, in all frames.
+    // All frames have the same triangles before welding.
     assert_eq!(body.unwelded(), folder.open("c3.obj").unwrap().unwelded());
 }
 
@@ -148,8 +148,9 @@ fn within_a_tolerance_seams_stay_closed() {
     }
 }
 
-/// Four strips side by side, each with corners of its own, whose seams coincide, differ in the last digit, or are apart, frame by
-/// frame as the digits of a number say.
+/// Four strips side by side, each with its own corners.
+///
+/// The digits of `frame` say whether a seam coincides, differs in the last digit, or is apart.
 fn strips(frame: usize) -> String {
     let mut text = String::new();
     let mut x = 0.0_f64;
@@ -187,7 +188,7 @@ fn every_frame_has_the_seams_of_its_file_alone() {
         for (found, alone) in sequence("s*.obj").iter().zip(&alone) {
             assert_eq!((&found.0, found.1), (&alone.0, alone.1));
         }
-        // From other first frames on, in which other seams are closed.
+        // Sequences that begin at other frames, with other seams closed.
         for (found, alone) in sequence("s[5-8]*.obj").iter().zip(&alone[50..]) {
             assert_eq!((&found.0, found.1), (&alone.0, alone.1));
         }
@@ -233,7 +234,7 @@ fn in_a_file_of_many_frames_each_has_its_own() {
     );
     let all = seams(&mut body);
     let counts = all.iter().map(|&(_, welded, parted)| [welded, parted]);
-    // Of an edge that does not coincide both ends are apart, for points are not joined.
+    // If an edge does not coincide, both its ends are apart: single points are not joined.
     assert_eq!(counts.collect::<Vec<_>>(), [[2, 0], [2, 0], [0, 2], [2, 0]]);
 }
 

@@ -1,4 +1,4 @@
-//! What is written reads back the same, from every format into every other; nothing is lost, nothing half written.
+//! Writers: every format converts to every other without loss, and no file is half written.
 
 use crate::common::{Folder, all_frames, tetrahedron};
 use pliant_io::{Error, OpenOptions, Positions, Precision, Reason, Shape, WriteOptions, Writer};
@@ -7,10 +7,10 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// Everything that a body says.
+/// Everything that can be observed of a body.
 #[derive(Debug, Clone, PartialEq)]
 struct Told {
-    /// The places of the corners of every triangle, in every frame, as bits.
+    /// Positions of the corners of every triangle, in every frame, as bits.
     frames: Vec<Vec<[[u64; 3]; 3]>>,
     triangles: Vec<[u32; 3]>,
     faces: Option<Vec<u32>>,
@@ -40,7 +40,7 @@ fn tell(argument: &str) -> Result<(Told, Vec<Vec<[f64; 3]>>, Precision), Error> 
     Ok((told, frames, body.precision()))
 }
 
-/// Writes what an argument names as another; whether anything was rounded.
+/// Converts a body; returns whether anything was rounded.
 fn convert(from: &str, to: &str, options: &WriteOptions) -> Result<bool, Error> {
     let (told, frames, precision) = tell(from)?;
     let shape = Shape {
@@ -66,7 +66,7 @@ fn convert(from: &str, to: &str, options: &WriteOptions) -> Result<bool, Error> 
     Ok(rounded)
 }
 
-/// What to write, what to read, whether vertices are kept, whether polygons are, whether 64 bits are.
+/// Name to write, name to read, and whether vertices, polygons and 64 bits are kept.
 const FORMATS: [(&str, &str, bool, bool, bool); 7] = [
     ("%03d.obj", "*.obj", true, true, true),
     ("%03d.ply", "*.ply", true, true, true),
@@ -77,7 +77,8 @@ const FORMATS: [(&str, &str, bool, bool, bool); 7] = [
     ("m.ply+s.pc2", "m.ply+s.pc2", true, true, false),
 ];
 
-/// A polygon of five corners, two triangles, and a vertex that nothing uses; coordinates that decimals do not hold.
+/// A polygon of five corners, two triangles and an unused vertex; coordinates that decimals cannot
+/// hold.
 fn source(folder: &Folder, wide: bool) -> String {
     let coordinates: [f32; 21] = [
         0.1,
@@ -105,7 +106,7 @@ fn source(folder: &Folder, wide: bool) -> String {
     for frame in 0..3_u8 {
         let value = |&x: &f32| {
             let x = f64::from(x) * f64::from(1_u8 << frame).min(if x < -1e38 { 1.0 } else { 4.0 });
-            // In 64 bits, next to the number that 32 bits hold.
+            // In 64 bits, the number next to one that 32 bits hold.
             if wide { x + x * f64::EPSILON } else { x }
         };
         let mut text = String::new();
@@ -153,7 +154,7 @@ fn every_format_into_every_other() {
                 assert_eq!(told.faces, first.faces, "{write}");
             }
             assert_eq!(precision == Precision::F64, keeps_wide, "{write}");
-            // From there into all others.
+            // From there into all other formats.
             for (again, read_again, ..) in FORMATS {
                 let two = format!("two-{one}-{}", again.replace(['%', '+'], ""));
                 fs::create_dir(folder.path().join(&two)).unwrap();
@@ -181,7 +182,7 @@ fn what_is_there_is_kept_and_what_fails_leaves_nothing() {
         let sub = write.replace(['%', '+'], "");
         fs::create_dir(folder.path().join(&sub)).unwrap();
         let to = argument(&folder, &sub, write);
-        // The last file that would be written is there.
+        // The last file that would be written exists already.
         let last = to.rsplit('+').next().unwrap().replace("%03d", "002");
         fs::write(&last, "precious").unwrap();
         let error = convert(&source, &to, &WriteOptions::default()).unwrap_err();
@@ -189,7 +190,7 @@ fn what_is_there_is_kept_and_what_fails_leaves_nothing() {
             error.file() == Path::new(&last) && matches!(error.reason(), Reason::Exists),
             "{error}"
         );
-        assert_eq!(error.to_string(), format!("{last}: is there already"));
+        assert_eq!(error.to_string(), format!("{last}: exists already"));
         let left: Vec<_> = fs::read_dir(folder.path().join(&sub)).unwrap().collect();
         assert_eq!(
             (left.len(), fs::read(&last).unwrap()),
@@ -224,7 +225,7 @@ fn what_is_there_is_kept_and_what_fails_leaves_nothing() {
             missing.contains("3 frames were announced, 1 came"),
             "{missing}"
         );
-        // Of a file a frame the first is whole.
+        // With one file per frame, the first is complete.
         let whole = usize::from(write.contains('%'));
         assert_eq!(
             fs::read_dir(folder.path().join(&sub)).unwrap().count(),
@@ -253,9 +254,9 @@ fn what_cannot_be_written_says_what_can() {
         (
             "a.obj",
             "a.glb",
-            "glTF can be read but not written; what can: a mesh: .obj",
+            "glTF can be read but not written; these can: a mesh (.obj",
         ),
-        ("a.obj", "a.fbx", "cannot be written; what can"),
+        ("a.obj", "a.fbx", "cannot be written; these can"),
         (
             "a.obj",
             "a.pc2",
@@ -268,13 +269,13 @@ fn what_cannot_be_written_says_what_can() {
         (
             "[ab].obj",
             "one.obj",
-            "one.obj: holds one frame, there are 2",
+            "one.obj: this format holds one frame a file, but 2 are to be written",
         ),
     ] {
         let error = error(from, to);
         assert!(error.contains(words), "{error}");
     }
-    // Where a shape does not agree with itself there is an error and no file.
+    // A shape whose parts do not agree gives an error and no file.
     let good = Shape {
         triangles: vec![[0, 1, 2]],
         faces: Some(vec![0]),
@@ -284,37 +285,69 @@ fn what_cannot_be_written_says_what_can() {
         precision: Precision::F32,
     };
     let bad = [
-        Shape {
-            triangles: vec![[0, 1, 3]],
-            ..good.clone()
-        },
-        Shape {
-            triangles: vec![],
-            ..good.clone()
-        },
-        Shape {
-            faces: Some(vec![0, 0]),
-            ..good.clone()
-        },
-        Shape {
-            frame_count: 0,
-            ..good.clone()
-        },
+        (
+            Shape {
+                triangles: vec![[0, 1, 2], [0, 1, 3]],
+                ..good.clone()
+            },
+            "triangle 1 uses vertex 3; the shape has 3 vertices",
+        ),
+        (
+            Shape {
+                outlines: BTreeMap::from([(0, vec![0, 1, 2, 5])]),
+                ..good.clone()
+            },
+            "polygon 0 uses vertex 5; the shape has 3 vertices",
+        ),
+        (
+            Shape {
+                triangles: vec![],
+                ..good.clone()
+            },
+            "holds no faces",
+        ),
+        (
+            Shape {
+                faces: Some(vec![0, 0]),
+                ..good.clone()
+            },
+            "`faces` has 2 entries for 1 triangles; it needs one for each",
+        ),
+        (
+            Shape {
+                frame_count: 0,
+                ..good.clone()
+            },
+            "holds no frames",
+        ),
     ];
-    for shape in bad {
+    for (shape, words) in bad {
         for name in ["x.obj", "x.npz", "x.stl", "m.ply+x.mdd"] {
             let created = Writer::create(
                 &argument(&folder, ".", name),
                 shape.clone(),
                 WriteOptions::default(),
             );
-            assert!(created.is_err());
+            let error = created.err().unwrap().to_string();
+            assert!(error.contains(words), "{error}");
         }
     }
     assert!(!folder.path().join("x.npz").exists());
+    // Counts of point caches are signed and have 32 bits.
+    for name in ["m.obj+x.pc2", "m.obj+x.mdd"] {
+        let shape = Shape {
+            frame_count: 1 << 31,
+            ..good.clone()
+        };
+        let name = argument(&folder, ".", name);
+        let created = Writer::create(&name, shape, WriteOptions::default());
+        let error = created.err().unwrap().to_string();
+        let words = "has 2147483648 frames of 3 vertices; this format holds at most 2147483647";
+        assert!(error.contains(words), "{error}");
+    }
 }
 
-/// Other programs read these; their bytes are what the formats say.
+/// Other programs read these files: their bytes are as the formats say.
 #[test]
 fn caches_are_byte_for_byte_what_the_formats_say() {
     let folder = Folder::new();
@@ -351,7 +384,7 @@ fn caches_are_byte_for_byte_what_the_formats_say() {
     assert_eq!(fs::read(folder.path().join("s.mdd")).unwrap(), mdd);
 }
 
-/// Polygons that bend inward stay polygons, and are cut in the same way again.
+/// Concave polygons stay polygons, and are triangulated in the same way again.
 #[test]
 fn polygons_that_are_no_fans_stay_polygons() {
     let folder = Folder::new();

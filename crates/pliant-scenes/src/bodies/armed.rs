@@ -1,15 +1,15 @@
-//! The body with several deforming arms of the paper's third experiment (figures 5 and 6).
+//! Body with several deforming arms, from the paper's third experiment (figures 5 and 6).
 //!
-//! An arm is a cap of the sphere drawn out along its own axis `u`. With `w` falling smoothly from 1
-//! at the tip to 0 at the rim of the cap, a point `v` of the cap goes to
+//! An arm is a cap of the sphere, drawn out along its axis `u`. With `w` falling smoothly from 1 at
+//! the tip to 0 at the rim, a point `v` of the cap moves to
 //!
 //! ```text
 //! core · v + w · length · u + sideways(w)
 //! ```
 //!
-//! The first two terms are a graph over the plane upright to `u`, and the third shifts each ring of
-//! equal `w` as a whole: an arm cannot run through itself however it bends. Caps do not overlap, so
-//! arms meet only where they swing far across; the core is small to leave them room.
+//! The first two terms are a graph over the plane orthogonal to `u`. The third shifts each ring of
+//! equal `w` as a whole, so an arm cannot intersect itself. Caps do not overlap, so arms meet
+//! only where they swing far across; the small core leaves them room.
 
 use crate::bumps::{Bumps, LANES};
 use crate::motion::{Moment, Path, Pose, Spin, rounded};
@@ -27,20 +27,21 @@ const CORE: f64 = 0.55;
 /// Root mean square of the bumps, in radii of the core.
 const HEIGHT: f64 = 0.03;
 
-/// How far a tip stands out from the core, shortest and longest.
+/// Distance of a tip from the core: shortest and longest.
 const LENGTH: (f64, f64) = (0.6, 0.9);
 
-/// An arm grows and shrinks by this part of its length.
+/// Amplitude of an arm's growth and shrinkage, relative to its length.
 const PULSE: f64 = 0.25;
 
-/// How far a tip swings to each side.
+/// Amplitude of a tip's swing to each side.
 const SWING: f64 = 0.22;
 
-/// By how many radians the root of an arm is ahead of its tip: more than a quarter of a turn, so
-/// that an arm is curved and not just slanted.
+/// Phase by which the root of an arm is ahead of its tip, in radians.
+///
+/// More than a quarter turn, so that an arm is curved and not just slanted.
 const CURL: f64 = 2.0;
 
-/// Radians a step of pulse and swing, either way.
+/// Range of the rates of pulse and swing, in radians per step, either way.
 const RATE: (f64, f64) = (0.03, 0.08);
 
 /// A sphere with arms that turns and moves.
@@ -65,7 +66,7 @@ impl ArmedSphere {
         }
     }
 
-    /// Its points in its own frame, each as `finish` writes it.
+    /// Points of the body in its own frame, each converted by `finish`.
     #[inline]
     fn shape(
         &self,
@@ -103,15 +104,16 @@ impl Body for ArmedSphere {
     }
 }
 
+/// One arm: its cap, and the rhythm of its motion.
 #[derive(Debug)]
 struct Arm {
-    /// From the centre through the tip, and two directions to swing in.
+    /// Unit vector from the centre through the tip, and two directions to swing in.
     axis: Vec3,
     sides: [Vec3; 2],
     /// Cosine of the angle between the axis and the rim of the cap.
     rim: f64,
     length: f64,
-    /// Phase and radians a step.
+    /// Phase in radians, and radians per step.
     pulse: (f64, f64),
     swing: (f64, f64),
 }
@@ -150,7 +152,7 @@ struct ArmNow<'a> {
 }
 
 impl ArmNow<'_> {
-    /// How far the arm carries the point of the sphere at `v`.
+    /// Displacement of the point `v` of the sphere by the arm.
     #[inline]
     fn drawn_out(&self, v: Vec3) -> Vec3 {
         let inside = dot(self.arm.axis, v) - self.arm.rim;
@@ -170,7 +172,7 @@ impl ArmNow<'_> {
     }
 }
 
-/// Directions well apart: each is the one of many random ones that is farthest from those before.
+/// Directions well apart: each is the one of many random ones that is farthest from all before.
 fn spread_directions(rng: &mut Rng) -> [Vec3; ARMS] {
     const CANDIDATES: usize = 100;
     let mut axes = [rng.direction(); ARMS];
@@ -184,7 +186,7 @@ fn spread_directions(rng: &mut Rng) -> [Vec3; ARMS] {
     axes
 }
 
-/// For each axis the cosine of half the angle to the axis next to it: caps touch, never overlap.
+/// For each axis the cosine of half the angle to the nearest axis: caps touch, never overlap.
 fn rims(axes: &[Vec3; ARMS]) -> [f64; ARMS] {
     std::array::from_fn(|arm| {
         let others = axes.iter().enumerate().filter(|(other, _)| *other != arm);

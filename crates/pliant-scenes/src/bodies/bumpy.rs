@@ -1,4 +1,4 @@
-//! The bumpy sphere: the body of the paper's first experiment, of the crowd and of the gathering.
+//! Bumpy sphere: the body of the paper's first experiment, of the crowd and of the gathering.
 
 use crate::bumps::{Bumps, LANES};
 use crate::motion::{Moment, Path, Pose, Spin, rounded};
@@ -14,7 +14,7 @@ pub(crate) struct BumpySphere {
 }
 
 impl BumpySphere {
-    /// Its points in its own frame, each as `finish` writes it.
+    /// Points of the body in its own frame, each converted by `finish`.
     #[inline]
     fn shape(
         &self,

@@ -1,4 +1,4 @@
-//! The bodies that the scenes are made of, one a file: how each deforms.
+//! Bodies of the scenes, one a file: how each deforms.
 
 mod armed;
 mod bumpy;

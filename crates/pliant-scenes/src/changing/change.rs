@@ -1,54 +1,55 @@
-//! What happens to meshes.
+//! Changes of meshes, and the events of a scene.
 
-/// Something that happens to the mesh of a body.
+/// A change of the mesh of a body.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Change {
-    /// So many vertices come, numbered behind all others.
+    /// Appends this many vertices, numbered behind all others.
     AddVertices(usize),
-    /// An empty number of a vertex is used again.
+    /// Reuses the empty number of a vertex.
     PlaceVertex(u32),
-    /// A vertex comes where another is, which these triangles have for a corner from now on.
+    /// Splits a vertex: appends a copy of it, which replaces it in some triangles.
     SplitVertex {
-        /// The other.
+        /// The vertex that is split.
         vertex: u32,
-        /// Those that leave it.
+        /// Triangles that get the copy.
         triangles: Vec<u32>,
     },
-    /// Two vertices become one.
+    /// Merges two vertices.
     MergeVertices {
-        /// The one that stays.
+        /// The vertex that stays.
         kept: u32,
-        /// The one that goes.
+        /// The vertex that goes.
         gone: u32,
     },
-    /// Triangles come, numbered behind all others.
+    /// Appends triangles, numbered behind all others.
     AddTriangles(Vec<[u32; 3]>),
-    /// A triangle has other corners, or an empty number is used again.
+    /// Replaces the corners of a triangle, or reuses an empty number.
     SetTriangle {
-        /// Its number.
+        /// Number of the triangle.
         triangle: u32,
-        /// Its corners.
+        /// New corners.
         corners: [u32; 3],
     },
-    /// Triangles go, and with them the vertices that no other triangle has.
+    /// Removes triangles, and the vertices that no other triangle has.
     RemoveTriangles(Vec<u32>),
 }
 
-/// Something that happens at the beginning of a step.
+/// An event at the beginning of a step.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Event {
     /// The mesh of a body changes.
     Edit {
-        /// Its number.
+        /// Number of the body.
         body: usize,
-        /// In this order. Vertices that come are where [`ChangingScene::positions`](crate::ChangingScene::positions) says for the step.
+        /// The changes, in order. [`ChangingScene::positions`](crate::ChangingScene::positions)
+        /// gives the positions of new vertices at the step.
         changes: Vec<Change>,
     },
-    /// What one body has comes behind what another has, in order, and that body is no more.
+    /// One body is appended to another, in order, and ceases to exist.
     Fuse {
         /// The body that stays.
         kept: usize,
-        /// The other.
+        /// The body that is appended.
         gone: usize,
     },
 }

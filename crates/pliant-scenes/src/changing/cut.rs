@@ -1,7 +1,8 @@
-//! `cut`: a bumpy sphere is sliced by a plane that goes through it, and its two pieces part.
+//! `cut`: a plane slices a bumpy sphere, and its two pieces part.
 //!
-//! A triangle that the plane crosses becomes three: a smaller one on the side where one corner is, two on the other. Every edge that is
-//! crossed gets two vertices, one for either side, in the same place until the pieces part.
+//! A triangle that the plane crosses becomes three: a smaller one on the side of one corner, and
+//! two on the other side. Every edge that is crossed gets two vertices, one for each side, which
+//! coincide until the pieces part.
 
 use super::change::Change;
 use super::scene::{ChangingScene, Rule};
@@ -23,24 +24,24 @@ const ABOUT: About = About {
 
 const STREAM: u64 = 5;
 
-/// Triangles unless asked otherwise.
+/// Default number of triangles.
 const TRIANGLES: usize = 20_480;
 
 /// Root mean square of the bumps, in radii.
 const HEIGHT: f64 = 0.09;
 
-/// The plane is at this height, through no vertex.
+/// Height of the plane, which passes through no vertex.
 const PLANE: f64 = 0.0123;
 
-/// The blade is through after so many steps.
+/// Step at which the cut is complete.
 const CUT: u32 = 100;
 
-/// How far a piece moves a step from then on, in radii.
+/// Speed of a piece from then on, in radii per step.
 const SPEED: f64 = 0.004;
 
 struct Pieces {
     bumps: Bumps,
-    /// All vertices that there will be, and whether each is of the upper piece.
+    /// All vertices that there will ever be, and whether each belongs to the upper piece.
     rest: Vec<Vec3>,
     is_above: Vec<bool>,
 }
@@ -78,7 +79,7 @@ pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene
         at.iter().sum::<f64>() / 3.0
     };
     for step in 1..=CUT {
-        // Where the blade was before, and where it is now.
+        // Position of the blade before and after the step.
         let blade = |step: u32| -1.01 + 2.02 * f64::from(step) / f64::from(CUT);
         let is_reached = |&triangle: &u32| (blade(step - 1)..blade(step)).contains(&x(triangle));
         let before = rest.len();
@@ -127,7 +128,9 @@ pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene
     })
 }
 
-/// The corners in their order, from the one that is alone on its side of the plane; none if all are on one.
+/// The corners in order, beginning with the one that is alone on its side of the plane.
+///
+/// None if all are on one side.
 fn alone_first([a, b, c]: [u32; 3], rest: &[Vec3]) -> Option<[u32; 3]> {
     let above = [a, b, c].map(|vertex| is_above(rest[vertex as usize]));
     match above {

@@ -1,7 +1,8 @@
 //! `fuse`: two bumpy spheres meet, merge and go on as one.
 //!
-//! The second is the mirror image of the first, in a plane between them. Until they merge they move into each other; then the caps that
-//! are inside the other are taken out, and the rims that are left become one rim, in the plane.
+//! The second is the mirror image of the first in a plane between them. They move into each other.
+//! When they merge, the caps inside the other sphere are removed, and the two rims become one, in
+//! the plane.
 
 use super::change::Change;
 use super::scene::{ChangingScene, Rule};
@@ -22,30 +23,30 @@ const ABOUT: About = About {
 
 const STREAM: u64 = 7;
 
-/// Triangles of a body unless asked otherwise.
+/// Default number of triangles of a body.
 const TRIANGLES: usize = 20_480;
 
 /// Root mean square of the bumps, in radii.
 const HEIGHT: f64 = 0.06;
 
-/// The step when they merge.
+/// Step at which they merge.
 const MERGED: u32 = 100;
 
-/// The rim is so far from the centre of its sphere, in radii.
+/// Distance of the rim from the centre of its sphere, in radii.
 const RIM: f64 = 0.8;
 
-/// How far the centres are from the plane at the first step, when they merge and at the last.
+/// Distance of the centres from the plane at the first step, at the merge and at the last step.
 const CENTRES: [f64; 3] = [1.5, 0.8, 0.6];
 
 struct Mirrored {
     bumps: Bumps,
     rest: Vec<Vec3>,
-    /// Whether a vertex is one of the rim.
+    /// Whether a vertex is on the rim.
     is_rim: Vec<bool>,
 }
 
 impl Mirrored {
-    /// The first sphere, on the lower side of the plane x = 0; or its mirror image.
+    /// Positions of the first sphere, on the lower side of the plane x = 0, or of its mirror image.
     fn one(&self, now: Moment, side: f64, out: &mut [[f32; 3]]) {
         let merged = f64::from(MERGED);
         let [first, then, last] = CENTRES;
@@ -105,7 +106,7 @@ pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene
     });
     let changes = std::iter::once(Change::RemoveTriangles(caps)).chain(joined);
     timeline.edit(MERGED, 0, changes.collect(), 2 * vertices);
-    // A mirror turns triangles round.
+    // Mirroring reverses the orientation of triangles.
     let mirrored = surface.triangles.iter().map(|&[a, b, c]| [a, c, b]);
     Ok(ChangingScene {
         about: ABOUT,

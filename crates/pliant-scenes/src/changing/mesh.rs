@@ -1,22 +1,22 @@
-//! A mesh as events leave it, for whoever builds anew what they change.
+//! A mesh to which events are applied, for users that rebuild whatever they change.
 
 use super::change::Change;
 use std::collections::BTreeSet;
 
-/// Triangles over vertices, some of whose numbers may be empty.
+/// Triangles over vertices; numbers of either may be empty.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ChangingMesh {
     /// Corners by number; [`EMPTY`](Self::EMPTY) where there is no triangle.
     pub triangles: Vec<[u32; 3]>,
-    /// How many numbers of vertices there are.
+    /// Count of vertex numbers, empty ones included.
     pub vertices: usize,
 }
 
 impl ChangingMesh {
-    /// The corners of a number that no triangle has.
+    /// Corners of an empty number.
     pub const EMPTY: [u32; 3] = [u32::MAX; 3];
 
-    /// Triangles over so many vertices.
+    /// A mesh of triangles over `vertices` vertices.
     pub fn new(triangles: &[[u32; 3]], vertices: usize) -> Self {
         Self {
             triangles: triangles.to_vec(),
@@ -24,11 +24,13 @@ impl ChangingMesh {
         }
     }
 
-    /// Makes changes of a scene's, whose numbers are those of this mesh. Looks at every triangle where vertices are merged.
+    /// Applies changes of a scene with the numbers of this mesh.
+    ///
+    /// Takes O(changes); merging vertices takes O(triangles).
     ///
     /// # Panics
     ///
-    /// If a number is none.
+    /// If a number does not exist.
     pub fn change(&mut self, changes: &[Change]) {
         for change in changes {
             match change {
@@ -59,7 +61,7 @@ impl ChangingMesh {
         }
     }
 
-    /// Puts all of another mesh behind this one.
+    /// Appends another mesh to this one.
     pub fn append(&mut self, other: &Self) {
         let by = self.vertices as u32;
         let moved = |corners: &[u32; 3]| {
@@ -73,7 +75,10 @@ impl ChangingMesh {
         self.vertices += other.vertices;
     }
 
-    /// The triangles that there are over the vertices that they have, and the numbers of both in this mesh.
+    /// The mesh without empty numbers: triangles, their old numbers, and the old numbers of
+    /// vertices.
+    ///
+    /// Takes O(n log n).
     pub fn compact(&self) -> (Vec<[u32; 3]>, Vec<u32>, Vec<u32>) {
         let live = (0..).zip(&self.triangles);
         let live = live.filter(|(_, corners)| **corners != Self::EMPTY);

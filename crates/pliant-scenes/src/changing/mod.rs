@@ -1,7 +1,8 @@
-//! Scenes whose meshes change: [`ChangingScene`], and what happens in them.
+//! Scenes whose meshes change: [`ChangingScene`] and its events.
 //!
-//! What happens is known when the scene is made; after that nothing changes, so events and positions can be asked for in any order.
-//! Numbers stay: what goes leaves its number empty, what comes is numbered behind all others, or uses an empty number again.
+//! All events are fixed when the scene is made, so events and positions can be asked for in any
+//! order. Numbers are stable: removal leaves a number empty, and addition appends a number or
+//! reuses an empty one.
 
 mod change;
 mod cut;
@@ -20,12 +21,16 @@ pub use scene::ChangingScene;
 use crate::error::SceneError;
 
 impl ChangingScene {
-    /// The scene called `name`, with `triangles` triangles a body at the beginning, or the scene's own number. Possible sizes are those of
-    /// [`Scene::new`](crate::Scene::new): the sheet is torn, the others are made of spheres; of `shuffle` a piece has a 1,024th of them.
+    /// Makes the scene called `name`, with `triangles` triangles per body at the beginning, or a
+    /// default.
+    ///
+    /// Possible sizes are as in [`Scene::new`](crate::Scene::new): `tear` is a sheet, the others
+    /// are made of spheres. In `shuffle` each of the 1,024 pieces is a sphere.
     ///
     /// # Errors
     ///
-    /// [`SceneError::UnknownName`], and [`SceneError::ImpossibleSize`] with the nearest possible sizes.
+    /// [`SceneError::UnknownName`], and [`SceneError::ImpossibleSize`] with the nearest possible
+    /// sizes.
     pub fn new(name: &str, triangles: Option<usize>, seed: u64) -> Result<Self, SceneError> {
         match name {
             "cut" => cut::scene(triangles, seed),

@@ -1,7 +1,7 @@
-//! `remesh`: two bumpy spheres that overlap, whose meshes are refined and coarsened without end.
+//! `remesh`: two overlapping bumpy spheres whose meshes are refined and coarsened without end.
 //!
-//! Each step some triangles are split in three, each by a vertex in its middle, and some that were are collapsed again. Empty numbers
-//! are used again, as a simulator would.
+//! At each step some triangles are split in three by a vertex in the middle, and some that were
+//! split are collapsed again. Empty numbers are reused, as a simulator would.
 
 use super::change::Change;
 use super::scene::{ChangingScene, Rule};
@@ -23,26 +23,27 @@ const ABOUT: About = About {
 
 const STREAM: u64 = 9;
 
-/// Triangles of a body unless asked otherwise.
+/// Default number of triangles of a body.
 const TRIANGLES: usize = 20_480;
 
 /// Root mean square of the bumps, in radii.
 const HEIGHT: f64 = 0.09;
 
-/// One in so many triangles is split in a step.
+/// Triangles for each one that is split in a step.
 const ONE_IN: usize = 205;
 
-/// A triangle that was split is collapsed after so many steps.
+/// Steps after which a split triangle is collapsed.
 const LIFE: u32 = 20;
 
-/// Between the centres along x, in radii.
+/// Distance between the centres along x, in radii.
 const DISTANCE: f64 = 1.5;
 
 struct Two {
     bumps: [Bumps; 2],
-    /// By step, body by body: what vertices are at rest, all that there ever are. A number that is used again is in another place.
+    /// For each body the rest positions of all vertices that there ever are, each at its first use.
     rest: [Vec<Vec3>; 2],
-    /// Of each body when a number is in which place from then on, in order of steps.
+    /// For each body the reuses of vertex numbers, by step: step, vertex, and its new rest
+    /// position.
     moves: [Vec<(u32, u32, Vec3)>; 2],
 }
 
@@ -71,20 +72,20 @@ impl Rule for Two {
     }
 }
 
-/// A triangle that was split: its corners, its number and those of the two that came, the vertex that came.
+/// A split: old corners, numbers of the triangle and of the two new ones, and the new vertex.
 type Split = ([u32; 3], [u32; 3], u32);
 
-/// The life of one body's mesh.
+/// History of one body's mesh.
 struct Life {
     corners: Vec<[u32; 3]>,
     rest: Vec<Vec3>,
     moves: Vec<(u32, u32, Vec3)>,
-    /// Numbers that are empty.
+    /// Empty numbers of triangles; below, of vertices.
     free_triangles: Vec<u32>,
     free_vertices: Vec<u32>,
-    /// By step.
+    /// Splits of the last steps, a list for each.
     splits: VecDeque<Vec<Split>>,
-    /// Those at the beginning, which may be split while they are whole.
+    /// Number of original triangles, which may be split while they are whole.
     originals: usize,
     is_split: Vec<bool>,
 }
@@ -103,10 +104,10 @@ impl Life {
         }
     }
 
-    /// What happens in a step. First what was split long ago is collapsed.
+    /// Changes of a step; first, old splits are collapsed.
     fn step(&mut self, step: u32, rng: &mut Rng) -> Vec<Change> {
         let mut changes = Vec::new();
-        // A vertex is empty once the step is over.
+        // Numbers of vertices become empty only when the step is over.
         let mut empty = Vec::new();
         if self.splits.len() >= LIFE as usize {
             let old = self.splits.pop_front().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! [`ChangingScene`]: what every scene has in common whose meshes change.
+//! [`ChangingScene`]: the interface of all scenes whose meshes change.
 
 use super::change::Event;
 use super::timeline::Timeline;
@@ -6,21 +6,26 @@ use crate::motion::Moment;
 use crate::scene::About;
 use std::fmt;
 
-/// Where vertices are.
+/// A rule that moves the vertices of a scene.
 pub(super) trait Rule: Send + Sync {
-    /// The first vertices of a body: as many as there is room for.
+    /// Writes the positions of the first vertices of a body, as many as `out` has room for.
     fn place(&self, body: usize, now: Moment, out: &mut [[f32; 3]]);
 }
 
-/// A scene whose meshes change: the same events and positions for the same name, size, seed and step, on every machine.
+/// A scene whose meshes change: equal events and positions on every machine.
+///
+/// They depend on name, size, seed and step alone.
 ///
 /// | name | bodies | triangles | steps | what happens |
 /// |---|---|---|---|---|
-/// | `cut` | 1 | 20,480 | 200 | a bumpy sphere is sliced, a few triangles a step, into two pieces that part |
-/// | `tear` | 1 | 79,202 | 250 | a sheet is torn along a wandering line, a vertex or two a step, then folds |
+/// | `cut` | 1 | 20,480 | 200 | a bumpy sphere is sliced into two pieces that part |
+/// | `tear` | 1 | 79,202 | 250 | a sheet is torn along a wandering line, then folds |
 /// | `fuse` | 2 | 20,480 each | 200 | two bumpy spheres meet, merge at step 100 and go on as one |
-/// | `shuffle` | 1 | 81,920 | 200 | a body of 1,024 pieces, all of which go far away from their neighbours |
-/// | `remesh` | 2 | 20,480 each | 200 | bumpy spheres that overlap; each step 100 triangles of each are split, and 100 collapsed |
+/// | `shuffle` | 1 | 81,920 | 200 | 1,024 pieces go far away from their neighbours |
+/// | `remesh` | 2 | 20,480 each | 200 | bumpy spheres overlap while triangles split and collapse |
+///
+/// In a step of `cut` a few triangles are sliced, and in `tear` a vertex or two are split. In
+/// `remesh` 100 triangles of each body are split at each step, and 100 collapsed.
 ///
 /// ```
 /// use pliant_scenes::{ChangingScene, Event};
@@ -38,43 +43,44 @@ pub(super) trait Rule: Send + Sync {
 /// ```
 pub struct ChangingScene {
     pub(super) about: About,
-    /// Of each body at the beginning.
+    /// Triangles of each body at the beginning.
     pub(super) triangles: Vec<Vec<[u32; 3]>>,
     pub(super) timeline: Timeline,
     pub(super) rule: Box<dyn Rule>,
 }
 
 impl ChangingScene {
-    /// The names that [`new`](Self::new) knows.
+    /// Names that [`new`](Self::new) knows.
     pub const NAMES: [&'static str; 5] = ["cut", "tear", "fuse", "shuffle", "remesh"];
 
-    /// The seed that the descriptions hold for.
+    /// Seed for which the descriptions hold.
     pub const DEFAULT_SEED: u64 = crate::Scene::DEFAULT_SEED;
 
-    /// The same positions, in which nothing happens: vertices that would come are left out. For a scene without
-    /// [`Event::Fuse`].
+    /// The scene without its events: equal positions of the vertices that it has at the beginning.
+    ///
+    /// Vertices that events would add are left out. For a scene without [`Event::Fuse`].
     #[must_use]
     pub fn without_events(mut self) -> Self {
         self.timeline = Timeline::new(self.timeline.counts[0].clone(), self.about.steps);
         self
     }
 
-    /// The scene's name, one of [`NAMES`](Self::NAMES).
+    /// Name of the scene, one of [`NAMES`](Self::NAMES).
     pub fn name(&self) -> &'static str {
         self.about.name
     }
 
-    /// The number of steps: from step 1 to this one, both included.
+    /// Number of steps: from step 1 to this one, both included.
     pub fn steps(&self) -> u32 {
         self.about.steps
     }
 
-    /// The number of bodies at the beginning, numbered from 0.
+    /// Number of bodies at the beginning, which are numbered from 0.
     pub fn body_count(&self) -> usize {
         self.triangles.len()
     }
 
-    /// The triangles of a body at the beginning.
+    /// Triangles of a body at the beginning.
     ///
     /// # Panics
     ///
@@ -83,15 +89,16 @@ impl ChangingScene {
         &self.triangles[body]
     }
 
-    /// What happens at the beginning of a step, in this order; nothing in steps that there are none of.
+    /// Events at the beginning of a step, in order; none for a step that does not exist.
     pub fn events(&self, step: u32) -> &[Event] {
         let events = (step as usize).checked_sub(1);
         let events = events.and_then(|step| self.timeline.events.get(step));
         events.map_or(&[], Vec::as_slice)
     }
 
-    /// The number of vertices of a body, counted by number, after what happens in a step; step 0 is the beginning. None once the body is
-    /// fused with another.
+    /// Number of vertices of a body, empty numbers included, after the events of a step.
+    ///
+    /// Step 0 is the beginning. Zero once the body is fused with another.
     ///
     /// # Panics
     ///
@@ -100,8 +107,9 @@ impl ChangingScene {
         self.timeline.counts[step.min(self.steps()) as usize][body]
     }
 
-    /// The positions of a body's vertices at a step, after what happens in it; `out` then holds these and nothing else. What it holds for
-    /// vertices that are empty means nothing.
+    /// Writes the positions of a body's vertices, after the events of a step, to `out`.
+    ///
+    /// They replace its contents. Positions of empty vertices are meaningless. Takes O(vertices).
     ///
     /// # Panics
     ///
@@ -112,7 +120,7 @@ impl ChangingScene {
         self.rule.place(body, now, out);
     }
 
-    /// The positions that a body has before the first step, when it is made.
+    /// Positions of a body before the first step, with which it is made.
     ///
     /// # Panics
     ///

@@ -1,6 +1,7 @@
-//! `shuffle`: a body of 1,024 small pieces in a lattice, which all go to other places of it.
+//! `shuffle`: a body of 1,024 small pieces in a lattice, all of which move to other places of it.
 //!
-//! Its mesh never changes, but nothing that was near is near in the end: a tree built at the beginning is of no use above the pieces.
+//! Its mesh never changes, but neighbours do not stay neighbours. A tree built at the beginning
+//! becomes useless above the pieces.
 
 use super::scene::{ChangingScene, Rule};
 use super::timeline::Timeline;
@@ -20,25 +21,25 @@ const ABOUT: About = About {
 
 const STREAM: u64 = 8;
 
-/// Triangles unless asked otherwise.
+/// Default number of triangles.
 const TRIANGLES: usize = 81_920;
 
 /// Pieces along each axis.
 const LATTICE: [usize; 3] = [16, 8, 8];
 
-/// Radius of a piece, in spaces between places: neighbours overlap a little.
+/// Radius of a piece, in lattice spacings: neighbours overlap a little.
 const RADIUS: f64 = 0.53;
 
-/// How much a radius swells and shrinks, and how fast in radians a step.
+/// Amplitude of the change of a radius, and its rate in radians per step.
 const BREATH: (f64, f64) = (0.02, 0.1);
 
-/// Pieces are where they go after so many steps.
+/// Step at which the pieces arrive.
 const THERE: f64 = 150.0;
 
 struct Pieces {
-    /// Of one piece.
+    /// Vertices of one piece at rest.
     rest: Vec<Vec3>,
-    /// Where each begins and ends, and the phase of its breath.
+    /// For each piece its first and last place, and the phase of its radius.
     ways: Vec<(Vec3, Vec3, f64)>,
 }
 
@@ -56,7 +57,7 @@ impl Rule for Pieces {
     }
 }
 
-/// Whether there is a sphere of a 1,024th.
+/// Makes one piece, if a 1,024th of `triangles` is a possible size of a sphere.
 fn pieces(triangles: usize) -> Result<Surface, Nearest> {
     let count: usize = LATTICE.iter().product();
     let times = |size: Option<usize>| size.map(|size| size * count);

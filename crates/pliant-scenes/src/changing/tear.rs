@@ -1,7 +1,8 @@
-//! `tear`: a sheet is torn along a line of edges that wanders from one side to the other, and then folds.
+//! `tear`: a sheet is torn along a line of edges from one side to the other, and then folds.
 //!
-//! Every vertex of the line becomes two as the tear reaches it: the triangles on its right take the new one. Until then the sheet only
-//! waves; the two lips move apart a little behind the tip. After that it folds onto itself as the scene `cloth` does.
+//! Every vertex of the wandering line becomes two when the tear reaches it: the triangles on its
+//! right take the new one. Until then the sheet only waves. The two lips move apart a little behind
+//! the tip. After the tear the sheet folds onto itself as in the scene `cloth`.
 
 use super::change::Change;
 use super::scene::{ChangingScene, Rule};
@@ -23,28 +24,28 @@ const ABOUT: About = About {
 
 const STREAM: u64 = 6;
 
-/// Triangles unless asked otherwise.
+/// Default number of triangles.
 const TRIANGLES: usize = 79_202;
 
-/// The sheet is torn through after so many steps.
+/// Step at which the sheet is torn through.
 const TORN: u32 = 200;
 
-/// Bend in radians, as of the scene `cloth`.
+/// Bend in radians, as in the scene `cloth`.
 const FOLD: f64 = 1.946;
 
 /// Bend in radians, added evenly over all steps.
 const PRESS: f64 = 0.20;
 
-/// How much of the motion of a sheet that folds is over when it is torn through.
+/// Progress of the folding motion, from 0 to 1, when the sheet is torn through.
 const BEFORE: f64 = 0.03;
 
-/// How far a lip moves, in spaces between vertices, and after how many steps it has.
+/// Displacement of a lip in spaces between vertices, and the number of steps that it takes.
 const LIP: (f64, f64) = (0.4, 20.0);
 
 struct TornSheet {
     sheet: FoldingSheet,
     rest: Vec<Vec3>,
-    /// For each vertex of the line the vertex that is split from it, and the step when that is.
+    /// For each vertex of the line the vertex that is split from it, and the step of the split.
     lips: Vec<(u32, u32, u32)>,
 }
 
@@ -125,7 +126,9 @@ pub(super) fn scene(triangles: Option<usize>, seed: u64) -> Result<ChangingScene
     })
 }
 
-/// From the middle of the first row to the last: in each row some vertices to one side, then up.
+/// A path from the middle of the first row to the last row.
+///
+/// In each row it passes some vertices to one side, then goes up.
 fn wandering_line(rng: &mut Rng, columns: u32) -> Vec<u32> {
     let mut column = columns / 2;
     let mut line = vec![column];
@@ -149,7 +152,7 @@ fn wandering_line(rng: &mut Rng, columns: u32) -> Vec<u32> {
     line
 }
 
-/// For each vertex of a line from side to side its triangles on the right.
+/// For each vertex of a line from side to side, its triangles on the right.
 fn right_of(line: &[u32], surface: &Surface) -> BTreeMap<u32, Vec<u32>> {
     let ends = |pair: &[u32]| [pair[0].min(pair[1]), pair[0].max(pair[1])];
     let of_line: BTreeSet<[u32; 2]> = line.windows(2).map(ends).collect();
@@ -160,7 +163,8 @@ fn right_of(line: &[u32], surface: &Surface) -> BTreeMap<u32, Vec<u32>> {
             across.entry(side).or_default().push(triangle);
         }
     }
-    // From the last triangle, which is in the last corner of the sheet, without crossing the line.
+    // Flood fill from the last triangle, in the last corner of the sheet, without crossing the
+    // line.
     let last = surface.triangles.len() - 1;
     let mut is_right = vec![false; surface.triangles.len()];
     is_right[last] = true;

@@ -1,17 +1,17 @@
-//! What happens when.
+//! Events of a scene by step.
 
 use super::change::{Change, Event};
 
-/// What happens when, and how many vertices there are then.
+/// Events by step, and the numbers of vertices that they leave.
 pub(super) struct Timeline {
-    /// Of each step the number of vertices of each body; before step 1 first.
+    /// Numbers of vertices of each body, by step; index 0 is the beginning.
     pub(super) counts: Vec<Vec<usize>>,
-    /// Of each step.
+    /// Events of each step, from step 1.
     pub(super) events: Vec<Vec<Event>>,
 }
 
 impl Timeline {
-    /// Of bodies with so many vertices, to which nothing happens.
+    /// A timeline without events, for bodies with these numbers of vertices.
     pub(super) fn new(vertices: Vec<usize>, steps: u32) -> Self {
         Self {
             counts: vec![vertices; steps as usize + 1],
@@ -19,7 +19,9 @@ impl Timeline {
         }
     }
 
-    /// Something happens to a body in a step, after which it has so many vertices; nothing, if these changes are none.
+    /// Adds changes of a body in a step, after which it has `vertices` vertices.
+    ///
+    /// Does nothing if there are no changes.
     pub(super) fn edit(&mut self, step: u32, body: usize, changes: Vec<Change>, vertices: usize) {
         if changes.is_empty() {
             return;
@@ -30,7 +32,7 @@ impl Timeline {
         }
     }
 
-    /// Two bodies become one in a step.
+    /// Adds the fusion of two bodies in a step.
     pub(super) fn fuse(&mut self, step: u32, kept: usize, gone: usize) {
         self.events[step as usize - 1].push(Event::Fuse { kept, gone });
         for counts in &mut self.counts[step as usize..] {

@@ -1,8 +1,8 @@
 //! `arms`: 27 bodies with several deforming arms (the paper's third experiment, its second run).
 //!
-//! They stand like the crowd, close enough that arms reach for arms and now and then for the core
-//! of a neighbour: contacts come and go everywhere, between thin parts that boxes bound
-//! badly. With the default size and seed 950 to 1,770 pairs of triangles intersect at every step.
+//! They stand as in the crowd, close enough that arms reach for arms and now and then for the core
+//! of a neighbour. Contacts come and go everywhere, between thin parts that boxes bound badly. With
+//! the default size and seed, 950 to 1,770 pairs of triangles intersect at every step.
 
 use super::crowd::places;
 use crate::bodies::ArmedSphere;
@@ -20,13 +20,13 @@ const ABOUT: About = About {
 
 const STREAM: u64 = 2;
 
-/// Triangles of a body unless asked otherwise.
+/// Default number of triangles of a body.
 const TRIANGLES: usize = 5_120;
 
-/// Between neighbours; arms reach about 1.3.
+/// Distance between neighbours; arms reach about 1.3.
 const SPACING: f64 = 1.8;
 
-/// How far a body sways along each axis.
+/// Amplitude of a body's sway along each axis.
 const SWAY: f64 = 0.1;
 
 pub(crate) fn scene(triangles: Option<usize>, seed: u64) -> Result<Scene, SceneError> {

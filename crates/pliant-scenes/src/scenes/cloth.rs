@@ -1,7 +1,7 @@
-//! `cloth`: one sheet that folds onto itself; the scene asks which of its triangles meet.
+//! `cloth`: one sheet that folds onto itself; the scene is made for its self-intersections.
 //!
-//! With the default size and seed it first touches itself at step 26; then the pairs of triangles
-//! that intersect and share no vertex grow steadily to 10,393 at step 50.
+//! With the default size and seed it first touches itself at step 26. From then on the pairs of
+//! triangles that intersect and share no vertex grow steadily, to 10,393 at step 50.
 
 use crate::bodies::FoldingSheet;
 use crate::error::SceneError;
@@ -17,11 +17,13 @@ const ABOUT: About = About {
 
 const STREAM: u64 = 4;
 
-/// 200 by 200 vertices unless asked otherwise.
+/// Default number of triangles: 200 by 200 vertices.
 const TRIANGLES: usize = 79_202;
 
-/// Bend in radians, almost all of it reached in the first third of the steps. Together with the
-/// part of [`PRESS`] added until then it puts the first contact, at a bend of 2.04, on step 26.
+/// Bend in radians, almost all of it reached in the first third of the steps.
+///
+/// Together with the part of [`PRESS`] added until then it causes the first contact, at a bend of
+/// 2.04, at step 26.
 const FOLD: f64 = 1.946;
 
 /// Bend in radians, added evenly over all steps; a hundredth is about a thousand pairs at the end.

@@ -1,9 +1,9 @@
 //! `crowd`: 27 bumpy spheres that jostle each other all the time (the paper's third experiment).
 //!
 //! They stand three by three by three, a little more than a diameter apart, so that a body touches
-//! its neighbours with its bumps. The paper keeps them apart by a simple collision response; here
-//! each sways about its place, which needs no state from step to step. With the default size and
-//! seed there are 2,000 to 2,650 pairs of intersecting triangles at every step.
+//! its neighbours with its bumps. The paper keeps them apart by a simple collision response. Here
+//! each sways about its place, which needs no state between steps. With the default size and seed,
+//! 2,000 to 2,650 pairs of triangles intersect at every step.
 
 use crate::bodies::BumpySphere;
 use crate::bumps::Bumps;
@@ -20,20 +20,21 @@ const ABOUT: About = About {
     steps: 200,
 };
 
-/// Chosen: among four hundred streams, the one whose number of pairs is the steadiest with the
-/// default seed. Others have about the same mean and wander from 1,500 to 3,250.
+/// Stream of random numbers with the steadiest number of pairs among four hundred.
+///
+/// That holds with the default seed. Others have about the same mean and range from 1,500 to 3,250.
 const STREAM: u64 = 248;
 
-/// Triangles of a body unless asked otherwise.
+/// Default number of triangles of a body.
 const TRIANGLES: usize = 5_120;
 
 /// Root mean square of the bumps, in radii.
 const HEIGHT: f64 = 0.09;
 
-/// Between neighbours, in radii. A hundredth less is 150 pairs more.
+/// Distance between neighbours, in radii. A hundredth less is 150 pairs more.
 const SPACING: f64 = 2.112;
 
-/// How far a body sways along each axis, in radii.
+/// Amplitude of a body's sway along each axis, in radii.
 const SWAY: f64 = 0.06;
 
 pub(crate) fn scene(triangles: Option<usize>, seed: u64) -> Result<Scene, SceneError> {

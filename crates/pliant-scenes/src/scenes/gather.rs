@@ -1,11 +1,10 @@
 //! `gather`: many bodies move from far starts to one goal point (the paper's figure 6).
 //!
-//! If all of them really reached the point, every body would cut every other one, and a thousand
-//! bodies would have hundreds of millions of pairs. So each goes straight toward the goal and stops
-//! at its own place in a ball round it: a jittered cubic lattice, the same density for any number
-//! of bodies. A start lies on the same ray, drawn out from the goal and pushed farther, so that the
-//! bodies come from apart and the first steps are without contact.
-//! With the defaults the bodies first touch at step 135 and have 19,110 pairs at step 200.
+//! If all reached the point, every body would intersect every other, and a thousand bodies would
+//! have hundreds of millions of pairs. So each moves straight toward the goal and stops at its own
+//! point of a jittered cubic lattice, equally dense for any number of bodies. Its start lies on the
+//! same ray, farther out, so that the first steps are without contact. With the defaults, bodies
+//! first touch at step 135 and have 19,110 pairs at step 200.
 
 use crate::bodies::BumpySphere;
 use crate::bumps::Bumps;
@@ -25,29 +24,31 @@ const ABOUT: About = About {
 
 const STREAM: u64 = 3;
 
-/// Places are drawn from a stream that no body uses.
+/// Stream of random numbers for the places; no body uses it.
 const PLACES: u64 = u64::MAX;
 
-/// Bodies unless asked otherwise.
+/// Default number of bodies.
 const BODIES: usize = 64;
 
-/// Triangles of a body unless asked otherwise.
+/// Default number of triangles of a body.
 const TRIANGLES: usize = 1_280;
 
 /// Root mean square of the bumps, in radii.
 const HEIGHT: f64 = 0.09;
 
-/// Between neighbours of the lattice at the goal, in radii, before the jitter.
+/// Lattice spacing at the goal in radii, before the jitter.
 const SPACING: f64 = 1.6;
 
-/// How far a place is moved along each axis, in radii.
+/// Displacement of a place along each axis, in radii.
 const JITTER: f64 = 0.15;
 
-/// A start is as many times as far from the goal as the place. Neighbours are at least 1.3 radii
-/// apart, so they start at least 3.2 apart, and bumps seldom stand out more than 0.3.
+/// Factor between the distances of start and place from the goal.
+///
+/// Neighbours are at least 1.3 radii apart, so they start at least 3.2 apart, and bumps seldom
+/// stand out more than 0.3.
 const STRETCH: f64 = 2.5;
 
-/// And by so many radii more, which spreads out those that stop near the goal.
+/// Additional distance of the start in radii, which spreads out bodies that stop near the goal.
 const FARTHER: f64 = 3.0;
 
 pub(crate) fn scene(
@@ -76,11 +77,12 @@ pub(crate) fn scene(
     Scene::assemble(ABOUT, triangles.unwrap_or(TRIANGLES), sphere, bodies)
 }
 
-/// The `bodies` places nearest to the goal, which is the origin, nearest first. More bodies are
-/// more places: those that were there stay.
+/// The `bodies` places nearest to the goal, which is the origin, nearest first.
+///
+/// More bodies only add places.
 fn places(bodies: usize, seed: u64) -> Vec<Vec3> {
     let mut rng = Rng::new(seed, STREAM, PLACES);
-    // The goal is no point of the lattice: it should not be the middle of one body.
+    // The goal is no point of the lattice, so that it is not the middle of a body.
     let shift: Vec3 = std::array::from_fn(|_| rng.between(0.25, 0.75));
     // A ball of this radius, without its rim, holds more lattice points than there are bodies.
     let radius = 2
@@ -100,7 +102,7 @@ fn places(bodies: usize, seed: u64) -> Vec<Vec3> {
     places
 }
 
-/// On the ray from the goal through `place`.
+/// The start: a point on the ray from the goal through `place`.
 fn start(place: Vec3) -> Vec3 {
     let distance = dot(place, place).sqrt();
     scale(place, STRETCH + FARTHER / distance)

@@ -1,4 +1,4 @@
-//! The five scenes, one a file: how many bodies, what they look like, where they go.
+//! The five scenes, one a file: number, shape and motion of their bodies.
 
 mod arms;
 mod cloth;
@@ -10,10 +10,10 @@ use crate::error::SceneError;
 use crate::scene::Scene;
 
 impl Scene {
-    /// The scene called `name`, with `triangles` triangles a body or the scene's own number.
+    /// Makes the scene called `name`, with `triangles` triangles per body or a default.
     ///
-    /// Bodies made of spheres can have 4, 8 or 20 times any power of four, the cloth twice any
-    /// square, up to [`MAX_TRIANGLES`](Self::MAX_TRIANGLES).
+    /// Bodies made of spheres can have 4, 8 or 20 times any power of four. The cloth can have twice
+    /// any square. The limit is [`MAX_TRIANGLES`](Self::MAX_TRIANGLES).
     ///
     /// # Errors
     ///
@@ -43,9 +43,9 @@ impl Scene {
         }
     }
 
-    /// The scene `gather` with any number of bodies, of `triangles` triangles each.
+    /// Makes the scene `gather` with any number of bodies, of `triangles` triangles each.
     ///
-    /// They gather as densely for any number: a body meets its neighbours, not all the others.
+    /// They gather equally densely for any number: a body meets its neighbours, not all the others.
     /// Shape and motion of a body do not depend on the number of bodies.
     ///
     /// # Errors

@@ -1,9 +1,9 @@
 //! `spheres`: two bumpy spheres move slowly into each other (the paper's first experiment).
 //!
-//! With the default size and seed they first touch at step 60 and have 3,742 pairs of intersecting
-//! triangles at step 200; the paper has 60 and 3,760. The bumps matter: two smooth spheres meet in
-//! one circle, which is 600 to 750 pairs. The motion is the same for every size, as in the paper's
-//! Table 1, and so is the first contact: step 60 from 5,120 triangles on, 61 with 1,280.
+//! With the default size and seed they first touch at step 60, and 3,742 pairs of triangles
+//! intersect at step 200. The paper has 60 and 3,760. The bumps matter: two smooth spheres meet in
+//! one circle, with 600 to 750 pairs. The motion is the same for every size, as in the paper's
+//! Table 1. So is the first contact: step 60 from 5,120 triangles on, 61 with 1,280.
 
 use crate::bodies::BumpySphere;
 use crate::bumps::Bumps;
@@ -21,16 +21,16 @@ const ABOUT: About = About {
 
 const STREAM: u64 = 0;
 
-/// Triangles of a body unless asked otherwise.
+/// Default number of triangles of a body.
 const TRIANGLES: usize = 20_480;
 
 /// Root mean square of the bumps, in radii.
 const HEIGHT: f64 = 0.09;
 
-/// Between the centres along x, in radii, at the first and the last step.
+/// Distance between the centres along x, in radii, at the first and the last step.
 const DISTANCE: (f64, f64) = (3.13, 0.198);
 
-/// Of the second body in y and z, in radii, so that the bodies do not meet head on.
+/// Offset of the second body in y and z, in radii, so that the bodies do not meet head on.
 const OFFSET: [f64; 2] = [0.04, 0.02];
 
 pub(crate) fn scene(triangles: Option<usize>, seed: u64) -> Result<Scene, SceneError> {
@@ -38,7 +38,7 @@ pub(crate) fn scene(triangles: Option<usize>, seed: u64) -> Result<Scene, SceneE
     let bodies = sides.into_iter().zip(0..).map(|((side, [y, z]), body)| {
         let mut rng = Rng::new(seed, STREAM, body);
         let bumps = Bumps::new(&mut rng, HEIGHT);
-        // The second body is turned, once and for all: the two meshes must not be aligned.
+        // A constant rotation of the second body: the two meshes must not be aligned.
         let spin = if body == 0 {
             Spin::NONE
         } else {

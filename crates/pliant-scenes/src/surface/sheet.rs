@@ -1,8 +1,8 @@
-//! A square sheet: `side` by `side` little squares, each cut in two.
+//! Square sheet: `side` by `side` squares, each cut into two triangles.
 
 use super::{MAX_TRIANGLES, Nearest, Surface};
 
-/// The possible numbers of triangles: two in each of `side²` squares.
+/// Possible numbers of triangles: two in each of `side²` squares.
 fn sheet_sizes() -> impl Iterator<Item = usize> + Clone {
     (1..)
         .map(|side: usize| 2 * side * side)
@@ -12,8 +12,7 @@ fn sheet_sizes() -> impl Iterator<Item = usize> + Clone {
 /// The unit square of z = 0 with `triangles` triangles.
 ///
 /// Vertices go row by row: vertex `row · (side + 1) + column` is at (column / side, row / side).
-/// The cuts alternate like the squares of a chessboard, so that no direction of the cloth is
-/// favoured.
+/// The diagonals alternate like the squares of a chessboard, so that no direction is favoured.
 pub(crate) fn sheet(triangles: usize) -> Result<Surface, Nearest> {
     let side = (triangles / 2).isqrt();
     if triangles == 0 || triangles != 2 * side * side || triangles > MAX_TRIANGLES {

@@ -1,13 +1,13 @@
-//! A sphere of triangles: a platonic solid whose triangles are cut in four, again and again, the
-//! midpoints of their edges pushed out to the unit sphere.
+//! Triangulated sphere: a platonic solid, subdivided repeatedly.
 //!
-//! Icosahedron, octahedron and tetrahedron give 20, 8 and 4 times the powers of four. These are
-//! the sizes of the paper's Table 1, and no two of the solids share one.
+//! A subdivision cuts each triangle in four and pushes the midpoints of edges to the unit sphere.
+//! Icosahedron, octahedron and tetrahedron give 20, 8 and 4 times the powers of four. These are the
+//! sizes of the paper's Table 1, and no two of the solids share one.
 
 use super::{MAX_TRIANGLES, Nearest, Surface};
 use crate::vector::{Vec3, add, normalised};
 
-/// A solid to start from: corners of any length, triangles counter-clockwise from outside.
+/// A solid to subdivide: corners of any length, triangles counter-clockwise from outside.
 struct Solid {
     corners: &'static [Vec3],
     triangles: &'static [[u32; 3]],
@@ -31,7 +31,7 @@ const ICOSAHEDRON: Solid = Solid {
         [-PHI, 0.0, -1.0],
         [-PHI, 0.0, 1.0],
     ],
-    // Five round corner 0, five beside them, five round corner 3, five beside those.
+    // Five round corner 0, five beside them, five round corner 3, five beside these.
     triangles: &[
         [0, 11, 5],
         [0, 5, 1],
@@ -89,12 +89,12 @@ const TETRAHEDRON: Solid = Solid {
 
 const SOLIDS: [&Solid; 3] = [&ICOSAHEDRON, &OCTAHEDRON, &TETRAHEDRON];
 
-/// The possible numbers of triangles, not sorted.
+/// Possible numbers of triangles, not sorted.
 fn sphere_sizes() -> impl Iterator<Item = usize> + Clone {
     recipes().map(|(_, _, size)| size)
 }
 
-/// Every solid, the number of times it is divided, and the triangles this gives.
+/// All pairs of a solid and a number of subdivisions, with the number of triangles.
 fn recipes() -> impl Iterator<Item = (&'static Solid, u32, usize)> + Clone {
     SOLIDS.into_iter().flat_map(|solid| {
         (0..)
@@ -115,7 +115,7 @@ pub(crate) fn sphere(triangles: usize) -> Result<Surface, Nearest> {
     Ok((0..times).fold(start, |surface, _| divided(&surface)))
 }
 
-/// Every triangle cut in four. Old vertices keep their numbers.
+/// Subdivides every triangle into four. Old vertices keep their numbers.
 fn divided(coarse: &Surface) -> Surface {
     let edges = coarse.triangles.len() / 2 * 3;
     let mut rest = Vec::with_capacity(coarse.rest.len() + edges);
@@ -129,10 +129,10 @@ fn divided(coarse: &Surface) -> Surface {
     Surface { rest, triangles }
 }
 
-/// The midpoint of every edge met so far, so that both triangles of an edge share it.
+/// Midpoints of the edges met so far, so that both triangles of an edge share one.
 ///
-/// An edge is filed under its smaller end. No vertex of these surfaces has more than six
-/// neighbours, so six places for each do, and nothing needs to be hashed.
+/// An edge is stored at its smaller end. No vertex has more than six neighbours, so six slots per
+/// vertex replace a hash table.
 struct Midpoints {
     places: Vec<[(u32, u32); 6]>,
 }
@@ -146,7 +146,7 @@ impl Midpoints {
         }
     }
 
-    /// The midpoint of `a` and `b`, made where this is the first triangle to ask.
+    /// Midpoint of `a` and `b`, created for the first triangle that asks.
     fn of(&mut self, a: u32, b: u32, rest: &mut Vec<Vec3>) -> u32 {
         let (low, high) = (a.min(b), a.max(b));
         for place in &mut self.places[low as usize] {

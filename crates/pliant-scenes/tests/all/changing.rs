@@ -1,9 +1,10 @@
-//! Scenes whose meshes change: what happens is possible, ends as described, and is the same on every machine.
+//! Scenes whose meshes change: events are possible, end as described, and are equal on every
+//! machine.
 
 use pliant_scenes::{Change, ChangingMesh, ChangingScene, Event};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A mesh as events leave it.
+/// A mesh to which events are applied.
 #[derive(Clone, Default)]
 struct Mesh {
     triangles: Vec<Option<[u32; 3]>>,
@@ -68,7 +69,7 @@ impl Mesh {
         self.triangles.iter().flatten().flatten().copied().collect()
     }
 
-    /// How many edges have one triangle; none has more than two.
+    /// Number of boundary edges; no edge may have more than two triangles.
     fn boundary(&self) -> usize {
         let mut edges: BTreeMap<[u32; 2], usize> = BTreeMap::new();
         for [a, b, c] in self.triangles.iter().flatten() {
@@ -162,7 +163,7 @@ fn a_cut_leaves_two_pieces_with_a_rim_each() {
         }
     });
     assert_eq!((whole, meshes[0].components()), (1, 2));
-    // Every triangle that was cut is three; either rim has an edge of each.
+    // Every triangle that was cut is three; each rim has one of its edges.
     let cut = (meshes[0].triangles.len() - first_triangles) / 2;
     assert!(cut > 40);
     assert_eq!(meshes[0].boundary(), 2 * cut);
@@ -233,7 +234,7 @@ fn defaults_are_those_of_the_front_page() {
     );
 }
 
-/// Of what happens and where everything is, in small scenes.
+/// A hash of events and positions, in small scenes.
 #[test]
 fn events_and_positions_are_the_committed_ones() {
     let committed = [

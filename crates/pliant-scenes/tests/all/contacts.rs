@@ -1,4 +1,4 @@
-//! The figures that the scenes are calibrated for: when bodies first touch, and how often.
+//! Figures for which the scenes are calibrated: first contact, and number of contacts.
 
 use crate::count::{pairs, pairs_within_bodies};
 use pliant_scenes::Scene;
@@ -20,7 +20,7 @@ fn spheres_meet_as_in_the_paper() {
 
 #[test]
 fn spheres_of_every_size_meet_at_the_same_step() {
-    // The coarsest bumps of all are cut off a little.
+    // The coarsest meshes cut the bumps off a little.
     for size in [1_280, 5_120, 8_192, 16_384, 32_768, 65_536] {
         let spheres = scene("spheres", Some(size));
         let [before, at] = counts(&spheres, [59, 61]);
@@ -69,7 +69,7 @@ fn many_bodies_gather_as_densely_as_few() {
         pairs(&gather, 200) as f64 / bodies as f64
     };
     let (few, many) = (pairs_per_body(100), pairs_per_body(1_000));
-    // The bodies at the rim have fewer neighbours; in the limit of large numbers there is no rim.
+    // Bodies at the rim have fewer neighbours; in the limit of large numbers there is no rim.
     assert!(
         many > few && many < 2.0 * few,
         "{few} and {many} pairs a body"

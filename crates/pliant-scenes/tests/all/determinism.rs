@@ -1,16 +1,17 @@
-//! A committed hash of every scene: whatever changes a bit of a position, on purpose or on another
-//! machine, is noticed.
+//! A committed hash of every scene, which any changed bit of a position would change.
+//!
+//! Such a change may come from the code or from another machine.
 
 use pliant_scenes::Scene;
 
-/// FNV-1a, 64 bits.
+/// FNV-1a hash, 64 bits.
 fn fnv(bytes: impl Iterator<Item = u8>) -> u64 {
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     })
 }
 
-/// Of the bits of the positions of all bodies, little end first.
+/// Hash of the bits of the positions of all bodies, little-endian.
 fn hash(scene: &Scene, step: u32) -> u64 {
     let mut all = Vec::new();
     let mut positions = Vec::new();

@@ -1,4 +1,4 @@
-//! What the interface promises of every scene.
+//! Promises of the interface, checked for every scene.
 
 use pliant_scenes::{Scene, SceneError};
 
@@ -107,7 +107,7 @@ fn the_smallest_bodies_are_possible() {
 
 #[test]
 fn a_motion_is_the_same_for_every_size() {
-    // Dividing a solid keeps its vertices, so the coarse body is a part of the fine one.
+    // Subdivision keeps the vertices of a solid, so the coarse body is a part of the fine one.
     for name in ["spheres", "crowd", "arms", "gather"] {
         let [coarse, fine] = [320, 5_120].map(|size| Scene::new(name, Some(size), 3).unwrap());
         for step in [1, 77, 200] {

@@ -1,15 +1,15 @@
-//! What the interface promises of poses and local positions.
+//! Promises of the interface about poses and local positions.
 
 use pliant_scenes::{Pose, Scene};
 
-/// 2⁻²⁴.
+/// The unit roundoff of f32: 2⁻²⁴.
 const UNIT: f64 = 1.0 / 16_777_216.0;
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// For each body and some steps: pose, local and world positions.
+/// Pose, local and world positions of each body at some steps.
 fn placed(scene: &Scene) -> impl Iterator<Item = (Pose, Vec<[f32; 3]>, Vec<[f32; 3]>)> {
     let steps = [1, 2, 99, scene.steps()];
     (0..scene.body_count()).flat_map(move |body| {
@@ -39,7 +39,7 @@ fn placing_local_positions_gives_the_world_but_for_two_roundings() {
             }
         }
     }
-    // Near the bound, so that it is no idle promise.
+    // Near the bound, so that the bound is no idle promise.
     assert!((0.3..1.000_001).contains(&worst), "{worst}");
 }
 

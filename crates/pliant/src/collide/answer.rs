@@ -1,8 +1,7 @@
 //! What the tasks of a query of one kind find, and where it goes: what stands behind the doors `Tasks` and `LeafWork`.
 
 use crate::held::{empty, held};
-use crate::kernels::Buffer;
-use crate::queries::{Batch, Kind, LeafTest, LeafWork};
+use crate::queries::{Batch, FoundBy, Kind, LeafTest, LeafWork};
 use crate::statistics::Statistics;
 use crate::threads::Executor;
 use crate::traversal::{Collector, Sink, Task, TaskWork, Tasks};
@@ -14,25 +13,22 @@ const MOST_HITS: usize = 2048;
 /// The tasks of a kind, kept from query to query.
 #[derive(Debug)]
 pub(crate) struct TaskList<K: Kind> {
-    tasks: Vec<(Task, Found<K>)>,
+    tasks: Vec<(Task, Results<K>)>,
     /// How many of them, from the first on, are in use.
     used: usize,
     /// The hit at which a query stopped, in tree order.
     pub(crate) broke_at: Option<K::TreeHit>,
 }
 
-/// What a task has found.
+/// Hits of one task, in tree order and as they are handed over.
 #[derive(Debug)]
-struct Found<K: Kind> {
-    buffers: K::Buffers,
-    /// In tree order.
-    hits: Buffer<K::TreeHit>,
-    /// The same hits as the caller numbers things, for a collector; or as a visitor is shown them.
+struct Results<K: Kind> {
+    found: FoundBy<K>,
+    /// The hits as the caller numbers things, for a collector; or as a visitor is shown them.
     of_caller: Vec<K::Hit>,
     shown: Vec<K::Shown>,
     /// Whether a collector does not take any more.
     are_too_many: bool,
-    statistics: Statistics,
 }
 
 /// A query on its way.
@@ -42,7 +38,7 @@ pub(crate) struct Answer<'q, 's, K: Kind> {
     sink: SinkOf<'s, K>,
 }
 
-/// Where what a kind finds goes.
+/// The sink of a kind's hits.
 pub(crate) type SinkOf<'s, K> = Sink<'s, <K as Kind>::Hit, <K as Kind>::Shown>;
 
 impl<'q, 's, K: Kind> Answer<'q, 's, K> {
@@ -64,9 +60,9 @@ impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
     fn begin(&mut self, most: usize) {
         let TaskList { tasks, used, .. } = &mut *self.list;
         // They are left as they were where a visitor stopped, or panicked.
-        for (task, found) in &mut tasks[..*used] {
+        for (task, results) in &mut tasks[..*used] {
             task.clear();
-            found.clear();
+            results.clear();
         }
         tasks.resize_with(most.max(tasks.len()), Default::default);
         *used = 1;
@@ -83,11 +79,11 @@ impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
 
     fn run(&mut self, executor: Executor, count: usize, work: TaskWork<K::Scalar>) {
         let (kind, collector) = (self.kind, self.sink.collector());
-        executor.run(&mut self.list.tasks[..count], |_, (task, found)| {
+        executor.run(&mut self.list.tasks[..count], u64::MAX, |_, (task, results)| {
             let mut bound = Bound {
                 kind,
                 collector,
-                found,
+                results,
             };
             work(task, &mut bound);
         });
@@ -98,17 +94,17 @@ impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
             tasks, broke_at, ..
         } = &mut *self.list;
         let tasks = &tasks[..count];
-        for (_, found) in tasks {
-            *statistics += found.statistics;
+        for (_, results) in tasks {
+            *statistics += results.found.statistics;
         }
-        for (_, found) in tasks {
-            if found.are_too_many {
+        for (_, results) in tasks {
+            if results.are_too_many {
                 return ControlFlow::Break(());
             }
             if let Sink::Visitor(visitor) = &mut self.sink
-                && let ControlFlow::Break(place) = visitor(&found.shown)
+                && let ControlFlow::Break(place) = visitor(&results.shown)
             {
-                *broke_at = Some(found.hits.as_slice()[place]);
+                *broke_at = Some(results.found.hits.as_slice()[place]);
                 return ControlFlow::Break(());
             }
         }
@@ -120,31 +116,24 @@ impl<K: Kind> Tasks<K::Scalar> for Answer<'_, '_, K> {
 struct Bound<'q, K: Kind> {
     kind: &'q K,
     collector: Option<Collector<'q, K::Hit>>,
-    found: &'q mut Found<K>,
+    results: &'q mut Results<K>,
 }
 
 impl<K: Kind> LeafWork<K::Scalar> for Bound<'_, K> {
     fn clear(&mut self) {
-        self.found.clear();
+        self.results.clear();
     }
 
     fn test(&mut self, leaves: &LeafTest<K::Scalar>, batch: Batch) {
-        let Found {
-            buffers,
-            hits,
-            of_caller,
-            shown,
-            statistics,
-            ..
-        } = &mut *self.found;
-        let before = hits.len();
-        self.kind.test(leaves, batch, buffers, hits, statistics);
-        let new = &hits.as_slice()[before..];
+        let (kind, results) = (self.kind, &mut *self.results);
+        let before = results.found.hits.len();
+        kind.test(leaves, batch, &mut results.found);
+        let new = &results.found.hits.as_slice()[before..];
         if self.collector.is_some() {
-            let kind = self.kind;
-            of_caller.extend(new.iter().map(|&hit| kind.to_caller(&leaves.ids, hit)));
+            let hits = new.iter().map(|&hit| kind.to_caller(&leaves.ids, hit));
+            results.of_caller.extend(hits);
         } else {
-            self.kind.show(leaves, new, shown);
+            kind.show(leaves, new, &mut results.shown);
         }
         if !self.has_room() {
             self.hand_over();
@@ -152,35 +141,35 @@ impl<K: Kind> LeafWork<K::Scalar> for Bound<'_, K> {
     }
 
     fn has_room(&self) -> bool {
-        self.found.hits.len() < MOST_HITS && !self.found.are_too_many
+        self.results.found.hits.len() < MOST_HITS && !self.results.are_too_many
     }
 
     fn hand_over(&mut self) {
-        let found = &mut *self.found;
+        let results = &mut *self.results;
         if let Some(collector) = self.collector
-            && !found.of_caller.is_empty()
+            && !results.of_caller.is_empty()
         {
-            found.are_too_many |= collector(&found.of_caller).is_break();
-            found.hits.clear();
-            found.of_caller.clear();
+            results.are_too_many |= collector(&results.of_caller).is_break();
+            results.found.hits.clear();
+            results.of_caller.clear();
         }
     }
 }
 
-impl<K: Kind> Found<K> {
+impl<K: Kind> Results<K> {
     /// Forgets what was found.
     fn clear(&mut self) {
-        self.hits.clear();
+        self.found.hits.clear();
+        self.found.statistics = Statistics::default();
         self.of_caller.clear();
         self.shown.clear();
         self.are_too_many = false;
-        self.statistics = Statistics::default();
     }
 }
 
-empty!(Found<K: Kind>: buffers, hits, of_caller, shown, are_too_many, statistics);
+empty!(Results<K: Kind>: found, of_caller, shown, are_too_many);
 
-held!(Found<K: Kind>: buffers, hits, of_caller[], shown[]);
+held!(Results<K: Kind>: found, of_caller[], shown[]);
 
 empty!(TaskList<K: Kind>: tasks, used, broke_at);
 

@@ -6,14 +6,13 @@ use super::origin::FloatingOrigin;
 use super::request::Request;
 use super::scheduler::{Scheduler, is_worth_it};
 use super::step::Step;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Body};
 use crate::error::{Error, ErrorKind};
 use crate::held::{self, empty, held};
-use crate::hits::{Hit, Numbered};
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
 use crate::queries::{Kind, Needs};
-use crate::sort::{Sorter, sort_by_numbers};
+use crate::sort::{Hit, Numbered, Sorter, sort_by_numbers};
 use crate::statistics::Statistics;
 use crate::threads::{Executor, Interrupt, PerThread, Threads};
 use crate::traversal::{Scratch, Sink, Visitor};
@@ -45,7 +44,7 @@ pub(crate) struct Asked<K: Kind> {
     pub(super) sorter: Sorter<K::Hit>,
     /// Hits that are more than their numbers, of every thread; the first of these lists is that of all in the end.
     lists: PerThread<Vec<K::Hit>>,
-    /// What is measured of all hits, once they are sorted.
+    /// All hits as they were measured, once they are sorted.
     pub(super) measured: Vec<K::Shown>,
 }
 
@@ -123,7 +122,8 @@ impl<K: Kind> Asked<K> {
     }
 }
 
-/// Has every thread keep what it finds, some hits at a time. It is an error if there are more than the request allows.
+/// Has every thread keep what it finds, some hits at a time. It is an error if there are more than
+/// the request allows.
 fn collect<K: Kind>(
     buffers: (&mut TaskList<K>, &mut Scheduler<K>),
     kind: &K,
@@ -150,7 +150,7 @@ fn collect<K: Kind>(
     Ok(())
 }
 
-/// Has what is found go to a sink, until that breaks.
+/// Answers a query: what it finds goes to a sink, until that breaks.
 fn ask<K: Kind>(
     (tasks, scheduler): (&mut TaskList<K>, &mut Scheduler<K>),
     kind: &K,
@@ -175,7 +175,7 @@ fn ask<K: Kind>(
     common.for_each_batch(kind.needs(), request, interrupt, false, meet)
 }
 
-/// Has some pairs of bodies meet.
+/// The work on a batch of pairs of bodies.
 type Meet<'m, S> = &'m mut dyn FnMut(&mut Step, &mut Bodies<S>, &[BodyPair]) -> ControlFlow<()>;
 
 impl<S: Coordinate> Common<S> {
@@ -195,7 +195,8 @@ impl<S: Coordinate> Common<S> {
         Ok(())
     }
 
-    /// A query on its way, or what is done early of it; the bodies it works on, and what finds those that meet.
+    /// A step of a query, perhaps one that is done early, the bodies it works on, and the finder of
+    /// pairs.
     pub(super) fn step<'q>(
         &'q mut self,
         needs: Needs,
@@ -224,7 +225,7 @@ impl<S: Coordinate> Common<S> {
         (step, &mut self.bodies, &mut self.body_pairs)
     }
 
-    /// Has those bodies meet that a query is about, a batch of pairs at a time, until one breaks.
+    /// Goes through the pairs of bodies that a query is about, batch by batch, until one breaks.
     fn for_each_batch(
         &mut self,
         needs: Needs,
@@ -237,8 +238,8 @@ impl<S: Coordinate> Common<S> {
         let (boxes, origin) = (needs.body_boxes(), step.origin);
         body_pairs.begin(request.of, bodies, boxes, origin, interrupt)?;
         let instructions = step.refit.instructions;
-        // Bodies with themselves are a batch of their own, the first: what is refitted then does not depend on the order in which
-        // threads take the others.
+        // Bodies with themselves are a batch of their own, the first: what is refitted then does
+        // not depend on the order in which threads take the others.
         while let Some(pairs) = body_pairs.next(bodies, instructions, interrupt) {
             if meet(&mut step, bodies, pairs).is_break() {
                 break;
@@ -260,7 +261,7 @@ impl<S: Coordinate> Common<S> {
                     Partner::Another
                 };
                 for place in [a, b] {
-                    step.prepare(&mut bodies.list[place.index()], partner)?;
+                    step.prepare(bodies.at_mut(place), partner)?;
                 }
             }
             ControlFlow::Continue(())
@@ -273,15 +274,13 @@ impl<S: Coordinate> Common<S> {
         if !interrupt.is_set() {
             return Ok(());
         }
-        for body in &mut self.bodies.list {
-            body.forget_boxes();
-        }
+        self.bodies.all_mut().for_each(Body::forget_boxes);
         self.body_pairs.forget();
         Err(ErrorKind::Interrupted.of_query())
     }
 
     pub(crate) fn settle_origin(&mut self) {
-        if self.origin.settle(&mut self.bodies.list) {
+        if self.origin.settle(&mut self.bodies) {
             self.body_pairs.forget();
         }
     }
@@ -295,4 +294,5 @@ impl<S: Coordinate> Common<S> {
 
 empty!(Asked<K: Kind>: tasks, scheduler, sorter, lists, measured);
 
-held!(Asked<K: Kind>: tasks, scheduler, sorter, measured[]; |asked| asked.lists.held_by(held::list));
+held!(Asked<K: Kind>: tasks, scheduler, sorter, measured[];
+    |asked| asked.lists.held_by(held::list));

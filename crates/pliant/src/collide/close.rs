@@ -7,14 +7,10 @@ use super::request::Request;
 use crate::bodies::Bodies;
 use crate::bodies::Places;
 use crate::error::Error;
-use crate::hits::{EdgeEdge, Pair, VertexTriangle};
 use crate::ids::BodyId;
 use crate::kernels::{Coordinate, Instructions, dispatch};
 use crate::queries::{Kind, Measurable, measure_all};
-use crate::threads::{Executor, Interrupt};
-
-/// Pairs in a job: some tens of microseconds.
-const JOB: usize = 1024;
+use crate::threads::{Executor, Grain, Interrupt};
 
 /// Two things whose corners are known to bodies.
 pub(crate) trait InBodies: Measurable {
@@ -23,64 +19,6 @@ pub(crate) trait InBodies: Measurable {
 
     /// The corners in these bodies, in the caller's order.
     fn corners<'b, S: Coordinate>(&self, bodies: [&Places<'b, S>; 2]) -> Self::Corners<'b, S>;
-}
-
-impl InBodies for VertexTriangle {
-    fn bodies(&self) -> [BodyId; 2] {
-        [self.vertex_body, self.triangle_body]
-    }
-
-    #[inline]
-    fn corners<'b, S: Coordinate>(
-        &self,
-        [of_vertex, of_triangle]: [&Places<'b, S>; 2],
-    ) -> Self::Corners<'b, S> {
-        let [a, b, c] = of_triangle.triangles[self.triangle as usize];
-        [
-            of_vertex.corner(self.vertex),
-            of_triangle.corner(a),
-            of_triangle.corner(b),
-            of_triangle.corner(c),
-        ]
-    }
-}
-
-impl InBodies for EdgeEdge {
-    fn bodies(&self) -> [BodyId; 2] {
-        [self.body_a, self.body_b]
-    }
-
-    #[inline]
-    fn corners<'b, S: Coordinate>(
-        &self,
-        [of_a, of_b]: [&Places<'b, S>; 2],
-    ) -> Self::Corners<'b, S> {
-        let [a0, a1] = of_a.edges[self.edge_a as usize];
-        let [b0, b1] = of_b.edges[self.edge_b as usize];
-        [
-            of_a.corner(a0),
-            of_a.corner(a1),
-            of_b.corner(b0),
-            of_b.corner(b1),
-        ]
-    }
-}
-
-impl InBodies for Pair {
-    fn bodies(&self) -> [BodyId; 2] {
-        [self.body_a, self.body_b]
-    }
-
-    #[inline]
-    fn corners<'b, S: Coordinate>(
-        &self,
-        [of_a, of_b]: [&Places<'b, S>; 2],
-    ) -> Self::Corners<'b, S> {
-        [(of_a, self.triangle_a), (of_b, self.triangle_b)].map(|(body, triangle)| {
-            let corners = body.triangles[triangle as usize];
-            corners.map(|vertex| body.corner(vertex))
-        })
-    }
 }
 
 impl<H: InBodies, K: Kind<Hit = H, Shown = H::Close>> Asked<K> {
@@ -117,16 +55,16 @@ fn measure<S: Coordinate, H: InBodies>(
     };
     measured.clear();
     measured.extend(hits.iter().map(|&hit| hit.unmeasured()));
-    let jobs = hits.chunks(JOB).zip(measured.chunks_mut(JOB));
+    let jobs = hits.chunks(Grain::MEASURED.items).zip(measured.chunks_mut(Grain::MEASURED.items));
     let work = |(hits, measured): &mut (&[H], &mut [H::Close])| {
         let mut known: Option<([BodyId; 2], [Places<S>; 2])> = None;
-        let of_caller = |hit: H| {
+        let corners = |hit: H| {
             let ids = hit.bodies();
             if known.as_ref().is_none_or(|(of, _)| *of != ids) {
                 known = places(ids).map(|both| (ids, both));
             }
             let (_, both) = known.as_ref()?;
-            Some((hit, hit.corners(both.each_ref())))
+            Some(hit.corners(both.each_ref()))
         };
         let mut room = measured.iter_mut();
         let take = |close| {
@@ -135,7 +73,8 @@ fn measure<S: Coordinate, H: InBodies>(
             }
         };
         let interrupt = executor.interrupt;
-        dispatch!(instructions, i => measure_all(i, hits, interrupt, of_caller, take));
+        let what = (|hit| hit, corners);
+        dispatch!(instructions, i => measure_all(i, hits, interrupt, what, take));
     };
-    executor.run_each(jobs, work, |_| {});
+    executor.run_each(jobs, Grain::MEASURED, work, |_| {});
 }

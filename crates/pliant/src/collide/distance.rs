@@ -7,14 +7,14 @@
 use super::asked::Common;
 use super::witness::{Witnesses, pair_of};
 use crate::bodies::Body;
-use crate::close_pairs::CloseTriangles;
 use crate::error::{Error, ErrorKind};
 use crate::geometry::Shape;
 use crate::held::held;
 use crate::ids::BodyId;
 use crate::kernels::{Coordinate, dispatch};
 use crate::queries::{
-    BodyBoxes, Candidate, NearestPair, Needs, close, closest_of_triangles, corners_of,
+    BodyBoxes, Candidate, CloseTriangles, NearestPair, Needs, close, closest_of_triangles,
+    corners_of,
 };
 use crate::threads::Interrupt;
 use crate::traversal::{NearestScratch, TreePair, gap_square, nearest};
@@ -42,9 +42,9 @@ pub(crate) fn others_by_gap<S: Coordinate>(
     let body = common.bodies.get(id)?;
     let (origin, boxes) = (common.origin.point, BodyBoxes::default());
     let own = body.box_for(boxes, origin);
-    let others = common.bodies.list.iter();
-    let others = others.filter(|other| other.id != id && common.bodies.do_meet(body, other));
-    let gaps = others.map(|other| (gap_square(&own, &other.box_for(boxes, origin)), other.id));
+    let others = common.bodies.all();
+    let others = others.filter(|other| other.id() != id && common.bodies.do_meet(body, other));
+    let gaps = others.map(|other| (gap_square(&own, &other.box_for(boxes, origin)), other.id()));
     listed.extend(gaps);
     listed.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     Ok(())
@@ -144,7 +144,7 @@ fn parts_of<S: Coordinate>(
     a: &Body<S>,
     b: &Body<S>,
 ) -> impl Iterator<Item = (usize, usize)> + use<S> {
-    let [of_a, of_b] = [a.parts.len(), b.parts.len()];
+    let [of_a, of_b] = [a.part_count(), b.part_count()];
     (0..of_a).flat_map(move |a| (0..of_b).map(move |b| (a, b)))
 }
 

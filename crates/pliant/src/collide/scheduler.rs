@@ -60,9 +60,7 @@ pub(crate) fn is_worth_it<S: Coordinate>(
 /// The triangles of both bodies of all pairs.
 fn triangles_of<S: Coordinate>(bodies: &Bodies<S>, pairs: &[BodyPair]) -> usize {
     let places = pairs.as_flattened().iter();
-    places
-        .map(|place| bodies.list[place.index()].triangle_count())
-        .sum()
+    places.map(|&place| bodies.at(place).triangle_count()).sum()
 }
 
 impl<K: Kind> Scheduler<K> {
@@ -86,7 +84,7 @@ impl<K: Kind> Scheduler<K> {
             worker.statistics = Statistics::default();
         }
         let (small, jobs) = (&self.small, &self.jobs);
-        let all: Vec<_> = bodies.list.iter_mut().map(Mutex::new).collect();
+        let all: Vec<_> = bodies.all_mut().map(Mutex::new).collect();
         let threads = &Threads::one();
         let kind = answer.kind();
         let (needs, refit, origin) = (step.needs, step.refit, step.origin);

@@ -65,7 +65,7 @@ pub(crate) trait Kind: Sync {
     type Scalar: Coordinate;
     /// What it finds, as the caller numbers things.
     type Hit: Copy + std::fmt::Debug + Send + Sync;
-    /// What a visitor is shown of a hit: the hit itself, or what is measured of it on the way.
+    /// A hit as a visitor is shown it: itself, or with what is measured on the way.
     type Shown: Copy + std::fmt::Debug + Send + Sync;
     /// What it finds, in tree order.
     type TreeHit: Copy + Default + std::fmt::Debug + Send + Sync;
@@ -74,16 +74,9 @@ pub(crate) trait Kind: Sync {
 
     fn needs(&self) -> Needs;
 
-    /// Decides what it is shown, and appends what it finds to `hits`, in an order that depends on nothing but that. It counts candidates,
-    /// exact decisions and hits.
-    fn test(
-        &self,
-        leaves: &LeafTest<Self::Scalar>,
-        batch: Batch,
-        buffers: &mut Self::Buffers,
-        hits: &mut Buffer<Self::TreeHit>,
-        statistics: &mut Statistics,
-    );
+    /// Decides what it is shown, and appends what it finds, in an order that depends on nothing but
+    /// that. It counts candidates, exact decisions and hits.
+    fn test(&self, leaves: &LeafTest<Self::Scalar>, batch: Batch, found: &mut FoundBy<Self>);
 
     /// A hit as the caller numbers things.
     fn to_caller(&self, ids: &CallerIds, hit: Self::TreeHit) -> Self::Hit;
@@ -95,6 +88,24 @@ pub(crate) trait Kind: Sync {
         hits: &[Self::TreeHit],
         shown: &mut Vec<Self::Shown>,
     );
+}
+
+/// Hits of tests of leaves, counters of the work, and the buffers of the tests.
+#[derive(Debug, Default)]
+pub(crate) struct Found<T, B> {
+    /// In tree order.
+    pub(crate) hits: Buffer<T>,
+    pub(crate) statistics: Statistics,
+    pub(crate) buffers: B,
+}
+
+/// Finds of one kind.
+pub(crate) type FoundBy<K> = Found<<K as Kind>::TreeHit, <K as Kind>::Buffers>;
+
+impl<T, B: Held> Held for Found<T, B> {
+    fn held(&self) -> usize {
+        self.hits.held() + self.buffers.held()
+    }
 }
 
 /// In an implementation of `Kind`: visitors are shown hits themselves.

@@ -25,7 +25,7 @@ impl Executor<'_> {
             passed: vec![0; workers.len()],
             is_busy: vec![false; resources],
         });
-        self.run(workers, |number, worker| {
+        self.run(workers, u64::MAX, |number, worker| {
             let work = &mut |job| work(worker, job);
             self.run_some(schedule, number, resources_of, work);
         });

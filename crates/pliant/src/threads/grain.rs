@@ -21,16 +21,18 @@ impl Grain {
     pub(crate) const WIDE_NODES: Self = Self::of(16, 1_500);
     /// Boxes of wide nodes of leaves with all their triangles.
     pub(crate) const WHOLE: Self = Self::of(4, 3_000);
-    /// Boxes of the triangles in leaves: words of 64 leaves, of which a part was reached.
-    pub(crate) const LEAVES: Self = Self::of(2, 5_000);
+    /// Boxes of the triangles in leaves, which were reached.
+    pub(crate) const LEAVES: Self = Self::of(64, 4_000);
     /// Points that are checked, copied or brought into tree order; whole rows of 32.
     pub(crate) const POINTS: Self = Self::of(2_048, 3_000);
     /// Blocks of eight triangles that are quantized.
     pub(crate) const QUANTIZED: Self = Self::of(128, 2_000);
     /// Runs of triangles whose elements get boxes.
-    pub(crate) const RUNS: Self = Self::of(64, 4_000);
+    pub(crate) const RUNS: Self = Self::of(256, 8_000);
     /// Close pairs that are measured.
     pub(crate) const MEASURED: Self = Self::of(1_024, 30_000);
+    /// Keys of hits, in either of the two passes that put them in order.
+    pub(crate) const KEYS: Self = Self::of(1_024, 6_000);
 
     /// About how long so many items take together, in nanoseconds.
     pub(crate) const fn time(self, items: usize) -> u64 {

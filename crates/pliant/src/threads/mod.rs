@@ -8,6 +8,7 @@
 
 mod budget;
 mod conflict_free;
+mod exchange;
 mod grain;
 mod interrupt;
 mod per_thread;
@@ -15,11 +16,12 @@ mod pool;
 mod record;
 
 pub(crate) use budget::Budget;
+pub(crate) use exchange::Exchange;
 pub(crate) use grain::Grain;
 use grain::threads_for;
 pub(crate) use interrupt::{Interrupt, Question};
 pub(crate) use per_thread::PerThread;
-use pool::Helpers;
+use pool::{Backoff, Helpers};
 use record::Recorder;
 pub use record::{Clock, RecordedPart};
 use std::num::NonZeroUsize;
@@ -53,25 +55,15 @@ impl Threads {
                 .thread_name(|thread| format!("pliant {}", thread + 1))
                 .build()
         });
-        let helpers = |pool| Helpers {
-            pool: Arc::new(pool),
-            count,
-            awake: Some(Arc::default()),
-            process: std::process::id(),
-        };
-        Self::of(pool.and_then(Result::ok).map(helpers))
+        let pool = pool.and_then(Result::ok);
+        let helpers = pool.map(|pool| Helpers::of(Arc::new(pool), count, Some(Arc::default())));
+        Self::of(helpers)
     }
 
     /// At most `count` threads, the calling one included; the others are of a pool of the caller's.
     pub(crate) fn lent(count: NonZeroUsize, pool: Arc<rayon::ThreadPool>) -> Self {
         let count = (count.get().min(MOST) - 1).min(pool.current_num_threads());
-        let helpers = Helpers {
-            pool,
-            count,
-            awake: None,
-            process: std::process::id(),
-        };
-        Self::of((count > 0).then_some(helpers))
+        Self::of((count > 0).then(|| Helpers::of(pool, count, None)))
     }
 
     fn of(helpers: Option<Helpers>) -> Self {
@@ -249,7 +241,9 @@ pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 #[cfg(test)]
 mod tests {
+    use super::pool::AWAKE;
     use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     fn threads(count: usize) -> Threads {
         Threads::private(NonZeroUsize::new(count).unwrap())
@@ -258,7 +252,7 @@ mod tests {
     /// All jobs, by threads that nothing interrupts.
     fn run<J: Send>(threads: &Threads, jobs: &mut [J], work: impl Fn(usize, &mut J) + Sync) {
         let interrupt = &Interrupt::default();
-        Executor { threads, interrupt }.run(jobs, work);
+        Executor { threads, interrupt }.run(jobs, u64::MAX, work);
     }
 
     /// Many short parts one after the other, with pauses in which threads fall asleep.
@@ -335,7 +329,7 @@ mod tests {
             let interrupt = &Interrupt::new(Some(&question));
             let threads = &threads;
             let executor = Executor { threads, interrupt };
-            executor.run(&mut [(); 1000], |_, ()| {
+            executor.run(&mut [(); 1000], u64::MAX, |_, ()| {
                 begun.fetch_add(1, Ordering::Relaxed);
             });
             assert!(executor.is_interrupted());

@@ -39,6 +39,19 @@ impl Drop for Helpers {
 }
 
 impl Helpers {
+    pub(super) fn of(
+        pool: Arc<rayon::ThreadPool>,
+        count: usize,
+        awake: Option<Arc<AtomicUsize>>,
+    ) -> Self {
+        Self {
+            pool,
+            count,
+            awake,
+            process: std::process::id(),
+        }
+    }
+
     pub(super) fn are_elsewhere(&self) -> bool {
         self.process != std::process::id()
     }

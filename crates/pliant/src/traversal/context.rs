@@ -4,11 +4,12 @@ use super::tree_pair::TreePair;
 use crate::kernels::Instructions;
 use crate::queries::Needs;
 use crate::threads::Interrupt;
+use crate::tree::BoxSet;
 
 /// What all tasks work with.
 pub(super) struct Context<'q, S> {
     pub(super) needs: Needs,
-    pub(super) pair: &'q TreePair<'q, S>,
+    pub(super) pair: &'q TreePair<'q, S, &'q BoxSet>,
     pub(super) instructions: Instructions,
     pub(super) interrupt: &'q Interrupt<'q>,
     pub(super) limits: TaskLimits,

@@ -9,7 +9,7 @@ use crate::kernels::{Buffer, Coordinate};
 use crate::queries::Needs;
 use crate::statistics::Statistics;
 use crate::threads::Executor;
-use crate::tree::NodePair;
+use crate::tree::{BoxSet, NodePair};
 use crate::update::{DirtySet, Refit};
 use std::ops::ControlFlow;
 
@@ -116,7 +116,7 @@ pub(crate) fn descend<S: Coordinate>(
     statistics: &mut Statistics,
 ) -> ControlFlow<()> {
     let executor = refit.executor;
-    let are_free = are_free(&needs, pair.sides());
+    let are_free = are_free(&needs, pair.view().sides());
     let (most_tasks, most_leaf_pairs) = shares(are_free, tasks.wants_all(), executor);
     scratch.reserve.clear();
     tasks.begin(most_tasks);
@@ -132,7 +132,8 @@ pub(crate) fn descend<S: Coordinate>(
         if used < most_tasks {
             limits.stack = ENOUGH_TO_DISTRIBUTE;
         }
-        let now = context(refit, needs, pair, limits);
+        let view = pair.view();
+        let now = context(refit, needs, &view, limits);
         tasks.run(executor, used, &|task, work| task.advance(&now, work));
         // What a task that was not run found before is not to be shown again.
         if executor.is_interrupted() {
@@ -156,7 +157,8 @@ pub(crate) fn descend<S: Coordinate>(
                 }
                 while !are_all_tested(tasks, used) {
                     let limits = scratch.sizes.limits(most_leaf_pairs);
-                    let now = context(refit, needs, pair, limits);
+                    let view = pair.view();
+                    let now = context(refit, needs, &view, limits);
                     tasks.run(executor, used, &|task, work| task.test_some(&now, work));
                     if executor.is_interrupted() {
                         return ControlFlow::Break(());
@@ -233,7 +235,8 @@ fn test_neighbours<S: Coordinate>(
     scratch: &mut Scratch,
     statistics: &mut Statistics,
 ) -> ControlFlow<()> {
-    let Some(neighbours) = left_out(&needs, pair) else {
+    let view = pair.view();
+    let Some(neighbours) = left_out(&needs, &view) else {
         return ControlFlow::Continue(());
     };
     let leaves = pair.sides()[0].tree.leaves.len();
@@ -252,7 +255,7 @@ fn test_neighbours<S: Coordinate>(
     };
     while are_left(tasks) && !executor.is_interrupted() {
         let limits = scratch.sizes.limits(usize::MAX);
-        let now = context(refit, needs, pair, limits);
+        let now = context(refit, needs, &view, limits);
         tasks.run(executor, used, &|task, work| {
             task.test_neighbours(&now, work, neighbours);
         });
@@ -268,7 +271,7 @@ fn test_neighbours<S: Coordinate>(
 fn context<'q, S>(
     refit: Refit<'q>,
     needs: Needs,
-    pair: &'q TreePair<'q, S>,
+    pair: &'q TreePair<'q, S, &'q BoxSet>,
     limits: TaskLimits,
 ) -> Context<'q, S> {
     Context {
@@ -315,11 +318,7 @@ fn is_to_be_distributed<S>(
 
 /// Distributes the last of all pairs of nodes to all tasks, in order and in equal parts.
 fn distribute<S>(tasks: &mut dyn Tasks<S>, used: usize, scratch: &mut Scratch) {
-    let Scratch {
-        reserve,
-        distributed,
-        ..
-    } = scratch;
+    let (reserve, distributed) = (&mut scratch.reserve, &mut scratch.distributed);
     for number in 0..used {
         let nodes = &mut tasks.one(number).walk.found.nodes;
         reserve.extend(nodes.as_slice());

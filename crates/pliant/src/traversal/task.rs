@@ -5,14 +5,14 @@
 
 use super::context::Context;
 use super::leaf_pairs::{Cursor, LeafTests};
-use super::tree_pair::{Side, TreePair};
+use super::tree_pair::{TreePair, View};
 use super::walk::{Rules, Walk};
 use crate::held::held;
 use crate::kernels::Coordinate;
 use crate::queries::{LeafWork, Needs};
 use crate::statistics::Statistics;
 use crate::threads::Executor;
-use crate::tree::Neighbours;
+use crate::tree::{BoxSet, Neighbours};
 use std::ops::{ControlFlow, Range};
 
 /// Pairs of blocks that are tested before a task looks at what it has found.
@@ -55,8 +55,8 @@ pub(crate) trait Tasks<S> {
 
 /// Whether all boxes that the query reads are known to be valid because they were completed at once, so that tasks need not wait for any,
 /// and pairs of leaves can be tested as soon as they are found.
-pub(super) fn are_free<S: Coordinate>(needs: &Needs, sides: [&Side<'_, S>; 2]) -> bool {
-    let is_complete = |side: &&Side<S>| {
+pub(super) fn are_free<S: Coordinate>(needs: &Needs, sides: [&View<'_, S>; 2]) -> bool {
+    let is_complete = |side: &&View<S>| {
         side.boxes.are_nodes_complete() && (!needs.triangles() || side.boxes.are_leaves_complete())
     };
     sides.iter().all(is_complete)
@@ -66,7 +66,7 @@ pub(super) fn are_free<S: Coordinate>(needs: &Needs, sides: [&Side<'_, S>; 2]) -
 /// valid. They overlap in any shape, so nothing is gained by looking for them.
 pub(super) fn left_out<'p, S: Coordinate>(
     needs: &Needs,
-    pair: &'p TreePair<S>,
+    pair: &'p TreePair<'p, S, &'p BoxSet>,
 ) -> Option<&'p Neighbours> {
     let TreePair::One(side) = pair else {
         return None;
@@ -137,7 +137,7 @@ impl Task {
     fn walk<S: Coordinate>(&mut self, context: &Context<S>) {
         let needs = &context.needs;
         let sides = context.pair.sides();
-        let trees = sides.map(Side::boxed_tree);
+        let trees = sides.map(View::boxed_tree);
         let rules = Rules {
             instructions: context.instructions,
             interrupt: context.interrupt,

@@ -7,13 +7,14 @@ use crate::mesh::Order;
 use crate::queries::{CallerIds, NearElements, Removed};
 use crate::tree::{BoxSet, BoxedTree, Source, Tree};
 use crate::update::Refitted;
+use std::ops::Deref;
 
-/// One body as the traversal sees it.
-pub(crate) struct Side<'t, S> {
+/// One tree of a body as the traversal sees it, whose boxes it may refit.
+pub(crate) struct Side<'t, S, B = &'t mut BoxSet> {
     pub(crate) body: BodyId,
     pub(crate) order: &'t Order,
     pub(crate) tree: &'t Tree,
-    pub(crate) boxes: &'t mut BoxSet,
+    pub(crate) boxes: B,
     pub(crate) source: Source<'t, S>,
     /// Where vertices are going, for kinds that look along motions.
     pub(crate) motion: Option<&'t Points<S>>,
@@ -23,7 +24,24 @@ pub(crate) struct Side<'t, S> {
     pub(crate) removed: Option<Removed<'t>>,
 }
 
+/// One tree of a body as tasks read it, many at a time.
+pub(crate) type View<'t, S> = Side<'t, S, &'t BoxSet>;
+
 impl<S: Coordinate> Side<'_, S> {
+    /// As tasks read it.
+    pub(super) fn view(&self) -> View<'_, S> {
+        View {
+            body: self.body,
+            order: self.order,
+            tree: self.tree,
+            boxes: self.boxes,
+            source: self.source,
+            motion: self.motion,
+            elements: self.elements,
+            removed: self.removed,
+        }
+    }
+
     /// As the update sees it.
     pub(crate) fn refitted(&mut self) -> Refitted<'_, S> {
         Refitted {
@@ -33,11 +51,14 @@ impl<S: Coordinate> Side<'_, S> {
         }
     }
 
+}
+
+impl<S: Coordinate, B: Deref<Target = BoxSet>> Side<'_, S, B> {
     /// As a walk sees it.
     pub(super) fn boxed_tree(&self) -> BoxedTree<'_> {
         BoxedTree {
             tree: self.tree,
-            boxes: self.boxes,
+            boxes: &self.boxes,
         }
     }
 
@@ -48,10 +69,8 @@ impl<S: Coordinate> Side<'_, S> {
 
     /// The numbers of edges as the caller has them, for kinds that look at edges; else none.
     fn caller_edges(&self) -> &[u32] {
-        match &self.elements {
-            Some(elements) => elements.edges.caller_edges(),
-            None => &[],
-        }
+        let elements = self.elements.as_ref();
+        elements.map_or(&[], |elements| elements.edges.caller_edges())
     }
 }
 
@@ -60,17 +79,35 @@ impl<S: Coordinate> Side<'_, S> {
     clippy::large_enum_variant,
     reason = "there is one at a time, and memory for it would be allocated"
 )]
-pub(crate) enum TreePair<'t, S> {
+pub(crate) enum TreePair<'t, S, B = &'t mut BoxSet> {
     /// One tree with itself, every pair of its triangles once.
     ///
     /// A pair of one node with itself stands for the pairs within it; it expands into its children with themselves and into
     /// the pairs of different children that overlap.
-    One(Side<'t, S>),
+    One(Side<'t, S, B>),
     /// Two trees whose root boxes overlap: of two bodies, or of one.
-    Two([Side<'t, S>; 2]),
+    Two([Side<'t, S, B>; 2]),
 }
 
 impl<S: Coordinate> TreePair<'_, S> {
+    /// As tasks read it.
+    pub(super) fn view(&self) -> TreePair<'_, S, &BoxSet> {
+        match self {
+            Self::One(side) => TreePair::One(side.view()),
+            Self::Two([a, b]) => TreePair::Two([a.view(), b.view()]),
+        }
+    }
+
+    /// The first or the second, to refit.
+    pub(super) fn refitted(&mut self, which: usize) -> Refitted<'_, S> {
+        match self {
+            Self::One(side) => side.refitted(),
+            Self::Two(sides) => sides[which].refitted(),
+        }
+    }
+}
+
+impl<'t, S: Coordinate, B: Deref<Target = BoxSet>> TreePair<'t, S, B> {
     /// Whether it is one tree with itself.
     #[inline]
     pub(super) fn is_one_tree(&self) -> bool {
@@ -94,18 +131,10 @@ impl<S: Coordinate> TreePair<'_, S> {
 
     /// Both, or the one twice.
     #[inline]
-    pub(super) fn sides(&self) -> [&Side<'_, S>; 2] {
+    pub(super) fn sides(&self) -> [&Side<'t, S, B>; 2] {
         match self {
             Self::One(side) => [side; 2],
             Self::Two([a, b]) => [a, b],
-        }
-    }
-
-    /// The first or the second, to refit.
-    pub(super) fn refitted(&mut self, which: usize) -> Refitted<'_, S> {
-        match self {
-            Self::One(side) => side.refitted(),
-            Self::Two(sides) => sides[which].refitted(),
         }
     }
 

@@ -40,8 +40,8 @@ impl Refit<'_> {
         let depth = one.tree.depth;
         let level = |much| level_ahead(self.update, depth, much);
         if one.boxes.is_valid(root) {
-            // In this shape the body met another before, and was refitted in part. All of it is needed now: better at once than on
-            // the way.
+            // In this shape the body met another before, and was refitted in part. All of it is
+            // needed now: better at once than on the way.
             let whole = partner == Partner::Itself && level(true) == depth;
             if !whole || one.boxes.are_nodes_complete() {
                 return;

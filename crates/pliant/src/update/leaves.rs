@@ -10,13 +10,12 @@ use crate::ids::{BlockId, LeafId, TreeVertex};
 use crate::kernels::extent::{self, Extent, Four};
 use crate::kernels::{Coordinate, EightBoxes, Simd, dispatch};
 use crate::statistics::Statistics;
+use crate::threads::Grain;
 use crate::tree::{BLOCK_LANES, BoxSource, Leaves, LeavesMut, Over, of_source};
 use std::ops::Range;
 
-/// Words of 64 leaves in a job: at most some microseconds of work.
-const JOB: usize = 2;
-/// So many leaves, or fewer, are not worth waking a thread.
-const SHARED: usize = 256;
+/// Words of 64 leaves in a job.
+const WORDS: usize = 2;
 /// So many words of 64 leaves are looked through before it is asked whether the query was interrupted.
 const UNINTERRUPTED: usize = 64;
 
@@ -30,7 +29,8 @@ struct LeafRun<'t> {
 }
 
 impl Refit<'_> {
-    /// Makes the boxes of the triangles in leaves that a traversal has reached, unless they are valid, and empties the set.
+    /// Makes the boxes of the triangles in leaves that a traversal has reached, unless they are
+    /// valid, and empties the set.
     pub(crate) fn reached_leaves<S: Coordinate>(
         &self,
         one: &mut Refitted<S>,
@@ -50,7 +50,7 @@ impl Refit<'_> {
             leaves: 0,
             triangles: 0,
         };
-        let is_worth_it = executor.are_many() && reached.count() > SHARED;
+        let nanoseconds = if executor.are_many() { Grain::LEAVES.time(reached.count()) } else { 0 };
         let work = |job: &mut LeafRun| {
             let words = job.words.clone();
             for start in words.clone().step_by(UNINTERRUPTED) {
@@ -70,7 +70,7 @@ impl Refit<'_> {
             made += job.leaves;
             statistics.triangle_boxes += job.triangles as u64;
         };
-        executor.run_cut(whole, is_worth_it, |it| it.cut(reached, leaves), work, done);
+        executor.run_cut(whole, nanoseconds, |it| it.cut(reached, leaves), work, done);
         reached.clear();
         one.boxes.count_reached(made);
     }
@@ -82,8 +82,8 @@ impl LeafRun<'_> {
         let Range { start, end } = self.words;
         let mut rest = self.boxes;
         let mut jobs = Vec::new();
-        for start in (start..end).step_by(JOB).rev() {
-            let words = start..end.min(start + JOB);
+        for start in (start..end).step_by(WORDS).rev() {
+            let words = start..end.min(start + WORDS);
             if reached.are_any_in(words.clone()) {
                 let leaf = LeafId(64 * start as u32);
                 let block = BlockId(leaves.blocks(leaf).start);

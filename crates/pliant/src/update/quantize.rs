@@ -9,16 +9,15 @@ use super::refitted::{Refit, Refitted};
 use crate::ids::{BlockId, LeafId, NodeId};
 use crate::kernels::{Coordinate, EightBoxes, FARTHEST, QuantizedLanes, dispatch, quantize};
 use crate::statistics::Statistics;
+use crate::threads::Grain;
 use crate::tree::{BoxSet, Child, Quantized, Tree};
 
 /// Units in the mean of the longest sides of leaves.
 const UNITS: f32 = 32.0;
-/// Leaves in a job.
-const JOB: usize = 128;
 
 impl Refit<'_> {
-    /// Makes the boxes of the triangles in all leaves, and quantizes them where leaves are blocks; all nodes are valid. `reached` is
-    /// scratch.
+    /// Makes the boxes of the triangles in all leaves, and quantizes them where leaves are blocks;
+    /// all nodes are valid. `reached` is scratch.
     pub(crate) fn all_leaves<S: Coordinate>(
         &self,
         one: &mut Refitted<S>,
@@ -48,7 +47,7 @@ fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) {
     quantized.units = units;
     let quantized = &mut quantized.blocks;
     quantized.resize_with(blocks.len(), Default::default);
-    let jobs = quantized.chunks_mut(JOB).zip(blocks.chunks(JOB));
+    let jobs = quantized.chunks_mut(Grain::QUANTIZED.items).zip(blocks.chunks(Grain::QUANTIZED.items));
     let make = |(quantized, blocks): &mut (&mut [QuantizedLanes], &[EightBoxes])| {
         dispatch!(refit.instructions, i => {
             for (quantized, block) in quantized.iter_mut().zip(*blocks) {
@@ -56,7 +55,7 @@ fn quantize_all<S: Coordinate>(refit: &Refit, one: &mut Refitted<S>) {
             }
         });
     };
-    executor.run_each(jobs, make, |_| {});
+    executor.run_each(jobs, Grain::QUANTIZED, make, |_| {});
     if executor.is_interrupted() {
         return;
     }

@@ -12,8 +12,8 @@ use crate::kernels::Coordinate;
 use crate::statistics::Statistics;
 
 impl Refit<'_> {
-    /// Refits wide nodes that a traversal has reached, which are stale, and with each of them `levels_at_once - 1` levels below; empties
-    /// the set. The lists are scratch.
+    /// Refits wide nodes that a traversal has reached, which are stale, and with each of them
+    /// `levels_at_once - 1` levels below; empties the set. The lists are scratch.
     pub(crate) fn reached<S: Coordinate>(
         &self,
         one: &mut Refitted<S>,

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-/// A folder that goes away with the test.
+/// A temporary folder, removed when dropped.
 pub(crate) struct Folder(TempDir);
 
 impl Folder {
@@ -35,7 +35,7 @@ impl Folder {
         pliant_io::open(&self.argument(name), &OpenOptions::default())
     }
 
-    /// The message of what goes wrong, at opening or later, without the folder.
+    /// The error when a body is opened or read, without the folder's name.
     pub(crate) fn error(&self, name: &str) -> String {
         let error = self
             .open(name)
@@ -46,7 +46,7 @@ impl Folder {
     }
 }
 
-/// The frames that are left, widened.
+/// The remaining frames, widened to f64.
 pub(crate) fn all_frames(body: &mut Body) -> Result<Vec<Vec<[f64; 3]>>, Error> {
     let mut frames = Vec::new();
     while let Some(positions) = body.next_frame()? {
@@ -85,7 +85,7 @@ pub(crate) fn npz(method: CompressionMethod, arrays: &[(&str, Vec<u8>)]) -> Vec<
     archive.finish().unwrap().into_inner()
 }
 
-/// The bytes of numbers, little-endian.
+/// The bytes of numbers in an array.
 pub(crate) fn bytes<const N: usize, T: Copy>(
     numbers: &[T],
     each: impl Fn(T) -> [u8; N],
@@ -93,7 +93,7 @@ pub(crate) fn bytes<const N: usize, T: Copy>(
     numbers.iter().flat_map(|&number| each(number)).collect()
 }
 
-/// A tetrahedron, its top at `height`.
+/// A tetrahedron with its top at `height`, as OBJ.
 pub(crate) fn tetrahedron(height: f64) -> String {
     format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 {height}\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
 }

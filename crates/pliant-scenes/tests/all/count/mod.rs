@@ -1,7 +1,7 @@
-//! Counts intersecting triangles in the plainest way that is fast enough: one sweep along z, then
-//! signs of volumes in `f64`. Shares nothing with the library that the scenes are made to test.
+//! Counter of intersecting triangles: one sweep along z, then signs of volumes in `f64`.
 //!
-//! Not exact: it relies on the scenes being generic, without a vertex in the plane of a triangle.
+//! The plainest method that is fast enough, independent of the library that the scenes are made to
+//! test. Not exact: it relies on generic scenes, without a vertex in the plane of a triangle.
 
 use pliant_scenes::{Asks, Scene};
 
@@ -36,13 +36,13 @@ impl Triangle {
         (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
     }
 
-    /// An edge of one of them passes through the other.
+    /// Whether an edge of one triangle passes through the other.
     fn intersects(&self, other: &Self) -> bool {
         crosses(&self.points, &other.points) || crosses(&other.points, &self.points)
     }
 }
 
-/// The pairs of intersecting triangles that `scene` is about, at `step`.
+/// Number of pairs of intersecting triangles for which `scene` is made, at `step`.
 pub(crate) fn pairs(scene: &Scene, step: u32) -> usize {
     match scene.asks() {
         Asks::BetweenBodies => sweep(scene, step, |a, b| a.body != b.body),
@@ -50,7 +50,7 @@ pub(crate) fn pairs(scene: &Scene, step: u32) -> usize {
     }
 }
 
-/// The pairs of intersecting triangles of one body that share no vertex, over all bodies.
+/// Number of pairs of intersecting triangles of one body that share no vertex, over all bodies.
 pub(crate) fn pairs_within_bodies(scene: &Scene, step: u32) -> usize {
     sweep(scene, step, |a, b| {
         a.body == b.body && !a.shares_a_vertex_with(b)

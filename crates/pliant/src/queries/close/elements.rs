@@ -1,15 +1,15 @@
 //! Vertices and triangles, and edges, that are at most some distance apart.
 
-use super::closest::{exactly, four_closest, half};
+use super::closest::{exactly, half};
 use super::measured::{ElementPair, Measurable, measure_all};
 use crate::geometry::{Points, Real};
 use crate::ids::TreeVertex;
-use crate::kernels::closest::{Corners, decide_eight};
-use crate::kernels::{Buffer, Coordinate, Instructions, Simd, dispatch};
+use crate::kernels::closest::{Corners, decide_eight, of_elements};
+use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
-    Batch, CallerIds, EdgeEdgeCandidates, Kind, LeafTest, Margin, Needs, VertexTriangleCandidates,
+    Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LeafTest, Margin, Needs,
+    VertexTriangleCandidates,
 };
-use crate::statistics::Statistics;
 use pliant_exact::distance::are_within_distance;
 
 /// Candidates of a kind that are at most so far apart.
@@ -76,7 +76,7 @@ fn is_close<S: Real>(
     distance: f64,
     exact_decisions: &mut u64,
 ) -> bool {
-    let found = dispatch!(instructions, i => four_closest(i, are_edges, &[*pair; 4]));
+    let found = dispatch!(instructions, i => of_elements(i, are_edges, &[*pair; 4]));
     if (found.most[0] <= distance) | (found.least[0] > distance) {
         return found.most[0] <= distance;
     }
@@ -98,23 +98,15 @@ where
         self.candidates.needs()
     }
 
-    fn test(
-        &self,
-        leaves: &LeafTest<K::Scalar>,
-        batch: Batch,
-        buffers: &mut (),
-        hits: &mut Buffer<[u32; 2]>,
-        statistics: &mut Statistics,
-    ) {
-        let before = hits.len();
-        let pairs_before = statistics.pairs;
-        self.candidates
-            .test(leaves, batch, buffers, hits, statistics);
-        let exact = &mut statistics.exact_decisions;
-        let new = hits.tail_mut(before);
+    fn test(&self, leaves: &LeafTest<K::Scalar>, batch: Batch, found: &mut FoundBy<Self>) {
+        let before = found.hits.len();
+        let pairs_before = found.statistics.pairs;
+        self.candidates.test(leaves, batch, found);
+        let exact = &mut found.statistics.exact_decisions;
+        let new = found.hits.tail_mut(before);
         let kept = dispatch!(leaves.instructions, i => self.keep(i, leaves, new, exact));
-        hits.truncate(before + kept);
-        statistics.pairs = pairs_before + kept as u64;
+        found.hits.truncate(before + kept);
+        found.statistics.pairs = pairs_before + kept as u64;
     }
 
     #[inline]
@@ -123,13 +115,11 @@ where
     }
 
     fn show(&self, leaves: &LeafTest<K::Scalar>, hits: &[[u32; 2]], shown: &mut Vec<Self::Shown>) {
-        let of_caller = |hit| {
-            let corners = K::callers_corners(leaves, hit)?;
-            Some((self.to_caller(&leaves.ids, hit), corners))
-        };
+        let pair = |hit| self.to_caller(&leaves.ids, hit);
+        let what = (pair, |hit| K::callers_corners(leaves, hit));
         let (how, interrupt) = (leaves.instructions, leaves.interrupt);
         let take = |close| shown.push(close);
-        dispatch!(how, i => measure_all::<_, K::Scalar, _, _>(i, hits, interrupt, of_caller, take));
+        dispatch!(how, i => measure_all::<_, K::Scalar, _, _>(i, hits, interrupt, what, take));
     }
 }
 

@@ -1,10 +1,12 @@
-//! What is measured of close pairs: of those in a list once it is sorted, of those for visitors as they are found.
+//! Measuring close pairs: lists once they are sorted, and as pairs are found where visitors see
+//! them.
 
 use super::closest::closest_of;
-use crate::close_pairs::{CloseEdgeEdge, CloseVertexTriangle};
-use crate::hits::{EdgeEdge, Hit, VertexTriangle};
+use super::hit::{CloseEdgeEdge, CloseVertexTriangle};
 use crate::kernels::closest::Corners;
 use crate::kernels::{Coordinate, Simd};
+use crate::queries::{EdgeEdge, VertexTriangle};
+use crate::sort::Hit;
 use crate::threads::Interrupt;
 use pliant_exact::distance::Closest;
 
@@ -110,26 +112,28 @@ fn direction(closest: &Closest) -> Option<[f64; 3]> {
     (closest.distance != 0.0).then_some(closest.direction)
 }
 
-/// Shows `take` hits with what is measured of them, in their order. `of_caller` says what each is, as the caller numbers things, and where
-/// its corners are. Interrupted, or where it does not say, it ends early.
+/// Shows `take` hits with what is measured of them, in their order. `pair` says what each is as the
+/// caller numbers things, and `corners` where its corners are. Interrupted, or where there are none,
+/// it ends early.
 #[inline(always)]
 pub(crate) fn measure_all<'c, I: Simd, S: Coordinate, H: Measurable, T: Copy>(
     i: I,
     hits: &[T],
     interrupt: &Interrupt,
-    mut of_caller: impl FnMut(T) -> Option<(H, H::Corners<'c, S>)>,
+    (pair, mut corners): (impl Fn(T) -> H, impl FnMut(T) -> Option<H::Corners<'c, S>>),
     mut take: impl FnMut(H::Close),
 ) {
     for some in hits.chunks(4) {
         let mut four = None;
+        let mut pairs = [pair(some[0]); 4];
         for (lane, &hit) in some.iter().enumerate() {
-            let Some((pair, corners)) = of_caller(hit) else {
+            let Some(corners) = corners(hit) else {
                 return;
             };
-            let (pairs, all) = four.get_or_insert(([pair; 4], [corners; 4]));
-            (pairs[lane], all[lane]) = (pair, corners);
+            four.get_or_insert([corners; 4])[lane] = corners;
+            pairs[lane] = pair(hit);
         }
-        let Some((pairs, corners)) = &four else {
+        let Some(corners) = &four else {
             return;
         };
         if !H::measure(i, &pairs[..some.len()], corners, interrupt, &mut take) {

@@ -9,12 +9,9 @@ use crate::ids::TreeVertex;
 use crate::kernels::gaps::{self, EightCorners, Limits, PaddedBox};
 use crate::kernels::ring::{MOST_OF_RUN, Ring};
 use crate::kernels::{Coordinate, EightBoxes, Instructions, Simd, dispatch};
-use crate::threads::Executor;
+use crate::threads::{Executor, Grain};
 use crate::tree::Version;
 use std::ops::Range;
-
-/// Runs in a job: some microseconds of work.
-const JOB: usize = 256;
 
 /// Where the vertices of a body are, and where at the end of a motion, if it has one.
 pub(crate) type Ends<'p, S> = (&'p Shape<'p, S>, Option<&'p Points<S>>);
@@ -122,7 +119,7 @@ impl<const C: usize> RunBoxes<C> {
         }
         self.version = None;
         let (mut rest, mut first) = (&mut self.eights[..], 0);
-        let jobs = self.runs.chunks_mut(JOB).map(|runs| {
+        let jobs = self.runs.chunks_mut(Grain::RUNS.items).map(|runs| {
             let end = runs.last().map_or(first, |run| run.eights().end);
             let eights = rest.split_off_mut(..end - first).unwrap_or_default();
             first = end;
@@ -149,7 +146,7 @@ impl<const C: usize> RunBoxes<C> {
             });
         };
         self.most = 0.0;
-        executor.run_each(jobs, make, |job| self.most = larger(self.most, job.most));
+        executor.run_each(jobs, Grain::RUNS, make, |job| self.most = larger(self.most, job.most));
         if executor.is_interrupted() {
             return false;
         }

@@ -16,9 +16,9 @@ use crate::kernels::{Coordinate, Simd};
 /// Which boxes a source gives: two sources of one body give the same if they have the same version.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Version {
-    /// The epoch of the shape,
+    /// The version of the shape,
     shape: u64,
-    /// and, where boxes hold a second shape as well, that of the second; 0 is before every epoch.
+    /// and, where boxes hold a second shape as well, that of the second; 0 is before every version.
     second: u64,
     /// The bits of the distance by which boxes are grown.
     grown_by: u32,
@@ -31,7 +31,7 @@ impl Version {
     }
 }
 
-/// What one box is over.
+/// Vertices that one box is over.
 #[derive(Clone, Copy)]
 pub(crate) enum Over<'v> {
     /// A run of vertices, from the first to the end, and some others; there is one at least.
@@ -54,7 +54,7 @@ pub(crate) trait BoxSource: Sync {
     /// The box over some vertices.
     fn over<I: Simd>(&self, i: I, vertices: Over) -> Extent<I>;
 
-    /// What that means, one vertex after the other.
+    /// The meaning of that, one vertex after the other.
     fn plainly(&self, vertices: impl Iterator<Item = TreeVertex> + Clone) -> Aabb;
 }
 
@@ -68,7 +68,7 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
 
     fn version(&self) -> Version {
         Version {
-            shape: self.epoch,
+            shape: self.version,
             ..Version::default()
         }
     }
@@ -89,8 +89,8 @@ impl<S: Coordinate> BoxSource for Shape<'_, S> {
     }
 }
 
-/// Boxes that hold a shape and the one at the end of a motion, if there is one, grown by a distance on every side, and a little more where
-/// that is not exact.
+/// Boxes that hold a shape and the one at the end of a motion, if there is one, grown by a distance
+/// on every side, and a little more where that is not exact.
 #[derive(Clone, Copy)]
 pub(crate) struct Grown<'s, S> {
     pub(crate) from: Shape<'s, S>,
@@ -109,9 +109,9 @@ impl<S: Coordinate> BoxSource for Grown<'_, S> {
 
     fn version(&self) -> Version {
         Version {
-            shape: self.from.epoch,
-            second: self.to.map_or(0, |to| to.epoch),
+            second: self.to.map_or(0, |to| to.version),
             grown_by: self.distance.to_bits(),
+            ..self.from.version()
         }
     }
 
@@ -200,11 +200,14 @@ mod tests {
                     let others = vertices(others);
                     let run_of = (run.start..run.end).map(|vertex| TreeVertex(vertex as u32));
                     let expected = source.plainly(run_of.chain(others.iter().copied()));
-                    assert_eq!(extent::to_box(source.over(i, Over::Run([run.start, run.end], &others))), expected);
+                    let found = source.over(i, Over::Run([run.start, run.end], &others));
+                    assert_eq!(extent::to_box(found), expected);
                 }
-                assert_eq!(extent::to_box(source.over(i, Over::Twelve(&twelve))), source.plainly(twelve.into_iter()));
+                let found = extent::to_box(source.over(i, Over::Twelve(&twelve)));
+                assert_eq!(found, source.plainly(twelve.into_iter()));
                 let corners = [7, 2, 2].map(TreeVertex);
-                assert_eq!(extent::to_box(source.over(i, Over::Triangle(corners))), source.plainly(corners.into_iter()));
+                let found = extent::to_box(source.over(i, Over::Triangle(corners)));
+                assert_eq!(found, source.plainly(corners.into_iter()));
             });
         }
     }
@@ -216,11 +219,11 @@ mod tests {
             Points::of((0..40).map(wave))
         };
         let [from, to] = [shape_at(0.0), shape_at(0.8)];
-        let shape = |positions, epoch| Shape {
+        let shape = |positions, version| Shape {
             positions,
             triangles: &[],
             origin,
-            epoch,
+            version,
         };
         let (from, to) = (shape(&from, 3), shape(&to, 7));
         check(&from);

@@ -2,7 +2,9 @@
 
 mod edits;
 mod looking;
+mod queried;
 
+use self::queried::Queried;
 use super::build::build;
 use super::checks;
 use super::debug_view::TreeShape;
@@ -20,10 +22,10 @@ use crate::ids::{BodyId, TreeTriangle, TreeVertex};
 use crate::kernels::{Coordinate, Instructions};
 use crate::mesh::{Changed, EMPTY, Order, Topology};
 use crate::options::Options;
-use crate::queries::{BodyBoxes, NearElements, Needs, Reach, Which};
+use crate::queries::{BodyBoxes, Needs, Reach, Which};
 use crate::threads::Executor;
-use crate::traversal::Side;
-use crate::tree::{Grown, Source, Tree};
+use crate::traversal::{Side, View};
+use crate::tree::{Grown, Tree};
 use std::borrow::Cow;
 
 /// A body of a world. Its parts change each other only through their methods, called here.
@@ -378,6 +380,13 @@ impl<S: Coordinate> Body<S> {
         parts.two_mut(numbers).map(side)
     }
 
+    /// One part of the body as tasks read it; what they read of it was made ready.
+    pub(crate) fn view(&self, needs: &Needs, origin: Origin, part: usize) -> Option<View<'_, S>> {
+        let Self { mesh, shape, motion, parts, filter, .. } = self;
+        let part = parts.all().nth(part)?.for_reading(needs.box_set)?;
+        Some(Queried::of((mesh, shape, motion, filter), needs, origin).side(part))
+    }
+
     /// The parts, and how a query descends one of them.
     #[inline]
     fn parts_and_sides<'b>(
@@ -385,36 +394,9 @@ impl<S: Coordinate> Body<S> {
         needs: &Needs,
         origin: Origin,
     ) -> (&'b mut Parts, impl Fn(&'b mut Part) -> Side<'b, S>) {
-        let (body, order, needs) = (self.mesh.body(), self.mesh.order(), *needs);
-        let shape = self.shape.view(order, origin);
-        let way = self.motion.on().zip(needs.reach);
-        let end = way.map(|(way, reach)| way.held(reach, order, origin));
-        let source = Source::new(shape, end, needs.grows_by);
-        let motion = way.map(|(way, reach)| way.going(reach));
-        let removed = self.mesh.removed();
-        let elements = self.mesh.known_elements().filter(|_| !needs.triangles());
-        let groups = self.filter.known_groups();
-        let side = move |part: &'b mut Part| {
-            let (tree, boxes, near_boxes) = part.for_query(needs.box_set);
-            let elements = elements.zip(near_boxes);
-            let elements = elements.map(|(edges, boxes)| NearElements {
-                edges,
-                boxes,
-                groups,
-                removed,
-            });
-            Side {
-                body,
-                order,
-                tree,
-                boxes,
-                source,
-                motion,
-                elements,
-                removed,
-            }
-        };
-        (&mut self.parts, side)
+        let Self { mesh, shape, motion, parts, filter, .. } = self;
+        let (queried, set) = (Queried::of((mesh, shape, motion, filter), needs, origin), needs.box_set);
+        (parts, move |part: &'b mut Part| queried.side(part.for_query(set)))
     }
 
     /// All boxes are stale: some may have been left half made.

@@ -72,6 +72,15 @@ impl Part {
         (tree, boxes, self.near_boxes.as_deref())
     }
 
+    /// The tree, a set of its boxes, and the boxes of elements, as they are, if the set was made.
+    pub(crate) fn for_reading(
+        &self,
+        number: BoxSetNumber,
+    ) -> Option<(&Tree, &BoxSet, Option<&NearBoxes>)> {
+        let boxes = self.boxes(number)?;
+        Some((&self.tree, boxes, self.near_boxes.as_deref()))
+    }
+
     /// A set of boxes, if some query asked for it.
     fn boxes(&self, number: BoxSetNumber) -> Option<&BoxSet> {
         self.boxes.get(number)?.as_ref()

@@ -140,6 +140,10 @@ impl<K: Kind> LeafWork<K::Scalar> for Bound<'_, K> {
         }
     }
 
+    fn candidates(&self) -> u64 {
+        self.results.found.statistics.candidate_pairs
+    }
+
     fn has_room(&self) -> bool {
         self.results.found.hits.len() < MOST_HITS && !self.results.are_too_many
     }

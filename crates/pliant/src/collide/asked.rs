@@ -4,8 +4,8 @@ use super::answer::{Answer, SinkOf, TaskList};
 use super::body_pairs::{BodyPair, BodyPairs};
 use super::origin::FloatingOrigin;
 use super::request::Request;
-use super::scheduler::{Scheduler, is_worth_it};
 use super::step::Step;
+use super::together::Together;
 use crate::bodies::{Bodies, Body};
 use crate::error::{Error, ErrorKind};
 use crate::held::{self, empty, held};
@@ -40,7 +40,7 @@ pub(crate) struct Common<S> {
 #[derive(Debug)]
 pub(crate) struct Asked<K: Kind> {
     pub(crate) tasks: TaskList<K>,
-    scheduler: Scheduler<K>,
+    together: Together,
     pub(super) sorter: Sorter<K::Hit>,
     /// Hits that are more than their numbers, of every thread; the first of these lists is that of all in the end.
     lists: PerThread<Vec<K::Hit>>,
@@ -59,7 +59,7 @@ impl<K: Kind<Hit: Hit>> Asked<K> {
         let interrupt = Interrupt::new(request.question);
         self.sorter.begin(common.executor(&interrupt));
         let keep = &|found: &[K::Hit]| self.sorter.push(found);
-        let buffers = (&mut self.tasks, &mut self.scheduler);
+        let buffers = (&mut self.tasks, &mut self.together);
         collect(buffers, kind, common, request, &interrupt, keep)?;
         let instructions = common.instructions;
         let executor = common.executor(&interrupt);
@@ -84,7 +84,7 @@ impl<K: Kind> Asked<K> {
         self.lists.for_threads(common.executor(&interrupt).count());
         self.lists.iter_mut().for_each(Vec::clear);
         let keep = &|found: &[K::Hit]| self.lists.own().extend_from_slice(found);
-        let buffers = (&mut self.tasks, &mut self.scheduler);
+        let buffers = (&mut self.tasks, &mut self.together);
         collect(buffers, kind, common, request, &interrupt, keep)?;
         let mut lists = self.lists.iter_mut();
         let Some(all) = lists.next() else {
@@ -103,7 +103,7 @@ impl<K: Kind> Asked<K> {
         request: &Request,
     ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
-        let buffers = (&mut self.tasks, &mut self.scheduler);
+        let buffers = (&mut self.tasks, &mut self.together);
         collect(buffers, kind, common, request, &interrupt, &|_| {})
     }
 
@@ -116,7 +116,7 @@ impl<K: Kind> Asked<K> {
         visitor: Visitor<K::Shown>,
     ) -> Result<(), Error> {
         let interrupt = Interrupt::new(request.question);
-        let buffers = (&mut self.tasks, &mut self.scheduler);
+        let buffers = (&mut self.tasks, &mut self.together);
         let sink = Sink::Visitor(visitor);
         ask(buffers, kind, common, request, &interrupt, sink)
     }
@@ -125,7 +125,7 @@ impl<K: Kind> Asked<K> {
 /// Has every thread keep what it finds, some hits at a time. It is an error if there are more than
 /// the request allows.
 fn collect<K: Kind>(
-    buffers: (&mut TaskList<K>, &mut Scheduler<K>),
+    buffers: (&mut TaskList<K>, &mut Together),
     kind: &K,
     common: &mut Common<K::Scalar>,
     request: &Request,
@@ -152,7 +152,7 @@ fn collect<K: Kind>(
 
 /// Answers a query: what it finds goes to a sink, until that breaks.
 fn ask<K: Kind>(
-    (tasks, scheduler): (&mut TaskList<K>, &mut Scheduler<K>),
+    (tasks, together): (&mut TaskList<K>, &mut Together),
     kind: &K,
     common: &mut Common<K::Scalar>,
     request: &Request,
@@ -160,19 +160,21 @@ fn ask<K: Kind>(
     sink: SinkOf<K>,
 ) -> Result<(), Error> {
     common.begin(request)?;
-    let collector = sink.collector();
+    let wants_all = sink.collector().is_some();
     let mut answer = Answer::new(kind, tasks, sink);
-    common.scratch.begin(collector.is_some());
-    let meet: Meet<K::Scalar> = &mut |step, bodies, pairs| match collector {
-        Some(collector) if is_worth_it(step.refit.executor, bodies, pairs) => {
-            scheduler.meet(step, &mut answer, bodies, pairs, collector)
+    common.scratch.begin(wants_all);
+    let meet: Meet<K::Scalar> = &mut |step, bodies, pairs| {
+        if !together.is_worth_it(step.refit.executor, bodies, pairs) {
+            step.refit.executor = step.refit.executor.alone();
+        } else if wants_all {
+            return together.meet(step, bodies, pairs, &mut answer);
         }
-        _ => {
-            let mut pairs = pairs.iter();
-            pairs.try_for_each(|&pair| step.meet(bodies, pair, &mut answer))
-        }
+        let mut pairs = pairs.iter();
+        pairs.try_for_each(|&pair| step.meet(bodies, pair, &mut answer))
     };
-    common.for_each_batch(kind.needs(), request, interrupt, false, meet)
+    let done = common.for_each_batch(kind.needs(), request, interrupt, false, meet);
+    together.note_work(&common.statistics);
+    done
 }
 
 /// The work on a batch of pairs of bodies.
@@ -292,7 +294,7 @@ impl<S: Coordinate> Common<S> {
     }
 }
 
-empty!(Asked<K: Kind>: tasks, scheduler, sorter, lists, measured);
+empty!(Asked<K: Kind>: tasks, together, sorter, lists, measured);
 
-held!(Asked<K: Kind>: tasks, scheduler, sorter, measured[];
+held!(Asked<K: Kind>: tasks, together, sorter, measured[];
     |asked| asked.lists.held_by(held::list));

@@ -13,8 +13,8 @@ mod distance;
 mod impacts;
 mod origin;
 mod request;
-mod scheduler;
 mod step;
+mod together;
 mod witness;
 
 pub(crate) use asked::{Asked, Common};

@@ -14,7 +14,7 @@ use crate::update::{Partner, Refit};
 use std::ops::ControlFlow;
 
 /// Fewer pairs of nodes say nothing of how trees have decayed, and are not worth writing down.
-const SAYS_NOTHING: u64 = 64;
+pub(super) const SAYS_NOTHING: u64 = 64;
 
 /// What a query needs besides bodies.
 pub(crate) struct Step<'q> {

@@ -164,6 +164,8 @@ pub(crate) trait LeafWork<S> {
     fn has_room(&self) -> bool;
     /// Hands what was found to a collector, if there is one.
     fn hand_over(&mut self);
+    /// Candidates that were decided since it was cleared.
+    fn candidates(&self) -> u64;
 }
 
 /// What boxes of bodies are for a kind: by how much they are grown, and whether they hold the ends of motions.

@@ -34,6 +34,11 @@ impl Grain {
     /// Keys of hits, in either of the two passes that put them in order.
     pub(crate) const KEYS: Self = Self::of(1_024, 6_000);
 
+    /// Triangles of bodies that a query makes ready, or that meet, if nothing more is known.
+    pub(crate) const TRIANGLES: Self = Self::of(1_024, 10_000);
+    /// Pairs of leaves that are tested.
+    pub(crate) const LEAF_PAIRS: Self = Self::of(64, 20_000);
+
     /// About how long so many items take together, in nanoseconds.
     pub(crate) const fn time(self, items: usize) -> u64 {
         items as u64 * self.nanoseconds / self.items as u64

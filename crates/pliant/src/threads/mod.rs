@@ -7,7 +7,6 @@
 //! [`Threads::here`].
 
 mod budget;
-mod conflict_free;
 mod exchange;
 mod grain;
 mod interrupt;
@@ -41,7 +40,7 @@ pub(crate) struct Threads {
 
 impl Threads {
     /// The calling thread alone.
-    pub(crate) fn one() -> Self {
+    pub(crate) const fn one() -> Self {
         Self::of(None)
     }
 
@@ -66,7 +65,7 @@ impl Threads {
         Self::of((count > 0).then(|| Helpers::of(pool, count, None)))
     }
 
-    fn of(helpers: Option<Helpers>) -> Self {
+    const fn of(helpers: Option<Helpers>) -> Self {
         Self {
             helpers,
             recorder: None,
@@ -135,9 +134,23 @@ impl Executor<'_> {
         }
     }
 
+    /// The calling thread alone.
+    pub(crate) fn alone(self) -> Self {
+        static ALONE: Threads = Threads::one();
+        Self {
+            threads: &ALONE,
+            ..self
+        }
+    }
+
+    /// How many threads work of so many nanoseconds pays, of those that there are.
+    pub(crate) fn threads_for(&self, nanoseconds: u64) -> usize {
+        threads_for(nanoseconds).min(self.count())
+    }
+
     /// Whether work of so many nanoseconds pays more than one thread, and there are several.
     pub(crate) fn pays(&self, nanoseconds: u64) -> bool {
-        self.are_many() && threads_for(nanoseconds) > 1
+        self.threads_for(nanoseconds) > 1
     }
 
     /// Whether to end early. After a yes nothing that was computed can be relied on.

@@ -39,6 +39,7 @@ mod context;
 mod descent;
 mod leaf_pairs;
 mod nearest;
+mod rounds;
 mod sink;
 mod task;
 mod tree_pair;
@@ -46,6 +47,7 @@ mod walk;
 
 pub(crate) use descent::{Scratch, descend};
 pub(crate) use nearest::{NearestScratch, gap_square, nearest};
+pub(crate) use rounds::{Item, PairOf, Piece, Round, leaves_left_out};
 pub(crate) use sink::{Collector, Sink, Visitor};
 pub(crate) use task::{Task, TaskWork, Tasks};
-pub(crate) use tree_pair::{Side, TreePair};
+pub(crate) use tree_pair::{Side, TreePair, View};

@@ -5,13 +5,14 @@
 
 use super::context::Context;
 use super::leaf_pairs::{Cursor, LeafTests};
+use super::rounds::{Item, Share};
 use super::tree_pair::{TreePair, View};
 use super::walk::{Rules, Walk};
 use crate::held::held;
 use crate::kernels::Coordinate;
 use crate::queries::{LeafWork, Needs};
 use crate::statistics::Statistics;
-use crate::threads::Executor;
+use crate::threads::{Exchange, Executor};
 use crate::tree::{BoxSet, Neighbours};
 use std::ops::{ControlFlow, Range};
 
@@ -30,7 +31,9 @@ pub(crate) struct Task {
     /// Leaves that are still to be tested with themselves and their neighbours, where the descent leaves these out.
     pub(super) run: Range<u32>,
     /// The lists on the way from leaves to what the kind is shown.
-    tests: LeafTests,
+    pub(super) tests: LeafTests,
+    /// Its share of the rounds of many pairs of trees.
+    pub(crate) share: Share,
 }
 
 /// What a task is to do, with what the kind of query makes of it.
@@ -135,6 +138,15 @@ impl Task {
 
     /// Walks down until it asks for boxes that are stale, has found enough, or no pair of nodes is left.
     fn walk<S: Coordinate>(&mut self, context: &Context<S>) {
+        self.walk_on(context, None);
+    }
+
+    /// Walks down, for a round until nothing is left but what waits for boxes, or others want some.
+    pub(super) fn walk_on<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        exchange: Option<&Exchange<Item>>,
+    ) {
         let needs = &context.needs;
         let sides = context.pair.sides();
         let trees = sides.map(View::boxed_tree);
@@ -144,6 +156,8 @@ impl Task {
             limits: context.limits,
             left_out: left_out(needs, context.pair),
             is_one_tree: context.pair.is_one_tree(),
+            defers: exchange.is_some(),
+            is_wanted: &|| exchange.is_some_and(Exchange::is_wanted),
             notes_leaves: needs.triangles() && !are_free(needs, sides),
         };
         self.walk.go(trees, &rules);
@@ -168,6 +182,15 @@ impl Task {
             tested += blocks;
         }
         work.hand_over();
+    }
+
+    /// Tests the next pairs of leaves, before it looks at what it has found.
+    pub(super) fn test_next<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
+    ) {
+        self.test(context, work, before_look(&context.needs));
     }
 
     /// Tests the next pairs of leaves, so many pairs of their blocks.
@@ -201,4 +224,4 @@ impl Task {
     }
 }
 
-held!(Task: walk, tests);
+held!(Task: walk, tests, share);

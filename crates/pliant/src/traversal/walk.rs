@@ -20,6 +20,10 @@ pub(super) struct Rules<'q> {
     pub(super) left_out: Option<&'q Neighbours>,
     /// Whether it is one tree with itself.
     pub(super) is_one_tree: bool,
+    /// Whether pairs of nodes below which boxes are stale are put aside, so that it goes on without.
+    pub(super) defers: bool,
+    /// Whether others wait for some of its pairs of nodes.
+    pub(super) is_wanted: &'q dyn Fn() -> bool,
     /// Whether it notes the leaves it reaches, because boxes of their triangles are still to be made.
     pub(super) notes_leaves: bool,
 }
@@ -35,6 +39,8 @@ pub(super) struct Walk {
     pub(super) found: Worklists,
     /// The leaves in the pairs of leaves, of either tree.
     pub(super) reached: [DirtySet; 2],
+    /// Pairs of nodes that were put aside.
+    pub(super) deferred: Vec<NodePair>,
 }
 
 impl Walk {
@@ -44,6 +50,17 @@ impl Walk {
         self.stale.iter_mut().for_each(DirtySet::clear);
         self.found.clear();
         self.reached.iter_mut().for_each(DirtySet::clear);
+        self.deferred.clear();
+    }
+
+    /// Takes away the first pairs of its stack, which are the uppermost, and shows them.
+    pub(super) fn give_first(&mut self, count: usize, give: &mut dyn FnMut(&[NodePair])) {
+        let (nodes, rest) = (&mut self.found.nodes, &mut self.batch);
+        nodes.take_last(nodes.len() - count, rest);
+        give(nodes.as_slice());
+        nodes.clear();
+        nodes.extend(rest);
+        rest.clear();
     }
 
     /// Whether no pair of nodes is left.
@@ -72,30 +89,44 @@ impl Walk {
             if stack == 0 || stack >= limits.stack || self.found.leaves.len() >= limits.leaf_pairs {
                 return;
             }
-            if rules.interrupt.is_set() {
+            if rules.interrupt.is_set() || stack > 1 && (rules.is_wanted)() {
                 return;
             }
             self.found.nodes.take_last(limits.batch, &mut self.batch);
-            if !complete && self.asks_for_stale(trees) {
+            if !complete && self.asks_for_stale(trees, rules.defers) {
                 return;
             }
         }
     }
 
-    /// Notes the wide nodes below the batch that are stale; whether there are any.
-    fn asks_for_stale(&mut self, trees: [BoxedTree<'_>; 2]) -> bool {
-        for pair in &self.batch {
+    /// Notes the wide nodes below the batch that are stale. Pairs that need them are put aside if it
+    /// defers them; else, whether there are any.
+    fn asks_for_stale(&mut self, trees: [BoxedTree<'_>; 2], defers: bool) -> bool {
+        let Self {
+            batch,
+            stale,
+            deferred,
+            ..
+        } = self;
+        let mut note = |pair: &NodePair| {
+            let mut is_any = false;
             for which in 0..2 {
                 let BoxedTree { tree, boxes } = trees[which];
                 if let Child::Inner(below) = tree.child(pair[which])
                     && !boxes.is_valid(below)
                 {
-                    self.stale[which].insert(below.0);
+                    stale[which].insert(below.0);
+                    is_any = true;
                 }
             }
+            is_any
+        };
+        if defers {
+            deferred.extend(batch.extract_if(.., |pair| note(pair)));
+            return false;
         }
-        !self.stale.iter().all(DirtySet::is_empty)
+        batch.iter().fold(false, |is_any, pair| note(pair) | is_any)
     }
 }
 
-held!(Walk: batch[], stale, found, reached);
+held!(Walk: batch[], stale, found, reached, deferred[]);

@@ -98,7 +98,7 @@ impl DirtySet {
     }
 
     /// How many there are.
-    pub(super) fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         let words = &self.bits[self.words()];
         words.iter().map(|bits| bits.count_ones() as usize).sum()
     }

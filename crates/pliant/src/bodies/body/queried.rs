@@ -1,0 +1,75 @@
+//! A body as queries read it, beside its trees.
+
+use super::super::filter::Filter;
+use super::super::mesh::BodyMesh;
+use super::super::motion::Motion;
+use super::super::shape::BodyShape;
+use crate::geometry::{Origin, Points};
+use crate::ids::BodyId;
+use crate::kernels::Coordinate;
+use crate::mesh::{Elements, Order};
+use crate::queries::{Groups, NearBoxes, NearElements, Needs, Removed};
+use crate::traversal::Side;
+use crate::tree::{Source, Tree};
+
+/// All that a query reads of a body but its trees and their boxes.
+pub(super) struct Queried<'b, S> {
+    body: BodyId,
+    order: &'b Order,
+    source: Source<'b, S>,
+    motion: Option<&'b Points<S>>,
+    elements: Option<&'b Elements>,
+    groups: Option<&'b Groups>,
+    removed: Option<Removed<'b>>,
+}
+
+impl<'b, S: Coordinate> Queried<'b, S> {
+    #[inline]
+    pub(super) fn of(
+        (mesh, shape, motion, filter): (
+            &'b BodyMesh<S>,
+            &'b BodyShape<S>,
+            &'b Motion<S>,
+            &'b Filter<S>,
+        ),
+        needs: &Needs,
+        origin: Origin,
+    ) -> Self {
+        let order = mesh.order();
+        let way = motion.on().zip(needs.reach);
+        let end = way.map(|(way, reach)| way.held(reach, order, origin));
+        Self {
+            body: mesh.body(),
+            order,
+            source: Source::new(shape.view(order, origin), end, needs.grows_by),
+            motion: way.map(|(way, reach)| way.going(reach)),
+            elements: mesh.known_elements().filter(|_| !needs.triangles()),
+            groups: filter.known_groups(),
+            removed: mesh.removed(),
+        }
+    }
+
+    /// One of its trees with a set of boxes, and the boxes of elements where they are known.
+    #[inline]
+    pub(super) fn side<B>(
+        &self,
+        (tree, boxes, near_boxes): (&'b Tree, B, Option<&'b NearBoxes>),
+    ) -> Side<'b, S, B> {
+        let elements = self.elements.zip(near_boxes);
+        Side {
+            body: self.body,
+            order: self.order,
+            tree,
+            boxes,
+            source: self.source,
+            motion: self.motion,
+            elements: elements.map(|(edges, boxes)| NearElements {
+                edges,
+                boxes,
+                groups: self.groups,
+                removed: self.removed,
+            }),
+            removed: self.removed,
+        }
+    }
+}

@@ -1,0 +1,465 @@
+//! Many pairs of bodies at once, on several threads, for queries that want all hits.
+//!
+//! Idea: level by level over all pairs of bodies together. Bodies are made ready, then tasks go down
+//! all trees (`traversal::Round`) until they need boxes that are stale, which are refitted, and so on;
+//! then come leaves, and neighbours in bodies that meet themselves. So threads wait for each other a
+//! few times in a query, not a few times in every pair of bodies. Invariant: boxes, hits and counters
+//! are those of one pair after the other (`step`).
+
+use super::body_pairs::BodyPair;
+use super::step::{SAYS_NOTHING, Step};
+use crate::bodies::{Bodies, Body, Work};
+use crate::geometry::Origin;
+use crate::held::{Held, held};
+use crate::ids::{NodeId, Place};
+use crate::kernels::Coordinate;
+use crate::queries::Needs;
+use crate::statistics::Statistics;
+use crate::threads::{Exchange, Executor, Grain, PerThread, locked};
+use crate::traversal::{
+    Item, PairOf, Piece, Round, Scratch, Tasks, TreePair, View, leaves_left_out,
+};
+use crate::tree::BoxSet;
+use crate::update::{DirtySet, Partner, Refit};
+use std::iter;
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+
+/// With this many pairs of leaves they are tested before tasks go on: it bounds memory.
+const MOST_LEAVES: usize = 1 << 20;
+/// Leaves in a run that is tested with its neighbours.
+const RUN: usize = 64;
+
+/// Buffers, kept from query to query, and how much there was to do in the last.
+#[derive(Debug, Default)]
+pub(crate) struct Together {
+    /// Parts of bodies, by the places of these.
+    trees: Vec<(Place, usize)>,
+    pairs: Vec<Pair>,
+    items: Items,
+    /// Wide nodes and leaves that were reached, by trees.
+    stale: Vec<Mutex<DirtySet>>,
+    reached: Vec<Mutex<DirtySet>>,
+    /// Pairs of nodes and candidates that were looked at, by pairs of bodies.
+    looked_at: Vec<[u64; 2]>,
+    /// How each body at its place takes part.
+    partners: Vec<Option<Partner>>,
+    helpers: PerThread<Helper>,
+    /// About how long the last query would take one thread, in nanoseconds; none before the first.
+    work: Option<u64>,
+}
+
+/// Two trees, or one twice.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    trees: [u32; 2],
+    /// The pair of bodies that they are of.
+    of: u32,
+}
+
+/// What is to be done in the next rounds.
+#[derive(Debug, Default)]
+struct Items {
+    nodes: Vec<Item>,
+    leaves: Vec<Item>,
+    now: Vec<Item>,
+}
+
+/// What one thread makes boxes with.
+#[derive(Debug, Default)]
+struct Helper {
+    scratch: Scratch,
+    statistics: Statistics,
+}
+
+/// Does something with a body at its place.
+type EachBody<'e, S> = &'e (dyn Fn(&mut Step, usize, &mut Body<S>) -> ControlFlow<()> + Sync);
+
+impl Together {
+    /// Whether pairs of bodies pay several threads: by the last query, or by their triangles.
+    pub(crate) fn is_worth_it<S: Coordinate>(
+        &self,
+        executor: Executor,
+        bodies: &Bodies<S>,
+        pairs: &[BodyPair],
+    ) -> bool {
+        if !executor.are_many() {
+            return false;
+        }
+        let triangles = || {
+            let places = pairs.as_flattened().iter();
+            let counts = places.map(|&place| bodies.at(place).triangle_count());
+            Grain::TRIANGLES.time(counts.sum())
+        };
+        executor.pays(self.work.unwrap_or_else(triangles))
+    }
+
+    /// Takes notice of how much the query did, for the next.
+    pub(crate) fn note_work(&mut self, statistics: &Statistics) {
+        let boxes = statistics.boxes_bottom_up + statistics.boxes_top_down;
+        let work = 12 * statistics.node_pairs
+            + 10 * (boxes + statistics.triangle_boxes)
+            + 40 * statistics.candidate_pairs
+            + 20 * statistics.pairs;
+        self.work = Some(work);
+    }
+
+    /// Has all pairs of bodies meet. Breaks if it is interrupted, or there are too many hits.
+    pub(crate) fn meet<S: Coordinate>(
+        &mut self,
+        step: &mut Step,
+        bodies: &mut Bodies<S>,
+        pairs: &[BodyPair],
+        tasks: &mut dyn Tasks<S>,
+    ) -> ControlFlow<()> {
+        step.statistics.body_pairs += pairs.len() as u64;
+        self.make_ready(step, bodies, pairs)?;
+        self.list_pairs(step, bodies, pairs);
+        let count = step.refit.executor.count();
+        tasks.begin(count);
+        tasks.use_all(count);
+        let work = self.work.unwrap_or(u64::MAX) / 2;
+        while !self.items.nodes.is_empty() {
+            std::mem::swap(&mut self.items.nodes, &mut self.items.now);
+            self.round(step, bodies, tasks, work)?;
+            self.refit_stale(step, bodies)?;
+            let leaves = self.items.leaves.len();
+            if self.items.nodes.is_empty() || leaves >= MOST_LEAVES {
+                self.refit_leaves(step, bodies)?;
+                std::mem::swap(&mut self.items.leaves, &mut self.items.now);
+                self.round(step, bodies, tasks, Grain::LEAF_PAIRS.time(leaves))?;
+            }
+        }
+        self.list_neighbours(step, bodies);
+        let neighbours = Grain::LEAF_PAIRS.time(5 * RUN * self.items.now.len());
+        self.round(step, bodies, tasks, neighbours)?;
+        if step.needs.triangles() {
+            self.tell_bodies(bodies, pairs);
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Brings all bodies into tree order and refits the upper levels of their trees.
+    fn make_ready<S: Coordinate>(
+        &mut self,
+        step: &mut Step,
+        bodies: &mut Bodies<S>,
+        pairs: &[BodyPair],
+    ) -> ControlFlow<()> {
+        let Self {
+            partners, trees, ..
+        } = self;
+        partners.clear();
+        for &[a, b] in pairs {
+            let partner = if a == b {
+                Partner::Itself
+            } else {
+                Partner::Another
+            };
+            for place in [a, b] {
+                let end = partners.len().max(place.index() + 1);
+                partners.resize(end, None);
+                partners[place.index()] = Some(partner);
+            }
+        }
+        trees.clear();
+        let (mut triangles, mut count) = (0, 0);
+        for (place, body) in bodies.all().enumerate() {
+            if partners.get(place).copied().flatten().is_some() {
+                triangles += body.triangle_count();
+                count += 1;
+                trees.extend((0..body.part_count()).map(|part| (Place(place as u32), part)));
+            }
+        }
+        for sets in [&mut self.stale, &mut self.reached] {
+            sets.resize_with(sets.len().max(trees.len()), Mutex::default);
+        }
+        let (partners, helpers) = (&self.partners, &mut self.helpers);
+        let partner = |place: usize| partners.get(place).copied().flatten();
+        let takes = Grain::TRIANGLES.time(triangles);
+        each_body(step, bodies, helpers, (count, takes), &|step, place, body| {
+            match partner(place) {
+                Some(partner) => step.prepare(body, partner),
+                None => ControlFlow::Continue(()),
+            }
+        })
+    }
+
+    /// Lists all pairs of trees, and the pairs of their roots.
+    fn list_pairs<S: Coordinate>(&mut self, step: &Step, bodies: &Bodies<S>, pairs: &[BodyPair]) {
+        let Self {
+            trees,
+            pairs: listed,
+            items,
+            looked_at,
+            ..
+        } = self;
+        listed.clear();
+        looked_at.clear();
+        looked_at.resize(pairs.len(), [0; 2]);
+        [&mut items.nodes, &mut items.leaves, &mut items.now].map(Vec::clear);
+        let trees_of = |place: Place| {
+            let first = trees.partition_point(|&(at, _)| at.index() < place.index());
+            first..first + bodies.at(place).part_count()
+        };
+        let view = |tree: usize| view(bodies, &step.needs, step.origin, trees[tree]);
+        let do_overlap = |[a, b]: [usize; 2]| {
+            let both = view(a).zip(view(b));
+            both.is_some_and(|(a, b)| TreePair::Two([a, b]).do_overlap())
+        };
+        for (of, &[a, b]) in (0..).zip(pairs) {
+            let (of_a, of_b) = (trees_of(a), trees_of(b));
+            let are_several = of_a.len() + of_b.len() > 2;
+            for tree_a in of_a {
+                // Of one body every two trees once, and each with itself.
+                let others = if a == b { tree_a..of_b.end } else { of_b.clone() };
+                for tree_b in others {
+                    let both = [tree_a, tree_b];
+                    if tree_a == tree_b || !are_several || do_overlap(both) {
+                        let pair = listed.len() as u32;
+                        let trees = both.map(|tree| tree as u32);
+                        listed.push(Pair { trees, of });
+                        let piece = Piece::Nodes([NodeId::ROOT; 2]);
+                        items.nodes.push(Item { pair, piece });
+                    }
+                }
+            }
+        }
+    }
+
+    /// Lists runs of leaves of bodies that meet themselves, where neighbours were left out.
+    fn list_neighbours<S: Coordinate>(&mut self, step: &Step, bodies: &Bodies<S>) {
+        for (number, pair) in (0..).zip(&self.pairs) {
+            let tree = self.trees[pair.trees[0] as usize];
+            if pair.trees[0] != pair.trees[1] {
+                continue;
+            }
+            let view = view(bodies, &step.needs, step.origin, tree);
+            let leaves = view.map_or(0, |view| leaves_left_out(&step.needs, view));
+            let runs = (0..leaves).step_by(RUN);
+            self.items.now.extend(runs.map(|start| Item {
+                pair: number,
+                piece: Piece::Run([start, (start + RUN).min(leaves)].map(|leaf| leaf as u32)),
+            }));
+        }
+    }
+
+    /// Has tasks do the items of now, which take about so many nanoseconds, and what others give them.
+    fn round<S: Coordinate>(
+        &mut self,
+        step: &mut Step,
+        bodies: &Bodies<S>,
+        tasks: &mut dyn Tasks<S>,
+        nanoseconds: u64,
+    ) -> ControlFlow<()> {
+        let items = &mut self.items;
+        if items.now.is_empty() {
+            return ControlFlow::Continue(());
+        }
+        let executor = step.refit.executor;
+        let used = executor.threads_for(nanoseconds);
+        let shares = items.now.chunks(items.now.len().div_ceil(used));
+        for (number, share) in (0..used).zip(shares.chain(iter::repeat(&[][..]))) {
+            let todo = &mut tasks.one(number).share.todo;
+            todo.clear();
+            todo.extend_from_slice(share);
+        }
+        items.now.clear();
+        let (trees, pairs) = (&self.trees, &self.pairs);
+        let (needs, origin) = (step.needs, step.origin);
+        let pair: PairOf<S> = &|number| {
+            let both = pairs[number as usize].trees;
+            let [a, b] = both.map(|tree| view(bodies, &needs, origin, trees[tree as usize]));
+            let pair = if both[0] == both[1] {
+                TreePair::One(a?)
+            } else {
+                TreePair::Two([a?, b?])
+            };
+            Some((pair, both))
+        };
+        let exchange = &Exchange::new(used);
+        let round = Round {
+            needs,
+            instructions: step.refit.instructions,
+            interrupt: executor.interrupt,
+            exchange,
+            pair,
+        };
+        tasks.run(executor, used, &|task, work| task.round(&round, work));
+        if executor.is_interrupted() {
+            return ControlFlow::Break(());
+        }
+        for number in 0..used {
+            let share = &mut tasks.one(number).share;
+            items.nodes.append(&mut share.waiting);
+            items.leaves.append(&mut share.leaves);
+            let both = [
+                (&mut self.stale, &mut share.stale),
+                (&mut self.reached, &mut share.reached),
+            ];
+            for (all, sets) in both {
+                for (all, set) in all.iter_mut().zip(sets) {
+                    locked(all).take(set);
+                }
+            }
+            for (pair, looked_at) in share.looked_at.drain(..) {
+                let sum = &mut self.looked_at[pairs[pair as usize].of as usize];
+                for (sum, count) in sum.iter_mut().zip(looked_at) {
+                    *sum += count;
+                }
+                step.statistics.node_pairs += looked_at[0];
+            }
+        }
+        tasks.show(used, step.statistics)
+    }
+
+    /// Refits the wide nodes that tasks have found stale.
+    fn refit_stale<S: Coordinate>(
+        &mut self,
+        step: &mut Step,
+        bodies: &mut Bodies<S>,
+    ) -> ControlFlow<()> {
+        let (trees, helpers) = (&self.trees, &mut self.helpers);
+        refit(step, bodies, (trees, &self.stale), helpers, &|step, body, part, stale| {
+            let (needs, origin) = (step.needs, step.origin);
+            let lists = &mut step.scratch.wide_nodes;
+            let mut side = body.side(&needs, origin, part);
+            let refitted = &mut side.refitted();
+            step.refit.reached(refitted, stale, lists, step.statistics);
+        })
+    }
+
+    /// Makes the boxes of the triangles in leaves that were reached.
+    fn refit_leaves<S: Coordinate>(
+        &mut self,
+        step: &mut Step,
+        bodies: &mut Bodies<S>,
+    ) -> ControlFlow<()> {
+        let (trees, helpers) = (&self.trees, &mut self.helpers);
+        refit(step, bodies, (trees, &self.reached), helpers, &|step, body, part, reached| {
+            let (needs, origin) = (step.needs, step.origin);
+            let mut side = body.side(&needs, origin, part);
+            let refitted = &mut side.refitted();
+            step.refit.reached_leaves(refitted, reached, step.statistics);
+        })
+    }
+
+    /// Tells bodies how much was looked at, from which they know how their trees have decayed.
+    fn tell_bodies<S: Coordinate>(&self, bodies: &mut Bodies<S>, pairs: &[BodyPair]) {
+        for (&[a, b], &[node_pairs, candidates]) in pairs.iter().zip(&self.looked_at) {
+            if node_pairs < SAYS_NOTHING {
+                continue;
+            }
+            if a == b {
+                let body = bodies.at_mut(a);
+                let triangles = body.mesh().topology().live_count();
+                body.note_work(Work::of_one(node_pairs, candidates, triangles));
+            } else {
+                for place in [a, b] {
+                    let body = bodies.at_mut(place);
+                    body.note_work(Work::of_two(node_pairs, candidates));
+                }
+            }
+        }
+    }
+}
+
+/// A tree of a body as tasks read it.
+fn view<'b, S: Coordinate>(
+    bodies: &'b Bodies<S>,
+    needs: &Needs,
+    origin: Origin,
+    (place, part): (Place, usize),
+) -> Option<View<'b, S>> {
+    bodies.at(place).view(needs, origin, part)
+}
+
+/// Makes boxes of a part of a body.
+type MakeBoxes<'e, S> = &'e (dyn Fn(&mut Step, &mut Body<S>, usize, &mut DirtySet) + Sync);
+
+/// Makes the boxes that were reached, of all trees.
+fn refit<S: Coordinate>(
+    step: &mut Step,
+    bodies: &mut Bodies<S>,
+    (trees, sets): (&[(Place, usize)], &[Mutex<DirtySet>]),
+    helpers: &mut PerThread<Helper>,
+    make: MakeBoxes<S>,
+) -> ControlFlow<()> {
+    let of_trees = || trees.iter().zip(sets);
+    let (mut count, mut reached) = (0, 0);
+    for (_, set) in of_trees() {
+        let set = locked(set);
+        count += usize::from(!set.is_empty());
+        reached += set.count();
+    }
+    if count == 0 {
+        return ControlFlow::Continue(());
+    }
+    let takes = Grain::LEAVES.time(reached);
+    each_body(step, bodies, helpers, (count, takes), &|step, place, body| {
+        let first = trees.partition_point(|&(at, _)| at.index() < place);
+        let own = of_trees().skip(first);
+        for (&(_, part), set) in own.take_while(|&(&(at, _), _)| at.index() == place) {
+            let set = &mut *locked(set);
+            if !set.is_empty() {
+                make(step, body, part, set);
+            }
+        }
+        ControlFlow::Continue(())
+    })
+}
+
+/// Does something with every body: many of them side by side, each on one thread; few of them one
+/// after the other, with all threads. It concerns `count` of them, and takes about `nanoseconds`.
+fn each_body<S: Coordinate>(
+    step: &mut Step,
+    bodies: &mut Bodies<S>,
+    helpers: &mut PerThread<Helper>,
+    (count, nanoseconds): (usize, u64),
+    do_one: EachBody<S>,
+) -> ControlFlow<()> {
+    let executor = step.refit.executor;
+    let threads = executor.threads_for(nanoseconds);
+    if threads > 1 && count >= threads {
+        helpers.for_threads(executor.count());
+        let (needs, refit, origin) = (step.needs, step.refit, step.origin);
+        let helping = &*helpers;
+        let mut jobs: Vec<_> = bodies.all_mut().enumerate().collect();
+        executor.run(&mut jobs, nanoseconds, |_, (place, body)| {
+            let Helper {
+                scratch,
+                statistics,
+            } = &mut *helping.own();
+            let executor = executor.alone();
+            let mut step = Step {
+                needs,
+                refit: Refit { executor, ..refit },
+                origin,
+                scratch,
+                statistics,
+            };
+            let _ = do_one(&mut step, *place, body);
+        });
+        for helper in helpers.iter_mut() {
+            *step.statistics += std::mem::take(&mut helper.statistics);
+        }
+    } else {
+        for (place, body) in bodies.all_mut().enumerate() {
+            do_one(step, place, body)?;
+        }
+    }
+    if executor.is_interrupted() {
+        return ControlFlow::Break(());
+    }
+    ControlFlow::Continue(())
+}
+
+held!(Together: trees[], pairs[], items, looked_at[], partners[];
+    |it| it.helpers.held_by(|helper| helper.scratch.held())
+        + [&it.stale, &it.reached].into_iter().map(sets_held).sum::<usize>());
+
+held!(Items: nodes[], leaves[], now[]);
+
+fn sets_held(sets: &Vec<Mutex<DirtySet>>) -> usize {
+    crate::held::list(sets) + sets.iter().map(|set| locked(set).held()).sum::<usize>()
+}

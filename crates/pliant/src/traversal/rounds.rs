@@ -1,0 +1,243 @@
+//! Rounds: what a task does of many pairs of trees at once, where several threads share a query.
+//!
+//! Idea: breadth first over all pairs of trees. In a round tasks go on until nothing is left but what
+//! waits for stale boxes; these are refitted between two rounds, for all pairs together. Invariant: the
+//! same boxes are made, and the same pairs looked at, as if one task went through everything, so
+//! neither hits nor counters depend on the number of threads. Difference from `descent`, which keeps an
+//! order for visitors: tasks with much to do give some to those that have nothing.
+
+use super::context::{Context, TaskLimits};
+use super::task::{Task, are_free, left_out};
+use super::tree_pair::{TreePair, View};
+use crate::held::held;
+use crate::kernels::{Coordinate, Instructions};
+use crate::queries::{LeafWork, Needs};
+use crate::threads::{Exchange, Interrupt};
+use crate::tree::{BoxSet, LeafPair, NodePair};
+use crate::update::DirtySet;
+
+/// Items of one pair of trees that a task takes at once.
+const AT_ONCE: usize = 512;
+/// How far a task goes before it looks at what it has found, and at who waits.
+const LIMITS: TaskLimits = TaskLimits {
+    batch: 256,
+    leaf_pairs: 512,
+    block_pairs: 512,
+    stack: usize::MAX,
+};
+
+/// Some work of one pair of trees.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Item {
+    /// The number of the pair of trees.
+    pub(crate) pair: u32,
+    pub(crate) piece: Piece,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Piece {
+    /// Two nodes, to be expanded.
+    Nodes(NodePair),
+    /// Two leaves, to be tested; all boxes in them are valid.
+    Leaves(LeafPair),
+    /// A run of leaves, from a first to before an end, to be tested with themselves and their neighbours.
+    Run([u32; 2]),
+}
+
+/// What all tasks of a round work with.
+pub(crate) struct Round<'q, S> {
+    pub(crate) needs: Needs,
+    pub(crate) instructions: Instructions,
+    pub(crate) interrupt: &'q Interrupt<'q>,
+    pub(crate) exchange: &'q Exchange<Item>,
+    /// The pair of trees of a number, and the numbers of these trees.
+    pub(crate) pair: PairOf<'q, S>,
+}
+
+/// Says which trees a pair is of.
+pub(crate) type PairOf<'q, S> =
+    &'q (dyn Fn(u32) -> Option<(TreePair<'q, S, &'q BoxSet>, [u32; 2])> + Sync);
+
+/// What a task has of a round, and leaves for the next.
+#[derive(Debug, Default)]
+pub(crate) struct Share {
+    /// What is still to be done.
+    pub(crate) todo: Vec<Item>,
+    /// Pairs of nodes below which boxes are stale.
+    pub(crate) waiting: Vec<Item>,
+    /// Pairs of leaves that are to be tested.
+    pub(crate) leaves: Vec<Item>,
+    /// Wide nodes that are stale, and leaves that were reached, by the numbers of trees.
+    pub(crate) stale: Vec<DirtySet>,
+    pub(crate) reached: Vec<DirtySet>,
+    /// Pairs of nodes and candidates that were looked at, by the numbers of pairs.
+    pub(crate) looked_at: Vec<(u32, [u64; 2])>,
+}
+
+/// How many leaves of a body that meets itself are to be tested with their neighbours, which the
+/// descent leaves out.
+pub(crate) fn leaves_left_out<S: Coordinate>(needs: &Needs, side: View<'_, S>) -> usize {
+    let leaves = side.tree.leaves.len();
+    left_out(needs, &TreePair::One(side)).map_or(0, |_| leaves)
+}
+
+impl Share {
+    /// Takes what a task has noted of the two trees.
+    fn note(sets: &mut Vec<DirtySet>, noted: &mut [DirtySet; 2], trees: [u32; 2]) {
+        for (tree, noted) in trees.into_iter().zip(noted) {
+            if !noted.is_empty() {
+                let tree = tree as usize;
+                if sets.len() <= tree {
+                    sets.resize_with(tree + 1, DirtySet::default);
+                }
+                sets[tree].take(noted);
+            }
+        }
+    }
+}
+
+impl Task {
+    /// Does its share of a round, and what others give it.
+    pub(crate) fn round<S: Coordinate>(&mut self, round: &Round<S>, work: &mut dyn LeafWork<S>) {
+        work.clear();
+        while !self.share.todo.is_empty() || round.exchange.take(&mut self.share.todo) {
+            let todo = &mut self.share.todo;
+            if todo.len() > 1 && round.exchange.is_wanted() {
+                round.exchange.give(todo.drain(..todo.len() / 2));
+            }
+            let Some(pair) = todo.last().map(|item| item.pair) else {
+                continue;
+            };
+            let others = todo.iter().rposition(|item| item.pair != pair);
+            let first = others.map_or(0, |last| last + 1);
+            let first = first.max(todo.len().saturating_sub(AT_ONCE));
+            let Some((trees, numbers)) = (round.pair)(pair) else {
+                todo.truncate(first);
+                continue;
+            };
+            let context = &Context {
+                needs: round.needs,
+                pair: &trees,
+                instructions: round.instructions,
+                interrupt: round.interrupt,
+                limits: LIMITS,
+            };
+            self.walk.found.node_pairs = 0;
+            let before = work.candidates();
+            match self.share.todo[first].piece {
+                Piece::Nodes(_) => self.expand_some(context, round, work, first, numbers),
+                Piece::Leaves(_) => self.test_leaves(context, work, first),
+                Piece::Run(_) => self.test_runs(context, work, first),
+            }
+            let looked_at = [self.walk.found.node_pairs, work.candidates() - before];
+            self.share.looked_at.push((pair, looked_at));
+            if !work.has_room() || round.interrupt.is_set() {
+                // There are too many hits, or nobody wants them any more.
+                self.share.todo.clear();
+                break;
+            }
+        }
+        work.hand_over();
+    }
+
+    /// Expands the pairs of nodes of one pair of trees, from `first` on, and all that they become.
+    fn expand_some<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        round: &Round<S>,
+        work: &mut dyn LeafWork<S>,
+        first: usize,
+        numbers: [u32; 2],
+    ) {
+        let pair = self.share.todo[first].pair;
+        let is_free = are_free(&context.needs, context.pair.sides());
+        let item = |nodes: NodePair| Item {
+            pair,
+            piece: Piece::Nodes(nodes),
+        };
+        for item in self.share.todo.drain(first..) {
+            if let Piece::Nodes(nodes) = item.piece {
+                self.walk.found.nodes.push(nodes);
+            }
+        }
+        loop {
+            self.walk_on(context, Some(round.exchange));
+            if is_free {
+                self.test_all(context, work);
+            } else {
+                let leaves = self.walk.found.leaves.as_slice().iter();
+                let item = |&leaves: &LeafPair| Item {
+                    pair,
+                    piece: Piece::Leaves(leaves),
+                };
+                self.share.leaves.extend(leaves.map(item));
+                self.forget_leaves();
+            }
+            let nodes = &mut self.walk.found.nodes;
+            let stack = nodes.len();
+            if stack == 0 || context.interrupt.is_set() || !work.has_room() {
+                nodes.clear();
+                break;
+            }
+            if stack > 1 && round.exchange.is_wanted() {
+                // The first are the uppermost: they become most.
+                let give = &mut |given: &[NodePair]| {
+                    round.exchange.give(given.iter().copied().map(item));
+                };
+                self.walk.give_first(stack / 2, give);
+            }
+        }
+        let deferred = self.walk.deferred.drain(..);
+        self.share.waiting.extend(deferred.map(item));
+        Share::note(&mut self.share.stale, &mut self.walk.stale, numbers);
+        Share::note(&mut self.share.reached, &mut self.walk.reached, numbers);
+    }
+
+    /// Tests the pairs of leaves of one pair of trees, from `first` on.
+    fn test_leaves<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
+        first: usize,
+    ) {
+        for item in self.share.todo.drain(first..) {
+            if let Piece::Leaves(leaves) = item.piece {
+                self.walk.found.leaves.push(leaves);
+            }
+        }
+        self.test_all(context, work);
+    }
+
+    /// Tests all pairs of leaves on its list, unless there are too many hits.
+    fn test_all<S: Coordinate>(&mut self, context: &Context<S>, work: &mut dyn LeafWork<S>) {
+        while !self.all_tested() && work.has_room() && !context.interrupt.is_set() {
+            self.test_next(context, work);
+        }
+        self.forget_leaves();
+    }
+
+    /// Tests the runs of leaves of one tree, from `first` on, with themselves and their neighbours.
+    fn test_runs<S: Coordinate>(
+        &mut self,
+        context: &Context<S>,
+        work: &mut dyn LeafWork<S>,
+        first: usize,
+    ) {
+        let neighbours = left_out(&context.needs, context.pair);
+        while self.share.todo.len() > first {
+            let Some(Piece::Run([start, end])) = self.share.todo.pop().map(|item| item.piece) else {
+                continue;
+            };
+            let Some(neighbours) = neighbours else {
+                continue;
+            };
+            let mut run = start..end;
+            while run.start < run.end && work.has_room() && !context.interrupt.is_set() {
+                self.tests
+                    .test_neighbours(context, work, neighbours, &mut run);
+            }
+        }
+    }
+}
+
+held!(Share: todo[], waiting[], leaves[], stale, reached, looked_at[]);

@@ -14,7 +14,7 @@ use super::motion::{Motion, Way};
 use super::part::Part;
 use super::parts::Parts;
 use super::rebuild::{Rebuild, Work};
-use super::shape::BodyShape;
+use super::shape::{BodyShape, Staged};
 use crate::error::ErrorKind;
 use crate::geometry::{Aabb, Bounds, Origin};
 use crate::held::held;
@@ -126,16 +126,35 @@ impl<S: Coordinate> Body<S> {
     /// wrong. A motion ends.
     pub(crate) fn set_positions(
         &mut self,
-        instructions: Instructions,
-        executor: Executor,
         positions: &[[S; 3]],
+        threads: (Instructions, Executor),
     ) -> Result<(), ErrorKind> {
+        let staged = self.check_positions(positions, threads)?;
+        self.accept_positions(&staged, positions, threads);
+        Ok(())
+    }
+
+    /// Validates a new shape; the body stays as it is.
+    pub(crate) fn check_positions(
+        &mut self,
+        positions: &[[S; 3]],
+        threads: (Instructions, Executor),
+    ) -> Result<Staged<S>, ErrorKind> {
         let new = self.mesh.new_shape(positions);
-        self.shape
-            .take(&new, self.filter.loose(), (instructions, executor))?;
+        self.shape.check(&new, self.filter.loose(), threads)
+    }
+
+    /// Takes a shape over that was validated. A motion ends.
+    pub(crate) fn accept_positions(
+        &mut self,
+        staged: &Staged<S>,
+        positions: &[[S; 3]],
+        threads: (Instructions, Executor),
+    ) {
+        let new = self.mesh.new_shape(positions);
+        self.shape.accept(staged, &new, threads);
         self.shape.begin_version();
         self.motion.stop();
-        Ok(())
     }
 
     /// The shape as the caller orders vertices; empty ones are nowhere.
@@ -270,7 +289,7 @@ impl<S: Coordinate> Body<S> {
             let [from, to] = ends.map(|positions| positions.get(TreeVertex(vertex), order));
             shape[place as usize] = std::array::from_fn(|axis| from[axis].toward(to[axis], t));
         }
-        self.set_positions(instructions, executor, shape)
+        self.set_positions(shape, (instructions, executor))
     }
 
     /// The shape at the end of a motion as the caller orders vertices, if there is a motion.

@@ -70,7 +70,7 @@ enum InOrder {
 }
 
 /// A new shape that was checked and waits to be committed.
-struct Staged<S> {
+pub(crate) struct Staged<S> {
     /// Of all its vertices, used or not.
     bounds: Bounds<S>,
     is_copied: bool,
@@ -145,14 +145,14 @@ impl<S: Coordinate> BodyShape<S> {
         self.bounds
     }
 
-    /// Checks a new shape and takes it over, unless it leaves a box that holds it in every pose; or
-    /// leaves all as it is and says what was wrong.
-    pub(crate) fn take(
+    /// Checks a new shape and copies it aside, if that is the way it will go; nothing that can be seen
+    /// changes.
+    pub(crate) fn check(
         &mut self,
         new: &NewShape<S>,
         loose: Option<Bounds<S>>,
         (instructions, executor): (Instructions, Executor),
-    ) -> Result<(), ErrorKind> {
+    ) -> Result<Staged<S>, ErrorKind> {
         let positions = new.positions;
         if positions.len() != self.len {
             return Err(ErrorKind::WrongLength {
@@ -170,14 +170,36 @@ impl<S: Coordinate> BodyShape<S> {
             all_inside(&loose, positions, |_| false)?;
         }
         none_is_lost(positions)?;
+        Ok(staged)
+    }
+
+    /// Takes a new shape over that was checked.
+    pub(crate) fn accept(
+        &mut self,
+        staged: &Staged<S>,
+        new: &NewShape<S>,
+        (instructions, executor): (Instructions, Executor),
+    ) {
+        let positions = new.positions;
         let order = new.order.vertex_order();
-        self.commit(&staged, instructions, executor, positions, order);
+        self.commit(staged, instructions, executor, positions, order);
         self.bounds = if new.are_all_used {
-            all
+            staged.bounds
         } else {
             let used = order[..new.order.used_vertices()].iter();
             bounds_of(used.map(|&vertex| positions[vertex as usize]))
         };
+    }
+
+    /// Takes a new shape over, or leaves the old as it is and says what is wrong with the new.
+    pub(crate) fn take(
+        &mut self,
+        new: &NewShape<S>,
+        loose: Option<Bounds<S>>,
+        threads: (Instructions, Executor),
+    ) -> Result<(), ErrorKind> {
+        let staged = self.check(new, loose, threads)?;
+        self.accept(&staged, new, threads);
         Ok(())
     }
 

@@ -44,6 +44,32 @@ impl<S: Scalar> World<S> {
         self.verbs.set_positions(body, positions)
     }
 
+    /// Moves several bodies at once: [`set_positions`](Self::set_positions) of each, on all threads, all
+    /// or none. Shapes (n, 3) each, in any order of bodies.
+    ///
+    /// ```
+    /// # use pliant::{ErrorKind, World};
+    /// # let mut world = World::<f32>::new();
+    /// # let shape = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    /// # let [shirt, skin] = [world.add(&[[0, 1, 2]], &shape)?, world.add(&[[0, 1, 2]], &shape)?];
+    /// let [moved, broken] = [shape.map(|[x, y, z]| [x, y, z + 1.0]), [[f32::NAN; 3]; 3]];
+    /// world.set_positions_of(&[(shirt, &moved), (skin, &moved)])?;
+    /// let error = world.set_positions_of(&[(shirt, &shape), (skin, &broken)]).unwrap_err();
+    /// assert_eq!(error.body, Some(skin));
+    /// assert_eq!(*world.positions(shirt)?, moved); // neither has moved
+    /// # Ok::<(), pliant::Error>(())
+    /// ```
+    ///
+    /// Cost: O(vertices), shared by the threads there are.
+    ///
+    /// # Errors
+    ///
+    /// As [`set_positions`](Self::set_positions), of the first shape in the list that is refused;
+    /// [`SameBody`](crate::ErrorKind::SameBody) if a body is listed twice.
+    pub fn set_positions_of(&mut self, shapes: &[(BodyId, &[[S; 3]])]) -> Result<(), Error> {
+        self.verbs.set_positions_of(shapes)
+    }
+
     /// Like [`set_positions`](Self::set_positions), but `write` fills a buffer of the world's, shape (n, 3), in the order in
     /// which the vertices were added, so that the caller needs none of its own. The buffer comes filled with NaN: every
     /// vertex must be written. The same checked pass then takes the shape over, into the order of the tree.

@@ -8,7 +8,7 @@ use crate::ids::BodyId;
 use crate::kernels::{Coordinate, Instructions};
 use crate::options::Options;
 use crate::statistics::Statistics;
-use crate::threads::{Executor, Interrupt, Threads};
+use crate::threads::{Executor, Grain, Interrupt, Threads};
 use crate::traversal::Scratch;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -90,10 +90,58 @@ impl<S: Coordinate> State<S> {
     /// Validates a new shape of a body and takes it over.
     pub(super) fn move_body(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
         self.change(id, |body, instructions, executor| {
-            body.set_positions(instructions, executor, positions)
+            body.set_positions(positions, (instructions, executor))
         })?;
         self.common.note_movement();
         self.mend(id)
+    }
+
+    /// Validates new shapes of bodies, and takes all of them over or none.
+    pub(super) fn move_bodies(&mut self, shapes: &[(BodyId, &[[S; 3]])]) -> Result<(), Error> {
+        let bodies = &self.common.bodies;
+        let mut wanted = Vec::with_capacity(shapes.len());
+        for (number, &(id, positions)) in shapes.iter().enumerate() {
+            wanted.push((bodies.place(id)?.index(), number, positions));
+        }
+        wanted.sort_unstable_by_key(|&(place, ..)| place);
+        if let Some(twice) = wanted.windows(2).find(|two| two[0].0 == two[1].0) {
+            return Err(about(shapes[twice[0].1].0)(ErrorKind::SameBody));
+        }
+        let instructions = self.common.instructions;
+        let executor = Executor {
+            threads: self.common.threads.here(),
+            interrupt: &Interrupt::default(),
+        };
+        let mut wanted = wanted.into_iter().peekable();
+        let all = self.common.bodies.all_mut().enumerate();
+        let mut jobs: Vec<_> = all
+            .filter_map(|(place, body)| {
+                let (_, number, positions) = wanted.next_if(|&(at, ..)| at == place)?;
+                Some((number, body, positions, None))
+            })
+            .collect();
+        let points = jobs.iter().map(|(_, _, positions, _)| positions.len());
+        let nanoseconds = Grain::POINTS.time(points.sum());
+        // Many bodies side by side, each on one thread; few of them one after the other, on all.
+        let are_many = jobs.len() >= executor.threads_for(nanoseconds);
+        let inner = if are_many { executor.alone() } else { executor };
+        let outer = if are_many { nanoseconds } else { 0 };
+        executor.run(&mut jobs, outer, |_, (_, body, positions, staged)| {
+            *staged = Some(body.check_positions(positions, (instructions, inner)));
+        });
+        jobs.sort_unstable_by_key(|&(number, ..)| number);
+        for (number, _, _, staged) in &mut jobs {
+            if let Some(Err(kind)) = staged.take_if(|staged| staged.is_err()) {
+                return Err(about(shapes[*number].0)(kind));
+            }
+        }
+        executor.run(&mut jobs, outer, |_, (_, body, positions, staged)| {
+            if let Some(Ok(staged)) = staged {
+                body.accept_positions(staged, positions, (instructions, inner));
+            }
+        });
+        self.common.note_movement();
+        shapes.iter().try_for_each(|&(id, _)| self.mend(id))
     }
 
     /// Ends the motion of every body that has one. The error is that of the first body whose motion cannot be ended.

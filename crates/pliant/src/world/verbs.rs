@@ -23,6 +23,7 @@ pub(crate) trait Verbs<S: Coordinate>: AskAll {
     fn copy(&self) -> Box<dyn Verbs<S>>;
     fn add(&mut self, triangles: &[[u32; 3]], positions: &[[S; 3]]) -> Result<BodyId, Error>;
     fn set_positions(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error>;
+    fn set_positions_of(&mut self, shapes: &[(BodyId, &[[S; 3]])]) -> Result<(), Error>;
     fn set_mesh(
         &mut self,
         id: BodyId,
@@ -104,6 +105,10 @@ impl<S: Coordinate> Verbs<S> for State<S> {
 
     fn set_positions(&mut self, id: BodyId, positions: &[[S; 3]]) -> Result<(), Error> {
         self.move_body(id, positions)
+    }
+
+    fn set_positions_of(&mut self, shapes: &[(BodyId, &[[S; 3]])]) -> Result<(), Error> {
+        self.move_bodies(shapes)
     }
 
     fn set_mesh(

@@ -99,7 +99,7 @@ impl<S: Coordinate> Body<S> {
         self.filter.forget_groups();
         self.mesh.fill();
         self.make(&outcome, options);
-        self.set_positions(instructions, executor, positions)
+        self.set_positions(positions, (instructions, executor))
     }
 
     /// Makes changes that were found good: a part for what comes, or all anew. A motion ends.

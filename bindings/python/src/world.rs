@@ -693,11 +693,11 @@ impl World {
         ContactQuery::new(&self.state, of, Contacts { only })
     }
 
-    /// Asks which vertices are near which triangles: a Query, all() of which is (k, 4) uint32.
+    /// Asks which vertices are near which triangles: a Query of rows (k, 4) uint32.
     ///
-    /// A row is body, vertex, body, triangle. For solvers that then measure, or find when they
-    /// touch; edge_edge_candidates is the other half. With a motion, the whole way to its end
-    /// counts.
+    /// all() is sorted; a row is body, vertex, body, triangle. For solvers that then measure, or
+    /// find when they touch; edge_edge_candidates is the other half. With a motion, the whole way
+    /// to its end counts.
     ///
     /// The box of an element is the hull of its corners, at both ends of a motion. A vertex and a
     /// triangle are a candidate if on every axis the gap of their boxes is at most 2 radius,
@@ -713,11 +713,12 @@ impl World {
         Query::new(&self.state, of, Pairs::VertexTriangleCandidates(radius))
     }
 
-    /// Asks which edges are near which edges: a Query, all() of which is (k, 4) uint32.
+    /// Asks which edges are near which edges: a Query of rows (k, 4) uint32.
     ///
-    /// A row is body, edge, body, edge. The smaller (body, edge) comes first, or the body that the
-    /// selection names first. Edges are numbered by rows of edges(body). Edges with an end in
-    /// common are left out. All else is as for vertex_triangle_candidates, radius included.
+    /// all() is sorted; a row is body, edge, body, edge. The smaller (body, edge) comes first, or
+    /// the body that the selection names first. Edges are numbered by rows of edges(body). Edges
+    /// with an end in common are left out. All else is as for vertex_triangle_candidates, radius
+    /// included.
     ///
     /// Nothing is computed until the query is asked. Errors are at Query: BadMargin if radius is
     /// negative, infinite or NaN.

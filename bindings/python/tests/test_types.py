@@ -138,7 +138,7 @@ def test_help_names_the_errors_of_every_call() -> None:
         first, *rest = text.splitlines()
         assert first.endswith(".") and len(first) <= 90 and not any(rest[:1]), name
         assert all(len(line) <= 100 for line in rest), name
-        for raised in re.findall(r"Raises pliant\.Error: (.*?)(?:\n\n|$)", text, re.DOTALL):
+        for raised in re.findall(r"[Rr]aises pliant\.Error: (.*?)(?:\n\n|$)", text, re.DOTALL):
             said = set(re.findall(r"\b[A-Z][a-z]+[A-Z]\w+\b|\bPrecision\b|\bBusy\b", raised))
             others = {kind for kind in said if hasattr(builtins, kind) or hasattr(pliant, kind)}
             assert said - others <= kinds_of_errors(), name
@@ -147,7 +147,7 @@ def test_help_names_the_errors_of_every_call() -> None:
     for name, method in vars(pliant.World).items():
         if name[0] == "_" or not callable(method):
             continue
-        if {"body", "a"} & set(inspect.signature(method).parameters):
+        if {"body", "a", "of"} & set(inspect.signature(method).parameters):
             assert "NoSuchBody" in documented()[f"World.{name}"], name
 
 

@@ -1,11 +1,10 @@
 //! Separating directions: which of eight pairs of moving elements stay apart during a motion.
 //!
 //! Corners move on straight lines, so on a fixed direction n the difference q(t) of two corners has
-//! a projection n . q(t) affine in t. An element is the hull of its corners. So if all such
-//! projections are above zero at two times, the elements are apart at all times between. That is a
-//! proof for every n; here n is the way between the closest points at the latest time known to be
-//! free.
-//! [`stays_off`] moves that time on. Most pairs, whether tangential, parting or near, are known to be apart all the way after one direction.
+//! a projection affine in t. An element is the hull of its corners. So if all projections are above
+//! zero at two times, the elements are apart at all times between. That is a proof for every n;
+//! here n is the way between the closest points at the latest time known to be free. Most pairs,
+//! whether tangential, parting or near, are known to be apart all the way after one direction.
 
 use super::coordinate::{Coordinate, Vectors};
 use super::vector::{dot, minus, plus, times};

@@ -40,8 +40,8 @@ trait Lanes<I: Simd>: SimdFloat<I> {
     /// Least sum of coordinates for which anything is sure; `LARGEST` is the largest.
     const SMALLEST: Self::Element;
     const LARGEST: Self::Element;
-    /// Factor on a square that the insides of two edges must beat to be taken instead of ends.
-    /// Parallel edges never beat it.
+    /// Factor on the squared distance of the nearest end: the insides of two edges are taken only
+    /// if they are nearer than that. Parallel edges never are.
     const NEARER: Self::Element;
 
     /// One number in all lanes.

@@ -16,7 +16,7 @@ use fearless_simd::{Select, Simd, f32x8, f64x4};
 use pliant_exact::{ELEMENT_PAIRS, FIRST_OF_EDGES, four_corners, is_swapped};
 
 /// The four corners of a pair of elements, each with padding.
-pub(crate) type Corners<'q, S> = [&'q [S; 4]; 4];
+pub(crate) type FourCorners<'q, S> = [&'q [S; 4]; 4];
 
 /// Closest points of four pairs of elements, and bounds of the distances.
 #[derive(Clone, Copy, Debug, Default)]
@@ -124,7 +124,7 @@ impl<V> Best<V> {
 pub(crate) fn of_elements<I: Simd, S: Real>(
     i: I,
     are_edges: bool,
-    pairs: &[Corners<S>; 4],
+    pairs: &[FourCorners<S>; 4],
 ) -> FourClosest {
     let [p, q, r, s] = [
         lanes(i, pairs, 0),
@@ -336,7 +336,7 @@ pub(crate) fn of_triangles<I: Simd, S: Real>(
 pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
     i: I,
     are_edges: bool,
-    pairs: &[Corners<S>; 8],
+    pairs: &[FourCorners<S>; 8],
     distance: f64,
 ) -> [u64; 2] {
     let less = |k: usize, l: usize| eight_differences(i, |lane| [pairs[lane][k], pairs[lane][l]]);
@@ -381,7 +381,7 @@ pub(crate) fn decide_eight<I: Simd, S: Coordinate>(
 /// largest possible value S^2. So no product of four is a rounding error below the normal range.
 pub(crate) fn along_normal<S: Real>(
     are_edges: bool,
-    [p, q, r, s]: &Corners<S>,
+    [p, q, r, s]: &FourCorners<S>,
 ) -> Option<([f64; 3], f64)> {
     // Two sides, and all ways from a corner of the second element to a corner of the first.
     let (e, f, between) = if are_edges {
@@ -522,7 +522,7 @@ impl<I: Simd> Found<f64x4<I>> {
 
 /// Transposes corner `which` of four pairs into lanes.
 #[inline(always)]
-fn lanes<I: Simd, S: Real>(i: I, pairs: &[Corners<S>; 4], which: usize) -> Vector<f64x4<I>> {
+fn lanes<I: Simd, S: Real>(i: I, pairs: &[FourCorners<S>; 4], which: usize) -> Vector<f64x4<I>> {
     let load = |lane: usize| {
         let [x, y, z, w] = *pairs[lane][which];
         f64x4::load_array(i, [x.to_f64(), y.to_f64(), z.to_f64(), w.to_f64()])

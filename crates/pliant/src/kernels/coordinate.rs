@@ -108,12 +108,12 @@ pub(super) fn eight_differences<'p, I: Simd, S: Coordinate>(
 
 /// Corners of eight pairs of triangles A and B: numbers 0, 1 and 2 are A's, 3, 4 and 5 are B's.
 #[derive(Clone, Copy)]
-pub(crate) struct Corners<'p, S> {
+pub(crate) struct TrianglePairs<'p, S> {
     pub(crate) positions: [&'p Points<S>; 2],
     pub(crate) vertices: [[TreeVertex; 6]; 8],
 }
 
-impl<S: Coordinate> Corners<'_, S> {
+impl<S: Coordinate> TrianglePairs<'_, S> {
     /// Differences of the corners of each pair, for every (a, b) in `of`.
     #[inline(always)]
     pub(super) fn differences<I: Simd, const D: usize>(

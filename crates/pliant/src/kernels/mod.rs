@@ -45,7 +45,7 @@ mod vector;
 
 pub(crate) use boxes::{BoxLanes, EightBoxes, near_mask, overlap_mask};
 pub(crate) use buffer::Buffer;
-pub(crate) use coordinate::{Coordinate, Corners};
+pub(crate) use coordinate::{Coordinate, TrianglePairs};
 pub(crate) use copy_checked::{check, copy_checked};
 pub(crate) use fearless_simd::Simd;
 pub(crate) use find::find_lane;

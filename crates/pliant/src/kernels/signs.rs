@@ -4,7 +4,7 @@
 //! exact arithmetic. The bound of [`compare`] is coarser than the bound of `pliant_exact`'s filter,
 //! by the shape of the triangles. But it needs no second sum for each sign.
 
-use super::coordinate::{Coordinate, Corners, Vectors};
+use super::coordinate::{Coordinate, TrianglePairs, Vectors};
 use super::vector::{cross, dot};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
@@ -32,7 +32,7 @@ pub(crate) struct PlaneSigns {
 
 /// Plane signs of eight pairs of triangles: each corner against the plane of the other triangle.
 #[inline(always)]
-pub(crate) fn plane_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> PlaneSigns {
+pub(crate) fn plane_signs<I: Simd, S: Coordinate>(i: I, corners: &TrianglePairs<S>) -> PlaneSigns {
     let (a0, a1, a2, b0, b1, b2) = (0, 1, 2, 3, 4, 5);
     let [a_1, a_2, a_b, a_b1, a_b2, b_1, b_2, b_a1, b_a2] = corners.differences(
         i,
@@ -121,7 +121,7 @@ pub(crate) struct LineSigns {
 /// Orientations of `p1 q1 p2 q2` and `p1 r1 r2 p2`, for corners p1, q1, r1 of A and p2, q2, r2 of
 /// B.
 #[inline(always)]
-pub(crate) fn line_signs<I: Simd, S: Coordinate>(i: I, corners: &Corners<S>) -> LineSigns {
+pub(crate) fn line_signs<I: Simd, S: Coordinate>(i: I, corners: &TrianglePairs<S>) -> LineSigns {
     let [q1, r1, p2, q2, r2] = corners.differences(i, [(1, 0), (2, 0), (3, 0), (4, 0), (5, 0)]);
     let (lq1, lr1, lp2) = (length(q1), length(r1), length(p2));
     let (lq2, lr2) = (length(q2), length(r2));
@@ -195,7 +195,7 @@ mod tests {
             let first = 3 * lane as u32;
             vertices[lane] = [0, 1, 2, 0, 1, 2].map(|corner| TreeVertex(first + corner));
         }
-        let corners = Corners {
+        let corners = TrianglePairs {
             positions: [&positions[0], &positions[1]],
             vertices,
         };

@@ -3,7 +3,7 @@
 
 use crate::geometry::Real;
 use crate::kernels::Simd;
-use crate::kernels::closest::{Corners, along_normal, of_elements};
+use crate::kernels::closest::{FourCorners, along_normal, of_elements};
 use crate::threads::Interrupt;
 use pliant_exact::distance::{Closest, Primitives, closest};
 
@@ -30,7 +30,10 @@ pub(in crate::queries) fn primitives(are_edges: bool, corners: [[f64; 3]; 4]) ->
 }
 
 /// A pair of elements for exact arithmetic, from padded corners.
-pub(in crate::queries) fn exactly<S: Real>(are_edges: bool, corners: &Corners<S>) -> Primitives {
+pub(in crate::queries) fn exactly<S: Real>(
+    are_edges: bool,
+    corners: &FourCorners<S>,
+) -> Primitives {
     let corners = corners.map(|&[x, y, z, _]| [x, y, z].map(Real::to_f64));
     primitives(are_edges, corners)
 }
@@ -45,7 +48,7 @@ pub(in crate::queries) fn exactly<S: Real>(are_edges: bool, corners: &Corners<S>
 pub(crate) fn closest_of<I: Simd, S: Real>(
     i: I,
     are_edges: bool,
-    pairs: &[Corners<S>; 4],
+    pairs: &[FourCorners<S>; 4],
     count: usize,
     interrupt: &Interrupt,
     mut take: impl FnMut(usize, &Closest),

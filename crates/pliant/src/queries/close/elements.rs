@@ -4,7 +4,7 @@ use super::closest::{exactly, half};
 use super::measured::{ElementPair, Measurable, measure_all};
 use crate::geometry::{Points, Real};
 use crate::ids::TreeVertex;
-use crate::kernels::closest::{Corners, decide_eight, of_elements};
+use crate::kernels::closest::{FourCorners, decide_eight, of_elements};
 use crate::kernels::{Coordinate, Instructions, Simd, dispatch};
 use crate::queries::{
     Batch, CallerIds, EdgeEdgeCandidates, FoundBy, Kind, LeafTest, Margin, Needs,
@@ -44,7 +44,7 @@ pub(crate) trait ElementCandidates:
     fn corners<'q>(
         leaves: &LeafTest<'q, Self::Scalar>,
         hit: [u32; 2],
-    ) -> Option<Corners<'q, Self::Scalar>> {
+    ) -> Option<FourCorners<'q, Self::Scalar>> {
         let positions = leaves.shapes.map(|shape| shape.positions);
         Some(corners_at(Self::vertices(leaves, hit)?, positions))
     }
@@ -54,7 +54,7 @@ pub(crate) trait ElementCandidates:
     fn callers_corners<'q>(
         leaves: &LeafTest<'q, Self::Scalar>,
         hit: [u32; 2],
-    ) -> Option<Corners<'q, Self::Scalar>> {
+    ) -> Option<FourCorners<'q, Self::Scalar>> {
         Self::corners(leaves, hit)
     }
 }
@@ -64,7 +64,7 @@ pub(crate) trait ElementCandidates:
 pub(in crate::queries) fn corners_at<S>(
     [a, b, c, d]: [(usize, TreeVertex); 4],
     positions: [&Points<S>; 2],
-) -> Corners<'_, S> {
+) -> FourCorners<'_, S> {
     let at = |(side, vertex): (usize, TreeVertex)| positions[side].padded(vertex);
     [at(a), at(b), at(c), at(d)]
 }
@@ -75,7 +75,7 @@ pub(in crate::queries) fn corners_at<S>(
 fn is_close<S: Real>(
     instructions: Instructions,
     are_edges: bool,
-    pair: &Corners<S>,
+    pair: &FourCorners<S>,
     distance: f64,
     exact_decisions: &mut u64,
 ) -> bool {
@@ -89,7 +89,7 @@ fn is_close<S: Real>(
 
 impl<K: ElementCandidates> Kind for Close<K>
 where
-    K::Hit: for<'c> Measurable<Corners<'c, K::Scalar> = Corners<'c, K::Scalar>>,
+    K::Hit: for<'c> Measurable<Corners<'c, K::Scalar> = FourCorners<'c, K::Scalar>>,
 {
     type Scalar = K::Scalar;
     type Hit = K::Hit;
@@ -187,7 +187,7 @@ impl<S: Coordinate> ElementCandidates for EdgeEdgeCandidates<S> {
         Some([(0, a0), (0, a1), (1, b0), (1, b1)])
     }
 
-    fn callers_corners<'q>(leaves: &LeafTest<'q, S>, hit: [u32; 2]) -> Option<Corners<'q, S>> {
+    fn callers_corners<'q>(leaves: &LeafTest<'q, S>, hit: [u32; 2]) -> Option<FourCorners<'q, S>> {
         let mut ends = Self::ends(leaves, hit)?;
         for (ends, order) in ends.iter_mut().zip(leaves.ids.orders) {
             ends.sort_unstable_by_key(|&end| order.caller_vertex(end).0);

@@ -2,7 +2,7 @@
 
 use super::closest::closest_of;
 use super::hit::{CloseEdgeEdge, CloseVertexTriangle};
-use crate::kernels::closest::Corners;
+use crate::kernels::closest::FourCorners;
 use crate::kernels::{Coordinate, Simd};
 use crate::queries::{EdgeEdge, VertexTriangle};
 use crate::sort::Hit;
@@ -73,7 +73,7 @@ macro_rules! measurable {
     ($pair:ty, $close:ty) => {
         impl Measurable for $pair {
             type Close = $close;
-            type Corners<'c, S: Coordinate> = Corners<'c, S>;
+            type Corners<'c, S: Coordinate> = FourCorners<'c, S>;
 
             fn unmeasured(self) -> $close {
                 self.close(&Closest::default())
@@ -83,7 +83,7 @@ macro_rules! measurable {
             fn measure<I: Simd, S: Coordinate>(
                 i: I,
                 hits: &[Self],
-                corners: &[Corners<'_, S>; 4],
+                corners: &[FourCorners<'_, S>; 4],
                 interrupt: &Interrupt,
                 mut take: impl FnMut($close),
             ) -> bool {

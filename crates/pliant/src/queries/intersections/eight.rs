@@ -13,7 +13,7 @@ use super::{Candidate, LeafTest};
 use crate::geometry::Shape;
 use crate::held::held;
 use crate::ids::TreeVertex;
-use crate::kernels::{Buffer, Coordinate, Corners, Simd, dispatch, signs};
+use crate::kernels::{Buffer, Coordinate, Simd, TrianglePairs, dispatch, signs};
 use crate::statistics::Statistics;
 use pliant_exact::intersect;
 
@@ -101,7 +101,7 @@ fn by_planes<I: Simd, S: Coordinate>(
         uncertain,
     }: &mut Undecided,
 ) {
-    let mut corners = Corners {
+    let mut corners = TrianglePairs {
         positions: [shapes[0].positions, shapes[1].positions],
         vertices: [[TreeVertex(0); 6]; 8],
     };
@@ -182,7 +182,7 @@ fn by_lines<I: Simd, S: Coordinate>(
     uncertain: &mut Buffer<Candidate>,
     hits: &mut Buffer<Candidate>,
 ) {
-    let mut corners = Corners {
+    let mut corners = TrianglePairs {
         positions: [shapes[0].positions, shapes[1].positions],
         vertices: [[TreeVertex(0); 6]; 8],
     };

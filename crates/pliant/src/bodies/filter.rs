@@ -11,7 +11,7 @@ pub(crate) struct Filter<S> {
     membership: u32,
     mask: u32,
     loose: Option<Bounds<S>>,
-    /// None where all vertices meet.
+    /// Collision groups of vertices. None where all vertices meet.
     groups: Option<Box<VertexGroups>>,
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct BodyMesh<S> {
     elements: OnceLock<Box<Elements>>,
     /// Whether edges were asked for before the tree was exchanged or the body was copied.
     edges_were_known: bool,
-    /// Present once the mesh was edited.
+    /// Lists that edits need. Present once the mesh was edited.
     edits: Option<Box<Edits<S>>>,
     /// Version of the mesh: counts its changes.
     version: u64,

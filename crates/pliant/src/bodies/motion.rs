@@ -12,7 +12,7 @@ use crate::threads::Executor;
 /// Motion of a body, if it has one.
 #[derive(Default)]
 pub(crate) struct Motion<S> {
-    /// None before the first motion. Once one has ended, memory for the next.
+    /// The present motion, or the memory of an ended one for the next. None before the first.
     way: Option<Box<Way<S>>>,
     /// The last version of motions that were forgotten. Boxes of one motion must not pass for boxes
     /// of another.

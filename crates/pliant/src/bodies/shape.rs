@@ -61,13 +61,13 @@ pub(crate) struct NewShape<'n, S> {
 /// Order in which a shape is stored, and whether a query looked at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum InOrder {
-    /// In the caller's order: no query looked at it since it came.
+    /// Stored in the caller's order: no query looked at it since it came.
     Callers,
-    /// In tree order, into which it was gathered at once. No query looked at it yet.
+    /// Stored in tree order, into which it was gathered at once. No query looked at it yet.
     TreesUnseen,
-    /// In tree order; a query looked at it.
+    /// Stored in tree order; a query looked at it.
     Trees,
-    /// In both; a query looked at it.
+    /// Stored in both orders; a query looked at it.
     Both,
 }
 

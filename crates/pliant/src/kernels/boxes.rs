@@ -1,4 +1,7 @@
 //! N boxes side by side in lanes, and their overlap with one box or with eight.
+//!
+//! The boxes of eight children, or of eight triangles of a leaf, are one register an axis and side.
+//! Two sets of eight are compared all with all: a mask of 64 bits.
 
 use crate::geometry::{Aabb, larger, smaller};
 use fearless_simd::f32x8;

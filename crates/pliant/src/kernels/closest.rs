@@ -51,7 +51,7 @@ trait Lanes<I: Simd>: SimdFloat<I> {
     }
 }
 
-/// 20 u of double precision.
+/// Allowed relative error in double precision: 20 u.
 const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
 
 /// Least sum of coordinates in double precision: 2^-200.
@@ -62,17 +62,17 @@ impl<I: Simd> Lanes<I> for f64x4<I> {
     const SMALLEST: f64 = SMALLEST;
     /// No limit: coordinates are in the range of `f32`.
     const LARGEST: f64 = f64::INFINITY;
-    /// Nearer by 2^-40.
+    /// Nearer by a part of 2^-40.
     const NEARER: f64 = 1.0 - f64::from_bits((1023 - 40) << 52);
 }
 
 impl<I: Simd> Lanes<I> for f32x8<I> {
     const ERROR: f32 = 20.0 * (f32::EPSILON / 2.0);
-    /// 2^-30.
+    /// Least sum of coordinates in single precision: 2^-30.
     const SMALLEST: f32 = f32::from_bits((127 - 30) << 23);
-    /// 2^60.
+    /// Largest sum of coordinates in single precision: 2^60.
     const LARGEST: f32 = f32::from_bits((127 + 60) << 23);
-    /// Nearer by 2^-12.
+    /// Nearer by a part of 2^-12.
     const NEARER: f32 = 1.0 - f32::from_bits((127 - 12) << 23);
 }
 

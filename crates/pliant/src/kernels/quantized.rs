@@ -26,7 +26,8 @@ pub(crate) const FARTHEST: f32 = (1 << 22) as f32;
 pub(crate) struct QuantizedLanes {
     lo: [u64; 3],
     hi: [u64; 3],
-    /// All bits if these eight fit, else none: then nothing is surely apart from them.
+    /// Mask that says whether these eight fit: all bits, or none. If none, nothing is surely apart
+    /// from them.
     fits: u64,
     /// Padding to 64 bytes, so that a shift finds the place of eight boxes.
     _unused: u64,

@@ -22,9 +22,10 @@ const SHORTEST: f32 = 1.0 / (1_u64 << 40) as f32;
 /// Plane signs of eight pairs of triangles A, B. Bit i of a mask is pair i.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct PlaneSigns {
-    /// One triangle is strictly on one side of the other's plane, so the two do not intersect.
+    /// Pairs of which one triangle is strictly on one side of the other's plane: they do not
+    /// intersect.
     pub(crate) apart: u8,
-    /// All six signs are certain, and none is zero.
+    /// Pairs whose six signs are all certain, and none zero.
     pub(crate) certain: u8,
     /// Positive signs: of the corners of A against the plane of B, then of B's against A's.
     pub(crate) positive: [u8; 6],
@@ -112,9 +113,9 @@ fn bits<I: Simd>(mask: mask32x8<I>) -> u8 {
 /// Two line signs of eight pairs of triangles. Bit i of a mask is pair i.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LineSigns {
-    /// Both are certainly negative.
+    /// Pairs with two signs that are certainly negative.
     pub(crate) both_negative: u8,
-    /// At least one is certainly positive.
+    /// Pairs with at least one sign that is certainly positive.
     pub(crate) one_positive: u8,
 }
 

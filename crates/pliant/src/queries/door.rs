@@ -2,7 +2,8 @@
 //!
 //! A kind says what it [`Needs`] of bodies, decides a [`Batch`] of leaves at a time, and translates
 //! hits to the caller's numbers. The traversal knows no kind: it has the needs, and for every task
-//! a [`LeafWork`].
+//! a `dyn` [`LeafWork`]. So it is compiled once for `f32` and once for `f64`, whatever kinds there
+//! are.
 
 use super::near::{NearElements, Which};
 use crate::geometry::{Aabb, Points, Shape};
@@ -189,12 +190,12 @@ impl BodyBoxes {
 /// Distance in time to which a kind with motions looks along them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Reach {
-    /// To the end of the motion.
+    /// Looks to the end of the motion.
     End,
-    /// To this time: boxes hold the way up to it, and a little more. Moving bodies go on to the
-    /// end.
+    /// Looks to this time: boxes hold the way up to it, and a little more. Moving bodies go on to
+    /// the end.
     Until(f64),
-    /// To the shape at this time, rounded, as if the motion ended there.
+    /// Looks to the shape at this time, rounded, as if the motion ended there.
     To(f64),
 }
 

@@ -81,9 +81,9 @@ impl Work {
 /// Pairs of nodes that a fresh tree would have spared.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spared {
-    /// Since the present tree was built.
+    /// Pairs spared since the present tree was built.
     since_built: f64,
-    /// In the last shape alone.
+    /// Pairs spared in the last shape alone.
     in_last_shape: f64,
     /// Pairs of nodes and of triangles tested in the last shape.
     looked_at: f64,

@@ -79,7 +79,8 @@ impl Rebuild {
     /// Continues to build the tree, or begins to where it pays.
     ///
     /// Returns the finished tree, with its order and the triangles that were edited since it was
-    /// begun.
+    /// begun. Three steps go through all triangles at once and are not divided: listing them, the
+    /// first cuts, and exchanging the trees.
     pub(crate) fn advance<S: Coordinate>(
         &mut self,
         mesh: &BodyMesh<S>,

@@ -1,12 +1,12 @@
 //! Candidates within a margin: pairs of elements whose boxes are near each other, now or during a
 //! motion.
 //!
-//! Elements are a vertex and a triangle, or two edges; r round each finds pairs within 2 r (Li et
-//! al. 2020, Incremental Potential Contact). The tree has a set of boxes of the same hulls, grown
-//! by r. Every vertex and edge belongs to one triangle (`mesh::Elements`), in whose leaf it is
-//! looked for, adjacent leaves included. So a pair of elements comes up once, in the one pair of
-//! runs of up to eight triangles that its two belong to. `near` has the boxes of the elements of
-//! runs, `kernels::gaps` compares eight at a time, and few are left to exact arithmetic.
+//! Elements are a vertex and a triangle, or two edges. A margin r round each finds pairs within 2 r
+//! of each other (Li et al. 2020, Incremental Potential Contact). The tree has a set of boxes that
+//! hold positions and ends of motions, grown by r. Every vertex and edge belongs to one triangle
+//! (`mesh::Elements`), so a pair comes up in one pair of leaves, adjacent leaves included. `near`
+//! has the boxes of the elements of leaves, `kernels::gaps` compares eight at a time, and few are
+//! left to exact arithmetic.
 
 mod edge_edge;
 mod hit;
@@ -31,6 +31,10 @@ pub(crate) use vertex_triangle::VertexTriangleCandidates;
 ///
 /// - on every axis the gap of their boxes is at most 2 r, and
 /// - they have no vertex in common.
+///
+/// As a leaf's box holds the elements that belong to it, leaves that hold a candidate are found. A
+/// pair of elements comes up once, in the one pair of runs of up to eight triangles that its two
+/// belong to.
 #[derive(Debug)]
 pub(crate) struct Candidates<E, S> {
     margin: Margin,

@@ -150,7 +150,7 @@ impl<K: ElementCandidates> Close<K> {
                 pairs[lane] = K::corners(leaves, some[lane]).unwrap_or(first);
             }
             let [mut close, far] = decide_eight(i, are_edges, &pairs, self.distance);
-            // Hardly ever any.
+            // Undecided pairs, of which there are hardly ever any.
             let mut rest = !(close | far) & ((1 << count) - 1);
             while rest != 0 {
                 if leaves.interrupt.is_set() {

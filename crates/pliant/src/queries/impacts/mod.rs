@@ -3,8 +3,8 @@
 //! Candidates are decided as soon as a batch of them is found, and never listed. Separating
 //! directions (`kernels::apart`) reject eight at a time in single precision, which leaves few. Each
 //! of these is decided in double precision where rounding cannot matter, else in integers
-//! (`pliant_exact::motion`). The time of a pair is a cell of a grid of times, which depends on
-//! nothing but the pair.
+//! (`pliant_exact::motion`). The time of a pair is a cell of a grid of times. That cell is a
+//! function of the exact time alone, so every way to it gives the same bits.
 
 mod earliest;
 mod hit;

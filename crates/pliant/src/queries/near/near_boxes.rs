@@ -30,9 +30,9 @@ pub(crate) struct NearBoxes {
 pub(crate) struct NearElements<'q> {
     pub(crate) edges: &'q Elements,
     pub(crate) boxes: &'q NearBoxes,
-    /// None where all vertices meet.
+    /// Collision groups of the elements. None where all vertices meet.
     pub(crate) groups: Option<&'q Groups>,
-    /// None where nothing was removed.
+    /// Removed triangles and vertices. None where nothing was removed.
     pub(crate) removed: Option<Removed<'q>>,
 }
 

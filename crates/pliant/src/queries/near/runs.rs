@@ -203,7 +203,7 @@ pub(in crate::queries) const RUNS_AT_ONCE: usize = 32;
 /// Pairs of runs, of two bodies or of one, to be compared.
 #[derive(Clone, Copy)]
 pub(in crate::queries) struct RunPairs<'p> {
-    /// At most [`RUNS_AT_ONCE`].
+    /// Pairs of runs, at most [`RUNS_AT_ONCE`].
     pub(in crate::queries) pairs: &'p [[u32; 2]],
     /// Place in each pair of the run that comes first here.
     pub(in crate::queries) first: usize,

@@ -5,7 +5,7 @@
 pub struct NodeBox<S> {
     /// Smallest coordinates of the triangles below the node, in the caller's coordinates.
     pub lower: [S; 3],
-    /// Largest coordinates.
+    /// Largest coordinates of the triangles below the node.
     pub upper: [S; 3],
     /// Whether the tree holds this box, made for the present shape of the body.
     ///

@@ -59,11 +59,11 @@ impl Hit for VertexTriangle {
 pub struct EdgeEdge {
     /// Body of the first edge.
     pub body_a: BodyId,
-    /// First edge.
+    /// First edge, as [`World::edges`](crate::World::edges) numbers edges.
     pub edge_a: u32,
     /// Body of the second edge. It equals `body_a` in a body that meets itself.
     pub body_b: BodyId,
-    /// Second edge.
+    /// Second edge, as [`World::edges`](crate::World::edges) numbers edges.
     pub edge_b: u32,
 }
 

@@ -31,7 +31,7 @@ pub enum ClosestFeatures {
 pub struct CloseVertexTriangle {
     /// The vertex and the triangle.
     pub pair: VertexTriangle,
-    /// Distance between the two.
+    /// Distance between the two, in the unit of the positions.
     pub distance: f64,
     /// Unit vector from the triangle to the vertex. None if they touch.
     pub direction: Option<[f64; 3]>,
@@ -50,7 +50,7 @@ pub struct CloseVertexTriangle {
 pub struct CloseEdgeEdge {
     /// The two edges.
     pub pair: EdgeEdge,
-    /// Distance between the two.
+    /// Distance between the two, in the unit of the positions.
     pub distance: f64,
     /// Unit vector from the second edge to the first. None if they touch.
     pub direction: Option<[f64; 3]>,
@@ -85,7 +85,7 @@ pub struct CloseEdgeEdge {
 pub struct CloseTriangles {
     /// The two triangles.
     pub pair: Pair,
-    /// Distance between the two.
+    /// Distance between the two, in the unit of the positions.
     pub distance: f64,
     /// Unit vector from the second triangle to the first. None at distance 0.
     pub direction: Option<[f64; 3]>,

@@ -15,7 +15,7 @@ pub struct VertexTriangleImpact {
     pub pair: VertexTriangle,
     /// Lower bound of the time of first contact: the two are apart up to here.
     pub low: f64,
-    /// Upper bound of the time of first contact.
+    /// Upper bound of the time of first contact, a part of the motion from 0 to 1.
     pub high: f64,
 }
 
@@ -35,7 +35,7 @@ pub struct EdgeEdgeImpact {
     pub pair: EdgeEdge,
     /// Lower bound of the time of first contact: the two are apart up to here.
     pub low: f64,
-    /// Upper bound of the time of first contact.
+    /// Upper bound of the time of first contact, a part of the motion from 0 to 1.
     pub high: f64,
 }
 
@@ -89,7 +89,7 @@ impl Impact {
         }
     }
 
-    /// Upper bound of the time of first contact.
+    /// Upper bound of the time of first contact, a part of the motion from 0 to 1.
     pub fn high(&self) -> f64 {
         match self {
             Self::VertexTriangle(impact) => impact.high,

@@ -1,4 +1,4 @@
-//! Every pair of triangles, or of elements, one after the other: what the references of all kinds go through.
+//! Every pair of triangles, or of elements, one after the other: what all references go through.
 //!
 //! Which pairs a kind looks for is said by its own `reference`, in its folder of `world/kinds`.
 

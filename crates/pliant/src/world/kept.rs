@@ -1,4 +1,4 @@
-//! Buffers of every kind of query, kept from query to query, and the hits that a world answers for: from the registry.
+//! Buffers of every kind of query, kept from query to query: what the registry says is made here.
 
 use crate::collide::Ask;
 use crate::held::Held;

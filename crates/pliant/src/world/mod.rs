@@ -1,7 +1,7 @@
 //! The world: bodies, their shapes, and the questions that users ask.
 //!
 //! `World` is a `handle` of a `state`. What takes long to compile is behind the trait of `verbs`, which is compiled here, once for `f32`
-//! and once for `f64` (`scalar`). Questions for hits, each a `query`, are a folder a kind in `kinds`,
+//! and once for `f64` (`scalar`). Questions for hits, each a `query`, are in `kinds`, a folder a kind,
 //! which has the registry; what is `kept` for each comes from that. All else that users call is a
 //! file a topic: `shapes`, `distance`, `clearance`, `motion`, `free_step`, `filters`, `meshes` and
 //! `pieces`, `looking`, `writing`, and what is `interruptible`.

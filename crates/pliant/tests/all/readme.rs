@@ -1,6 +1,9 @@
 //! What people read first: the README of the repository shows the example of the package's, which is compiled and run as documentation;
 //! whoever begins is told how debug builds are quick; and methods of `World` come in the order in which they are met.
 
+use std::fs;
+use std::path::Path;
+
 /// The blocks of Rust in a text.
 fn blocks(text: &str) -> Vec<&str> {
     let behind = text.split("```rust\n").skip(1);
@@ -29,11 +32,27 @@ fn whoever_begins_is_told_of_debug_builds() {
     }
 }
 
-/// As rustdoc lists them: a file after the other, in the order in which `world/mod.rs` declares them.
+/// The texts of the files that a module is made of, each before those that it declares.
+fn texts(module: &Path) -> Vec<String> {
+    let file = module.with_extension("rs");
+    let file = if file.exists() {
+        file
+    } else {
+        module.join("mod.rs")
+    };
+    let text = fs::read_to_string(file).unwrap();
+    let declared = text.lines().filter_map(|line| {
+        let (_, name) = line.strip_suffix(';')?.split_once("mod ")?;
+        Some(texts(&module.join(name)))
+    });
+    let inner: Vec<_> = declared.flatten().collect();
+    [vec![text], inner].concat()
+}
+
+/// As rustdoc lists them: a file after the other, in the order in which modules declare them.
 #[test]
 fn worlds_are_documented_in_the_order_in_which_they_are_met() {
-    let world = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/world");
-    let read = |name: &str| std::fs::read_to_string(world.join(name)).unwrap();
+    let world = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/world");
     let begins = "impl<S: Scalar> World<S> {";
     let methods = |text: &str| -> Vec<String> {
         let lines = text.lines().map_while(|line| (line != "}").then_some(line));
@@ -42,12 +61,8 @@ fn worlds_are_documented_in_the_order_in_which_they_are_met() {
             .map(|name| name.split(['(', '<']).next().unwrap().to_owned())
             .collect()
     };
-    let declared = read("mod.rs");
-    let declared = declared.lines().filter_map(|line| {
-        let name = line.strip_prefix("mod ")?.strip_suffix(';')?;
-        Some(read(&format!("{name}.rs")))
-    });
-    let documented: Vec<String> = declared
+    let documented: Vec<String> = texts(&world)
+        .iter()
         .flat_map(|text| -> Vec<String> {
             let blocks = text.split(begins).skip(1);
             blocks.flat_map(methods).collect()

@@ -1,4 +1,4 @@
-//! How most kinds are asked: of the request a kind is made, and of that all hits, the first, or a visit.
+//! How most kinds are asked: a request makes a kind, which gives all hits, the first, or a visit.
 
 use crate::error::Error;
 use crate::traversal::Visitor;

@@ -1,4 +1,4 @@
-//! Triangles that intersect, as users ask for them. A question for the first begins with the last answer.
+//! Triangles that intersect, as users ask for them. The first begins with the last answer.
 
 pub(crate) mod reference;
 
